@@ -14,7 +14,7 @@ from .comparison import Comparison
 from .counts import count_pixels
 from .diagnosis import diagnose
 from .excused import excused
-from .guessing import SECONDS
+from .guessing import STEPS
 from .identity import Identity
 from .methods import list_methods
 from .metrics import boundary, image_metrics
@@ -54,15 +54,15 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     return replace(found, methods=rows)
 
 
-def diagnosed(comparison: Comparison, seconds: float = SECONDS) -> Work[Comparison]:
+def diagnosed(comparison: Comparison, steps: float = STEPS) -> Work[Comparison]:
     """Return a comparison with what accounts for its unexplained pixels, if it has any.
 
-    Yields the share of the work done. The verdict stays. No guess is begun after `seconds`.
+    Yields the share of the work done. The verdict stays. No guess is begun after so many steps.
     """
     if not comparison.pixels["unexplained"]:
         return comparison
     case, frame, causes = comparison.case, comparison.frame, comparison.causes
-    found = yield from diagnose(case, frame, causes, seconds=seconds)
+    found = yield from diagnose(case, frame, causes, steps=steps)
     return replace(comparison, diagnosis=found)
 
 

@@ -19,13 +19,15 @@ from .cause import Causes
 from .evidence import Evidence
 from .faults import FAULTS
 from .faults.fault import Fault, Guess
-from .guessing import LEAST, SECONDS, Guessing, accounting, carried, with_variants
+from .guessing import LEAST, STEPS, Guessing, accounting, carried, with_variants
 from .identity import Identity
 from .regions import Region, regions, sides
-from .trial import Trial
+from .trial import Trial, counted
 
 ROUNDS = 3  # faults one after the other, at most
 FRAMED = 5  # regions that are named
+ALTERNATIVES = 3  # that are told at length
+NAMED = 6  # faults that are named where there is no room for more
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +43,7 @@ class Told:
     frame: Frame  # what is traced with it, and with those told before, in the picture's colours
     picture: Colors  # what it is compared with, (h, w, 4) linear RGBA
     alternative: bool = False  # it does as well as the one told before it
+    also: tuple[str, ...] = ()  # names of further faults that do as well
 
     @property
     def sentence(self) -> str:
@@ -67,6 +70,9 @@ class Told:
         yield f"           {self.effect()}"
         if enclosed := self.enclosed():
             yield f"           it agrees as well for {enclosed}"
+        if self.also:
+            named = ", ".join(map(spoken, self.also))
+            yield f"           {'so it is with' if self.fault.sums_up else 'as likely'}: {named}"
         yield f"           what to do: {self.fault.advice}"
 
     def to_dict(self) -> dict[str, Any]:
@@ -82,6 +88,7 @@ class Told:
             "object": g.object,
             "numbers": numbers,
             "alternative": self.alternative,
+            "also": list(self.also),
             "unexplained": self.unexplained,
             "settled": self.settled,
             "agreed": self.agreed,
@@ -95,8 +102,9 @@ class Diagnosis:
 
     told: tuple[Told, ...] = ()
     guesses: int = 0  # that were tried on the sample
+    steps: int = 0  # of work
     seconds: float = 0.0
-    ended: bool = False  # before all guesses were made, as it took too long
+    untried: tuple[str, ...] = ()  # faults that were not looked for to the end: it took too many
     left: int = 0  # pixels that nothing accounts for
     regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
 
@@ -109,17 +117,25 @@ class Diagnosis:
             places = "region" if len(self.regions) == 1 else "regions"
             out.append(f"           {self.left:,} px are left, in {len(self.regions)} {places}:")
             out += [f"             {_framed(region)}" for region in self.regions[:FRAMED]]
-        if self.ended:
-            out.append(f"           (ended after {self.seconds:.0f} s, before all were tried)")
+        if self.untried:
+            out.append(f"           (not looked for to the end, as it takes long: {self._untried})")
         return out
+
+    @property
+    def _untried(self) -> str:
+        more = len(self.untried) - NAMED
+        named = ", ".join(map(spoken, self.untried[:NAMED]))
+        return f"{named} and {more} more" if more > 0 else named
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
         return {
             "told": [told.to_dict() for told in self.told],
             "guesses": self.guesses,
+            "steps": self.steps,
             "seconds": round(self.seconds, 3),
-            "ended": self.ended,
+            "ended": bool(self.untried),
+            "untried": list(self.untried),
             "left": self.left,
             "regions": [region.to_dict() for region in self.regions],
         }
@@ -137,17 +153,18 @@ def diagnose(
     frame: Frame,
     causes: Causes,
     faults: Sequence[Fault] = FAULTS,
-    seconds: float = SECONDS,
+    steps: float = STEPS,
 ) -> Work[Diagnosis]:
     """Look for what accounts for the unexplained pixels; yields the share of the work done.
 
     The frame was traced of the case, and the causes were found of it, all before the picture's own
-    background. If nothing is unexplained, nothing is done. No guess is begun after `seconds`.
+    background. If nothing is unexplained, nothing is done. No guess is begun after so many steps.
     """
     evidence = Evidence(case, frame, causes)
     if not evidence.open.any() or frame.cancelled:
         return Diagnosis()
-    guessing = Guessing(faults, seconds)
+    began = time.monotonic()
+    guessing = Guessing(faults, steps)
     evidence = yield from with_variants(evidence)
     was_open = evidence.open
     told: list[Told] = []
@@ -157,19 +174,20 @@ def diagnose(
         if not chain:
             break
         for trials in chain:
-            told += [_told(evidence, trial, bool(n)) for n, trial in enumerate(trials)]
-        for first, *_ in chain:
-            evidence = carried(evidence, first)
+            told += _all_told(evidence, trials)
+            evidence = carried(evidence, trials[0])
         remain = int((evidence.open & was_open).sum())
         broken = int((evidence.open & ~was_open).sum())
         if remain < max(
             LEAST, broken
         ):  # what was broken is no other fault's, nor is what is beside
             break
-    seconds = time.monotonic() - guessing.began
     left = int(evidence.open.sum())
     framed = _regions(evidence) if left else ()
-    return Diagnosis(tuple(told), guessing.guesses, seconds, guessing.ended, left, framed)
+    seconds = time.monotonic() - began
+    untried = tuple(sorted(guessing.untried))
+    work = guessing.guesses, guessing.steps, seconds, untried
+    return Diagnosis(tuple(told), *work, left, framed)
 
 
 def _regions(evidence: Evidence) -> tuple[Region, ...]:
@@ -182,8 +200,24 @@ def _regions(evidence: Evidence) -> tuple[Region, ...]:
     return tuple(regions(evidence.open, sides(case.scene, frame, identity)))
 
 
+def spoken(name: str) -> str:
+    """Return a fault's name in words."""
+    return name.replace("_", " ")
+
+
+def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
+    """Return what is told of a fault and of those that do as well, few of them at length."""
+    first, *others = trials
+    many = 0 if first.fault.sums_up else ALTERNATIVES
+    also = tuple(t.fault.name for t in others[many:])
+    at_length = [_told(evidence, t, True) for t in others[:many]]
+    return [replace(_told(evidence, first, False), also=also), *at_length]
+
+
 def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
+    """Return what is told of a trial, in the pixels of the evidence before it."""
     after = trial.evidence
+    settled, broken, _, _ = counted(evidence, after)
     color = after.frame.color.copy()
     made = after.case.picture.made_of(color)  # by a transform, if that is the fault
     color[..., : made.shape[-1]] = made
@@ -191,9 +225,9 @@ def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
         trial.fault,
         trial.guess,
         int(evidence.open.sum()),
-        trial.settled,
+        settled,
         int(evidence.judged.sum()),
-        trial.broken,
+        broken,
         replace(after.frame, color=color),
         after.case.picture.color,
         alternative,

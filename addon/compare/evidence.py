@@ -7,7 +7,7 @@ leaves the latter as they are.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -26,8 +26,11 @@ from .checks.probe import SOUND, Probe, blocks
 from .checks.unmodelled import as_known
 from .metrics import boundary
 from .picture import Picture
+from .seen import Trees
 
-SAMPLE = 1024  # pixels of each kind that are looked at
+SAMPLE = 512  # pixels of each kind that are looked at
+FEW = 128  # that are looked at first
+DENSE = 1 << 12  # pixels: for more, all triangles are looked at once
 SEED = 27
 WORTH = 0.2  # of unexplained pixels
 NOISE = 0.03  # of all, which may be wrong for another reason
@@ -59,7 +62,9 @@ class Evidence:
     causes: Causes
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
+    of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # what faults share that look for the same
+    trees: Trees = field(default_factory=Trees)
 
     @cached_property
     def open(self) -> Bools:
@@ -75,6 +80,11 @@ class Evidence:
     def picture(self) -> Picture:
         """The picture, as far as what is not modelled leaves it known."""
         return as_known(self.case)
+
+    @cached_property
+    def few(self) -> Evidence:
+        """The same with a smaller sample."""
+        return replace(self, size=min(FEW, self.size))
 
     @cached_property
     def sample(self) -> tuple[Places, Places]:
@@ -118,12 +128,25 @@ class Evidence:
         made = yield from plan(scene, SOUND, reach)
         return (yield from Probe.of(made, scene.camera.region, wanted.ravel()))
 
+    def trace(self, scene: Scene, at: tuple[Places, Places] | None = None) -> Work[Hits]:
+        """Return what pixels see of a scene: those in n rows and columns, or the sampled ones."""
+        rows, columns = self.sample if at is None else at
+        r = scene.camera.region
+        if len(rows) > DENSE:
+            wanted = np.zeros(self.open.shape, bool)
+            wanted[rows, columns] = True
+            made = yield from plan(scene, SOUND, 0.0)
+            probe = yield from Probe.of(made, r, wanted.ravel())
+            return (yield from probe.trace())
+        rays = camera_rays(scene.camera, columns + r.x0 + 0.5, rows + r.y0 + 0.5)
+        return (yield from self.trees.trace(scene, rays))
+
     def score(self, case: Case) -> Work[Score]:
         """Return what a case that differs in its scene, or its picture, makes of the sample."""
-        if case.scene.camera.region.width != self.open.shape[1]:
+        r = case.scene.camera.region
+        if (r.height, r.width) != self.open.shape:
             return Score(0, 0)
-        probe = yield from self.probe(case.scene)
-        hits = yield from probe.trace()
+        hits = yield from self.trace(case.scene)
         return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:

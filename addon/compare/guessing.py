@@ -18,9 +18,11 @@ Of guesses that are as good, those with the fewest fitted numbers are told, all 
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
 
 from ..rendering import steps
 from ..scene import Scene, SceneError
@@ -32,6 +34,8 @@ from .evidence import Evidence
 from .faults.fault import Fault, Guess
 from .trial import Trial, tried
 
+T = TypeVar("T")
+
 COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
 FITTED = (
     0.9  # that share for numbers that were fitted: the wrong kind is nearly right in small places
@@ -40,28 +44,50 @@ LEAST = 10  # the least pixels that a guess must settle, and half as many for ea
 SHARE = 0.2  # of the unexplained pixels
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
 PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
+UNLIKELY = 0.5  # of the least gain: guesses below, by few pixels, are not looked at any more
 NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
-ALL_EDGES = 1 << 14  # pixels of each kind that are looked at then
+ENOUGH = (
+    0.995  # of the unexplained pixels: after a guess that gains as many, none takes more effort
+)
+ALL_EDGES = 1 << 13  # pixels of each kind that are looked at then
 TRIED = 6  # guesses that are tried on the whole picture together, at most
 MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
 MAIN = 0.5  # of the unexplained pixels: a guess that gains as much may need a second one beside it
 STARTS = 2  # such guesses
-SECONDS = 60.0  # after which no other guess is made
+LOST = 0.1  # of the pixels that such a guess settles: it loses no more
+# Of work, after which no other guess is made, and one that is being made is given up. In a step, a
+# bounded number of rays, pairs or pixels is looked at: as many on each machine.
+STEPS = 20_000
 
 
 class Guessing:
-    """The guesses that are made in one diagnosis."""
+    """The guesses that are made in one diagnosis, and how many steps of work they took."""
 
-    def __init__(self, faults: Sequence[Fault], seconds: float) -> None:
+    def __init__(self, faults: Sequence[Fault], limit: float) -> None:
         self.faults = faults
-        self.seconds = seconds
-        self.began = time.monotonic()
+        self.limit = limit
+        self.steps = 0
         self.guesses = 0
+        self.untried: set[str] = set()  # names of faults that were not looked for to the end
 
     @property
     def ended(self) -> bool:
-        """Whether it has taken so long that no other guess is made."""
-        return time.monotonic() - self.began > self.seconds
+        """Whether it took so many steps that no other guess is made."""
+        return self.steps >= self.limit
+
+    def _limited(self, work: Work[T], fault: Fault) -> Work[T | None]:
+        """Run work that looks for a fault; None if the steps come to an end before it does."""
+        while not self.ended:
+            try:
+                share = next(work)
+            except StopIteration as stop:
+                found: T = stop.value
+                return found
+            self.steps += 1
+            yield share
+        work.close()
+        self.untried.add(fault.name)
+        return None
 
     def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
         """Return guesses tried on the whole picture, the best first.
@@ -70,15 +96,16 @@ class Guessing:
         all, a fit that does as well says no more.
         """
         open_ = float(evidence.open.sum())
+        faults = [f for f in self.faults if not (f.everywhere and evidence.of_object)]
         pool: list[tuple[float, Fault, Guess]] = []
         out: list[Trial] = []
-        for effort in sorted({fault.effort for fault in self.faults}):
-            some = [fault for fault in self.faults if fault.effort == effort]
+        for effort in sorted({fault.effort for fault in faults}):
+            some = [fault for fault in faults if fault.effort == effort]
             scored = yield from self._scored(evidence, some)
             pool += [one for one in scored if one[0] < NEARLY * open_]
             sure = [one for one in scored if one[0] >= NEARLY * open_]
             out += yield from self._tried(evidence, of, sure, MOST_SURE)
-            if any(t.perfect for t in _good(of, out)):
+            if any(t.gain >= ENOUGH * open_ for t in _good(of, out)):
                 break
         else:
             out += yield from self._tried(evidence, of, pool, TRIED)
@@ -90,17 +117,16 @@ class Guessing:
         """Return the guesses of some faults that gain on the sample, each with its gain."""
         out = []
         for fault in faults:
-            if self.ended:
-                break
             given = [
                 Guess(object=v.object, scene=v.scene, words=v.words)
                 for v in evidence.variants
                 if v.fault == fault.name
             ]
-            for guess in (*given, *(yield from fault.find(evidence))):
+            found = yield from self._limited(fault.find(evidence), fault)
+            for guess in (*given, *(found or ())):
                 self.guesses += 1
-                gain = yield from _gain(evidence, fault, guess)
-                if gain >= max(LEAST, SHARE * evidence.open.sum()):
+                gain = (yield from self._limited(_gain(evidence, fault, guess), fault)) or 0.0
+                if gain >= _least(evidence):
                     out.append((gain, fault, guess))
         return out
 
@@ -114,17 +140,23 @@ class Guessing:
         for gain, fault, guess in scored[:most]:
             if fault.name in done:
                 continue
-            if gain < PROMISING * scored[0][0] or self.ended:
+            if gain < PROMISING * scored[0][0]:
                 break
             if fault.refine and guess.low:
                 finer = replace(evidence, size=ALL_EDGES)
-                guess = (yield from fault.refine(finer, guess)) or guess
-            trial = yield from tried(evidence, fault, guess, of)
+                refining = self._limited(fault.refine(finer, guess), fault)
+                guess = (yield from refining) or guess
+            trial = yield from self._limited(tried(evidence, fault, guess, of), fault)
             if trial and trial.gain > 0:
                 out.append(trial)
                 if trial.perfect:
                     done.add(fault.name)
         return out
+
+
+def _least(evidence: Evidence) -> float:
+    """Return how many pixels a guess must settle at least."""
+    return float(max(LEAST, SHARE * evidence.open.sum()))
 
 
 def _gain(evidence: Evidence, fault: Fault, guess: Guess) -> Work[float]:
@@ -134,6 +166,9 @@ def _gain(evidence: Evidence, fault: Fault, guess: Guess) -> Work[float]:
     try:
         case = fault.tried(evidence.case, evidence.frame, guess)
         if case is None:
+            return 0.0
+        few = (yield from evidence.few.score(case)).gain
+        if few < UNLIKELY * _least(evidence):
             return 0.0
         return (yield from evidence.score(case)).gain
     except SceneError:
@@ -155,9 +190,19 @@ def with_variants(evidence: Evidence) -> Work[Evidence]:
             case = case.in_scene(scene)
             frame = Frame.empty(scene)
             yield from steps(scene, case.settings, frame, case.tracer)
+            if _look_alike(frame, evidence.frame):  # then each pixel's cause is what it was
+                return Evidence(case, frame, evidence.causes, others)
             found = yield from explain(case, frame)
             return Evidence(found.case, found.frame, found.causes, others)
     return replace(evidence, variants=others)
+
+
+def _look_alike(first: Frame, second: Frame) -> bool:
+    """Return whether the same is traced, however instances are numbered."""
+    return all(
+        np.array_equal(getattr(first, name), getattr(second, name))
+        for name in ("color", "t", "triangle_index")
+    )
 
 
 def carried(evidence: Evidence, trial: Trial) -> Evidence:
@@ -171,7 +216,8 @@ def carried(evidence: Evidence, trial: Trial) -> Evidence:
         elif case := trial.fault.tried(evidence.case.in_scene(scene), evidence.frame, trial.guess):
             scene = case.scene
         variants.append(replace(variant, scene=scene))
-    return replace(trial.evidence, variants=tuple(variants))
+    of_object = evidence.of_object or bool(trial.guess.object)
+    return replace(trial.evidence, variants=tuple(variants), of_object=of_object)
 
 
 def _as_in(own: Scene, other: Scene) -> Scene:
@@ -184,15 +230,20 @@ def _as_in(own: Scene, other: Scene) -> Scene:
 
 
 def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]]:
-    """Return the next fault, with those that do as well; or two, neither of which is enough."""
+    """Return the next fault, with those that do as well; or two, neither of which is enough.
+
+    Of two, the first one alone must lose few pixels, and with the second one more must agree.
+    """
     trials = yield from guessing.trials(evidence, evidence)
     if best := _best(evidence, trials):
         return [best]
     for first in trials[:STARTS]:
         if first.gain < MAIN * evidence.open.sum() or not first.evidence.open.any():
             continue
+        if first.broken > LOST * first.settled or first.own < COMPLETE:
+            continue
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
-        if best := _best(evidence, seconds):
+        if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
             return [[first], best]
     return []
 
@@ -206,19 +257,26 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
         if t.precision >= PRECISE
         and t.settled >= LEAST * (1 + t.cost / 2)
         and t.settled >= SHARE * open_
-        and t.recall >= (FITTED if t.cost else COMPLETE)
+        and min(t.recall, t.own) >= (FITTED if t.cost else COMPLETE)
         and not t.unseen
     ]
 
 
 def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
-    """Return those of the most gain with the fewest numbers, one of each fault."""
+    """Return those of the most gain with the fewest numbers, one of each fault.
+
+    What sums up the others comes first. An object's fault is not told where the picture or the view
+    as a whole may have one.
+    """
     good = _good(evidence, trials)
     most = max((t.gain for t in good), default=0)
     alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
     fewest = min((t.cost for t in alike), default=0)
+    alike = [t for t in alike if t.cost == fewest]
+    sums_up = any(t.fault.sums_up for t in alike)
+    if not sums_up and not all(t.guess.object for t in alike):
+        alike = [t for t in alike if not t.guess.object]
     told: dict[str, Trial] = {}
-    for trial in sorted(alike, key=lambda t: -t.gain):
-        if trial.cost == fewest:
-            told.setdefault(trial.fault.name, trial)
+    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, -t.gain)):
+        told.setdefault(trial.fault.name, trial)
     return list(told.values())

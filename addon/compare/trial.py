@@ -33,6 +33,7 @@ class Trial:
     broken: int  # pixels that agreed or had a cause, and are unexplained now
     stubborn: int  # unexplained pixels that it changes, and that stay unexplained
     touched: int  # unexplained pixels of the regions in which it settles any
+    own: float = 1.0  # the share it settles of those in which its object is seen, before or after
 
     @property
     def cost(self) -> int:
@@ -84,8 +85,8 @@ def tried(
             return None
         traced = frame
         if other.scene is not case.scene:
-            traced = Frame.empty(other.scene)
-            yield from scaled(steps(other.scene, other.settings, traced, other.tracer), 0.0, 0.3)
+            traced = Frame.empty(other.scene)  # here: steps of waiting for others are not work
+            yield from scaled(steps(other.scene, other.settings, traced), 0.0, 0.3)
         if fault.after is not None:
             color = fault.after(traced.color, guess, evidence)
             traced = replace(frame, color=color.astype(np.float32))
@@ -98,7 +99,8 @@ def tried(
     after = replace(
         evidence, case=explained.case, frame=explained.frame, causes=explained.causes, known={}
     )
-    return Trial(fault, guess, after, *_counted(before, after))
+    own = _of_object(guess.object, before, after)
+    return Trial(fault, guess, after, *counted(before, after), own)
 
 
 def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
@@ -119,7 +121,7 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
     return settled > HOPE * broken or bool(mixes and settled == broken == 0)
 
 
-def _counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
+def counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
     """Return how many pixels are settled, broken, stay wrong though changed, and are touched."""
     open_ = still_open(after)
     settled = before.open & ~open_ & ~after.causes.unjudged
@@ -127,6 +129,17 @@ def _counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
     counted = settled, open_ & before.judged, stubborn, _grown(settled, before.open)
     settles, breaks, stays, touches = (int(some.sum()) for some in counted)
     return settles, breaks, stays, touches
+
+
+def _of_object(name: str, before: Evidence, after: Evidence) -> float:
+    """Return the share of the unexplained pixels of an object that are settled; 1 without one."""
+    own = np.zeros(before.open.shape, bool)
+    for one in (before, after):
+        scene = one.case.scene
+        numbers = [n for n, o in enumerate(scene.objects) if o == name]
+        own |= np.isin(scene.instance_objects[one.frame.instance_index], numbers)
+    own &= before.open
+    return float((~still_open(after))[own].mean()) if own.any() else 1.0
 
 
 def _grown(seed: Bools, within: Bools) -> Bools:

@@ -84,6 +84,8 @@ class Fault:
     sampled: bool = True  # whether single pixels can say how good a guess is
     refine: Refine | None = None  # fits a guess in a finer sample
     effort: int = 0  # of finding it: 1 if the camera is fitted, 2 and 3 if an object is, 4: pixels
+    sums_up: bool = False  # it says what is seen: faults that do as well are reasons for it
+    everywhere: bool = False  # it is in all pixels: none is looked for beside a fault of an object
     examples: tuple[Example, ...] = ()
 
     def told(self, guess: Guess) -> str:

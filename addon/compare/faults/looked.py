@@ -13,10 +13,8 @@ from ...arrays import Bools, Floats, Places
 from ...scene import Scene
 from ...tracer.camera import camera_rays, pixel_size
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.nearest import plan
 from ...tracer.progress import Work
 from ..bounds import largest_within
-from ..checks.probe import SOUND, Probe
 from ..evidence import WORTH, Evidence, shows_colors, spread
 from ..picture import Picture
 from .fault import instances_named
@@ -68,11 +66,7 @@ class Looked:
 
     def traced(self, scene: Scene) -> Work[Hits]:
         """Return what the n pixels see of a scene."""
-        wanted = np.zeros(self.seen.shape, bool)
-        wanted[self.at] = True
-        made = yield from plan(scene, SOUND, 0.0)
-        probe = yield from Probe.of(made, scene.camera.region, wanted.ravel())
-        return (yield from probe.trace())
+        return (yield from self.evidence.trace(scene, self.at))
 
     @property
     def alone(self) -> Scene:

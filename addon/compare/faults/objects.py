@@ -74,6 +74,7 @@ OBJECT_FAULTS = (
         lambda case, frame, guess: case.with_scenes(
             lambda scene: replace(scene, instances=(), planes=())
         ),
+        sums_up=True,
     ),
     Fault(
         "object_missing",
@@ -150,7 +151,7 @@ OBJECT_FAULTS = (
         TWICE[0],
         ("x", "y", "z"),
         refine=TWICE[1],
-        effort=3,
+        effort=4,
     ),
     Fault(
         "smooth_displaced",

@@ -247,6 +247,7 @@ PICTURE_FAULTS = (
         put_right=_filtered,
         sampled=False,
         effort=4,
+        everywhere=True,
     ),
     *PIXEL_FAULTS,
 )

@@ -124,18 +124,25 @@ def _without_triangles(case: Case, frame: Frame, guess: Guess) -> Case | None:
 
 LEAST_WRONG = 2  # pixels of a triangle that is missing
 MOST_LAYERS = 6  # of triangles one behind another
+MOST_INSTANCES = 4  # of an object, of which triangles may be missing
 MOST_TRIANGLES = 4096  # of an instance that may be missing
 PIXELS_PER_TRIANGLE = 4  # else any shape is a sum of triangles
 
 
 def _missing_triangles(evidence: Evidence) -> Work[list[Guess]]:
-    """Return, for each object, the triangles in which it is unexplained, one behind another."""
+    """Return, for each object, the triangles in which it is unexplained, one behind another.
+
+    Of its instances, those with the most unexplained pixels are looked at.
+    """
+    seen = evidence.frame.instance_index[evidence.open]
+    count = np.bincount(seen[seen >= 0], minlength=len(evidence.case.scene.instance_objects))
     out = []
     for name in evidence.suspects:
-        for rank, instance in enumerate(instances_named(evidence.case.scene, name)):
-            own = evidence.frame.instance_index == instance
-            if (own & evidence.open).any():
-                guess = yield from _peeled(evidence, name, instance, rank)
+        own = instances_named(evidence.case.scene, name)
+        ranks = sorted(range(len(own)), key=lambda rank: -count[own[rank]])
+        for rank in ranks[:MOST_INSTANCES]:
+            if count[own[rank]]:
+                guess = yield from _peeled(evidence, name, own[rank], rank)
                 out += [guess] if guess else []
     return out
 
@@ -178,6 +185,7 @@ TRIANGLE_FAULTS = (
         "back faces are left out (culled)",
         "Blender shows both sides of a face, unless its material says otherwise",
         _culled,
+        effort=2,
     ),
     Fault(
         "flipped_winding",
@@ -199,6 +207,7 @@ TRIANGLE_FAULTS = (
         _without_triangles,
         _missing_triangles,
         ("count",),
+        effort=2,
         examples=(Example("dropped_triangle", "the largest triangle left out", _largest_triangle),),
     ),
 )

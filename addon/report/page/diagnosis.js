@@ -22,7 +22,7 @@ function drawDiagnosis() {
   const { told, guesses, regions, ended } = diagnosis;
   const work =
     `${count(guesses)} guesses were tried in ${seconds(diagnosis.seconds)}` +
-    (ended ? ", and it ended before all were." : ".");
+    (ended ? ", and it ended before all were: that takes long." : ".");
   byId("told").replaceChildren(
     element("strong", {}, "Diagnosis: "),
     ...told.flatMap(({ sentence, alternative }, k) => [
@@ -57,6 +57,9 @@ function faultOf(fault, k) {
     { class: "fault" },
     element("h3", {}, fault.alternative ? "Or, as likely: " : "", fault.sentence),
     element("p", {}, settledBy(fault)),
+    fault.also.length
+      ? element("p", {}, `So do: ${fault.also.map((name) => name.replaceAll("_", " ")).join(", ")}.`)
+      : null,
     fault.advice ? element("p", { class: "advice" }, fault.advice) : null,
     numbers.length ? facts(numbers) : null,
     layers.has(PUT_RIGHT + k) ? putRight(k) : null,
