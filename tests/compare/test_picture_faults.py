@@ -254,4 +254,18 @@ def test_numbers_are_those_that_were_put_in(quads):
     stored = coded(eight)(of_rgb(lambda c: c * (1.1, 1.0, 0.85))(render(quads).color))
     found = told(quads, stored, levels=255)
     assert set(found) == {"white_balance"}
-    np.testing.assert_allclose(found["white_balance"].guess.values, (1.1, 1, 0.85), atol=0.01)
+    np.testing.assert_allclose(found["white_balance"].guess.values[:3], (1.1, 1, 0.85), atol=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("levels", [255, 0])
+def test_a_viewer_that_grades_eight_bits_cuts_them_off(quads, levels):
+    """As Pillow does; the file may have been read as floats since."""
+    image = pytest.importorskip("PIL.Image")
+    enhance = pytest.importorskip("PIL.ImageEnhance")
+    color = render(quads).color
+    stored = image.fromarray(np.rint(255 * curve(color[..., :3])).astype(np.uint8))
+    graded = np.asarray(enhance.Color(stored).enhance(1.25)) / 255
+    found = told(quads, np.concatenate((curve_undone(graded), color[..., 3:]), -1), levels=levels)
+    assert set(found) == {"saturation"}
+    assert found["saturation"].guess.values[0] == pytest.approx(1.25, abs=0.05)

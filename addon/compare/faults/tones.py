@@ -7,7 +7,7 @@ rounding. What allows for more, a level or noise, is `vague`: it gives way to wh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -35,7 +35,7 @@ from ..curves import (
 )
 from ..evidence import Evidence, spread
 from ..metrics import boundary
-from ..picture import Curve, Transform, straight
+from ..picture import Curve, Picture, Transform, straight
 from .fault import Example, Fault, Find, Guess, Make, with_values
 
 MOST = 1 << 14  # pixels of surfaces that are looked at
@@ -47,6 +47,7 @@ SPACES: tuple[tuple[Transform, Transform, str], ...] = (
 )
 # What of a colour is its grey: Rec. 709 and Rec. 601, as ITU-R BT.709-6 and BT.601-7 have them.
 GREYS = {"Rec. 709": (0.2126, 0.7152, 0.0722), "Rec. 601": (0.299, 0.587, 0.114)}
+SLACKS = (-1.0, 0.0, 1.0)  # levels of 8 bits that grading may be off; below 0: it is not rounded
 MOST_NOISE = 2  # levels that dithering adds, at most
 FLAT = 0.3  # levels: the least deviation within a surface that noise has
 ENOUGH = 32  # pixels of a surface to measure it
@@ -141,9 +142,9 @@ def _looked_at(evidence: Evidence) -> Surfaces | None:
     return Surfaces(traced[first], middle, wrong, deviation > FLAT, count >= ENOUGH)
 
 
-def _agree(evidence: Evidence, found: Surfaces, of: Transform | None) -> Bools:
+def _agree(picture: Picture, found: Surfaces, of: Transform | None) -> Bools:
     """Return which of the k surfaces agree by a transform of the traced colours, (k,)."""
-    one = replace(evidence.picture, color=found.shown.astype(np.float32), owner=None)
+    one = replace(picture, color=found.shown.astype(np.float32), owner=None)
     return ~replace(one, transform=of).other_color(found.traced)
 
 
@@ -169,11 +170,11 @@ def _rounded(evidence: Evidence) -> Sequence[Curve]:
     if found is None:
         return ()
     if "rounded" not in evidence.known:
-        once = (_agree(evidence, found, ROUNDED_ONCE.of) & found.wrong).sum()
+        once = (_agree(evidence.picture, found, ROUNDED_ONCE.of) & found.wrong).sum()
         evidence.known["rounded"] = [
             c
             for c in ROUNDED
-            if (agree := _agree(evidence, found, c.of)).mean() > FITTED_SHARE
+            if (agree := _agree(evidence.picture, found, c.of)).mean() > FITTED_SHARE
             and (agree & found.wrong).sum() > once
         ]
     rounded: Sequence[Curve] = evidence.known["rounded"]
@@ -217,9 +218,18 @@ _OWN = {
 # ---- grading
 
 
-def _ends(evidence: Evidence, shown: Colors) -> tuple[Floats, Floats]:
+Grading = Iterator[tuple[tuple[float, ...], Transform, str]]  # the numbers, what it is, in words
+
+
+def _with_slack(picture: Picture, slack: float) -> Picture:
+    """Return a picture that may be as many levels of 8 bits off, beyond its rounding to these."""
+    if slack < 0:
+        return picture
+    return replace(picture, levels=picture.levels or EIGHT_BITS, dither=picture.dither + slack)
+
+
+def _ends(picture: Picture, shown: Colors) -> tuple[Floats, Floats]:
     """Return between which straight linear values a picture's rounding leaves (k, 4) colours."""
-    picture = evidence.picture
     _, allowed = difference(shown, shown, False, picture.levels, picture.sums, picture.dither)
     middle = straight(shown)
     if not picture.levels:
@@ -241,35 +251,23 @@ def _most_covered(low: Floats, high: Floats) -> float:
     return float(ends.mean()) if np.isfinite(ends).all() else float(places[order[most]])
 
 
-def _find_balance(evidence: Evidence) -> Work[list[Guess]]:
-    """Return a factor for each channel, if each has several values to tell it by."""
-    found, out = _surfaces(evidence), []
-    if found is None:
-        return []
-    traced, ends = straight(found.traced), _ends(evidence, found.shown)
+def _balances(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
+    """Yield a factor for each channel, if each has several values to tell it by."""
     for into, back, words in SPACES:
         a, low, high = (into(v) for v in (traced, *ends))
         factors = []
         for channel in range(3):
             fits = a[:, channel] > FIT
-            if several(a[fits, channel]):
-                value = a[fits, channel]
-                factors.append(
-                    _most_covered(low[fits, channel] / value, high[fits, channel] / value)
-                )
+            value = a[fits, channel]
+            if several(value):
+                first, second = low[fits, channel] / value, high[fits, channel] / value
+                factors.append(_most_covered(first, second))
         if len(factors) == 3 and np.ptp(factors) > LEAST_CHANGE and min(factors) > 0:
-            of = through(into, back, np.array(factors).__mul__)
-            out += _if_most_agree(evidence, found, tuple(factors), of, words)
-    return out
-    yield
+            yield tuple(factors), through(into, back, np.array(factors).__mul__), words
 
 
-def _find_saturation(evidence: Evidence) -> Work[list[Guess]]:
-    """Return by how much colours lie farther from their grey than they should, or nearer."""
-    found, out = _surfaces(evidence), []
-    if found is None:
-        return []
-    traced, ends = straight(found.traced), _ends(evidence, found.shown)
+def _saturations(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
+    """Yield by how much colours lie farther from their grey than they should, or nearer."""
     for into, back, space in SPACES:
         a, low, high = (into(v) for v in (traced, *ends))
         for name, weights in GREYS.items():
@@ -278,25 +276,42 @@ def _find_saturation(evidence: Evidence) -> Work[list[Guess]]:
             fits = np.abs(apart) > FIT
             if not several(apart[fits]):
                 continue
-            with np.errstate(divide="ignore", invalid="ignore"):
-                first, second = ((v - grey) / apart for v in (low, high))
-            first, second = np.minimum(first, second)[fits], np.maximum(first, second)[fits]
-            share = _most_covered(first, second)
+            first, second = ((v - grey)[fits] / apart[fits] for v in (low, high))
+            share = _most_covered(np.minimum(first, second), np.maximum(first, second))
             if share >= 0 and abs(share - 1) > LEAST_CHANGE:
                 of = through(into, back, saturated(share, weights))
-                words = f"{space}, with the grey of {name}"
-                out += _if_most_agree(evidence, found, (share,), of, words)
-    return out[:1]
-    yield
+                yield (share,), of, f"{space}, with the grey of {name}"
 
 
-def _if_most_agree(
-    evidence: Evidence, found: Surfaces, values: tuple[float, ...], of: Transform, words: str
-) -> list[Guess]:
-    """Return the guess of a transform if nearly all surfaces agree by it."""
-    if _agree(evidence, found, of).mean() <= FITTED_SHARE:
+def _find_graded(gradings: Callable[[Floats, tuple[Floats, Floats]], Grading]) -> Find:
+    """Return what finds a grading by which nearly all surfaces agree: the one with least slack.
+
+    A picture that was graded in 8 bits is rounded twice, or cut off: a level is allowed then,
+    unless that alone makes the surfaces agree.
+    """
+
+    def find(evidence: Evidence) -> Work[list[Guess]]:
+        found = _surfaces(evidence)
+        for slack in SLACKS if found else ():
+            assert found
+            picture = _with_slack(evidence.picture, slack)
+            if _agree(picture, found, None).mean() > FITTED_SHARE:
+                return []
+            ends = _ends(picture, found.shown)
+            for values, of, words in gradings(straight(found.traced), ends):
+                if _agree(picture, found, of).mean() > FITTED_SHARE:
+                    told = Curve(words, of)
+                    return [Guess((*values, slack), values, values, words=words, curve=told)]
+            yield 0.0
         return []
-    return [Guess(values, values, values, words=words, curve=Curve(words, of))]
+
+    return find
+
+
+def _by_grading(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    """Return the case whose traced colours are graded; the last number is the slack."""
+    picture = _with_slack(case.picture, guess.values[-1])
+    return _by_curve(replace(case, picture=picture), frame, guess)
 
 
 # ---- rounding and noise
@@ -304,9 +319,7 @@ def _if_most_agree(
 
 def _of_levels(case: Case, frame: Frame, guess: Guess) -> Case:
     """Allow for some levels of 8 bits."""
-    picture = case.picture
-    levels, dither = picture.levels or EIGHT_BITS, picture.dither + guess.values[0]
-    return replace(case, picture=replace(picture, levels=levels, dither=dither))
+    return replace(case, picture=_with_slack(case.picture, guess.values[0]))
 
 
 def _is_noisy(found: Surfaces | None) -> bool:
@@ -349,20 +362,20 @@ TONE_FAULTS = (
         "the picture's white balance is another: red times {red:.4g}, green times {green:.4g}, "
         "blue times {blue:.4g}, {words}",
         "switch off white balance and colour grading",
-        _of_straight(lambda color, *factors: color * np.array(factors)),
-        _find_balance,
+        _of_straight(lambda color, *factors: color * np.array(factors[:3])),
+        _find_graded(_balances),
         ("red", "green", "blue"),
-        put_right=_by_curve,
+        put_right=_by_grading,
         examples=(Example("white_balance", "a warmer white balance", with_values(1.1, 1.0, 0.85)),),
     ),
     Fault(
         "saturation",
         "the picture's saturation is {saturation:.4g} times what it should be, {words}",
         "switch off colour grading, and filters of the viewer that saved it",
-        _of_straight(lambda color, share: saturated(share, GREYS["Rec. 709"])(color)),
-        _find_saturation,
+        _of_straight(lambda color, share, *_: saturated(share, GREYS["Rec. 709"])(color)),
+        _find_graded(_saturations),
         ("saturation",),
-        put_right=_by_curve,
+        put_right=_by_grading,
         examples=(Example("saturation", "more saturated by a quarter", with_values(1.25)),),
     ),
     Fault(
