@@ -10,10 +10,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.compare.cause import UNEXPLAINED
 from reference_tracer.compare.comparing import trace_and_compare
+from reference_tracer.compare.curves import CURVES
 from reference_tracer.compare.diagnosis import diagnose
 from reference_tracer.compare.faults import FAULTS
 from reference_tracer.compare.faults.colors import COLOR_FAULTS
+from reference_tracer.compare.faults.fault import Guess
 from reference_tracer.compare.faults.picture import PICTURE_FAULTS
 from reference_tracer.compare.faults.sizes import LINEAR, NEAREST, resized
 from reference_tracer.compare.picture import Picture
@@ -231,6 +234,30 @@ ALIKE_CASES = [
 def test_what_looks_like_it_does_not_get_its_name(quads, change):
     quick = [f for f in LOOKED_FOR if f.name not in ("filter_radius", "jpeg")]  # these are older
     assert not set(told(quads, change(render(quads).color), faults=quick))
+
+
+EXCUSED = {curve.name: curve.of for curve in CURVES} | {"an exposure": lambda c: 1.3 * c}
+
+
+@pytest.mark.parametrize("name", EXCUSED)
+def test_a_transform_of_all_objects_but_one_is_no_excuse_for_that_one(quads, name):
+    """Of all of them, it is one."""
+    right = render(quads)
+    wrong = of_rgb(EXCUSED[name])(right.color)
+    for some in (right.object_index >= 0, right.object_index != 1):
+        color = np.where(some[..., None], wrong, right.color).astype(np.float32)
+        case = case_of(quads, Picture(color), curves=())
+        found = result_of(trace_and_compare(case)).causes.cause == UNEXPLAINED
+        of_one = found[right.object_index == 1].mean()
+        rest = found[right.object_index != 1].mean()
+        assert max(of_one, rest) > 0.9 if not some.all() else max(of_one, rest) == 0
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
+def test_a_sentence_and_its_advice_have_their_numbers(fault):
+    guess = Guess(tuple(1.5 + n for n in range(len(fault.numbers))), object="Ball", words="words")
+    for text in (fault.told(guess), fault.advised(guess)):
+        assert text and "{" not in text and "}" not in text
 
 
 @pytest.mark.slow

@@ -30,10 +30,10 @@ def _moved_rows(change: Callable[[Array], Array]) -> Make:
 
 # By how many columns and rows all are off, and what is said of it.
 _ROLLS = {
-    (0.0, 1.0): "rows are one too high, and the last is the first",
-    (0.0, -1.0): "rows are one too low, and the first is the last",
-    (1.0, 0.0): "columns are one too far right, and the last is the first",
-    (-1.0, 0.0): "columns are one too far left, and the first is the last",
+    (0.0, 1.0): "rows are one too high, and the topmost is at the bottom",
+    (0.0, -1.0): "rows are one too low, and the lowest is at the top",
+    (1.0, 0.0): "columns are one too far right, and the rightmost is at the left",
+    (-1.0, 0.0): "columns are one too far left, and the leftmost is at the right",
 }
 
 

@@ -333,7 +333,7 @@ def _find_rounding(evidence: Evidence) -> Work[list[Guess]]:
     """Return how many levels rounding is off, if each surface is shown in one colour."""
     if _is_noisy(_surfaces(evidence)):
         return []
-    more = Guess((1.0,), words=", and up to 1 level more off")
+    more = Guess((1.0,), words=", and up to one level more off")
     return [more] if evidence.picture.levels else [Guess((0.0,)), more]
     yield
 
