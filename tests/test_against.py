@@ -163,7 +163,7 @@ def test_a_mesh_with_a_camera_of_the_command_line(against, tmp_path):
 @pytest.mark.slow
 def test_self_check_without_blender(scene, against):
     code, found, text = against(render(scene).color, "picture.exr", options=("--self-check",))
-    assert code == 0 and "self-check: 16 of 16" in text
+    assert code == 0 and "self-check: 21 of 21" in text
     assert {row["result"] for row in found["self_check"]} == {"caught", "cannot be seen here"}
 
 

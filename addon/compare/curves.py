@@ -29,6 +29,75 @@ CURVES = (
     Curve("a power of 1/2.2", lambda c: np.clip(c, 0, None) ** (1 / 2.2), key="gamma"),
     Curve("red and blue swapped", lambda c: c[..., ::-1], key="channels"),
 )
+EIGHT_BITS = 255  # levels above 0
+
+
+def _eight(values: Array) -> Array:
+    """Return values rounded to 8 bits."""
+    return np.rint(EIGHT_BITS * np.clip(values, 0, 1)) / EIGHT_BITS
+
+
+def _in_srgb(color: Array) -> Array:
+    """Return linear values rounded to 8 bits of sRGB's curve."""
+    return curve_undone(_eight(curve(np.clip(color, 0, 1))))
+
+
+def _power(color: Array) -> Array:
+    return np.clip(color, 0, 1) ** (1 / 2.2)
+
+
+ROUNDED_ONCE = Curve("values rounded to 8 bits", _in_srgb, key="rounding_level")
+# Transforms with a rounding to 8 bits within them: a diagnosis tells them, no comparison excuses
+# them. Those of the names above come first, then roundings twice.
+ROUNDED = (
+    Curve(
+        "sRGB's curve applied once more, to values of 8 bits",
+        lambda c: _eight(curve(np.clip(c, 0, 1))),
+        key="srgb_twice",
+    ),
+    Curve(
+        "sRGB's curve left out, linear values stored in 8 bits and read as sRGB's",
+        lambda c: curve_undone(_eight(c)),
+        key="srgb_left_out",
+    ),
+    Curve(
+        "a power of 1/2.2 in place of sRGB's curve, in 8 bits",
+        lambda c: curve_undone(_eight(_power(c))),
+        key="power_for_srgb",
+    ),
+    Curve("a power of 1/2.2, in 8 bits", lambda c: _eight(_power(c)), key="gamma"),
+    Curve(
+        "values cut off to 8 bits, not rounded",
+        lambda c: curve_undone(np.floor(EIGHT_BITS * curve(np.clip(c, 0, 1)) + 1e-6) / EIGHT_BITS),
+        key="cut_off",
+    ),
+    Curve(
+        "in linear values, then in sRGB's curve", lambda c: _in_srgb(_eight(c)), key="twice_rounded"
+    ),
+    Curve(
+        "in sRGB's curve, then in linear values", lambda c: _eight(_in_srgb(c)), key="twice_rounded"
+    ),
+    Curve(
+        "in sRGB's curve, in linear values, and in sRGB's curve again",
+        lambda c: _in_srgb(_eight(_in_srgb(c))),
+        key="twice_rounded",
+    ),
+    Curve(
+        "by a power of 1/2.2, then in sRGB's curve",
+        lambda c: _in_srgb(_eight(_power(c)) ** 2.2),
+        key="twice_rounded",
+    ),
+    Curve(
+        "in sRGB's curve, then by a power of 1/2.2",
+        lambda c: _eight(_power(_in_srgb(c))) ** 2.2,
+        key="twice_rounded",
+    ),
+    Curve(
+        "in sRGB's curve, by a power of 1/2.2, and in sRGB's curve again",
+        lambda c: _in_srgb(_eight(_power(_in_srgb(c))) ** 2.2),
+        key="twice_rounded",
+    ),
+)
 # The names of the faults of colours, in the order in which they are told.
 KEYS = (
     "channels",
@@ -61,14 +130,14 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
     a, b = traced.ravel(), shown.ravel()
     with np.errstate(invalid="ignore"):
         fits = (a > FIT) & (b > FIT) & np.isfinite(b)
-    if _several(a[fits]):
+    if several(a[fits]):
         factor = float(np.median(b[fits] / a[fits]))
         if abs(factor - 1) > LEAST_CHANGE:
             name = f"an exposure of {np.log2(factor):+.3g} stops"
             yield Curve(name, lambda c: c * factor, FITTED_SHARE, "exposure")
     fits &= (a < 1 - FIT) & (b < 1 - FIT)
-    if _several(a[fits]):
-        power = _power(a[fits], b[fits])
+    if several(a[fits]):
+        power = _fitted_power(a[fits], b[fits])
         if abs(power - 1) > LEAST_CHANGE:
             name = f"a gamma of {1 / power:.3g}"
             yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE, "gamma")
@@ -77,17 +146,17 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
             name = f"a factor of {times:.3g} on coded (sRGB) values"
             made = partial(_coded_times, times)
             yield Curve(name, made, FITTED_SHARE, "coded_factor")
-        coded = _power(curve(a[fits]), curve(b[fits]))
+        coded = _fitted_power(curve(a[fits]), curve(b[fits]))
         if abs(coded - 1) > LEAST_CHANGE:
             yield _coded_power(coded, levels, FITTED_SHARE)
 
 
-def _several(values: Array) -> bool:
+def several(values: Array) -> bool:
     """Return whether there are different values: one alone fits any curve of one number."""
     return len(values) > 0 and float(np.ptp(values)) > LEAST_CHANGE
 
 
-def _power(a: Array, b: Array) -> float:
+def _fitted_power(a: Array, b: Array) -> float:
     """Return p of b = a**p: the median, then a least squares fit to the values near to that."""
     x, y = np.log(a), np.log(b)
     power = float(np.median(y / x))
@@ -115,6 +184,21 @@ def _coded_power(power: float, levels: int, share: float) -> Curve:
 def _coded_times(factor: float, color: Array) -> Array:
     """Return linear colours whose sRGB codes are multiplied by a factor."""
     return curve_undone(factor * curve(np.clip(color, 0, 1)))
+
+
+def through(into: Transform, back: Transform, change: Transform) -> Transform:
+    """Return a change that is made in other values than linear ones."""
+    return lambda color: back(change(into(color)))
+
+
+def saturated(share: float, weights: Sequence[float]) -> Transform:
+    """Return what moves colours from their grey, or to it; none becomes negative."""
+
+    def transform(color: Array) -> Array:
+        grey = (color @ np.array(weights))[..., None]
+        return np.maximum(grey + share * (color - grey), 0)
+
+    return transform
 
 
 def _cut_off(of: Transform, levels: int) -> Transform:

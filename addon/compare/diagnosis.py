@@ -59,10 +59,11 @@ class Told:
         )
 
     def enclosed(self) -> str:
-        """Say between what its numbers lie; empty if they were not fitted."""
+        """Say between what its numbers lie; empty if none was fitted, or each is one number."""
         g = self.guess
         ends = zip(self.fault.numbers, g.low, g.high, strict=False)
-        return ", ".join(f"{name} from {low:.6g} to {high:.6g}" for name, low, high in ends)
+        wide = ((name, f"{low:.6g}", f"{high:.6g}") for name, low, high in ends)
+        return ", ".join(f"{name} from {low} to {high}" for name, low, high in wide if low != high)
 
     def lines(self) -> Iterator[str]:
         """Yield it as a person reads it."""
@@ -73,7 +74,7 @@ class Told:
         if self.also:
             named = ", ".join(map(spoken, self.also))
             yield f"           {'so it is with' if self.fault.sums_up else 'as likely'}: {named}"
-        yield f"           what to do: {self.fault.advice}"
+        yield f"           what to do: {self.fault.advised(self.guess)}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
@@ -84,7 +85,7 @@ class Told:
         return {
             "fault": self.fault.name,
             "sentence": self.sentence,
-            "advice": self.fault.advice,
+            "advice": self.fault.advised(g),
             "object": g.object,
             "numbers": numbers,
             "alternative": self.alternative,

@@ -13,7 +13,8 @@ A guess is told under three conditions.
   is wrong in a way that is not known, a small thing that is shown elsewhere looks like a missing
   one: in the test bed it settled a tenth.
 
-Of guesses that are as good, those with the fewest fitted numbers are told, all of them.
+Of guesses that are as good, those with the fewest fitted numbers are told, all of them. One that is
+`vague`, as it allows for more than one picture, is told if no exact one is as good.
 """
 
 from __future__ import annotations
@@ -271,8 +272,8 @@ def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     good = _good(evidence, trials)
     most = max((t.gain for t in good), default=0)
     alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
-    fewest = min((t.cost for t in alike), default=0)
-    alike = [t for t in alike if t.cost == fewest]
+    fewest = min(((t.fault.vague, t.cost) for t in alike), default=None)
+    alike = [t for t in alike if (t.fault.vague, t.cost) == fewest]
     sums_up = any(t.fault.sums_up for t in alike)
     if not sums_up and not all(t.guess.object for t in alike):
         alike = [t for t in alike if not t.guess.object]

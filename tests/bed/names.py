@@ -69,8 +69,8 @@ def right_names(fault: Fault, scene: Description) -> dict[str, str]:
 
 
 def _slow(fault: Fault) -> bool:
-    """Return whether a picture is filtered: no other fault makes the same."""
-    return fault.key == "filter_radius"
+    """Return whether a picture is filtered: no fault of another kind makes the same."""
+    return fault.key in ("filter_radius", "supersampled")
 
 
 @cache

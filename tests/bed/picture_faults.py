@@ -153,6 +153,110 @@ def filtered(radius: float, gauss: bool = False) -> Fault:
     return Fault("filter_radius", label, lambda _, m: replace(m, draw=draw), {"radius": radius})
 
 
+def shrunk(n: int, nearest: bool) -> Fault:
+    """Return the picture with one pixel, or the mean, of each n x n from above, n x n large."""
+
+    def change(picture: np.ndarray) -> np.ndarray:
+        rows, columns = (np.arange(size) // n * n for size in picture.shape[:2])
+        if nearest:
+            return picture[rows][:, columns]
+        sums = picture
+        for axis, first in ((0, rows), (1, columns)):
+            starts, counts = np.unique(first, return_counts=True)
+            shape = (-1, 1, 1) if axis == 0 else (1, -1, 1)
+            sums = np.add.reduceat(sums, starts, axis=axis) / counts.reshape(shape)
+        return sums[rows // n][:, columns // n]
+
+    label = f"1/{n} of the size, {'nearest' if nearest else 'mean'}, and back"
+    return Fault("shrunk", label, afterwards(change), {"n": n})
+
+
+def supersampled(n: int, coded: bool = False) -> Fault:
+    """Return a picture with the mean of n x n samples in each pixel, of linear or coded values."""
+
+    def draw(made: Made) -> np.ndarray:
+        own = made.camera
+        k = np.diag((n, n, 1.0)) @ own.k
+        many = replace(own, k=k, width=n * own.width, height=n * own.height)
+        picture = once(replace(made, camera=many))
+        picture = in_code(picture) if coded else picture
+        mean = picture.reshape(own.height, n, own.width, n, 4).mean(axis=(1, 3))
+        return out_of_code(mean) if coded else mean
+
+    label = f"{n} x {n}{', coded' if coded else ''}"
+    return Fault("supersampled", label, lambda _, m: replace(m, draw=draw), {"n": n})
+
+
+def averaged(n: int) -> Fault:
+    """Return a picture whose pixels are the mean of n x n of its own, to the right and below."""
+
+    def change(picture: np.ndarray) -> np.ndarray:
+        height, width = picture.shape[:2]
+        padded = np.pad(picture, ((0, n - 1), (0, n - 1), (0, 0)), mode="edge")
+        parts = (padded[y : y + height, x : x + width] for y in range(n) for x in range(n))
+        return sum(part.astype(np.float64) for part in parts) / n**2
+
+    return Fault("averaged", f"{n} x {n}", afterwards(change), {"n": n})
+
+
+def in_code(picture: np.ndarray) -> np.ndarray:
+    """Return straight RGB in sRGB's curve, and alpha."""
+    alpha = picture[..., 3:]
+    straight = picture[..., :3] / np.where(alpha > 0, alpha, 1)
+    return np.concatenate((encoded(straight), alpha), axis=-1)
+
+
+def out_of_code(coded: np.ndarray) -> np.ndarray:
+    """Return linear RGB with alpha multiplied in."""
+    return np.concatenate((decoded(coded[..., :3]) * coded[..., 3:], coded[..., 3:]), axis=-1)
+
+
+def saturated(share: float, coded: bool) -> Fault:
+    """Return colours farther from their grey, or nearer: by Rec. 709 of linear, 601 of coded."""
+    weights = np.array((0.299, 0.587, 0.114) if coded else (0.2126, 0.7152, 0.0722))
+
+    def change(straight: np.ndarray) -> np.ndarray:
+        c = encoded(straight) if coded else straight
+        gray = (c @ weights)[..., None]
+        c = np.clip(gray + share * (c - gray), 0, None)
+        return decoded(np.clip(c, 0, 1)) if coded else c
+
+    label = f"x {share:g}, {'coded' if coded else 'linear'}"
+    return colors("saturation", label, change, share=share)
+
+
+def _noisy(picture: np.ndarray) -> np.ndarray:
+    """Add noise of up to two levels before it is rounded to eight bits."""
+    rng = np.random.default_rng(27)
+    return through_file(picture, lambda v: np.rint(v + rng.uniform(-2, 2, v.shape)))
+
+
+def _in_linear_first(straight: np.ndarray) -> np.ndarray:
+    """Round linear values to eight bits, then their codes."""
+    return eight(encoded(eight(straight)), decoded)
+
+
+def eight(values: np.ndarray, read: Colors = lambda v: v) -> np.ndarray:
+    """Return what is read of values rounded to eight bits."""
+    return read(np.rint(LEVELS * np.clip(values, 0, 1)) / LEVELS)
+
+
+def watermark(coded: bool) -> Fault:
+    """Return a picture with letters of stripes across its middle, half transparent, in white."""
+
+    def change(picture: np.ndarray) -> np.ndarray:
+        height, width = picture.shape[:2]
+        y, x = np.mgrid[:height, :width]
+        letters = (np.abs(y - height // 2) < 12) & (np.abs(x - width // 2) < width // 3)
+        letters &= (x % 11 < 4) | ((y - height // 2) % 9 < 3)
+        out = in_code(picture) if coded else picture.astype(np.float64)
+        out[letters, :3] = (out[letters, :3] + out[letters, 3:]) / 2
+        return out_of_code(out) if coded else out
+
+    label = f"a watermark, {'coded' if coded else 'linear'}"
+    return Fault("overlay", label, afterwards(change), {"opacity": 0.5})
+
+
 def _stamp(picture: np.ndarray) -> np.ndarray:
     """Return the picture with a half-transparent box of stripes in its lower left corner."""
     out = picture.copy()
@@ -166,6 +270,9 @@ def _stamp(picture: np.ndarray) -> np.ndarray:
 
 PICTURE_FAULTS = (
     Fault("rows", "from the top", afterwards(np.flipud)),
+    Fault("row_off", "one down", afterwards(lambda p: np.roll(p, 1, axis=0))),
+    Fault("row_off", "one up", afterwards(lambda p: np.roll(p, -1, axis=0))),
+    Fault("row_off", "one to the left", afterwards(lambda p: np.roll(p, -1, axis=1))),
     colors("exposure", "+0.6 stops", lambda c: c * 2**0.6, stops=0.6),
     colors("exposure", "-0.15 stops", lambda c: c * 2**-0.15, stops=-0.15),
     colors("gamma", "1.6", lambda c: c ** (1 / 1.6), gamma=1.6),
@@ -175,6 +282,17 @@ PICTURE_FAULTS = (
     Fault("premultiplied", "alpha multiplied in twice", smooth(_again), only=(2,)),
     colors("srgb_for_linear", "the curve applied once more", encoded),
     colors("srgb_for_linear", "the curve left out", decoded),
+    colors(
+        "srgb_for_linear", "the curve applied once more, in 8 bits", lambda c: eight(encoded(c))
+    ),
+    colors("srgb_for_linear", "the curve left out, in 8 bits", lambda c: eight(c, decoded)),
+    colors("power_for_srgb", "of 8 bits", lambda c: eight(c ** (1 / 2.2), decoded)),
+    saturated(1.25, coded=False),
+    saturated(0.6, coded=True),
+    colors("white_balance", "warmer", lambda c: c * (1.12, 1.0, 0.85)),
+    colors("twice_rounded", "in linear values first", _in_linear_first),
+    colors("rounding_level", "once, read as floats", lambda c: eight(encoded(c), decoded)),
+    in_file("dithered", "2 levels", _noisy, levels=2),
     in_file("rounding_level", "cut off", lambda p: through_file(p, np.floor)),
     in_file(
         "rounding_level", "one level more", lambda p: through_file(p, lambda v: np.rint(v) + 1)
@@ -187,5 +305,14 @@ PICTURE_FAULTS = (
     resampled(2.0, nearest=True),
     filtered(0.5),
     filtered(1.5, gauss=True),
+    shrunk(2, nearest=True),
+    shrunk(2, nearest=False),
+    supersampled(2),
+    supersampled(4),
+    supersampled(2, coded=True),
+    averaged(2),
+    averaged(4),
+    watermark(coded=False),
+    watermark(coded=True),
     Fault("overlay", "a box of stripes", afterwards(_stamp)),
 )

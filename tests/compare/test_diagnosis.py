@@ -109,7 +109,8 @@ MADE = [
     ("recolored", Guess((0.1, 0.8, 0.9), object="Drum")),
     ("swapped_colors", Guess((2.0, 3.0))),
     ("rows", Guess()),
-    ("row_off", Guess()),
+    ("row_off", Guess((0.0, 1.0))),
+    ("row_off", Guess((-1.0, 0.0))),
 ]
 
 

@@ -90,9 +90,9 @@ def find_transform(
     where = np.zeros_like(surface)
     where.flat[asked[:: -(-len(asked) // ENOUGH)]] = True
     some, colors = picture.at(where), frame.color[where]
-    group = _groups(np.column_stack((frame.instance_index[where], colors)))
+    group = groups(np.column_stack((frame.instance_index[where], colors)))
     found: list[tuple[float, Curve]] = []
-    first, shown = _medians(some.color, group)
+    first, shown = medians(some.color, group)
     for named in candidates(straight(colors[first]), straight(shown), picture.levels, more):
         agree = ~replace(some, transform=named.of).other_color(colors)
         of_group = np.bincount(group, agree) / np.bincount(group)
@@ -165,20 +165,20 @@ def _one_other_each(picture: Picture, colors: Array) -> bool:
     """Return whether each traced colour of n pixels is shown as one other."""
     some = slice(None, None, -(-len(colors) // ENOUGH))
     picture, colors = picture.at(some), colors[some]
-    group = _groups(colors)
-    _, medians = _medians(picture.color, group)
-    if 2 * len(medians) > len(group) > 1:  # colours between corners: each is another
+    group = groups(colors)
+    _, middle = medians(picture.color, group)
+    if 2 * len(middle) > len(group) > 1:  # colours between corners: each is another
         return False
-    alike = ~replace(picture, color=medians[group]).other_color(picture.color)
+    alike = ~replace(picture, color=middle[group]).other_color(picture.color)
     return bool(alike.mean() > FITTED_SHARE)
 
 
-def _groups(keys: Array) -> Index:
+def groups(keys: Array) -> Index:
     """Return the group of each of n keys (n, c): those that are equal have one number."""
     return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
 
 
-def _medians(shown: Array, group: Index) -> tuple[Places, Floats]:
+def medians(shown: Array, group: Index) -> tuple[Places, Floats]:
     """Return the first of each of k groups of n pixels, (k,), and what is shown of it, (k, 4)."""
     _, first = np.unique(group, return_index=True)
     order = np.argsort(group, kind="stable")

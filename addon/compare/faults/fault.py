@@ -72,7 +72,7 @@ class Fault:
 
     name: str  # in JSON
     sentence: str  # with the names of `numbers`, {object} and {words}
-    advice: str  # what to do
+    advice: str  # what to do, with the same names
     make: Make
     find: Find = once  # the guesses that are tried
     numbers: tuple[str, ...] = ()  # of the guess' values, those that are told
@@ -86,12 +86,20 @@ class Fault:
     effort: int = 0  # of finding it: 1 if the camera is fitted, 2 and 3 if an object is, 4: pixels
     sums_up: bool = False  # it says what is seen: faults that do as well are reasons for it
     everywhere: bool = False  # it is in all pixels: none is looked for beside a fault of an object
+    vague: bool = False  # it allows for more than one picture: what is exact is told in its place
     examples: tuple[Example, ...] = ()
 
     def told(self, guess: Guess) -> str:
         """Return the sentence with a guess' numbers and names."""
+        return self._filled(self.sentence, guess)
+
+    def advised(self, guess: Guess) -> str:
+        """Return the advice with a guess' numbers and names."""
+        return self._filled(self.advice, guess)
+
+    def _filled(self, text: str, guess: Guess) -> str:
         numbers = dict(zip(self.numbers, guess.values, strict=False))
-        return self.sentence.format(object=guess.object, words=guess.words, **numbers)
+        return text.format(object=guess.object, words=guess.words, **numbers)
 
     def tried(self, case: Case, frame: Frame, guess: Guess) -> Case | None:
         """Return the case that agrees if the picture has this fault."""

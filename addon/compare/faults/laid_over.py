@@ -8,6 +8,7 @@ from ...arrays import Bools, Colors, Floats
 from ...tracer.progress import Work
 from ..evidence import NEAR, Evidence, spread
 from .fault import Fault, Guess
+from .filters import VALUES
 
 Values = tuple[float, ...]
 
@@ -31,31 +32,42 @@ def _in_box(shape: tuple[int, ...], guess: Guess) -> Bools:
 
 def _laid_over(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
     """Return a picture with colours laid over it, wherever it is unexplained in the guess' box."""
-    opacity, inks = guess.values[0], np.reshape(guess.values[1:], (-1, 3))
+    opacity, *held, values = guess.values
+    inks, (into, back, _) = np.reshape(held, (-1, 3)), VALUES[values]
     where = _in_box(evidence.open.shape, guess) & evidence.open
-    under, shown = colors[where].astype(np.float64), evidence.picture.color[where, :3]
-    made = (1 - opacity) * under[:, None, :3] + opacity * inks
-    best = np.abs(made - shown[:, None]).max(axis=-1).argmin(axis=1)
+    shown = into(evidence.picture.color[where].astype(np.float64))
+    under = into(colors[where].astype(np.float64))[:, None, :3]
+    made = (1 - opacity) * under + opacity * inks
+    best = np.abs(made - shown[:, None, :3]).max(axis=-1).argmin(axis=1)
     out = colors.copy()
-    out[where, :3] = made[np.arange(len(best)), best]
-    out[where, 3] = evidence.picture.color[where, 3]
+    mixed = made[np.arange(len(best)), best]
+    out[where] = back(np.concatenate((mixed, shown[:, 3:]), axis=1))
     return out
 
 
 def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
     """Return an opacity and few colours that make the unexplained pixels.
 
-    They lie over several surfaces, or two of them fill a box, as a stamp's do.
+    They lie over several surfaces, or two of them fill a box, as a stamp's do. They may be mixed in
+    linear values, or in those of a file.
     """
-    yield 0.0
     if not _hangs_together(evidence.open):
         return []
+    for values in VALUES:
+        if found := _in_values(evidence, values):
+            return found
+        yield 0.0
+    return []
+
+
+def _in_values(evidence: Evidence, values: float) -> list[Guess]:
     rows, columns = np.nonzero(evidence.open)
     (left, right), (bottom, top) = ((int(np.min(v)), int(np.max(v)) + 1) for v in (columns, rows))
     some = spread(np.ones(len(rows), bool), MOST_BLENDED)
     at = rows[some], columns[some]
-    traced = evidence.frame.color[at].astype(np.float64)[:, :3]
-    shown = evidence.picture.color[at].astype(np.float64)[:, :3]
+    into, back, words = VALUES[values]
+    pictures = evidence.frame.color, evidence.picture.color
+    traced, shown = (into(v[at].astype(np.float64))[:, :3] for v in pictures)
     if not np.isfinite(shown).all():
         return []
     best = max((_inks(traced, shown, o) for o in OPACITIES), key=lambda found: found[0])
@@ -63,14 +75,15 @@ def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
     boxed = len(rows) >= COVERED * (right - left) * (top - bottom)
     if covered < COVERED and boxed:
         covered, opacity, inks = _inks(traced, shown, 1.0, surfaces=1)
-        own = _of_scene(evidence, inks).all() or len(inks) < MOST_INKS  # it may be an object
+        own = _of_scene(evidence, back(inks)).all() or len(inks) < MOST_INKS  # it may be an object
     else:
-        own = opacity > 1 - NEAR and _of_scene(evidence, inks).any()
+        own = opacity > 1 - NEAR and _of_scene(evidence, back(inks)).any()
     if covered < COVERED or own:
         return []
-    values = (opacity, *inks.ravel().tolist())
-    low, high = _as_likely(traced, shown, values)
-    return [Guess(values, low, high, box=(left, bottom, right, top))]
+    numbers = (opacity, *inks.ravel().tolist())
+    low, high = _as_likely(traced, shown, numbers)
+    box = left, bottom, right, top
+    return [Guess((*numbers, values), low, high, words=words or ", linear", box=box)]
 
 
 def _as_likely(traced: Floats, shown: Floats, values: Values) -> tuple[Values, Values]:
@@ -145,7 +158,7 @@ def _of_scene(evidence: Evidence, inks: Floats) -> Bools:
 LAID_OVER = Fault(
     "overlay",
     "something is laid over the picture: opacity {opacity:.2f}, "
-    "colour ({red:.3f}, {green:.3f}, {blue:.3f}), linear",
+    "colour ({red:.3f}, {green:.3f}, {blue:.3f}){words}",
     "switch off stamps, overlays, watermarks and cursors",
     lambda case, frame, guess: case,
     _find_overlay,
@@ -153,5 +166,6 @@ LAID_OVER = Fault(
     put_right=lambda case, frame, guess: case,
     effort=4,
     sampled=False,
+    vague=True,
     after=_laid_over,
 )

@@ -1,4 +1,4 @@
-"""Faults that mix a picture's pixels with others: another size, JPEG.
+"""Faults of a picture's file, and of what is laid over it.
 
 No ray is asked: what is traced goes through the same, and is held against the picture.
 """
@@ -10,9 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Array, Colors
+from ...arrays import Colors
 from ...images import curve_undone, encoded
-from ...scene import Region, ViewWindow
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
@@ -20,62 +19,9 @@ from ..evidence import Evidence
 from .fault import Fault, Guess
 from .laid_over import LAID_OVER
 
-SIZES = (1 / 2, 0.9, 0.8, 1 / 3, 1 / 4, 2 / 3, 3 / 4, 2.0)  # of what may have been resampled
-NEAREST, LINEAR, BOX = 0.0, 1.0, 2.0
 QUALITIES = (95, 90, 85, 80, 75, 70, 60, 50, 40, 30)
 FAINT = 0.1  # of an encoded channel: most of what a JPEG makes of a flat colour is off by less
 JPEG_LEVELS = 8.0  # by how much two writers' pixels may differ: each rounds its own way
-
-
-def _other_size(case: Case, frame: Frame, guess: Guess) -> Case:
-    """Return the case with what the picture shows, be it a border's, traced at another size."""
-    camera = case.scene.camera
-    r, w = camera.region, camera.window
-    across, up = (w.right - w.left) / camera.width, (w.top - w.bottom) / camera.height
-    window = ViewWindow(
-        w.left + r.x0 * across, w.left + r.x1 * across, w.bottom + r.y0 * up, w.bottom + r.y1 * up
-    )
-    width, height = (max(1, round(guess.values[0] * n)) for n in (r.width, r.height))
-    whole = Region(0, 0, width, height)
-    camera = replace(camera, window=window, width=width, height=height, region=whole)
-    return case.with_scenes(lambda scene: scene.seen_by(camera))
-
-
-def _resampled(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return a picture (h', w', 4) at the size of the evidence's, by nearest pixel or linearly."""
-    out: Array = colors
-    for axis, size in enumerate(evidence.open.shape):
-        have = colors.shape[axis]
-        place = (np.arange(size) + 0.5) * have / size - 0.5
-        if guess.values[1] == NEAREST:
-            out = out.take(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), axis=axis)
-            continue
-        if have > size and guess.values[1] == BOX:
-            edges = np.arange(size) * have // size
-            count = np.diff(np.append(edges, have))
-            shape = [1] * out.ndim
-            shape[axis] = -1
-            out = np.add.reduceat(out, edges, axis=axis) / count.reshape(shape)
-            continue
-        low = np.clip(np.floor(place), 0, have - 1).astype(int)
-        high = np.minimum(low + 1, have - 1)
-        shape = [1] * out.ndim
-        shape[axis] = -1
-        share = np.clip(place - low, 0, 1).reshape(shape)
-        out = (1 - share) * out.take(low, axis=axis) + share * out.take(high, axis=axis)
-    return out.astype(np.float32)
-
-
-def _sizes(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the sizes and ways that are tried."""
-    ways = {NEAREST: "by the nearest pixel", LINEAR: "linearly", BOX: "by the mean of pixels"}
-    return [
-        Guess((size, way), words=words)
-        for size in SIZES
-        for way, words in ways.items()
-        if way != BOX or size > 1
-    ]
-    yield
 
 
 def _jpeg(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
@@ -131,18 +77,6 @@ def _as_jpeg(case: Case, frame: Frame, guess: Guess) -> Case:
 
 
 PIXEL_FAULTS = (
-    Fault(
-        "resampled",
-        "the picture is rendered at {size:.4g} of its size, and resampled {words}",
-        "render it at the size at which it is compared",
-        _other_size,
-        _sizes,
-        ("size",),
-        effort=4,
-        everywhere=True,
-        sampled=False,
-        after=_resampled,
-    ),
     Fault(
         "jpeg",
         "the picture was stored as a JPEG of about quality {quality:.0f}",
