@@ -205,3 +205,19 @@ def test_a_filter_needs_a_picture(tmp_path, capsys):
     arguments = ["compare", str(tmp_path / "a.blend"), "--filter", "1", "--out", str(tmp_path)]
     assert main(arguments) == 4
     assert "--filter is for a picture of --against" in capsys.readouterr().err
+
+
+def test_whose_rounding_excuses_is_chosen_and_said(make, against, tmp_path):
+    """The farther of two walls: a depth buffer may show it, rays may not."""
+    camera = make.camera(24, 18, clip_start=0.001, clip_end=1e4)
+    walls = make.scene(camera, *(make.quad(-300, 300, -300, 300, z) for z in (-900, -900.1)))
+    save_scene(tmp_path / "walls.npz", walls)
+    color = render(replace(walls, instances=walls.instances[1:])).color
+    code, found, text = against(color, "far.exr", source="walls.npz")
+    assert code == 2 and found["blender"]["renderer"] == "rays"
+    assert "by the rounding of float32 rays" in text
+    options = ("--renderer", "raster")
+    code, found, text = against(color, "far.exr", source="walls.npz", options=options)
+    assert code == 1 and found["blender"]["renderer"] == "raster"
+    assert found["pixels"]["unexplained"] == 0 and found["excused"]["share"] > 0.02
+    assert "float32 rasterisation with a depth buffer of 24 bits" in text

@@ -41,7 +41,6 @@ WARNED_OF = (
     *hard.IN_FRONT,
     *hard.EMPTY,
     hard.no_active_color,
-    hard.far_from_origin,
 )
 TOO_MUCH = (hard.hair_everywhere, hard.glass_around)
 DRAWN_OTHERWISE = (*hard.HAIR, *hard.GLASS, *hard.IN_FRONT, *TOO_MUCH)
@@ -49,6 +48,8 @@ MAY_BE_UPSET = (*hard.SIMULATIONS, *hard.EDIT_MODE, *hard.HAIR)  # by being draw
 
 
 def verdict_of(make, judge: str) -> str:
+    if make is hard.far_from_origin:  # where no pixel is decidable
+        return NOT_COMPARABLE
     if judge == "CYCLES":
         # Of a scene with one, 4.2 rounds each colour to a half float: it may be under all of them.
         if bpy.app.version < (4, 3, 0) and make in (hard.grease_pencil, hard.empty_grease_pencil):
