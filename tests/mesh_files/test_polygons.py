@@ -248,7 +248,7 @@ class TestFlatness:
         z = np.round(0.1 * np.sin(x / 3) * np.cos(y / 4), 6)
         at = (np.arange(19) + 20 * np.arange(19)[:, None]).reshape(-1, 1)
         points = np.stack((x, y, z), axis=2).reshape(-1, 3)
-        found = cut(points, (at + [0, 1, 21, 20]).ravel(), np.full(361, 4))
+        found = cut(points, (at + np.array((0, 1, 21, 20))).ravel(), np.full(361, 4))
         assert int(found.notes[0].split()[0]) > 320
 
     def test_a_bend_beside_flat_faces_is_counted(self):
