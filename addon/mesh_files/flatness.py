@@ -70,7 +70,7 @@ def _rounding(numbers: Floats) -> tuple[float, float]:
         rounded = ((10.0**-d, np.rint(own * 10.0**d) / 10.0**d) for d in _DECIMALS)
         absolute = next((step / 2 for step, r in rounded if _are_same(r, own, numbers)), 0.0)
         digits = np.rint(own * (scale := 10.0 ** (5 - np.floor(np.log10(np.abs(own))))))
-        six = _are_same(digits / scale, own, numbers) and (digits % 10 != 0).mean() > 0.5
+        six = _are_same(digits / scale, own, numbers) and (digits % 10 != 0).sum() > len(own) / 2
     return absolute, 5e-6 if six else 0.0 if absolute else _FLOAT32
 
 

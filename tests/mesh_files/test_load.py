@@ -255,6 +255,31 @@ def test_there_is_no_such_file(load, kind, tmp_path, monkeypatch):
         load(kind("none.ply"))
 
 
+def test_a_mesh_that_is_placed_often_is_one_mesh_and_a_name_is_one_object():
+    same, other = (Mesh(np.eye(3) + k, [[0, 1, 2]], name="Mesh") for k in range(2))
+    far = trimesh.transformations.translation_matrix((5, 0, 0))
+    placed = (
+        Placed(same, np.eye(4), "first"),
+        Placed(other, np.eye(4), "first"),
+        Placed(same, far, "second"),
+    )
+    whole = scene_of_meshes(Contents(placed), None, 8, 8)
+    assert whole.meshes == (same, other) and whole.objects == ("first", "second")
+    assert [(i.mesh, i.object) for i in whole.instances] == [(0, 0), (1, 0), (0, 1)]
+    assert np.array_equal(whole.instances[2].world_from_object, far)
+    greys = [tuple(i.colors[0]) for i in whole.instances]
+    assert greys[0] == greys[1] != greys[2]
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".ply", ".off", ".stl", ".glb"])
+@pytest.mark.parametrize("content", [b"", bytes(200), bytes(range(256)), b"{}"])
+def test_what_is_no_mesh_at_all_gets_one_message(suffix, content, tmp_path):
+    path = tmp_path / f"a{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(SceneError, match=rf"^'{path}' (cannot be read as a mesh: |holds no tri)"):
+        load_meshes(path)
+
+
 def test_no_meshes():
     with pytest.raises(SceneError, match="no meshes"):
         scene_of_meshes(Contents(()), None, 30, 20)
