@@ -162,7 +162,7 @@ CAUSE = {
 FAULT = {
     "compare/faults/picture.py": (
         '    Fault(\n        "row_off"',
-        "    Fault('dark', 'there is no light', 'light it', _recolored(lambda c: 0 * c), "
+        "    Fault('dark', 'there is no light', 'light it', recolored(lambda c: 0 * c), "
         "examples=(Example('dark', 'no light'),)),\n",
     ),
 }

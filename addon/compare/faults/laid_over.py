@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...arrays import Bools, Colors, Floats
+from ...arrays import Bools, Colors, Floats, Index
 from ...tracer.progress import Work
 from ..evidence import NEAR, Evidence, spread
 from .fault import Fault, Guess
@@ -17,6 +17,7 @@ LEAST_COVERED = 0.02  # of what is covered, for a surface to count
 OPACITIES = np.arange(2, 101) / 100  # that are tried
 MOST_INKS = 2  # colours that are laid over
 INK_STEPS = 50  # to which these are told apart
+FAR = 2.0  # beyond which no colour is looked for, nor below its negative
 COVERED = 0.9  # the least share of the unexplained pixels that they must make
 TOGETHER = 0.75  # of the pixels: single ones, like salt, are nothing that is laid over
 MOST_BLENDED = 4096  # pixels that are looked at
@@ -70,11 +71,12 @@ def _in_values(evidence: Evidence, values: float) -> list[Guess]:
     traced, shown = (into(v[at].astype(np.float64))[:, :3] for v in pictures)
     if not np.isfinite(shown).all():
         return []
-    best = max((_inks(traced, shown, o) for o in OPACITIES), key=lambda found: found[0])
+    under = np.unique(traced, axis=0, return_inverse=True)[1].reshape(-1)
+    best = max((_inks(traced, shown, under, o) for o in OPACITIES), key=lambda found: found[0])
     covered, opacity, inks = best
     boxed = len(rows) >= COVERED * (right - left) * (top - bottom)
     if covered < COVERED and boxed:
-        covered, opacity, inks = _inks(traced, shown, 1.0, surfaces=1)
+        covered, opacity, inks = _inks(traced, shown, under, 1.0, surfaces=1)
         own = _of_scene(evidence, back(inks)).all() or len(inks) < MOST_INKS  # it may be an object
     else:
         own = opacity > 1 - NEAR and _of_scene(evidence, back(inks)).any()
@@ -113,24 +115,26 @@ def _hangs_together(where: Bools) -> bool:
 
 
 def _inks(
-    traced: Floats, shown: Floats, opacity: float, surfaces: int = LEAST_SURFACES
+    traced: Floats, shown: Floats, under: Index, opacity: float, surfaces: int = LEAST_SURFACES
 ) -> tuple[float, float, Floats]:
     """Return the share of n pixels that few colours explain if laid over with an opacity.
 
-    And the opacity, fitted, and the colours (k, 3). Each of them must lie over some surfaces.
+    And the opacity, fitted, and the colours (k, 3). Each of them must lie over some surfaces, of
+    which `under` (n,) are the numbers.
     """
     ink = (shown - (1 - opacity) * traced) / opacity
+    step = np.rint(INK_STEPS * np.clip(ink, -FAR, FAR))
+    number = step @ (4.0 * INK_STEPS * FAR) ** np.arange(3)  # one for each colour
     left = np.ones(len(ink), bool)
     owned: list[Bools] = []  # which pixels have the first ink, the second
     for _ in range(MOST_INKS):
         if not left.any():
             break
-        key, count = np.unique(np.rint(INK_STEPS * ink[left]), axis=0, return_counts=True)
-        common = key[np.argmax(count)]
+        _, first, count = np.unique(number[left], return_index=True, return_counts=True)
+        common = step[left][first[np.argmax(count)]]
         own = left & (np.abs(ink - common / INK_STEPS).max(axis=1) <= 1 / INK_STEPS)
         left &= ~own
-        under = np.unique(traced[own], axis=0, return_counts=True)[1]
-        several = (under >= LEAST_COVERED * len(traced)).sum() >= surfaces
+        several = (np.bincount(under[own]) >= LEAST_COVERED * len(traced)).sum() >= surfaces
         if several and common.min() >= -1 and common.max() <= INK_STEPS + 1:
             owned.append(own)
     if not owned:
