@@ -53,6 +53,7 @@ class Looked:
             return None
         around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
         chosen = np.zeros_like(seen)
+        around &= evidence.beside_edges if evidence.fine else True
         for some in (around & evidence.open, around & ~evidence.open):
             chosen.flat[spread(some, evidence.size // 2)] = True
         rows, columns = np.nonzero(chosen)
