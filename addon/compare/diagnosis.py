@@ -73,7 +73,8 @@ class Told:
             yield f"           it agrees as well for {enclosed}"
         if self.also:
             named = ", ".join(map(spoken, self.also))
-            yield f"           {'so it is with' if self.fault.sums_up else 'as likely'}: {named}"
+            how = "so it would be with" if self.fault.sums_up else "as likely"
+            yield f"           {how}: {named}"
         yield f"           what to do: {self.fault.advised(self.guess)}"
 
     def to_dict(self) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.nearest import plan
 from ..tracer.progress import Work
+from .bounds import largest_within
 from .case import Case, Variant
 from .cause import NOT_DECIDABLE, UNEXPLAINED, Causes
 from .checks.probe import SOUND, Probe, blocks
@@ -30,6 +31,7 @@ from .seen import Trees
 
 SAMPLE = 512  # pixels of each kind that are looked at
 FEW = 128  # that are looked at first
+BESIDE = 1  # pixels that are looked at on both sides of an edge
 DENSE = 1 << 12  # pixels: for more, all triangles are looked at once
 SEED = 27
 WORTH = 0.2  # of unexplained pixels
@@ -62,6 +64,7 @@ class Evidence:
     causes: Causes
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
+    fine: bool = False  # whether pixels beside the picture's edges alone are sampled
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # what faults share that look for the same
     trees: Trees = field(default_factory=Trees)
@@ -96,6 +99,10 @@ class Evidence:
     def _weights(self) -> Floats:
         """How many pixels each sampled pixel stands for, 0 for the others, (h, w)."""
         out = np.zeros(self.open.shape)
+        if self.fine:
+            out.flat[spread(self.open & self.beside_edges, self.size)] = 1
+            out.flat[spread(self.judged & self.beside_edges, self.size)] = 1
+            return out
         edge = self.judged & boundary(self.frame)
         for some, most in (
             (self.open, self.size),
@@ -105,6 +112,14 @@ class Evidence:
             chosen = spread(some, most)
             out.flat[chosen] = int(some.sum()) / max(len(chosen), 1)
         return out
+
+    @cached_property
+    def beside_edges(self) -> Bools:
+        """Which pixels (h, w) are beside an edge that is shown: small changes show nowhere else."""
+        shown = np.moveaxis(np.nan_to_num(self.picture.color), -1, 0)
+        apart = [largest_within(v, BESIDE) + largest_within(-v, BESIDE) for v in shown]
+        out = np.max(apart, axis=0) > 2 * NEAR
+        return out if (out & self.open).any() else np.ones_like(out)
 
     @property
     def least_right(self) -> float:

@@ -50,7 +50,7 @@ NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all
 ENOUGH = (
     0.995  # of the unexplained pixels: after a guess that gains as many, none takes more effort
 )
-ALL_EDGES = 1 << 13  # pixels of each kind that are looked at then
+ALL_EDGES = 1 << 14  # pixels of each kind that are looked at then
 TRIED = 6  # guesses that are tried on the whole picture together, at most
 MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
 MAIN = 0.5  # of the unexplained pixels: a guess that gains as much may need a second one beside it
@@ -144,7 +144,7 @@ class Guessing:
             if gain < PROMISING * scored[0][0]:
                 break
             if fault.refine and guess.low:
-                finer = replace(evidence, size=ALL_EDGES)
+                finer = replace(evidence, size=ALL_EDGES, fine=True)
                 refining = self._limited(fault.refine(finer, guess), fault)
                 guess = (yield from refining) or guess
             trial = yield from self._limited(tried(evidence, fault, guess, of), fault)

@@ -6,6 +6,7 @@ What is behind is traced once, without the object; then the object alone, for ea
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -39,7 +40,7 @@ class Looked:
 
     @classmethod
     def of(cls, evidence: Evidence, name: str, kept: bool = False) -> Work[Looked | None]:
-        """Look at an object; None if it is not seen or not shown."""
+        """Look at an object; None if it is not seen or not shown, or can settle few pixels."""
         scene, frame = evidence.case.scene, evidence.frame
         own = instances_named(scene, name)
         if not own:  # an infinite plane
@@ -52,6 +53,7 @@ class Looked:
             return None
         around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
         chosen = np.zeros_like(seen)
+        around &= evidence.beside_edges if evidence.fine else True
         for some in (around & evidence.open, around & ~evidence.open):
             chosen.flat[spread(some, evidence.size // 2)] = True
         rows, columns = np.nonzero(chosen)
@@ -62,7 +64,8 @@ class Looked:
         picture = evidence.picture.at(at)
         out = cls(evidence, name, at, picture, Hits.none(0), rest, seen, shown, depth, kept)
         behind = yield from out.traced(rest)
-        return replace(out, behind=behind)
+        out = replace(out, behind=behind)
+        return out if out._may_settle >= WORTH * evidence.open.sum() else None
 
     def traced(self, scene: Scene) -> Work[Hits]:
         """Return what the n pixels see of a scene."""
@@ -79,8 +82,21 @@ class Looked:
         """Return how many of the n pixels are right with the object as a scene has it alone."""
         hits = yield from self.traced(changed)
         before = (hits.instance != NOTHING) & (hits.t < self.behind.t)
-        shown = self._agree(self.rest, self.behind, ~before) | self._agree(changed, hits, before)
+        shown = (self._beneath & ~before) | self._agree(changed, hits, before)
         return int(shown.sum())
+
+    @property
+    def _may_settle(self) -> float:
+        """How many unexplained pixels can agree, wherever the object is: others show neither."""
+        open_, may = self.evidence.open[self.at], self._beneath | self.shown[self.at]
+        around = largest_within((self.seen | self.shown).astype(np.int8), AROUND) > 0
+        share = float(np.mean(may[open_])) if open_.any() else 0.0
+        return share * int((around & self.evidence.open).sum())
+
+    @cached_property
+    def _beneath(self) -> Bools:
+        """Which of the n pixels show what is seen without the object."""
+        return self._agree(self.rest, self.behind, np.ones(len(self.behind), bool))
 
     def _agree(self, scene: Scene, hits: Hits, where: Bools) -> Bools:
         """Return which of the n pixels, of those where it is seen, show the hits of a scene."""
