@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import bpy
 import numpy as np
 import pytest
 from mathutils import Euler, Matrix
 from reference_tracer.mesh_files.gltf import read_gltf
 from reference_tracer.tracer.vector import transform_points
+
+from ..mesh_files.gltf_build import Build, inverse_binds
 
 # Blender's matrices, poses and shape keys are float32: each rounds by 6e-8 of the scene's size.
 ROUNDINGS = 32 * 2.0**-24
@@ -171,8 +175,10 @@ def test_a_pose(name, build, tmp_path, rng):
 
 
 def every(found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """All triangles, in an order of their own: their objects' names differ."""
+    """All triangles, in an order of their own, each from its corner with the least x."""
     triangles = np.concatenate(list(found.values()))
+    first = triangles[:, :, 0].argmin(axis=1)[:, None] + np.arange(3)
+    triangles = np.take_along_axis(triangles, first[:, :, None] % 3, axis=1)
     return {"": triangles[np.lexsort(np.round(triangles.mean(axis=1), 3).T)]}
 
 
@@ -210,6 +216,55 @@ def test_instances_of_a_mesh(build, tmp_path, rng):
     assert len(contents.placed) == 5 and len({id(p.mesh) for p in contents.placed}) == 1
     found, _ = ours(path)
     check_same(every(found), every(scene))
+    check_same(every(found), every(imported(path)))
+
+
+def random_matrix(rng) -> list[float]:
+    """A rotation, a scale and a move, by columns."""
+    place = Matrix.LocRotScale(rng.normal(size=3), Euler(rng.normal(size=3)), rng.uniform(1, 2, 3))
+    return [x for column in place.transposed() for x in column]
+
+
+def by_hand(kind: str, rng) -> Build:
+    """A file of what Blender's exporter does not write, with random numbers."""
+    build = Build()
+    points = rng.normal(size=(12, 3)).astype(np.float32)
+    if kind in ("strip", "fan"):
+        mode = {"strip": 5, "fan": 6}[kind]
+        mesh = build.mesh(points, rng.permutation(12).astype(np.uint8), mode=mode)
+    elif kind == "quantised":
+        mesh = build.mesh(np.int16(points * 9000), None)
+        build.json["accessors"][0]["normalized"] = True
+        build.extension("KHR_mesh_quantization", required=True)
+    elif kind == "interleaved":
+        mesh = build.mesh(points, None)
+        mixed = np.hstack((points, np.ones((12, 2), np.float32)))
+        build.json["accessors"][0]["bufferView"] = build.view(mixed.tobytes(), byteStride=20)
+    else:
+        mesh = build.mesh(points, None)
+        for k in range(2):
+            joints = np.tile(np.arange(4), (12, 1)) + 4 * k
+            build.json["meshes"][mesh]["primitives"][0]["attributes"] |= {
+                f"JOINTS_{k}": build.accessor(joints.astype(np.uint8)),
+                f"WEIGHTS_{k}": build.accessor(np.full((12, 4), 1 / 8, np.float32)),
+            }
+    shown = build.node(mesh=mesh, matrix=random_matrix(rng))
+    build.scene(build.node(children=[shown], matrix=random_matrix(rng), name="Parent"))
+    if kind == "skin":  # of eight joints, in a chain
+        joints = [build.node(translation=rng.normal(size=3).tolist()) for _ in range(8)]
+        for parent, child in pairwise(joints):
+            build.json["nodes"][parent]["children"] = [child]
+        binds = inverse_binds(build, *rng.normal(size=(8, 3)))
+        build.json["nodes"][shown]["skin"] = build.skin(joints, inverseBindMatrices=binds)
+        build.json["scenes"][0]["nodes"].append(joints[0])
+    return build
+
+
+@pytest.mark.parametrize("kind", ["strip", "fan", "quantised", "interleaved", "skin"])
+def test_what_blender_reads_but_does_not_write(kind, tmp_path, rng):
+    path = by_hand(kind, rng).write(tmp_path / "a.glb")
+    found, notes = ours(path)
+    assert not notes
     check_same(every(found), every(imported(path)))
 
 
