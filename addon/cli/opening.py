@@ -68,7 +68,8 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
     if path.suffix.lower() == ".npz":
         scene = load_scene(path)
     else:
-        import_trimesh()
+        if path.suffix.lower() == ".glb":
+            import_trimesh()
         contents = load_meshes(path, choice.up)
         scene = _framed(path, contents, choice)
     return Opened(scene, Settings(), file_manifest(path, scene, contents))

@@ -14,6 +14,7 @@ from .scaling import dot, local, normals
 _ROUNDINGS = 4
 _DECIMALS = 4, 5, 6  # programs write so many, or else at least six digits (C's %g) or float32
 _FLOAT32 = 2.0**-24
+_SEEN = 1e-3  # what is more than this share of a face's size is no rounding, however it came
 _SAMPLE = 4096  # vertices whose numbers show how all were rounded
 
 
@@ -44,9 +45,10 @@ class Bends:
             self.share = max(self.share, float(np.max(share[bent])))
 
     def rounding(self, points: Floats) -> Floats:
-        """Return how far roundings may move the corners (3, k, n) of faces, (k,)."""
-        largest = np.abs(points).max(axis=(0, 2))
-        return _ROUNDINGS * np.maximum(self.absolute, self.relative * largest)
+        """Return how far roundings may move the corners (3, k, n) of faces, (k,) metres."""
+        largest, size = np.abs(points).max(axis=(0, 2)), np.ptp(points, axis=2).max(axis=0)
+        may = _ROUNDINGS * np.maximum(self.absolute, self.relative * largest)
+        return np.minimum(may, _SEEN * size)
 
     def notes(self) -> Iterator[str]:
         """Say it, if there is something to say."""
@@ -67,8 +69,8 @@ def _rounding(numbers: Floats) -> tuple[float, float]:
     with np.errstate(all="ignore"):
         rounded = ((10.0**-d, np.rint(own * 10.0**d) / 10.0**d) for d in _DECIMALS)
         absolute = next((step / 2 for step, r in rounded if _are_same(r, own, numbers)), 0.0)
-        scale = 10.0 ** (5 - np.floor(np.log10(np.abs(own))))
-        six = _are_same(np.rint(own * scale) / scale, own, numbers)
+        digits = np.rint(own * (scale := 10.0 ** (5 - np.floor(np.log10(np.abs(own))))))
+        six = _are_same(digits / scale, own, numbers) and (digits % 10 != 0).sum() > len(own) / 2
     return absolute, 5e-6 if six else 0.0 if absolute else _FLOAT32
 
 

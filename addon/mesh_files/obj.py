@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
 
 import numpy as np
 
-from ..arrays import Floats, Index
+from ..arrays import Array, Floats, Index
 from ..scene import SceneError
 from .contents import Contents
 from .meshes import contents
+from .words import floats, integers, shown
 
 # What changes nothing of the shape: normals, texture coordinates, materials, how it is displayed.
 _NO_SHAPE = frozenset(
@@ -25,8 +25,6 @@ _CURVED = frozenset(
 _NO_SURFACE = {b"l": "lines", b"p": "points"}
 _ONE = frozenset((b"1", b"1.0", b"1.000000"))
 _COMMENT = re.compile(rb"\s#.*")  # names may hold the sign, as Cube#2
-
-Number = TypeVar("Number", int, float)
 
 
 def read_obj(path: Path) -> Contents:
@@ -49,7 +47,7 @@ class _Reading:
     def __init__(self, stem: str) -> None:
         self.numbers: list[bytes] = []  # of the vertices, three each
         self.vertex_lines: list[int] = []
-        self.corners: list[bytes | int] = []  # indices of vertices, from 1
+        self.corners: list[bytes] = []  # indices of vertices, from 1
         self.sizes: list[int] = []  # of the faces
         self.face_lines: list[int] = []
         self.groups = _Names(stem)
@@ -90,10 +88,11 @@ class _Reading:
             self.weights += 1
 
     def _face(self, line: int, words: list[bytes]) -> None:
-        corners: list[bytes | int] = [word.partition(b"/")[0] for word in words]
+        corners = [word.partition(b"/")[0] for word in words]
         for k, corner in enumerate(corners):
-            if corner[:1] == b"-":  # type: ignore[index]  # -1 is the last vertex above the line
-                corners[k] = len(self.vertex_lines) + 1 + _number(int, line, corner)
+            if corner[:1] == b"-":  # -1 is the last vertex above the line
+                (back,) = _numbers(integers, [corner], lambda _: line)
+                corners[k] = b"%d" % (len(self.vertex_lines) + 1 + back)
         self.corners += corners
         self.sizes.append(len(corners))
         self.face_lines.append(line)
@@ -101,21 +100,12 @@ class _Reading:
             names.of_faces.append(names.current)
 
     def _vertices(self) -> Floats:
-        try:
-            return np.array(list(map(float, self.numbers)), np.float64).reshape(-1, 3)
-        except ValueError:
-            for k, number in enumerate(self.numbers):
-                _number(float, self.vertex_lines[k // 3], number)
-            raise
+        found = _numbers(floats, self.numbers, lambda k: self.vertex_lines[k // 3])
+        return found.reshape(-1, 3)
 
     def _indices(self) -> Index:
         """Return the corners' indices, from 0."""
-        try:
-            found = np.array(list(map(int, self.corners)), np.int64)
-        except ValueError:
-            for k, number in enumerate(self.corners):
-                _number(int, self._line_of(k), number)
-            raise
+        found = _numbers(integers, self.corners, self._line_of)
         if len(bad := np.flatnonzero((found < 1) | (found > len(self.vertex_lines)))):
             line, count = self._line_of(int(bad[0])), len(self.vertex_lines)
             raise SceneError(f"line {line} names vertex {found[bad[0]]}, but there are {count}")
@@ -139,10 +129,9 @@ class _Reading:
             )
         for key, count in self.other.items():
             if key not in _CURVED and key not in _NO_SURFACE:
-                word = key.decode("ascii", "backslashreplace")[:20]
                 yield (
-                    f"{count:,} line{'s' * (count > 1)} '{word}' {_are(count)} not understood, "
-                    "and left out"
+                    f"{count:,} line{'s' * (count > 1)} '{shown(key)}' {_are(count)} not "
+                    "understood, and left out"
                 )
 
     def _missing(self) -> Iterator[str]:
@@ -182,19 +171,25 @@ def _statements(content: bytes) -> Iterator[tuple[int, list[bytes]]]:
             yield number, words
 
 
-def _number(kind: Callable[[Any], Number], line: int, word: bytes | int) -> Number:
-    """Return a number.
+def _numbers(
+    read: Callable[[Sequence[bytes]], Array], words: list[bytes], line_of: Callable[[int], int]
+) -> Array:
+    """Return the numbers of words.
 
     Raises
     ------
     SceneError
-        If it is none; it says in which line.
+        If one is none; it says in which line.
     """
     try:
-        return kind(word)
+        return read(words)
     except ValueError:
-        shown = word.decode("utf-8", "replace")[:40] if isinstance(word, bytes) else word
-        raise SceneError(f"line {line}: '{shown}' is no number") from None
+        for k, word in enumerate(words):
+            try:
+                read([word])
+            except ValueError:
+                raise SceneError(f"line {line_of(k)}: '{shown(word)}' is no number") from None
+        raise
 
 
 def _are(count: int) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from ..scene import SceneError
 from .contents import Contents
 from .meshes import contents
+from .words import floats, integers
 
 _KIND = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF")
 _COMMENT = re.compile(rb"#.*")
@@ -50,10 +51,7 @@ def read_off(path: Path) -> Contents:
         (size,) = _integers(line, words[:1], 1)
         corners += _integers(line, words[1 : 1 + size], size)
         sizes.append(size)
-    try:
-        vertices = np.array(list(map(float, numbers)), np.float64).reshape(-1, 3)
-    except ValueError as error:
-        raise SceneError(f"a vertex has a coordinate that is no number: {error}") from None
+    vertices = floats(numbers).reshape(-1, 3)
     more = sum(1 for _ in lines)
     said = f"what is behind the last face is not understood, and left out: {more:,} lines"
     notes = [said] if more else []
@@ -80,7 +78,7 @@ def _next(
 def _integers(line: int, words: Sequence[bytes], count: int) -> list[int]:
     """Return so many integers, none of them negative."""
     try:
-        found = list(map(int, words))
+        found: list[int] = integers(words).tolist()
     except ValueError as error:
         raise SceneError(f"line {line}: {error}") from None
     if len(found) < count or min(found, default=0) < 0:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arrays import Array, Floats
+from ..arrays import Floats
 from ..scene import SceneError
 from .contents import Contents
 from .meshes import contents
@@ -46,23 +46,27 @@ def read_ply(path: Path) -> Contents:
     order, elements, start = _head(content)
     body = Binary(content[start:], order) if order else Text(content[start:])
     vertices: Floats = np.zeros((0, 3))
-    sizes: list[Array] = [np.zeros(0, np.intp)]
-    corners: list[Array] = [np.zeros(0, np.intp)]
+    faces = [Lists(np.zeros(0, np.intp), np.zeros(0, np.intp))]
     notes = []
-    for element, found in zip(elements, read_tables(body, elements), strict=True):
+    for element, columns in zip(elements, read_tables(body, elements), strict=True):
         if element.name == "vertex":
-            vertices = _vertices(found)
-        elif element.name in ("face", "tristrips"):
-            lists = next((found[name] for name in _CORNERS if name in found), None)
-            if not isinstance(lists, Lists):
-                raise SceneError(f"its element '{element.name}' has no list 'vertex_indices'")
-            lists = _of_strips(lists) if element.name == "tristrips" else lists
-            corners.append(lists.values.astype(np.intp))
-            sizes.append(lists.sizes)
+            vertices = _vertices(columns)
+        elif element.name == "face":
+            faces.append(_corners(element, columns))
+        elif element.name == "tristrips":
+            faces.append(_of_strips(_corners(element, columns)))
         elif element.count:
             notes.append(_passed_over(element))
-    faces = np.concatenate(corners), np.concatenate(sizes)
-    return contents(vertices, *faces, [path.stem], notes=notes)
+    corners, sizes = map(np.concatenate, zip(*faces, strict=True))
+    return contents(vertices, corners.astype(np.intp), sizes, [path.stem], notes=notes)
+
+
+def _corners(element: Element, columns: Columns) -> Lists:
+    """Return the vertices of faces or strips."""
+    found = next((columns[name] for name in _CORNERS if name in columns), None)
+    if not isinstance(found, Lists):
+        raise SceneError(f"its element '{element.name}' has no list '{_CORNERS[0]}'")
+    return found
 
 
 def _passed_over(element: Element) -> str:
@@ -71,12 +75,12 @@ def _passed_over(element: Element) -> str:
     return f"{element.count:,} rows of '{element.name}' are not understood, and left out"
 
 
-def _vertices(found: Columns) -> Floats:
+def _vertices(columns: Columns) -> Floats:
     """Return (v, 3): float32 if all coordinates are stored so, else float64."""
-    columns = [found.get(axis) for axis in "xyz"]
-    if any(column is None or isinstance(column, Lists) for column in columns):
+    found = [columns.get(axis) for axis in "xyz"]
+    if any(column is None or isinstance(column, Lists) for column in found):
         raise SceneError("its vertices have no x, y and z")
-    together = np.stack(columns, axis=1)
+    together = np.stack(found, axis=1)
     return together.astype(np.float32 if together.dtype == np.float32 else np.float64)
 
 

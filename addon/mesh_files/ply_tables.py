@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays import Array, Places
 from ..scene import SceneError
+from .words import floats
 
 
 class Property(NamedTuple):
@@ -57,11 +58,7 @@ class Text:
     """A body in text."""
 
     def __init__(self, content: bytes) -> None:
-        try:
-            self.values = list(map(float, content.split()))
-        except ValueError as error:
-            raise SceneError(f"what should be a number is none: {error}") from None
-        self.all = np.array(self.values)
+        self.values = floats(content.split())
         self.end = len(self.values)
 
     def width(self, kind: str) -> int:
@@ -74,7 +71,7 @@ class Text:
 
     def numbers(self, at: Places, kind: str) -> Array:
         """Return the numbers at places (n,)."""
-        found = self.all[at]
+        found = self.values[at]
         if kind[0] != "f" and not np.array_equal(found, np.rint(found)):
             raise SceneError("what should be an integer is none")
         return found.astype(kind if kind[0] == "f" else np.int64)

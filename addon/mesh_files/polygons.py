@@ -20,7 +20,6 @@ from .planar import Planar
 from .scaling import cross, dot, local, normals
 
 _AT_ONCE = 1 << 16  # faces: bounds the memory that they take meanwhile
-_BLURRED = 1e-3  # sizes of a face: it crosses itself if its edges do by more, however rounded
 _UNIT = 2.0**-53
 # The scalar product of a quad's two normals, with corners of at most 1 that are off by a unit: a
 # difference is off by 4 units, of at most 2; a component of a normal by 48 units, of at most 8; and
@@ -91,7 +90,7 @@ class _Found:
         with np.errstate(all="ignore"):
             rounding = self.bends.rounding(points) / np.ptp(points, axis=2).max(axis=0)
         for k in np.flatnonzero(~convex):
-            ear_parts, is_right = ears(Planar(points[:, k].T), min(rounding[k], _BLURRED))
+            ear_parts, is_right = ears(Planar(points[:, k].T), rounding[k])
             self._keep(faces[k : k + 1], corners[k][np.array(ear_parts)][None])
             self.crossing += [] if is_right else [int(faces[k])]
 

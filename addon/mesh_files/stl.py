@@ -9,6 +9,7 @@ import numpy as np
 from ..scene import SceneError
 from .contents import Contents
 from .meshes import contents
+from .words import floats, shown
 
 _HEAD = 84  # bytes: 80 of any text, and the number of triangles
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -66,10 +67,9 @@ def _text(content: bytes, stem: str) -> Contents:
             sizes.append(0)
             owners.append(current)
         elif key not in _OTHER:
-            shown = text.strip()[:40].decode("utf-8", "replace")
-            raise SceneError(f"line {line} is not understood: '{shown}'")
+            raise SceneError(f"line {line} is not understood: '{shown(text.strip())}'")
     if key != b"endsolid":
         raise SceneError("it is cut off: its last line is not 'endsolid'")
-    vertices = np.array(list(map(float, numbers)), np.float64).reshape(-1, 3)
+    vertices = floats(numbers).reshape(-1, 3)
     corners = np.arange(len(vertices))
     return contents(vertices, corners, np.array(sizes, np.intp), list(names), np.array(owners))

@@ -23,7 +23,7 @@ def test_mesh_to_png(ball, tmp_path, capsys):
     assert "24 x 16 pixels, 320 triangles" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("suffix", ["obj", "stl", "glb"])
+@pytest.mark.parametrize("suffix", ["obj", "off", "stl", "glb"])
 def test_other_meshes(suffix, tmp_path):
     trimesh.creation.box().export(tmp_path / f"box.{suffix}")
     assert trace(tmp_path / f"box.{suffix}", tmp_path / "box.png") == AGREE

@@ -14,6 +14,7 @@ import sys
 import traceback
 import warnings
 from collections import Counter
+from contextlib import redirect_stdout
 from dataclasses import replace
 from pathlib import Path
 
@@ -48,7 +49,8 @@ def read(path: Path, thorough: bool) -> None:
         if thorough:
             document.document_markdown(derive_pixel(pixel))
     else:
-        scene, _ = load(path, Choice(width=8, height=8))
+        with redirect_stdout(sys.stderr):  # what is said of it
+            scene, _ = load(path, Choice(width=8, height=8))
         for mesh in scene.meshes:
             assert np.isfinite(mesh.vertices).all()
         if thorough:

@@ -27,7 +27,8 @@ from reference_tracer.scene_files import save_scene
 from ..mesh_files.gltf_build import rich
 
 DAILY, LONG, AT_ONCE = 2_000, 100_000, 20_000
-SUFFIXES = {".npz", ".json", ".png", ".exr", ".obj", ".ply", ".stl", ".glb", ".gltf"}
+MESHES = {".obj", ".ply", ".stl", ".off", ".glb", ".gltf"}
+SUFFIXES = {".npz", ".json", ".png", ".exr"} | MESHES
 
 
 @pytest.fixture
@@ -45,7 +46,7 @@ def folder(make, tmp_path, rng):
     text = reproducer.text(gather_pixel(scene, 4, 4, source="scene.npz"))
     (valid / "pixel.json").write_text(text)
     shape = trimesh.creation.box()
-    for name in ("mesh.obj", "binary.ply", "binary.stl", "mesh.glb"):
+    for name in ("mesh.obj", "binary.ply", "binary.stl", "mesh.glb", "mesh.off"):
         shape.export(valid / name)
     shape.export(valid / "text.ply", encoding="ascii")
     shape.export(valid / "text.stl", file_type="stl_ascii")

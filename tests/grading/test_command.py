@@ -131,7 +131,7 @@ def test_the_command_for_a_pixel_can_be_typed(template, tmp_path, capsys):
     line = next(x for x in capsys.readouterr().out.splitlines() if "reftrace explain" in x)
     command = shlex.split(line.partition(": reftrace ")[2])
     assert main(command) == AGREE
-    assert "sees mesh.obj, triangle 0" in capsys.readouterr().out
+    assert "sees mesh, triangle 0" in capsys.readouterr().out
 
 
 def test_extremes(solution, capsys, monkeypatch):

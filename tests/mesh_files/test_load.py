@@ -22,7 +22,7 @@ from reference_tracer.tracer.vector import transform_points
 from .plys import write_ply
 
 
-@pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "glb"])
+@pytest.mark.parametrize("suffix", ["obj", "ply", "off", "stl", "glb"])
 def test_meshes_from_files(suffix, tmp_path):
     shape = trimesh.creation.torus(2.0, 0.5, major_sections=12, minor_sections=7)
     shape.apply_translation((3, 4, 5))
@@ -97,7 +97,7 @@ def world(contents):
     ]
 
 
-@pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "glb"])
+@pytest.mark.parametrize("suffix", ["obj", "ply", "off", "stl", "glb"])
 def test_y_up_is_the_file_turned_by_hand(suffix, tmp_path, rng):
     shape = trimesh.creation.icosphere(1)
     shape.vertices = (shape.vertices * rng.normal(size=3)).astype(np.float32)
@@ -125,7 +125,9 @@ def test_y_up_is_exact_where_a_file_places_its_meshes(tmp_path, rng):
         assert np.array_equal(a[..., [0, 2, 1]] * (1, -1, 1), b)
 
 
-@pytest.mark.parametrize("suffix, up", [("obj", "z"), ("ply", "z"), ("stl", "z"), ("glb", "y")])
+@pytest.mark.parametrize(
+    "suffix, up", [("obj", "z"), ("ply", "z"), ("off", "z"), ("stl", "z"), ("glb", "y")]
+)
 def test_which_axis_is_up_where_nobody_says(suffix, up, tmp_path):
     trimesh.creation.box((1, 2, 3)).export(tmp_path / f"a.{suffix}")
     default, named = (world(load_meshes(tmp_path / f"a.{suffix}", u)) for u in (None, up))
@@ -251,6 +253,31 @@ def test_there_is_no_such_file(load, kind, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(SceneError, match=r"^there is no file 'none\.ply'$"):
         load(kind("none.ply"))
+
+
+def test_a_mesh_that_is_placed_often_is_one_mesh_and_a_name_is_one_object():
+    same, other = (Mesh(np.eye(3) + k, [[0, 1, 2]], name="Mesh") for k in range(2))
+    far = trimesh.transformations.translation_matrix((5, 0, 0))
+    placed = (
+        Placed(same, np.eye(4), "first"),
+        Placed(other, np.eye(4), "first"),
+        Placed(same, far, "second"),
+    )
+    whole = scene_of_meshes(Contents(placed), None, 8, 8)
+    assert whole.meshes == (same, other) and whole.objects == ("first", "second")
+    assert [(i.mesh, i.object) for i in whole.instances] == [(0, 0), (1, 0), (0, 1)]
+    assert np.array_equal(whole.instances[2].world_from_object, far)
+    greys = [tuple(i.colors[0]) for i in whole.instances]
+    assert greys[0] == greys[1] != greys[2]
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".ply", ".off", ".stl", ".glb"])
+@pytest.mark.parametrize("content", [b"", bytes(200), bytes(range(256)), b"{}"])
+def test_what_is_no_mesh_at_all_gets_one_message(suffix, content, tmp_path):
+    path = tmp_path / f"a{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(SceneError, match=rf"^'{path}' (cannot be read as a mesh: |holds no tri)"):
+        load_meshes(path)
 
 
 def test_no_meshes():

@@ -141,7 +141,7 @@ BODY = "0 0 0\n1 0 0\n0 1 0\n"
 )
 def test_what_cannot_be_meant_is_refused(text, words, tmp_path):
     (tmp_path / "a.ply").write_text(text)
-    with pytest.raises(SceneError, match=words):
+    with pytest.raises((SceneError, ValueError), match=words):
         read_ply(tmp_path / "a.ply")
 
 

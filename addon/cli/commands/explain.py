@@ -41,16 +41,19 @@ class ExplainOptions:
         out, again = given.out, given.reproducer
         if out and again and out.resolve() == again.resolve():
             raise SceneError(f"--out and --reproducer are the same file, '{out}'")
+        choice = Choice()
         if given.scene.suffix.lower() == ".json":
             why = f"is not for '{given.scene}', which is one pixel by itself"
             refuse(given, ("pixel", "limit", *CAMERA_OPTIONS), why)
         elif given.pixel is None:
             raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
+        else:
+            choice = choice_from(given, given.scene)
         return cls(
             scene=given.scene,
             pixel=given.pixel,
             limit=given.limit or LIMIT,
-            choice=choice_from(given, given.scene),
+            choice=choice,
             out=out,
             reproducer=again,
         )
