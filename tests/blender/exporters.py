@@ -113,6 +113,7 @@ def _in_world_space() -> None:
 
 
 _SCALED = Cell("a polygon that is not flat is cut by its scaled shape", _in_world_space)
+_WRITES_HIDDEN = bpy.app.version >= (5, 2, 0)  # 4.2, 4.5 and 5.0 do not
 _EYE = Cell("what only the eye hides is written", lambda: _show("Hidden"))
 
 
@@ -129,7 +130,7 @@ _GLTF = {
 }
 CELLS: dict[tuple[str, str], Cell] = {
     **{("scales", suffix): _SCALED for suffix in ("obj", "ply")},
-    **{("hidden_and_empty", suffix): _EYE for suffix in ("ply", "stl")},
+    **({("hidden_and_empty", suffix): _EYE for suffix in ("ply", "stl")} if _WRITES_HIDDEN else {}),
     **{(scene, suffix): cell for scene, cell in _GLTF.items() for suffix in ("glb", "gltf")},
 }
 
