@@ -26,6 +26,7 @@ VALID = 0.3  # the least share of the sample that a camera must see in the trace
 KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
 LOOKED_UP = 512  # pixels in which the traced picture is looked up
 FINER = 1 / 8  # pixels: the first step where a fit is made finer
+ENOUGH = 0.99  # of the sample: with as many right, no other start is fitted
 BETTER = 0.03  # by how much larger the share of right pixels must be for a start
 BEYOND = 1e6  # times as far as the farthest surface: where the background is taken to be
 
@@ -129,11 +130,14 @@ def fitting(family: Family) -> tuple[Find, Refine]:
         return found and replace(found, words=words)
 
     def find(evidence: Evidence) -> Work[list[Guess]]:
-        out = []
+        out: list[Guess] = []
         for start in (yield from _likely(evidence, family)):
             guess = yield from refine(evidence, Guess(start))
             if guess:
                 out.append(guess)
+                right = yield from _Traced(evidence, family).right(guess.values)
+                if right >= ENOUGH * len(evidence.was_open):
+                    break
         return out
 
     return find, refine
@@ -148,7 +152,7 @@ def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
     if family.camera(camera, *none) is None:
         return []
     least = family.look_up(evidence, camera) + BETTER
-    scores: list[tuple[float, Values]] = [(2.0, none)]  # nearer than a pixel nothing can be seen
+    scores: list[tuple[float, Values]] = [(least, none)]  # nearer than a pixel nothing can be seen
     for number, values in enumerate(family.starts(evidence)):
         other = family.camera(camera, *values)
         if other is not None:

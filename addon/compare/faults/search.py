@@ -60,7 +60,7 @@ class Search:
         self.all_axes = self.axes if unseen is None else np.hstack((self.axes, unseen))
         self.finest = finest
         self.least = least  # right pixels after large steps, for smaller ones to be worth while
-        self.widest = np.zeros(len(self.axes))  # half the region, along where it is the widest
+        self.widest: Floats = np.zeros(len(self.axes))  # half the region, along where it is the widest
         self._known: dict[Values, int] = {}
 
     def guess(
@@ -122,7 +122,7 @@ class Search:
                 best, most = there, found
         return best, most
 
-    def _region(self, known: Sequence[Floats], right: int) -> Work[Floats]:
+    def _region(self, known: list[Floats], right: int) -> Work[Floats]:
         """Return the ends of the region around a place in which as many are right, (n, m).
 
         The place is the first of those that are known to lie in it. The region is convex, as far as
@@ -130,8 +130,9 @@ class Search:
         direction. So its ends are looked for along its own axes, which are found from the ends that
         are known so far.
         """
-        ends, centre = [*known], known[0]
-        axes = self.all_axes if len(known) == 1 else self._own_axes(np.array(ends))
+        ends = [*known]
+        centre: Floats = known[0]
+        axes: Floats = self.all_axes if len(known) == 1 else self._own_axes(np.array(ends))
         alone = axes.shape[1] == 1
         first, far = (self.finest, FARTHEST) if len(known) == 1 else (CLOSE, 4.0)
         for number in range(1 if alone else ROUNDS):
@@ -143,7 +144,7 @@ class Search:
                     ends.append((yield from self._end(centre, along, right, first, far, close)))
             axes = self._own_axes(np.array(ends))
             first, far = CLOSE, 4.0
-            mean: Floats = np.mean(ends, axis=0)
+            mean: Floats = np.array(ends).mean(axis=0)
             if (yield from self.right(_values(mean))) >= right:
                 centre = mean
             if number and _size(ends) < GROWN * size:
