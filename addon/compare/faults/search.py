@@ -60,7 +60,9 @@ class Search:
         self.all_axes = self.axes if unseen is None else np.hstack((self.axes, unseen))
         self.finest = finest
         self.least = least  # right pixels after large steps, for smaller ones to be worth while
-        self.widest: Floats = np.zeros(len(self.axes))  # half the region, along where it is the widest
+        self.widest: Floats = np.zeros(
+            len(self.axes)
+        )  # half the region, along where it is the widest
         self._known: dict[Values, int] = {}
 
     def guess(
