@@ -166,6 +166,7 @@ def _stamp(picture: np.ndarray) -> np.ndarray:
 
 PICTURE_FAULTS = (
     Fault("rows", "from the top", afterwards(np.flipud)),
+    Fault("picture_turned", "by 180 degrees", afterwards(lambda p: p[::-1, ::-1])),
     colors("exposure", "+0.6 stops", lambda c: c * 2**0.6, stops=0.6),
     colors("exposure", "-0.15 stops", lambda c: c * 2**-0.15, stops=-0.15),
     colors("gamma", "1.6", lambda c: c ** (1 / 1.6), gamma=1.6),

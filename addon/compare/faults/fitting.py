@@ -22,6 +22,8 @@ from .fault import Find, Guess, Refine
 from .search import Search, Values
 
 REACH = 4.0  # pixels that rays may pass beside where they start; beyond, they start anew
+FINE_REACH = 1.0  # pixels, where a fit is made finer: fewer triangles are near
+PREPARED = 2  # cameras at most, so that none is prepared again where a search goes to and fro
 VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
 KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
 LOOKED_UP = 512  # pixels in which the traced picture is looked up
@@ -118,7 +120,7 @@ def fitting(family: Family) -> tuple[Find, Refine]:
 
     def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
         search = Search(
-            _Traced(evidence, family).right,
+            _Traced(evidence, family, FINE_REACH if guess.low else REACH).right,
             family.axes(evidence),
             least=evidence.least_right,
             unseen=family.unseen(evidence),
@@ -176,10 +178,11 @@ class _Traced:
     they meet is seen near enough by it.
     """
 
-    def __init__(self, evidence: Evidence, family: Family) -> None:
+    def __init__(self, evidence: Evidence, family: Family, reach: float = REACH) -> None:
         self.evidence = evidence
         self.family = family
-        self.probe: Probe | None = None
+        self.reach = reach
+        self.probes: list[Probe] = []  # the last one first
 
     def right(self, values: Values) -> Work[int]:
         """Return how many pixels agree, -1 if there is no such camera."""
@@ -187,10 +190,12 @@ class _Traced:
         camera = self.family.camera(evidence.case.scene.camera, *values)
         if camera is None:
             return -1
-        if self.probe is None or not self._near(self.probe.scene.camera, camera):
+        probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
+        if probe is None:
             scene = evidence.case.scene.seen_by(camera)
-            self.probe = yield from evidence.probe(scene, REACH)
-        probe = replace(self.probe, scene=self.probe.scene.seen_by(camera))
+            probe = yield from evidence.probe(scene, self.reach)
+            self.probes = [probe, *self.probes[: PREPARED - 1]]
+        probe = replace(probe, scene=probe.scene.seen_by(camera))
         hits = yield from probe.trace()
         return int(evidence.agrees(probe.scene, hits).sum())
 
@@ -203,4 +208,5 @@ class _Traced:
             beside = film_beside_camera(prepared, camera, *film) - film
             moved = now - before
         same_place = np.array_equal(prepared.origin, camera.origin)
-        return bool((np.abs(beside).max() if same_place else np.nanmax(np.abs(moved))) <= REACH)
+        apart = np.abs(beside).max() if same_place else np.nanmax(np.abs(moved))
+        return bool(apart <= self.reach)

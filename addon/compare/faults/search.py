@@ -24,11 +24,12 @@ FINEST = 1 / 512  # of a unit, which is about a pixel
 WIDE = {1: 4, 2: 2}
 NARROW = {1: 2}
 COARSE = 1 / 2  # of a unit: with smaller steps only the best start is followed
+ROUGH = 1 / 32  # of a unit: the last step where a finer fit follows
 ASKEW = 8  # directions besides those of the axes, where there are three numbers
 FARTHEST = 256.0  # units to which a number is enclosed, at most
 ROUNDS = 5  # in which a region of several numbers is enclosed, at most
 GROWN = 1.2  # times as large after a round: then there is another one
-CLOSE = 1 / 16  # of the region's half width: how finely its ends are looked for
+CLOSE = 1 / 8  # of the region's half width: how finely its ends are looked for
 WIDER = 1.3  # times as wide as what was reached: the region's corners lie beyond
 DIGITS = range(-1, 5)  # that a number is told with, beside those of its interval
 
@@ -81,7 +82,8 @@ class Search:
             return None
         # What stopped on a ridge goes on from there with larger steps, once.
         best, _ = yield from self.climbed(best, step / 2, COARSE)
-        best, right = yield from self.climbed(best, min(step, COARSE), self.finest)
+        last = self.finest if enclose else ROUGH
+        best, right = yield from self.climbed(best, min(step, COARSE), last)
         if not enclose:
             return Guess(best, best, best, object=name)
         places = yield from self._region([np.array(best)], right)
@@ -149,7 +151,7 @@ class Search:
             mean: Floats = np.array(ends).mean(axis=0)
             if (yield from self.right(_values(mean))) >= right:
                 centre = mean
-            if number and _size(ends) < GROWN * size:
+            if (number or len(known) > 1) and _size(ends) < GROWN * size:
                 break
         self.widest = axes[:, np.argmax(np.linalg.norm(axes, axis=0))]
         return np.array(ends)
@@ -228,7 +230,7 @@ def _spokes(count: int) -> Floats:
     """Return the directions in which a region's ends are looked for, (n, count) unit vectors."""
     if count == 1:
         return np.eye(1)
-    askew = np.random.default_rng(SEED).normal(size=(2 * count, count))
+    askew = np.random.default_rng(SEED).normal(size=(count, count))
     return np.concatenate((np.eye(count), askew / np.linalg.norm(askew, axis=1, keepdims=True)))
 
 
