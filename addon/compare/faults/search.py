@@ -31,6 +31,9 @@ ROUNDS = 5  # in which a region of several numbers is enclosed, at most
 GROWN = 1.2  # times as large after a round: then there is another one
 CLOSE = 1 / 8  # of the region's half width: how finely its ends are looked for
 WIDER = 1.3  # times as wide as what was reached: the region's corners lie beyond
+ANEW = 4  # times that a region is left for a better place beside it, at most
+BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units: how far from it these are looked for
+LOTS = 12  # places at each of these distances
 DIGITS = range(-1, 5)  # that a number is told with, beside those of its interval
 
 
@@ -61,9 +64,7 @@ class Search:
         self.all_axes = self.axes if unseen is None else np.hstack((self.axes, unseen))
         self.finest = finest
         self.least = least  # right pixels after large steps, for smaller ones to be worth while
-        self.widest: Floats = np.zeros(
-            len(self.axes)
-        )  # half the region, along where it is the widest
+        self.own = self.all_axes  # half the region along each of its own axes, (m, k)
         self._known: dict[Values, int] = {}
 
     def guess(
@@ -86,7 +87,17 @@ class Search:
         best, right = yield from self.climbed(best, min(step, COARSE), last)
         if not enclose:
             return Guess(best, best, best, object=name)
-        places = yield from self._region([np.array(best)], right)
+        for _ in range(ANEW):
+            places = yield from self._region([np.array(best)], right)
+            beside = yield from self._beside(np.array(best))
+            better = max(beside.values())
+            if better <= right:
+                break
+            there = next(place for place, found in beside.items() if found == better)
+            best, right = yield from self.climbed(there, COARSE / 2, self.finest)
+        # As many are right there, too, with fewer between.
+        as_good = [place for place, found in beside.items() if found == right]
+        places = np.array([*places, *as_good])
         told = yield from self._told(best, places, right)
         if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
             places = yield from self._region([np.array(told), *places], right)
@@ -153,8 +164,18 @@ class Search:
                 centre = mean
             if (number or len(known) > 1) and _size(ends) < GROWN * size:
                 break
-        self.widest = axes[:, np.argmax(np.linalg.norm(axes, axis=0))]
+        self.own = axes
         return np.array(ends)
+
+    def _beside(self, centre: Floats) -> Work[dict[Values, int]]:
+        """Return how many are right at some places near a region, drawn by lot."""
+        rng = np.random.default_rng(SEED)
+        out = {}
+        for far in BESIDE:
+            for direction in rng.normal(size=(LOTS, self.axes.shape[1])):
+                there = _values(centre + far * self.axes @ direction)
+                out[there] = yield from self.right(there)
+        return out
 
     def _own_axes(self, ends: Floats) -> Floats:
         """Return half the region of some places (n, m) along each of its own axes, (m, k)."""
@@ -188,9 +209,10 @@ class Search:
         width = ends.max(axis=0) - ends.min(axis=0)
         if len(best) == 1:
             return (yield from self._rounded(middle, width, right)) or best
+        widest = self.own[:, np.argmax(np.linalg.norm(self.own, axis=0))]
         found: list[Values] = []
         for start in (middle, np.array(best)):
-            for place in _simplest(start, self.widest):
+            for place in _simplest(start, widest):
                 told = yield from self._rounded(place, width, right)
                 if told:
                     found.append(told)
