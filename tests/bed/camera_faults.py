@@ -59,8 +59,13 @@ def focal(share: float) -> Fault:
 
 def s_focal(scene: Description, ratio: float) -> np.ndarray:
     """Return what another focal length does: the principal point stays."""
+    return s_focals(scene, ratio, ratio)
+
+
+def s_focals(scene: Description, across: float, up: float) -> np.ndarray:
+    """Return what one focal length across and another one up do."""
     u, v = camera_of(scene).k[:2, 2]
-    return moved(u, v) @ np.diag((ratio, ratio, 1.0)) @ moved(-u, -v)
+    return moved(u, v) @ np.diag((across, up, 1.0)) @ moved(-u, -v)
 
 
 def angle(share: float) -> Fault:
@@ -133,6 +138,39 @@ def pose(change: Callable[[np.ndarray], np.ndarray]) -> Callable:
         return posed(camera, change(own))
 
     return with_camera(changed)
+
+
+def stand(right: float, up: float, forward: float) -> Fault:
+    """Return a camera moved along its own axes."""
+
+    def change(matrix: np.ndarray) -> np.ndarray:
+        matrix = matrix.copy()
+        matrix[:3, 3] += matrix[:3, :3] @ (right, up, -forward)
+        return matrix
+
+    numbers = {"right": right, "up": up, "forward": forward}
+    return Fault("camera_moved", f"{right:+g}, {up:+g}, {forward:+g} m", pose(change), numbers)
+
+
+def turned(pan: float, tilt: float) -> Fault:
+    """Return a camera turned to the right, then upwards, by degrees."""
+
+    def change(matrix: np.ndarray) -> np.ndarray:
+        p, t = np.radians((-pan, tilt))
+        about_y = [[np.cos(p), 0, np.sin(p)], [0, 1, 0], [-np.sin(p), 0, np.cos(p)]]
+        about_x = [[1, 0, 0], [0, np.cos(t), -np.sin(t)], [0, np.sin(t), np.cos(t)]]
+        matrix = matrix.copy()
+        matrix[:3, :3] = matrix[:3, :3] @ about_y @ about_x
+        return matrix
+
+    numbers = {"pan": pan, "tilt": tilt}
+    return Fault("camera_turned", f"{pan:+g}, {tilt:+g} degrees", pose(change), numbers)
+
+
+def _last_pixel(scene: Description) -> np.ndarray:
+    """Return what spans the film from the first pixel's centre to the last one's."""
+    width, height = scene.film.size
+    return magnified(scene, (width - 1) / width, (height - 1) / height)
 
 
 def _transposed(matrix: np.ndarray) -> np.ndarray:
@@ -225,6 +263,13 @@ CAMERA_FAULTS = (
     roll(1.5),
     roll(-0.2),
     roll(90.0),
+    stand(0.05, -0.02, 0.04),
+    stand(-0.3, 0.2, 0.5),
+    turned(0.5, 0.3),
+    turned(-3.0, 2.0),
+    Fault("last_pixel", "", film(_last_pixel)),
+    Fault("focal_lengths", "+3, -2 %", film(lambda s: s_focals(s, 1.03, 0.98)), only=(1, 4, 5, 6)),
+    Fault("shift_length", "taken for millimetres", _shift(1 / 36, 1 / 36), only=(3,)),
     Fault("mirrored_x", "", axes(-1, 1, 1)),
     Fault("mirrored_y", "", axes(1, -1, 1)),
     Fault("matrix_transposed", "", pose(_transposed)),

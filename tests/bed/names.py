@@ -106,16 +106,28 @@ def _of_camera(scene: Description, made: Made) -> list[tuple[str, str]]:
             return [("pixel_offset", f"the content moved by ({x:+.4g}, {y:+.4g}) px")]
         ratio = film[0, 0]
         middle = own.k[:2, 2]
-        stays = np.allclose(film[:2, :2], ratio * np.eye(2), **close)
-        stays = stays and np.allclose(film[:2, :2] @ middle + film[:2, 2], middle, atol=1e-6)
-        if stays and ratio > 0 and abs(ratio - 1) > EXACT:
+        straight = abs(film[0, 1]) + abs(film[1, 0]) < EXACT and film[1, 1] > 0 < ratio
+        stays = straight and np.allclose(film[:2, :2] @ middle + film[:2, 2], middle, atol=1e-6)
+        if stays and abs(film[1, 1] - ratio) > EXACT:
+            by = f"{ratio:.6g} across and {film[1, 1]:.6g} up"
+            return [("focal_lengths", f"the film stretched by {by} around the principal point")]
+        if stays and abs(ratio - 1) > EXACT:
             key = "ortho_scale" if own.parallel else "focal_length"
             return [(key, f"the film magnified by {ratio:.6g} around the principal point")]
+    if not np.array_equal(own.k, other.k):
+        return []
+    if np.allclose(turn, np.eye(3), **close):
+        by = np.round(other.center - own.center, 6).tolist()
+        names = ["camera_moved", *(["pixel_offset"] if own.parallel else [])]
+        return [(key, f"the camera moved by {by} m") for key in names]
     turned = np.allclose(turn[2], (0, 0, 1), **close) and np.allclose(turn @ turn.T, np.eye(3))
     if turned and np.linalg.det(turn) > 0 and np.allclose(turn @ own.t, other.t):
         angle = np.degrees(np.arctan2(turn[1, 0], turn[0, 0]))
         if np.array_equal(own.k, other.k) and abs(angle) > 1e-6:
             return [("roll", f"turned by {angle:+.4g} degrees about the view axis")]
+    rotation = np.allclose(turn @ turn.T, np.eye(3)) and np.linalg.det(turn) > 0
+    if rotation and np.allclose(own.center, other.center, atol=1e-9):
+        return [("camera_turned", "turned in its place")]
     return []
 
 

@@ -273,6 +273,7 @@ PICTURE_FAULTS = (
     Fault("row_off", "one down", afterwards(lambda p: np.roll(p, 1, axis=0))),
     Fault("row_off", "one up", afterwards(lambda p: np.roll(p, -1, axis=0))),
     Fault("row_off", "one to the left", afterwards(lambda p: np.roll(p, -1, axis=1))),
+    Fault("picture_turned", "by 180 degrees", afterwards(lambda p: p[::-1, ::-1])),
     colors("exposure", "+0.6 stops", lambda c: c * 2**0.6, stops=0.6),
     colors("exposure", "-0.15 stops", lambda c: c * 2**-0.15, stops=-0.15),
     colors("gamma", "1.6", lambda c: c ** (1 / 1.6), gamma=1.6),

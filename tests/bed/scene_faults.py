@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from .description import Description, Item, Shape
-from .making import Change, Fault, Made
-from .renderer import Solid
+from .making import Change, Fault, Made, once
+from .renderer import Camera, Solid, Tracer
 from .setup import placed, solid_of
 
 # Which object a fault is made with, by the scene's number: in the foreground, then a smaller one.
@@ -108,6 +108,29 @@ def _no_parent_inverse(scene: Description, item: Item, own: Solid) -> Solid:
     return replace(own, vertices=placed(item.shape.vertices, at))
 
 
+def _exchanged(scene: Description, made: Made) -> Made:
+    """Return two objects at each other's places."""
+    first, second = (scene.item(of[scene.number]) for of in (FIRST, SECOND))
+    for item, other in ((first, second), (second, first)):
+        at = other.world(scene.frame)
+        own = replace(solid_of(item, scene.frame), vertices=placed(item.shape.vertices, at))
+        made = exchanged(made, item.name, own)
+    return made
+
+
+def layered(order: Callable[[Camera, Sequence[Solid]], np.ndarray]) -> Change:
+    """Return the picture in which solids are drawn one over the other, the lowest number first."""
+
+    def drawn(made: Made) -> np.ndarray:
+        out = once(replace(made, solids=()))
+        for n in np.argsort(order(made.camera, made.solids), kind="stable"):
+            alone = Tracer(made.camera, (made.solids[n],)).owners() >= 0
+            out[alone] = made.solids[n].color
+        return out
+
+    return lambda _, made: replace(made, draw=drawn)
+
+
 def without(of: dict[int, str], half: bool) -> Change:
     """Return an object without half its triangles, drawn by lot, or without the first of them."""
 
@@ -185,6 +208,8 @@ SCENE_FAULTS = (
     moved(FIRST, 0.03, -0.02, 0.01),
     moved(FIRST, 0.4, -0.3, 0.2),
     moved(SECOND, 0.0, 0.0, 0.15),
+    Fault("swapped_transforms", "", _exchanged),
+    Fault("depth_order", "as listed", layered(lambda _, solids: np.arange(len(solids)))),
     scaled(FIRST, 1.15),
     scaled(FIRST, 0.01),
     scaled(FIRST, 100.0),

@@ -12,6 +12,7 @@ import numpy as np
 from ...compare.case import Variant
 from ...scene import Camera, SceneError
 from ..reading.camera import camera_axes, export_camera, projection_of, window_of
+from .matrices import without_scale
 from .origin import Origin
 
 MOST = 8  # other cameras
@@ -86,3 +87,6 @@ def _placed(origin: Origin) -> Iterator[tuple[str, str, Camera]]:
     yield "parent_left_out", name, replace(camera, world_from_camera=basis)
     without = camera_axes(obj.parent.matrix_world @ obj.matrix_basis, obj.name)
     yield "parent_inverse", name, replace(camera, world_from_camera=without)
+    above = without_scale(obj.parent.matrix_world)
+    unscaled = camera_axes(above @ obj.matrix_parent_inverse @ obj.matrix_basis, obj.name)
+    yield "parent_scale", name, replace(camera, world_from_camera=unscaled)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from mathutils import Matrix
 
 from ...arrays import Floats
 from ...compare.case import Variant
@@ -26,7 +27,19 @@ def variants(origin: Origin) -> Iterator[Variant]:
     yield from _all_and_each(
         origin, "parent_inverse", parented, lambda o: o.parent.matrix_world @ o.matrix_basis
     )
+    yield from _all_and_each(
+        origin,
+        "parent_scale",
+        parented,
+        lambda o: without_scale(o.parent.matrix_world) @ o.matrix_parent_inverse @ o.matrix_basis,
+    )
     yield from _instances(origin)
+
+
+def without_scale(matrix: Any) -> Any:
+    """Return the place and the rotation of a matrix of Blender's, as it takes them apart."""
+    place, rotation, _ = matrix.decompose()
+    return Matrix.LocRotScale(place, rotation, None)
 
 
 def _all_and_each(

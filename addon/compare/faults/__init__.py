@@ -8,6 +8,7 @@ from .fault import Example, Fault
 from .given import GIVEN_FAULTS
 from .lens import LENS_FAULTS
 from .objects import OBJECT_FAULTS
+from .order import ORDER_FAULTS
 from .picture import PICTURE_FAULTS
 from .triangles import TRIANGLE_FAULTS
 from .view import VIEW_FAULTS
@@ -16,10 +17,11 @@ FAULTS: tuple[Fault, ...] = (
     *CAMERA_FAULTS,
     *LENS_FAULTS,
     *VIEW_FAULTS,
+    *GIVEN_FAULTS,
     *OBJECT_FAULTS,
     *TRIANGLE_FAULTS,
     *COLOR_FAULTS,
-    *GIVEN_FAULTS,
+    *ORDER_FAULTS,
     *PICTURE_FAULTS,
 )
 # Those that the self-check makes, and how, in the order in which it does.

@@ -9,8 +9,13 @@ import numpy as np
 
 from ...arrays import Array
 from ...scene import Camera, ViewWindow
-from .fault import Example, Fault, of_camera, options, with_values
-from .film import FOCAL, OFFSET, ROLL, fitting
+from ...tracer.camera import pixel_size
+from ...tracer.frame import Frame
+from ..case import Case
+from .fault import Example, Fault, Guess, of_camera, options, with_values
+from .film import FOCAL, FOCALS, OFFSET, ROLL
+from .fitting import fitting
+from .stand import MOVED, TURNED
 
 # World space with Y up, as many formats have it, from Blender's with Z up.
 _Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
@@ -58,7 +63,18 @@ def flipped(camera: Camera, axis: int) -> Camera:
     return replace(turned, window=ViewWindow(*sides))
 
 
-_OFFSET, _FOCAL, _ROLL = (fitting(family) for family in (OFFSET, FOCAL, ROLL))
+def _a_pixel_aside(case: Case, frame: Frame) -> Guess | None:
+    """Pick a move that moves what is seen halfway deep by a pixel."""
+    t = frame.t[np.isfinite(frame.t)]
+    if not len(t):
+        return None
+    camera = case.scene.camera
+    width = pixel_size(camera)[0] * camera.projection.scale(float(np.median(t)))
+    return Guess((float(width), 0.0, 0.0), words="")
+
+
+_OFFSET, _FOCAL, _FOCALS, _ROLL = map(fitting, (OFFSET, FOCAL, FOCALS, ROLL))
+_MOVED, _PANNED = fitting(MOVED), fitting(TURNED)
 _MIRRORED_X = options(_axes(lambda axes: axes * (-1, 1, 1)), lambda camera: flipped(camera, 0))
 _MIRRORED_Y = options(_axes(lambda axes: axes * (1, -1, 1)))
 _TRANSPOSED = options(_axes(np.transpose), _axes(np.transpose, at_origin=True))
@@ -78,7 +94,8 @@ CAMERA_FAULTS = (
         "pixel_offset",
         "{words}: ({dx:+.3f}, {dy:+.3f}) px",
         "move the film position of every ray by that: pixel (i, j) has its centre at "
-        "(i + 1/2, j + 1/2), and the principal point is at half of the width and the height",
+        "(i + 1/2, j + 1/2), and the principal point is at half of the width and the height, plus "
+        "the shift",
         of_camera(OFFSET.camera),
         _OFFSET[0],
         ("dx", "dy"),
@@ -126,6 +143,47 @@ CAMERA_FAULTS = (
         ("percent",),
         refine=_FOCAL[1],
         effort=1,
+    ),
+    Fault(
+        "focal_lengths",
+        "the focal length is {across:+.4g} % off across, and {up:+.4g} % up",
+        "take one focal length for both, in pixels; a pixel is pixel aspect Y / X as high as it is "
+        "wide; remove the scale of the camera and its parents",
+        of_camera(FOCALS.camera),
+        _FOCALS[0],
+        ("across", "up"),
+        refine=_FOCALS[1],
+        effort=1,
+    ),
+    Fault(
+        "camera_moved",
+        "the camera is moved by {right:+.4g} m to its right, {up:+.4g} m upwards and "
+        "{forward:+.4g} m forward: by {words} in the world",
+        "compare its world matrix with the one that the scene has",
+        of_camera(MOVED.camera),
+        _MOVED[0],
+        ("right", "up", "forward"),
+        refine=_MOVED[1],
+        effort=1,
+        examples=(
+            Example("camera_moved", "the camera moved by a pixel to its right", _a_pixel_aside),
+        ),
+    ),
+    Fault(
+        "camera_turned",
+        "the camera is turned by {right:+.4g} degrees to the right, {up:+.4g} upwards, and rolled "
+        "by {roll:+.4g}",
+        "compare its world matrix with the one that the scene has, and the order of its angles",
+        of_camera(TURNED.camera),
+        _PANNED[0],
+        ("right", "up", "roll"),
+        refine=_PANNED[1],
+        effort=1,
+        examples=(
+            Example(
+                "camera_turned", "the camera turned by half a degree", with_values(0.4, 0.3, 0)
+            ),
+        ),
     ),
     Fault(
         "roll",

@@ -56,13 +56,18 @@ GIVEN_FAULTS = (
     ),
     _given(
         "camera_scale",
-        "the scale of the camera object is not removed",
-        "divide each axis of the camera's matrix by its length",
+        "the scale of the camera, or of its parents, is not removed",
+        "divide each axis of the camera's matrix by its length: Blender's cameras have no scale",
     ),
     _given(
         "parent_left_out",
         "the parent's transform is left out: {words}",
         "use matrix_world, which has the parent's transform and its inverse",
+    ),
+    _given(
+        "parent_scale",
+        "the parent's scale is left out: {words}",
+        "use matrix_world: the parent's scale moves and scales what is parented to it",
     ),
     _given(
         "parent_inverse",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -71,18 +72,44 @@ def _shifts(of: Callable[[Camera, float, float], tuple[float, float]]) -> Change
     return change
 
 
-def _square(by_width: bool) -> Change:
-    """Return what takes pixels for squares, as wide or as high as they are."""
+def _square(by_width: bool, shifted: bool) -> Change:
+    """Return what takes pixels for squares, as wide or as high as they are.
+
+    The window's distance from the axis is in pixels, too, or is kept.
+    """
 
     def change(camera: Camera) -> Camera | None:
         width, height = pixel_size(camera)
         if np.isclose(width, height, rtol=1e-6):
             return None
-        return (
-            _scaled(1, width / height, camera) if by_width else _scaled(height / width, 1, camera)
-        )
+        x, y = (1, width / height) if by_width else (height / width, 1)
+        return _scaled(x, y, camera) if shifted else window(camera, x, y, centre(camera))
 
     return change
+
+
+def _spanned(across: bool, up: bool) -> Callable[[Camera], Camera | None]:
+    """Return what spans the picture from the first pixel's centre to the last one's."""
+
+    def change(camera: Camera) -> Camera | None:
+        w, h = camera.width, camera.height
+        if not camera.projection.is_linear or min(w, h) < 2:
+            return None
+        x, y = (w / (w - 1) if across else 1, h / (h - 1) if up else 1)
+        return window(camera, x, y, centre(camera))
+
+    return change
+
+
+def _in_length(factor: Callable[[Camera], float]) -> Change:
+    """Return what multiplies both shifts, as those of another unit."""
+    return _shifts(lambda camera, x, y: (factor(camera) * x, factor(camera) * y))
+
+
+def _sides(camera: Camera) -> tuple[float, float]:
+    """Return the width and the height of the picture in pixels' widths."""
+    width, height = pixel_size(camera)
+    return camera.width, camera.height * height / width
 
 
 def _orthographic(factor: Callable[[Camera], float]) -> Change:
@@ -124,6 +151,7 @@ def _other_border(camera: Camera) -> Camera | None:
     return replace(camera, region=Region(r.x0, rows[0], r.x1, rows[1]))
 
 
+SENSOR = 36.0  # millimetres: the width that Blender's cameras have unless it is changed
 PARTS = (0.25, 0.5, 0.75, 2.0, 4.0)  # sizes for which a percentage of the resolution is tried
 
 _FIT = options(*(_fits(power, shifted) for power in (1, -1) for shifted in (True, False)))
@@ -141,7 +169,21 @@ _UNIT = options(
     _shifts(lambda camera, x, y: (x / 2, y / 2)),
     _shifts(lambda camera, x, y: (2 * x, 2 * y)),
 )
-_SQUARE = options(_square(True), _square(False))
+_LENGTH = options(
+    *(
+        _in_length(partial(factor, power=power))
+        for power in (-1, 1)
+        for factor in (
+            lambda camera, power: SENSOR**power,
+            lambda camera, power: max(_sides(camera)) ** power,
+            lambda camera, power: min(_sides(camera)) ** power,
+        )
+    )
+)
+_SQUARE = options(
+    *(_square(by_width, shifted) for shifted in (True, False) for by_width in (True, False))
+)
+_SPANNED = options(_spanned(True, True), _spanned(True, False), _spanned(False, True))
 _PERCENTAGE = options(*(_part(scale, top) for scale in PARTS for top in (True, False)))
 _SCALE = options(
     _orthographic(_aspect),
@@ -175,6 +217,23 @@ LENS_FAULTS = (
         "the camera's shift is in another unit",
         "both shifts are in lengths of the side that the sensor is fitted to",
         *_UNIT,
+    ),
+    Fault(
+        "shift_length",
+        "the camera's shift is taken for millimetres or pixels, or these for a shift",
+        "a shift is in lengths of the side that the sensor is fitted to: divide millimetres by the "
+        "sensor's width, pixels by the picture's",
+        *_LENGTH,
+    ),
+    Fault(
+        "last_pixel",
+        "the picture is spanned from the first pixel's centre to the last one's: by width - 1 and "
+        "height - 1",
+        "the edge of the view is the edge of the outer pixels: u = (i + 1/2) / width",
+        *_SPANNED,
+        examples=(
+            Example("last_pixel", "width - 1 and height - 1 in place of both", with_values(0)),
+        ),
     ),
     Fault(
         "pixel_aspect_left_out",

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 
-from ...scene import Instance
+from ...scene import Instance, Scene
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
 from ..evidence import Evidence
-from .fault import Example, Fault, Guess, of_object
+from .fault import Example, Fault, Guess, instances_named, of_object
 from .pose import DISPLACED, MOVED, SCALED, TWICE, copied, inflated, moved, scaled
 from .suspects import largest, seen_instances, suspects
 
+SHEARED = 1e-6  # of the longest axis' square: products of axes below are rounding
 UNITS = (0.01, 100.0, 0.001, 1000.0, 0.1, 10.0, 0.0254, 1 / 0.0254, 0.3048, 1 / 0.3048)
 
 
@@ -46,6 +48,74 @@ def _without_parts(instance: Instance, part: float) -> Instance:
     else:
         other[:3, 3] = 0
     return replace(instance, world_from_object=other)
+
+
+def _unsheared(instance: Instance, way: float) -> Instance:
+    """Make a matrix of its own place, rotation and scale, which can hold no shear.
+
+    The scale is the length of the axes. The rotation is that of the first axis and the plane of the
+    first two, or that nearest to all three (polar decomposition: Higham 1986).
+    """
+    matrix = instance.world_from_object.copy()
+    lengths = np.linalg.norm(matrix[:3, :3], axis=0)
+    axes = matrix[:3, :3] / np.where(lengths > 0, lengths, 1)
+    if way:
+        u, _, v = np.linalg.svd(axes)
+        rotation = u @ v
+    else:
+        q, r = np.linalg.qr(axes)
+        rotation = q * np.where(np.diag(r) < 0, -1, 1)
+    matrix[:3, :3] = rotation * lengths
+    return replace(instance, world_from_object=matrix)
+
+
+def _sheared(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the suspects whose axes are not at right angles, in both ways."""
+    scene = evidence.case.scene
+    found = []
+    for name in evidence.suspects:
+        for n in instances_named(scene, name)[:1]:
+            axes = scene.instances[n].world_from_object[:3, :3]
+            products = (axes.T @ axes)[np.triu_indices(3, 1)]
+            if np.abs(products).max() > SHEARED * np.abs(axes).max() ** 2:
+                found += [Guess((way,), object=name) for way in (0.0, 1.0)]
+    return found
+    yield
+
+
+def _exchanged(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    """Return the case with two objects at each other's places; the values are their instances'."""
+    first, second = (int(v) for v in guess.values)
+
+    def exchanged(scene: Scene) -> Scene:
+        instances = list(scene.instances)
+        if max(first, second) < len(instances):
+            a, b = instances[first], instances[second]
+            instances[first] = replace(a, world_from_object=b.world_from_object)
+            instances[second] = replace(b, world_from_object=a.world_from_object)
+        return replace(scene, instances=tuple(instances))
+
+    return case.with_scenes(exchanged)
+
+
+def _pairs(evidence: Evidence) -> Work[list[Guess]]:
+    """Return each two of the suspects."""
+    scene = evidence.case.scene
+    own = {name: instances_named(scene, name) for name in evidence.suspects}
+    return [
+        Guess((float(own[a][0]), float(own[b][0])), words=f"'{a}' and '{b}'")
+        for a, b in combinations([name for name in own if len(own[name]) == 1], 2)
+    ]
+    yield
+
+
+def _two(case: Case, frame: Frame) -> Guess | None:
+    """Pick the two instances that are seen in the most pixels."""
+    seen = seen_instances(case, frame)[:2]
+    if len(seen) < 2:
+        return None
+    names = (f"'{case.scene.objects[case.scene.instances[n].object]}'" for n in seen)
+    return Guess(tuple(float(n) for n in seen), words=" and ".join(names))
 
 
 def _units_or_fitted(evidence: Evidence) -> Work[list[Guess]]:
@@ -111,6 +181,21 @@ OBJECT_FAULTS = (
         "multiply its vertices by its whole world matrix",
         of_object(lambda instance: _without_parts(instance, 3)),
         suspects(),
+    ),
+    Fault(
+        "shear_left_out",
+        "the shear of '{object}' is left out: it has the location, rotation and scale alone",
+        "a child that is turned in a parent with a scale is sheared: store its whole world matrix",
+        of_object(_unsheared),
+        _sheared,
+    ),
+    Fault(
+        "swapped_transforms",
+        "{words} have each other's transforms",
+        "check by which index, or in which order, world matrices are taken",
+        _exchanged,
+        _pairs,
+        examples=(Example("swapped_transforms", "two objects at each other's places", _two),),
     ),
     Fault(
         "object_scaled",

@@ -81,14 +81,15 @@ class Pose:
 
     change: Callable[[Scene, Values], Scene | None]  # of a scene with the object alone
     axes: Floats  # the numbers that a unit, about a pixel, of each stands for, (m, k) columns
-    starts: list[Values]  # in units
+    starts: list[Values]
+    unseen: Floats | None = None  # the same of what cannot be seen, (m, j) columns
 
 
 def _placed(looked: Looked) -> Pose:
     """Return the object at another place; its numbers are along the world's axes."""
-    axes, start = looked.axes(), looked.start()
+    axes, start, unseen = looked.axes(), looked.start(), None
     if looked.evidence.case.scene.camera.projection is ORTHOGRAPHIC:  # nearer looks the same
-        axes, start = axes[:, :2], start[:2]
+        axes, start, unseen = axes[:, :2], start[:2], axes[:, 2:]
 
     def change(scene: Scene, values: Values) -> Scene:
         return replace(scene, instances=tuple(moved(i, *values) for i in scene.instances))
@@ -97,7 +98,7 @@ def _placed(looked: Looked) -> Pose:
     starts = [start, beside]
     if np.abs(start).max() < SMALL:  # then its middle says little
         starts.append(0 * start)
-    return Pose(change, axes, [tuple(v.tolist()) for v in starts])
+    return Pose(change, axes, [tuple((axes @ v).tolist()) for v in starts], unseen)
 
 
 def _sized(looked: Looked) -> Pose:
@@ -109,7 +110,7 @@ def _sized(looked: Looked) -> Pose:
             return None
         return replace(scene, instances=tuple(scaled(i, *values) for i in scene.instances))
 
-    return Pose(change, np.array([[unit]]), [(looked.growth / unit,), (1 / unit,)])
+    return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)])
 
 
 def _inflated(looked: Looked) -> Pose:
@@ -117,14 +118,15 @@ def _inflated(looked: Looked) -> Pose:
     scene = looked.evidence.case.scene
     matrix = scene.instances[instances_named(scene, looked.name)[0]].world_from_object
     size = float(np.cbrt(abs(np.linalg.det(matrix[:3, :3])))) or 1.0
-    start = (looked.growth - 1) * looked.width / 2
+    unit = looked.pixel / size
+    start = (looked.growth - 1) * looked.width / 2 * unit
 
     def change(scene: Scene, values: Values) -> Scene:
         used = {i.mesh for i in scene.instances}
         meshes = [_displaced(m, *values) if n in used else m for n, m in enumerate(scene.meshes)]
         return replace(scene, meshes=tuple(meshes))
 
-    return Pose(change, np.array([[looked.pixel / size]]), [(start,), (0.0,)])
+    return Pose(change, np.array([[unit]]), [(start,), (0.0,)])
 
 
 def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refine]:
@@ -139,19 +141,19 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
             return None
         pose = of(looked)
 
-        def right(units: Values) -> Work[int]:
-            changed = pose.change(looked.alone, tuple((pose.axes @ units).tolist()))
+        def right(values: Values) -> Work[int]:
+            changed = pose.change(looked.alone, values)
             return -1 if changed is None else (yield from looked.right(changed))
 
         starts, step = pose.starts, FIRST * looked.width
-        if len(starts[0]) == 1:  # of which more are looked at on each side
+        if pose.axes.shape[1] == 1:  # of which more are looked at on each side
             step /= 4
         if guess.values:
-            starts, step = [tuple((np.linalg.pinv(pose.axes) @ guess.values).tolist())], 1.0
+            starts, step = [guess.values], 1.0
+        fine = bool(guess.low)
         least = 0.0 if guess.values else looked.least_right
-        search = Search(right, (1.0,) * len(starts[0]), FINEST, least)
-        found = yield from search.guess(starts, step, guess.object)
-        return found and _in_numbers(found, pose.axes)
+        search = Search(right, pose.axes, FINEST, least, pose.unseen)
+        return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
     def find(evidence: Evidence) -> Work[list[Guess]]:
         out = []
@@ -162,16 +164,6 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
         return out
 
     return find, refine
-
-
-def _in_numbers(guess: Guess, axes: Floats) -> Guess:
-    """Return a guess in units as one in the numbers that these stand for."""
-    values = axes @ guess.values
-    free = np.abs(axes) @ (np.subtract(guess.high, guess.low) / 2)
-    low, high = values - free, values + free
-    return replace(
-        guess, values=tuple(values.tolist()), low=tuple(low.tolist()), high=tuple(high.tolist())
-    )
 
 
 MOVED, TWICE = posing(_placed), posing(_placed, kept=True)

@@ -1,17 +1,17 @@
 """Finds the numbers of a fault with which the most pixels of a sample are right.
 
 The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no slope to
-follow. Looked at are the places around the best ones, ever nearer; then how far each number may go
-alone before fewer pixels are right.
+follow. Looked at are the places around the best ones, ever nearer; then the region around the best
+one in which as many are right: all numbers in it agree as well.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ...arrays import Array
+from ...arrays import Array, Floats
 from ...tracer.progress import Work
 from ..evidence import SEED
 from .fault import Guess
@@ -24,43 +24,93 @@ FINEST = 1 / 512  # of a unit, which is about a pixel
 WIDE = {1: 4, 2: 2}
 NARROW = {1: 2}
 COARSE = 1 / 2  # of a unit: with smaller steps only the best start is followed
+ROUGH = 1 / 32  # of a unit: the last step where a finer fit follows
 ASKEW = 8  # directions besides those of the axes, where there are three numbers
-FARTHEST = 2.0  # units to which a number is enclosed, at most
+FARTHEST = 256.0  # units to which a number is enclosed, at most
+ROUNDS = 5  # in which a region of several numbers is enclosed, at most
+GROWN = 1.2  # times as large after a round: then there is another one
+CLOSE = 1 / 8  # of the region's half width: how finely its ends are looked for
+WIDER = 1.3  # times as wide as what was reached: the region's corners lie beyond
+ANEW = 4  # times that a region is left for a better place beside it, at most
+BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units: how far from it these are looked for
+LOTS = 12  # places at each of these distances
+DIGITS = range(-1, 5)  # that a number is told with, beside those of its interval
 
 
 class Search:
-    """A search among the numbers of one fault; each place is looked at once."""
+    """A search among the numbers of one fault; each place is looked at once.
+
+    Parameters
+    ----------
+    right : callable
+        How many pixels are right with m numbers.
+    axes : (m, k) or (m,) float
+        What a unit, about a pixel, along each of k axes adds to the numbers; or of each alone.
+    unseen : (m, j) float, optional
+        Further axes, along which nothing changes: they are not searched, only enclosed.
+    """
 
     def __init__(
-        self, right: Right, units: Sequence[float], finest: float = FINEST, least: float = 0
+        self,
+        right: Right,
+        axes: Sequence[float] | Floats,
+        finest: float = FINEST,
+        least: float = 0,
+        unseen: Floats | None = None,
     ) -> None:
+        axes = np.asarray(axes, np.float64)
         self._right = right
-        self.units = np.array(units)
+        self.axes = np.diag(axes) if axes.ndim == 1 else axes
+        self.all_axes = self.axes if unseen is None else np.hstack((self.axes, unseen))
         self.finest = finest
         self.least = least  # right pixels after large steps, for smaller ones to be worth while
+        self.own = self.all_axes  # half the region along each of its own axes, (m, k)
         self._known: dict[Values, int] = {}
 
     def guess(
-        self, starts: Sequence[Values], step: float = 1.0, name: str = ""
+        self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
     ) -> Work[Guess | None]:
-        """Return the best numbers near some starts, with what encloses them; steps are in units."""
+        """Return the best numbers near some starts, with what encloses them; steps are in units.
+
+        What will be fitted more finely need not be enclosed yet.
+        """
         best, most = starts[0], -1
         for start in starts:
-            values, right = yield from self._climbed(start, step, COARSE)
+            values, right = yield from self.climbed(start, step, COARSE)
             if right > most:
                 best, most = values, right
         if most < max(self.least, 0):
             return None
         # What stopped on a ridge goes on from there with larger steps, once.
-        best, _ = yield from self._climbed(best, step / 2, COARSE)
-        best, right = yield from self._climbed(best, min(step, COARSE), self.finest)
-        low, high = yield from self._enclosed(best, right)
-        middle = rounded(low.tolist(), high.tolist())
-        if (yield from self.right(middle)) < right:
-            middle = best
-        return Guess(middle, tuple(low.tolist()), tuple(high.tolist()), object=name)
+        best, _ = yield from self.climbed(best, step / 2, COARSE)
+        last = self.finest if enclose else ROUGH
+        best, right = yield from self.climbed(best, min(step, COARSE), last)
+        if not enclose:
+            return Guess(best, best, best, object=name)
+        for _ in range(ANEW):
+            places = yield from self._region([np.array(best)], right)
+            beside = yield from self._beside(np.array(best))
+            better = max(beside.values())
+            if better <= right:
+                break
+            there = next(place for place, found in beside.items() if found == better)
+            best, right = yield from self.climbed(there, COARSE / 2, self.finest)
+        # As many are right there, too, with fewer between.
+        as_good = [place for place, found in beside.items() if found == right]
+        places = np.array([*places, *as_good])
+        told = yield from self._told(best, places, right)
+        if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
+            places = yield from self._region([np.array(told), *places], right)
+        low, high = self._box(places)
+        return Guess(told, _values(low), _values(high), object=name)
 
-    def _climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
+    def _box(self, places: Floats) -> tuple[Floats, Floats]:
+        """Return a box around places; a region of several numbers has corners beyond these."""
+        low, high = places.min(axis=0), places.max(axis=0)
+        beyond = 0.0 if self.all_axes.shape[1] == 1 else (WIDER - 1) / 2 * (high - low)
+        return low - beyond, high + beyond
+
+    def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
         """Return the best place that smaller and smaller steps reach, and how many are right."""
         right = yield from self.right(values)
         while step >= last and right >= 0:
@@ -79,32 +129,131 @@ class Search:
     def _around(self, values: Values, step: float) -> Work[tuple[Values, int]]:
         """Return the best place a step away in any direction, or this one."""
         best, most = values, (yield from self.right(values))
-        for direction in _directions(len(values), WIDE if step >= COARSE else NARROW):
-            there = tuple((values + step * self.units * direction).tolist())
+        count = self.axes.shape[1]
+        for direction in _directions(count, WIDE if step >= COARSE else NARROW):
+            there = _values(values + step * self.axes @ direction)
             found = yield from self.right(there)
             if found > most:
                 best, most = there, found
         return best, most
 
-    def _enclosed(self, values: Values, right: int) -> Work[tuple[Array, Array]]:
-        """Return how far each number may go, alone, before fewer pixels are right."""
-        ends = np.array((values, values))
-        for k in range(len(values)):
-            for end, side in zip(ends, (-1, 1), strict=True):
-                good, bad = 0.0, self.finest
-                while bad < FARTHEST and (yield from self._beside(values, k, side * bad)) >= right:
-                    good, bad = bad, 2 * bad
-                while bad - good > self.finest / 4:
-                    middle = (good + bad) / 2
-                    same = (yield from self._beside(values, k, side * middle)) >= right
-                    good, bad = (middle, bad) if same else (good, middle)
-                end[k] += side * good * self.units[k]
-        return ends[0], ends[1]
+    def _region(self, known: list[Floats], right: int) -> Work[Floats]:
+        """Return the ends of the region around a place in which as many are right, (n, m).
 
-    def _beside(self, values: Values, k: int, units: float) -> Work[int]:
-        other = list(values)
-        other[k] += float(units * self.units[k])
-        return (yield from self.right(tuple(other)))
+        The place is the first of those that are known to lie in it. The region is convex, as far as
+        edges are straight and move in proportion to the numbers, and may be long and thin in any
+        direction. So its ends are looked for along its own axes, which are found from the ends that
+        are known so far.
+        """
+        ends = [*known]
+        centre: Floats = known[0]
+        axes: Floats = self.all_axes if len(known) == 1 else self._own_axes(np.array(ends))
+        alone = axes.shape[1] == 1
+        first, far = (self.finest, FARTHEST) if len(known) == 1 else (CLOSE, 4.0)
+        for number in range(1 if alone else ROUNDS):
+            size = _size(ends)
+            for direction in _spokes(axes.shape[1]):
+                for side in (-1.0, 1.0):
+                    along = side * axes @ direction
+                    close = 0.0 if alone else CLOSE
+                    ends.append((yield from self._end(centre, along, right, first, far, close)))
+            axes = self._own_axes(np.array(ends))
+            first, far = CLOSE, 4.0
+            mean: Floats = np.array(ends).mean(axis=0)
+            if (yield from self.right(_values(mean))) >= right:
+                centre = mean
+            if (number or len(known) > 1) and _size(ends) < GROWN * size:
+                break
+        self.own = axes
+        return np.array(ends)
+
+    def _beside(self, centre: Floats) -> Work[dict[Values, int]]:
+        """Return how many are right at some places near a region, drawn by lot."""
+        rng = np.random.default_rng(SEED)
+        out = {}
+        for far in BESIDE:
+            for direction in rng.normal(size=(LOTS, self.axes.shape[1])):
+                there = _values(centre + far * self.axes @ direction)
+                out[there] = yield from self.right(there)
+        return out
+
+    def _own_axes(self, ends: Floats) -> Floats:
+        """Return half the region of some places (n, m) along each of its own axes, (m, k)."""
+        units = (ends - ends.mean(axis=0)) @ np.linalg.pinv(self.all_axes).T
+        _, _, own = np.linalg.svd(units, full_matrices=False)
+        reach = np.maximum(np.abs(units @ own.T).max(axis=0), self.finest / 4)
+        return self.all_axes @ (own.T * reach)
+
+    def _end(
+        self, centre: Floats, along: Floats, right: int, first: float, far: float, close: float
+    ) -> Work[Floats]:
+        """Return the last place along a direction (m,) before fewer pixels are right."""
+        good, bad = 0.0, first
+        while bad < far and (yield from self.right(_values(centre + bad * along))) >= right:
+            good, bad = bad, 2 * bad
+        while bad - good > max(first / 4, close * good):
+            between = (good + bad) / 2
+            if (yield from self.right(_values(centre + between * along))) >= right:
+                good = between
+            else:
+                bad = between
+        return centre + good * along
+
+    def _told(self, best: Values, ends: Floats, right: int) -> Work[Values]:
+        """Return the numbers that are told: the simplest of those that are as good.
+
+        Along the widest axis of the region they may be anything: first those are tried with which
+        another number is 0, then the least ones.
+        """
+        middle = (ends.min(axis=0) + ends.max(axis=0)) / 2
+        width = ends.max(axis=0) - ends.min(axis=0)
+        if len(best) == 1:
+            return (yield from self._rounded(middle, width, right)) or best
+        widest = self.own[:, np.argmax(np.linalg.norm(self.own, axis=0))]
+        found: list[Values] = []
+        for start in (middle, np.array(best)):
+            for place in _simplest(start, widest):
+                told = yield from self._rounded(place, width, right)
+                if told:
+                    found.append(told)
+        return min(found, key=lambda v: (-v.count(0.0), np.linalg.norm(v)), default=best)
+
+    def _rounded(self, place: Floats, width: Floats, right: int) -> Work[Values | None]:
+        """Return numbers with as few digits as they need, None if they are not as good."""
+        known = np.clip(np.floor(-np.log10(np.maximum(width, 1e-12))), -6, 12)
+        for more in DIGITS:
+            near = tuple(
+                round(float(v), int(d) + more) + 0.0 for v, d in zip(place, known, strict=True)
+            )
+            if (yield from self.right(near)) >= right:
+                return near
+        return None
+
+
+def _values(numbers: Floats) -> Values:
+    return tuple(numbers.tolist())
+
+
+def _size(ends: Sequence[Floats]) -> float:
+    """Return how large the box around some places is, by the sum of its sides."""
+    return float(np.ptp(ends, axis=0).sum())
+
+
+def _simplest(start: Floats, along: Floats) -> Iterator[Floats]:
+    """Yield places on a line (m,): where a number is 0, that nearest to 0, the start."""
+    for k in np.flatnonzero(np.abs(along) > 1e-3 * np.linalg.norm(along)):
+        yield start - start[k] / along[k] * along
+    if along.any():
+        yield start - (start @ along) / (along @ along) * along
+    yield start
+
+
+def _spokes(count: int) -> Floats:
+    """Return the directions in which a region's ends are looked for, (n, count) unit vectors."""
+    if count == 1:
+        return np.eye(1)
+    askew = np.random.default_rng(SEED).normal(size=(count, count))
+    return np.concatenate((np.eye(count), askew / np.linalg.norm(askew, axis=1, keepdims=True)))
 
 
 def _directions(count: int, far: Mapping[int, int]) -> Array:
@@ -116,17 +265,3 @@ def _directions(count: int, far: Mapping[int, int]) -> Array:
         return around
     rng = np.random.default_rng(SEED)
     return np.concatenate((around[np.abs(around).sum(axis=1) < 3], rng.normal(size=(ASKEW, count))))
-
-
-def rounded(low: Sequence[float], high: Sequence[float]) -> Values:
-    """Return numbers between others, in the middle, but with as few digits as that allows."""
-    out = []
-    for a, b in zip(low, high, strict=True):
-        middle = (a + b) / 2
-        for digits in range(8):
-            near = round(middle, digits)
-            if a <= near <= b:
-                middle = near
-                break
-        out.append(middle)
-    return tuple(out)

@@ -207,7 +207,7 @@ TRIANGLE_FAULTS = (
         _without_triangles,
         _missing_triangles,
         ("count",),
-        effort=2,
+        effort=2,  # any shape that is a part of another one has triangles missing
         examples=(Example("dropped_triangle", "the largest triangle left out", _largest_triangle),),
     ),
 )

@@ -18,6 +18,7 @@ from .search import Search, Values
 FEW = (0.0, 0.001, 0.01, 0.05)  # shares of unexplained pixels that may have another cause
 STEPS = 32  # of the depths that are seen: the first step of a fit
 BESIDE = 2.0**-40  # of a depth: before what is clipped
+LEFT_OUT = "left out: nothing is clipped"
 FAR = 1e6  # how many times farther is looked for what should have been clipped
 
 
@@ -42,14 +43,14 @@ def _find_start(evidence: Evidence) -> Work[list[Guess]]:
     camera = evidence.case.scene.camera
     least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
     fitted = yield from _fitted(evidence, _start, least, -1.0)
-    return [*fitted, Guess((least,))]
+    return [*fitted, Guess((least,), words=LEFT_OUT)]
 
 
 def _find_end(evidence: Evidence) -> Work[list[Guess]]:
     """Return the clip end for which the most pixels are right, and none."""
     most = evidence.case.scene.camera.clip_end * FAR
     fitted = yield from _fitted(evidence, _end, most, 1.0)
-    return [*fitted, Guess((most,))]
+    return [*fitted, Guess((most,), words=LEFT_OUT)]
 
 
 def _fitted(
@@ -84,7 +85,11 @@ def _fitted(
         return []
     search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right)
     guess = yield from search.guess(starts)
-    return [guess] if guess else []
+    if guess is None:
+        return []
+    beyond = "nearer" if sign < 0 else "farther"
+    words = f"at {guess.values[0]:.4g} m: what is {beyond} is not shown"
+    return [replace(guess, words=words)]
 
 
 def _parting(evidence: Evidence, sign: float) -> list[Values]:
@@ -102,7 +107,7 @@ def _parting(evidence: Evidence, sign: float) -> list[Values]:
 VIEW_FAULTS = (
     Fault(
         "clip_start",
-        "the clip start is at {start:.4g} m: what is nearer is not shown",
+        "the clip start is {words}",
         "take the camera's own clip start; it is a depth along the view axis",
         of_camera(_start),
         _find_start,
@@ -111,7 +116,7 @@ VIEW_FAULTS = (
     ),
     Fault(
         "clip_end",
-        "the clip end is at {end:.4g} m: what is farther is not shown",
+        "the clip end is {words}",
         "take the camera's own clip end; it is a depth along the view axis",
         of_camera(_end),
         _find_end,

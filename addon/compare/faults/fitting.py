@@ -1,0 +1,212 @@
+"""Fits a camera in a few numbers: an offset on the film, a focal length, where it stands.
+
+First the traced picture itself is looked up where such a camera would have seen it, which needs no
+ray and finds the numbers to within about a pixel. Then rays are traced, in what is left of the
+sample, until the numbers with the most pixels that agree are enclosed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...arrays import Bools, Floats
+from ...scene import Camera
+from ...tracer.camera import camera_rays, film_of
+from ...tracer.progress import Work
+from ..checks.probe import Probe
+from ..evidence import NEAR, Evidence, film_beside_camera
+from .fault import Find, Guess, Refine
+from .search import Search, Values
+
+REACH = 4.0  # pixels that rays may pass beside where they start; beyond, they start anew
+FINE_REACH = 1.0  # pixels, where a fit is made finer: fewer triangles are near
+PREPARED = 2  # cameras at most, so that none is prepared again where a search goes to and fro
+VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
+KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
+LOOKED_UP = 512  # pixels in which the traced picture is looked up
+FINER = 1 / 8  # pixels: the first step where a fit is made finer
+ENOUGH = 0.99  # of the sample: with as many right, no other start is fitted
+BETTER = 0.03  # by how much larger the share of right pixels must be for a start
+BEYOND = 1e6  # times as far as the farthest surface: where the background is taken to be
+
+LookUp = Callable[[Evidence, Camera], float]  # the share of some pixels that is right
+
+
+def looked_up(evidence: Evidence, camera: Camera) -> float:
+    """Return the share of the sample that is right if the traced picture is seen by a camera.
+
+    The camera stands where the case's does; what lies outside the traced picture is not known.
+    """
+    own = evidence.case.scene.camera
+    few = _few(evidence)
+    with np.errstate(invalid="ignore"):
+        film = film_beside_camera(own, camera, *evidence.film[:, few])
+        inside, where = _inside(camera, film)
+    if inside.mean() < VALID:
+        return 0.0
+    shown = evidence.shown.at(few).at(inside)
+    made = shown.made_of(evidence.frame.color[where])
+    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
+    if shown.owner is not None and shown.owners is not None:
+        right &= shown.owners[evidence.frame.instance_index[where]] == shown.owner
+    return float(right.mean())
+
+
+def projected(evidence: Evidence, camera: Camera) -> float:
+    """Return the share of what is traced in the sample that a camera anywhere sees as shown.
+
+    What another surface hides is taken to be seen.
+    """
+    few = _few(evidence)
+    at = tuple(v[few] for v in evidence.sample)
+    points = _points(evidence)[:, few]
+    with np.errstate(invalid="ignore"):
+        x, y, _ = film_of(camera, points)
+        inside, where = _inside(camera, np.stack((x, y)))
+    if inside.mean() < VALID:
+        return 0.0
+    seen = tuple(v[inside] for v in at)
+    shown = evidence.picture.at(where)
+    made = shown.made_of(evidence.frame.color[seen])
+    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
+    if shown.owner is not None and shown.owners is not None:
+        right &= shown.owners[evidence.frame.instance_index[seen]] == shown.owner
+    return float(right.mean())
+
+
+def _few(evidence: Evidence) -> slice:
+    return slice(None, None, -(-evidence.film.shape[1] // LOOKED_UP))
+
+
+def _inside(camera: Camera, film: Floats) -> tuple[Bools, tuple[Floats, Floats]]:
+    """Return which film positions (2, n) lie in the picture, and the rows and columns of these."""
+    r = camera.region
+    column, row = np.floor(film[0] - r.x0), np.floor(film[1] - r.y0)
+    inside = (column >= 0) & (column < r.width) & (row >= 0) & (row < r.height)
+    return inside, (row[inside].astype(int), column[inside].astype(int))
+
+
+def _points(evidence: Evidence) -> Floats:
+    """Return what is seen in the n sampled pixels, (3, n) world space; the background far away."""
+    if "points" not in evidence.known:
+        t = evidence.frame.t
+        seen = np.isfinite(t)
+        far = BEYOND * float(np.max(t[seen], initial=1.0))
+        rays = camera_rays(evidence.case.scene.camera, *evidence.film)
+        evidence.known["points"] = rays.at(np.where(seen, t, far)[evidence.sample])
+    points: Floats = evidence.known["points"]
+    return points
+
+
+@dataclass(frozen=True)
+class Family:
+    """Cameras that differ in a few numbers."""
+
+    camera: Callable[..., Camera | None]
+    # Changes of the numbers that move the film by about a pixel: (m, k) columns, or of each, (m,).
+    axes: Callable[[Evidence], Floats | Values]
+    starts: Callable[[Evidence], Iterator[Values]]
+    words: Callable[[Camera, Guess], str] = lambda camera, guess: ""
+    look_up: LookUp = looked_up
+    # Changes of the numbers, (m, j) columns, that change nothing in some pictures.
+    unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
+
+
+def fitting(family: Family) -> tuple[Find, Refine]:
+    """Return what finds the numbers of a family in a picture, and what fits them finely."""
+
+    def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
+        search = Search(
+            _Traced(evidence, family, FINE_REACH if guess.low else REACH).right,
+            family.axes(evidence),
+            least=evidence.least_right,
+            unseen=family.unseen(evidence),
+        )
+        fine = bool(guess.low)
+        step = FINER if fine else 1.0
+        found = yield from search.guess([guess.values], step, enclose=fine)
+        words = family.words(evidence.case.scene.camera, found) if found else ""
+        return found and replace(found, words=words)
+
+    def find(evidence: Evidence) -> Work[list[Guess]]:
+        out: list[Guess] = []
+        for start in (yield from _likely(evidence, family)):
+            guess = yield from refine(evidence, Guess(start))
+            if guess:
+                out.append(guess)
+                right = yield from _Traced(evidence, family).right(guess.values)
+                if right >= ENOUGH * len(evidence.was_open):
+                    break
+        return out
+
+    return find, refine
+
+
+def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
+    """Return the numbers for which looking up gives the most right pixels, the best first."""
+    camera = evidence.case.scene.camera
+    axes = np.asarray(family.axes(evidence))
+    units = np.linalg.pinv(np.diag(axes) if axes.ndim == 1 else axes)
+    none = (0.0,) * len(axes)
+    if family.camera(camera, *none) is None:
+        return []
+    least = family.look_up(evidence, camera) + BETTER
+    scores: list[tuple[float, Values]] = [(least, none)]  # nearer than a pixel nothing can be seen
+    for number, values in enumerate(family.starts(evidence)):
+        other = family.camera(camera, *values)
+        if other is not None:
+            score = family.look_up(evidence, other)
+            if score > least:
+                scores.append((score, values))
+        if number % 32 == 0:
+            yield 0.0
+    best: list[Values] = []
+    for _, values in sorted(scores, key=lambda pair: -pair[0]):
+        apart = [np.abs(units @ np.subtract(values, b)).max() > REACH for b in best]
+        if len(best) < KEPT and all(apart):
+            best.append(values)
+    return best
+
+
+class _Traced:
+    """Counts the right pixels of the sample for the cameras of a family.
+
+    Rays are tested with the triangles near those of a camera that was prepared, as long as what
+    they meet is seen near enough by it.
+    """
+
+    def __init__(self, evidence: Evidence, family: Family, reach: float = REACH) -> None:
+        self.evidence = evidence
+        self.family = family
+        self.reach = reach
+        self.probes: list[Probe] = []  # the last one first
+
+    def right(self, values: Values) -> Work[int]:
+        """Return how many pixels agree, -1 if there is no such camera."""
+        evidence = self.evidence
+        camera = self.family.camera(evidence.case.scene.camera, *values)
+        if camera is None:
+            return -1
+        probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
+        if probe is None:
+            scene = evidence.case.scene.seen_by(camera)
+            probe = yield from evidence.probe(scene, self.reach)
+            self.probes = [probe, *self.probes[: PREPARED - 1]]
+        probe = replace(probe, scene=probe.scene.seen_by(camera))
+        hits = yield from probe.trace()
+        return int(evidence.agrees(probe.scene, hits).sum())
+
+    def _near(self, prepared: Camera, camera: Camera) -> bool:
+        """Return whether a camera sees everything near where the prepared one does."""
+        points = _points(self.evidence)
+        film = self.evidence.film
+        with np.errstate(all="ignore"):
+            before, now = (np.stack(film_of(c, points)[:2]) for c in (prepared, camera))
+            beside = film_beside_camera(prepared, camera, *film) - film
+            moved = now - before
+        same_place = np.array_equal(prepared.origin, camera.origin)
+        apart = np.abs(beside).max() if same_place else np.nanmax(np.abs(moved))
+        return bool(apart <= self.reach)

@@ -1,0 +1,126 @@
+"""Cameras elsewhere that are fitted: moved along their own axes, turned about them, or both."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ...arrays import Floats
+from ...projections import ORTHOGRAPHIC
+from ...scene import Camera
+from ...tracer.camera import pixel_size
+from ...tracer.progress import Work, result_of
+from ..evidence import Evidence
+from .fault import Guess
+from .film import offsets, radius
+from .fitting import LOOKED_UP, Family, projected
+from .search import Search, Values
+
+FIRST = 8.0  # pixels: the first step of looking up
+LAST = 1 / 4  # pixels: the last one
+LEAST = 1e-4  # of the largest number: what is less is told as 0
+NEARER = (1.0, 0.8, 1.25)  # of the depth: how far away the first places are
+
+
+def moved(camera: Camera, right: float, up: float, forward: float = 0.0) -> Camera:
+    """Return the camera moved along its own axes, in metres."""
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, 3] += right * camera.right + up * camera.up + forward * camera.forward
+    return replace(camera, world_from_camera=matrix)
+
+
+def turned(camera: Camera, right: float, up: float, roll: float) -> Camera:
+    """Return the camera turned by degrees to the right, upwards, and anticlockwise.
+
+    Together they are one rotation, about the axis that they are the components of (Rodrigues'
+    formula): it does not matter which comes first.
+    """
+    about = np.radians((up, -right, roll))  # of right, up and backward
+    angle = float(np.linalg.norm(about))
+    x, y, z = about / angle if angle else about
+    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    rotation = np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, :3] = matrix[:3, :3] @ rotation
+    return replace(camera, world_from_camera=matrix)
+
+
+def _depth(evidence: Evidence) -> float:
+    """Return how deep what is seen lies, in metres."""
+    t = evidence.frame.t
+    return float(np.median(t[np.isfinite(t)])) if np.isfinite(t).any() else 1.0
+
+
+def _metres(evidence: Evidence) -> Floats:
+    """Return how far a camera moves for its film to move by a pixel: right, up, forward, (3, 3)."""
+    camera, depth = evidence.case.scene.camera, _depth(evidence)
+    width, height = (v * camera.projection.scale(depth) for v in pixel_size(camera))
+    return np.diag((width, height, depth / radius(evidence)))
+
+
+def _seen(evidence: Evidence) -> Floats:
+    """Return those along which the picture changes: an orthographic one does not by the last."""
+    parallel = evidence.case.scene.camera.projection is ORTHOGRAPHIC
+    return _metres(evidence)[:, : 2 if parallel else 3]
+
+
+def _unseen(evidence: Evidence) -> Floats | None:
+    """Return the others."""
+    seen = _seen(evidence).shape[1]
+    return _metres(evidence)[:, seen:] if seen < 3 else None
+
+
+def _degrees(evidence: Evidence) -> Values:
+    """Return by how much a camera turns for its film to move by a pixel."""
+    camera, depth = evidence.case.scene.camera, _depth(evidence)
+    width, height = (v * camera.projection.scale(depth) / depth for v in pixel_size(camera))
+    return tuple(float(np.degrees(v)) for v in (width, height, 1 / radius(evidence)))
+
+
+def _places(evidence: Evidence) -> Iterator[Values]:
+    """Yield places from which what is traced would be seen as it is shown."""
+    axes, depth = _seen(evidence), _depth(evidence)
+    nearer = NEARER[: 1 if axes.shape[1] < 3 else None]
+    starts = []
+    for x, y in offsets(evidence):
+        right, up, _ = (float(v) for v in axes[:, :2] @ (x, y))
+        starts += [(right, up, depth * (1 - n)) for n in nearer]
+    yield from _climbed(evidence, moved, axes, starts)
+
+
+def _turns(evidence: Evidence) -> Iterator[Values]:
+    """Yield turns with which what is traced would be seen as it is shown."""
+    units = _degrees(evidence)
+    starts = [(x * units[0], y * units[1], 0.0) for x, y in offsets(evidence)]
+    yield from _climbed(evidence, turned, units, starts)
+
+
+def _climbed(
+    evidence: Evidence,
+    of: Callable[..., Camera],
+    axes: Floats | Values,
+    starts: Sequence[Values],
+) -> Iterator[Values]:
+    """Yield where looking up leads from each start, in ever smaller steps."""
+    own = evidence.case.scene.camera
+
+    def right(values: Values) -> Work[int]:
+        return round(LOOKED_UP * projected(evidence, of(own, *values)))
+        yield
+
+    search = Search(right, axes)
+    for start in dict.fromkeys(starts):
+        guess = result_of(search.climbed(start, FIRST, LAST))
+        yield guess[0]
+
+
+def _in_the_world(camera: Camera, guess: Guess) -> str:
+    by = moved(camera, *guess.values).origin - camera.origin
+    x, y, z = (0.0 if abs(v) < LEAST * np.abs(by).max() else v for v in by)
+    return f"({x:+.4g}, {y:+.4g}, {z:+.4g}) m"
+
+
+MOVED = Family(moved, _seen, _places, _in_the_world, projected, _unseen)
+TURNED = Family(turned, _degrees, _turns, look_up=projected)
