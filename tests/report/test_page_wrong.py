@@ -60,7 +60,7 @@ def diagnosed(comparison, told=1, side="traced", **changed):
         of = Told(fault, guess, 3307, 3300, 515093, k, traced, shown, alternative=bool(k))
         faults.append(replace(of, **changed))
     left = regions(comparison.causes.cause == UNEXPLAINED)[1:2]
-    found = Diagnosis(tuple(faults), 41, 3.2, False, sum(r.pixels for r in left), tuple(left))
+    found = Diagnosis(tuple(faults), 41, 900, 3.2, (), sum(r.pixels for r in left), tuple(left))
     return replace(comparison, diagnosis=found), pictures
 
 
