@@ -121,10 +121,12 @@ class Evidence:
         out = np.max(apart, axis=0) > 2 * NEAR
         return out if (out & self.open).any() else np.ones_like(out)
 
-    @property
-    def least_right(self) -> float:
-        """How many of the sampled pixels must be right for a guess to be worth a closer look."""
-        return float((~self.was_open).sum() + WORTH * self.was_open.sum()) * (1 - NOISE)
+    def least_right(self, share: float = WORTH) -> float:
+        """Return how many of the sampled pixels are right if a share of the unexplained ones is.
+
+        With fewer a guess is not worth a closer look.
+        """
+        return float((~self.was_open).sum() + share * self.was_open.sum()) * (1 - NOISE)
 
     @cached_property
     def shown(self) -> Picture:

@@ -95,7 +95,7 @@ def looked_at(
         transform = found.causes.transform or ""
         return Row(what, scene.number, "compared", unexplained, 0.0, 0.0, (transform,))
     began = time.perf_counter()
-    diagnosis = result_of(diagnosed(found, np.inf)).diagnosis
+    diagnosis = result_of(diagnosed(found)).diagnosis
     seconds = time.perf_counter() - began
     told = diagnosis.told if diagnosis else ()
     every = {t.fault.name for t in told} | named_transform(found.causes.transform or "")

@@ -12,7 +12,7 @@ from ...scene import Camera, ViewWindow
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ..case import Case
-from .fault import Example, Fault, Guess, of_camera, options, with_values
+from .fault import Effort, Example, Fault, Guess, of_camera, options, with_values
 from .film import FOCAL, FOCALS, OFFSET, ROLL
 from .fitting import fitting
 from .stand import MOVED, TURNED
@@ -100,7 +100,7 @@ CAMERA_FAULTS = (
         _OFFSET[0],
         ("dx", "dy"),
         refine=_OFFSET[1],
-        effort=1,
+        effort=Effort.FILM,
         examples=(
             Example("half_pixel", "rays through the pixels' corners", with_values(0.5, 0.5)),
             Example("one_pixel", "the camera off by a pixel to the right", with_values(1.0, 0.0)),
@@ -142,7 +142,7 @@ CAMERA_FAULTS = (
         _FOCAL[0],
         ("percent",),
         refine=_FOCAL[1],
-        effort=1,
+        effort=Effort.FILM,
     ),
     Fault(
         "focal_lengths",
@@ -153,7 +153,7 @@ CAMERA_FAULTS = (
         _FOCALS[0],
         ("across", "up"),
         refine=_FOCALS[1],
-        effort=1,
+        effort=Effort.CAMERA,
     ),
     Fault(
         "camera_moved",
@@ -164,7 +164,7 @@ CAMERA_FAULTS = (
         _MOVED[0],
         ("right", "up", "forward"),
         refine=_MOVED[1],
-        effort=1,
+        effort=Effort.CAMERA,
         examples=(
             Example("camera_moved", "the camera moved by a pixel to its right", _a_pixel_aside),
         ),
@@ -178,7 +178,7 @@ CAMERA_FAULTS = (
         _PANNED[0],
         ("right", "up", "roll"),
         refine=_PANNED[1],
-        effort=1,
+        effort=Effort.CAMERA,
         examples=(
             Example(
                 "camera_turned", "the camera turned by half a degree", with_values(0.4, 0.3, 0)
@@ -193,7 +193,7 @@ CAMERA_FAULTS = (
         _ROLL[0],
         ("degrees",),
         refine=_ROLL[1],
-        effort=1,
+        effort=Effort.FILM,
     ),
     Fault(
         "y_up",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from enum import IntEnum
 from typing import TYPE_CHECKING
 
 from ...arrays import Colors
@@ -66,6 +67,18 @@ def once(evidence: Evidence) -> Work[list[Guess]]:
     yield
 
 
+class Effort(IntEnum):
+    """What it takes to find a fault: those of less effort are looked for first."""
+
+    NOTHING = 0  # it has no numbers, or few that are tried
+    FILM = 1  # one or two numbers of where rays pass the film are fitted
+    PIXELS = 2  # pixels, or triangles, are gone through
+    CAMERA = 3  # where the camera stands and looks is fitted
+    SIZE = 4  # a number of an object is fitted
+    PLACE = 5  # where an object is
+    ANYTHING = 6  # what can be made to look like much else
+
+
 @dataclass(frozen=True)
 class Fault:
     """A fault: the comparison's own claim of what is wrong with a picture."""
@@ -83,7 +96,7 @@ class Fault:
     after: After | None = None
     sampled: bool = True  # whether single pixels can say how good a guess is
     refine: Refine | None = None  # fits a guess in a finer sample
-    effort: int = 0  # of finding it: 1 if the camera is fitted, 2 and 3 if an object is, 4: pixels
+    effort: Effort = Effort.NOTHING
     sums_up: bool = False  # it says what is seen: faults that do as well are reasons for it
     everywhere: bool = False  # it is in all pixels: none is looked for beside a fault of an object
     vague: bool = False  # it allows for more than one picture: what is exact is told in its place

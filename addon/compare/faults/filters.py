@@ -20,7 +20,7 @@ from ...tracer.progress import Work
 from ..bounds import largest_within
 from ..case import Case
 from ..evidence import NEAR, Evidence
-from .fault import Example, Fault, Guess
+from .fault import Effort, Example, Fault, Guess
 from .sizes import at_size, sampled_right
 
 RADII = (0.5, 0.75, 1.0, 1.5, 2.0)  # of filters that are tried, in pixels
@@ -194,6 +194,7 @@ FILTER_FAULTS = (
         everywhere=True,
         sampled=False,
         after=_mean_of_samples,
+        effort=Effort.PIXELS,
     ),
     Fault(
         "averaged",
@@ -207,6 +208,7 @@ FILTER_FAULTS = (
         sampled=False,
         after=_averaged,
         examples=(Example("averaged", "each pixel the mean of 2 x 2", _two_pixels),),
+        effort=Effort.PIXELS,
     ),
     Fault(
         "filter_radius",
@@ -218,7 +220,7 @@ FILTER_FAULTS = (
         put_right=_filtered,
         everywhere=True,
         sampled=False,
-        effort=4,
+        effort=Effort.ANYTHING,
         vague=True,
     ),
 )

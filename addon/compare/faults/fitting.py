@@ -28,7 +28,11 @@ VALID = 0.3  # the least share of the sample that a camera must see in the trace
 KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
 LOOKED_UP = 512  # pixels in which the traced picture is looked up
 FINER = 1 / 8  # pixels: the first step where a fit is made finer
-ENOUGH = 0.99  # of the sample: with as many right, no other start is fitted
+ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
+MOVES = 3  # by which a right start is left, with steps of one length: it is a pixel or two away
+# Of the unexplained pixels: a camera is in all of them, so that one that settles fewer, with steps
+# of half a pixel, is not the right one.
+MOST_OF_IT = 0.5
 BETTER = 0.03  # by how much larger the share of right pixels must be for a start
 BEYOND = 1e6  # times as far as the farthest surface: where the background is taken to be
 
@@ -122,8 +126,9 @@ def fitting(family: Family) -> tuple[Find, Refine]:
         search = Search(
             _Traced(evidence, family, FINE_REACH if guess.low else REACH).right,
             family.axes(evidence),
-            least=evidence.least_right,
+            least=evidence.least_right(MOST_OF_IT),
             unseen=family.unseen(evidence),
+            moves=np.inf if guess.low else MOVES,
         )
         fine = bool(guess.low)
         step = FINER if fine else 1.0
@@ -132,6 +137,7 @@ def fitting(family: Family) -> tuple[Find, Refine]:
         return found and replace(found, words=words)
 
     def find(evidence: Evidence) -> Work[list[Guess]]:
+        evidence = evidence.few
         out: list[Guess] = []
         for start in (yield from _likely(evidence, family)):
             guess = yield from refine(evidence, Guess(start))

@@ -7,7 +7,7 @@ import numpy as np
 from ...arrays import Bools, Colors, Floats, Index
 from ...tracer.progress import Work
 from ..evidence import NEAR, Evidence, spread
-from .fault import Fault, Guess
+from .fault import Effort, Fault, Guess
 from .filters import VALUES
 
 Values = tuple[float, ...]
@@ -168,7 +168,7 @@ LAID_OVER = Fault(
     _find_overlay,
     ("opacity", "red", "green", "blue"),
     put_right=lambda case, frame, guess: case,
-    effort=4,
+    effort=Effort.ANYTHING,
     sampled=False,
     vague=True,
     after=_laid_over,

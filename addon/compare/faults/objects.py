@@ -13,7 +13,7 @@ from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
 from ..evidence import Evidence
-from .fault import Example, Fault, Guess, instances_named, of_object
+from .fault import Effort, Example, Fault, Guess, instances_named, of_object
 from .pose import DISPLACED, MOVED, SCALED, TWICE, copied, inflated, moved, scaled
 from .suspects import largest, seen_instances, suspects
 
@@ -205,7 +205,7 @@ OBJECT_FAULTS = (
         _units_or_fitted,
         ("factor",),
         refine=SCALED[1],
-        effort=2,
+        effort=Effort.SIZE,
     ),
     Fault(
         "scene_scaled",
@@ -223,7 +223,7 @@ OBJECT_FAULTS = (
         MOVED[0],
         ("x", "y", "z"),
         refine=MOVED[1],
-        effort=3,
+        effort=Effort.PLACE,
         examples=(
             Example("moved_object", "the largest object moved by a pixel", _a_pixel_to_the_right),
         ),
@@ -236,7 +236,7 @@ OBJECT_FAULTS = (
         TWICE[0],
         ("x", "y", "z"),
         refine=TWICE[1],
-        effort=4,
+        effort=Effort.ANYTHING,
     ),
     Fault(
         "smooth_displaced",
@@ -246,6 +246,6 @@ OBJECT_FAULTS = (
         DISPLACED[0],
         ("distance",),
         refine=DISPLACED[1],
-        effort=2,
+        effort=Effort.SIZE,
     ),
 )

@@ -17,7 +17,7 @@ from ...tracer.shading import colors as colors_of
 from ..case import Case
 from ..checks.probe import SOUND, Probe
 from ..evidence import Evidence
-from .fault import Example, Fault, Guess, with_values
+from .fault import Effort, Example, Fault, Guess, with_values
 
 LAYERS = 64  # surfaces behind one another that are looked at, at most
 MOST = 2  # orders that are tried on the whole picture
@@ -122,7 +122,7 @@ def _orders(evidence: Evidence) -> Work[list[Guess]]:
     out = []
     for number, colors in enumerate(every):
         right = ~evidence.shown.other_color(colors)
-        if right.sum() >= evidence.least_right:
+        if right.sum() >= evidence.least_right():
             score = evidence.scored(right)
             out.append((score.gain, Guess((float(number),), words=ORDERS[number])))
     return [guess for _, guess in sorted(out, key=lambda pair: -pair[0])[:MOST]]
@@ -161,6 +161,6 @@ ORDER_FAULTS = (
         _orders,
         after=_drawn,
         sampled=False,
-        effort=4,
+        effort=Effort.PIXELS,
     ),
 )

@@ -57,12 +57,14 @@ class Search:
         finest: float = FINEST,
         least: float = 0,
         unseen: Floats | None = None,
+        moves: float = np.inf,
     ) -> None:
         axes = np.asarray(axes, np.float64)
         self._right = right
         self.axes = np.diag(axes) if axes.ndim == 1 else axes
         self.all_axes = self.axes if unseen is None else np.hstack((self.axes, unseen))
         self.finest = finest
+        self.moves = moves  # with steps of one length
         self.least = least  # right pixels after large steps, for smaller ones to be worth while
         self.own = self.all_axes  # half the region along each of its own axes, (m, k)
         self._known: dict[Values, int] = {}
@@ -113,10 +115,12 @@ class Search:
     def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
         """Return the best place that smaller and smaller steps reach, and how many are right."""
         right = yield from self.right(values)
+        moves = 0
         while step >= last and right >= 0:
             values, better = yield from self._around(values, step)
-            if better == right:
-                step /= 2
+            moves += 1
+            if better == right or moves >= self.moves:
+                step, moves = step / 2, 0
             right = better
         return values, right
 

@@ -17,7 +17,7 @@ from ...tracer import shading
 from ...tracer.progress import Work
 from ..case import Case
 from ..evidence import Evidence
-from .fault import Fault, Guess
+from .fault import Effort, Fault, Guess
 
 # Of what may have been resampled, and how they are called. Larger ones are means of several
 # samples, or, by the nearest pixel, offsets of the camera.
@@ -169,6 +169,7 @@ SIZE_FAULTS = (
         everywhere=True,
         sampled=False,
         after=_resampled,
+        effort=Effort.PIXELS,
     ),
     Fault(
         "shrunk",
@@ -180,5 +181,6 @@ SIZE_FAULTS = (
         everywhere=True,
         sampled=False,
         after=_enlarged,
+        effort=Effort.PIXELS,
     ),
 )

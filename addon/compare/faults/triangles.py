@@ -16,7 +16,7 @@ from ...tracer.progress import Work
 from ..case import Case
 from ..checks.probe import SOUND
 from ..evidence import Evidence
-from .fault import Example, Fault, Guess, instances_named
+from .fault import Effort, Example, Fault, Guess, instances_named
 from .suspects import seen_instances
 
 
@@ -185,7 +185,7 @@ TRIANGLE_FAULTS = (
         "back faces are left out (culled)",
         "Blender shows both sides of a face, unless its material says otherwise",
         _culled,
-        effort=2,
+        effort=Effort.PIXELS,
     ),
     Fault(
         "flipped_winding",
@@ -207,7 +207,7 @@ TRIANGLE_FAULTS = (
         _without_triangles,
         _missing_triangles,
         ("count",),
-        effort=2,  # any shape that is a part of another one has triangles missing
+        effort=Effort.PIXELS,  # any shape that is a part of another one has triangles missing
         examples=(Example("dropped_triangle", "the largest triangle left out", _largest_triangle),),
     ),
 )

@@ -79,11 +79,11 @@ def _fitted(
     starts = []
     for depth in _parting(evidence, sign):
         # It parts the pixels already: if most are wrong with it, so they are beside it.
-        if (yield from right(depth)) >= evidence.least_right:
+        if (yield from right(depth)) >= evidence.least_right():
             starts.append(depth)
     if not starts:
         return []
-    search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right)
+    search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right())
     guess = yield from search.guess(starts)
     if guess is None:
         return []
