@@ -14,9 +14,12 @@ from ..case import Case
 from ..evidence import Evidence
 from .fault import Example, Fault, Guess, Make, with_values
 from .filters import FILTER_FAULTS
+from .grading import GRADING_FAULTS
 from .pixels import PIXEL_FAULTS
+from .recolor import recolored
+from .rounding import ROUNDING_FAULTS
 from .sizes import SIZE_FAULTS
-from .tones import TONE_FAULTS, recolored
+from .tones import CURVE_FAULTS
 
 
 def _moved_rows(change: Callable[[Array], Array]) -> Make:
@@ -91,7 +94,9 @@ PICTURE_FAULTS = (
         _moved_rows(np.flip),
         examples=(Example("rows", "the picture's rows from top to bottom"),),
     ),
-    *TONE_FAULTS,
+    *CURVE_FAULTS,
+    *GRADING_FAULTS,
+    *ROUNDING_FAULTS,
     Fault(
         "premultiplied",
         "the picture's colours are multiplied by alpha twice",
