@@ -122,11 +122,19 @@ class Choice:
     target: Sequence[float] | None = None  # where it looks; None for the origin
     angle: float | None = None  # vertical, degrees
     ortho_scale: float | None = None  # height of the picture, metres
-    # The picture, pixels; of a .blend, one follows from the other; of a mesh, SIZE says the rest.
+    # The picture, pixels: if one is given, the other follows.
     width: int | None = None
     height: int | None = None
     up: str | None = None  # which axis of a mesh's file is up
     opened: bool = False  # the file is open, in the Blender that runs this
+
+    def size(self, own: tuple[int, int]) -> tuple[int, int]:
+        """Return the width and height that are chosen of a picture that has its own, pixels."""
+        across, up = own
+        if self.width is None and self.height is not None:
+            return max(1, round(self.height * across / up)), self.height
+        width = across if self.width is None else self.width
+        return width, max(1, round(width * up / across)) if self.height is None else self.height
 
     def placed(self, width: int, height: int, tall: float = 1.0) -> Camera:
         """Return the camera at `eye`, for a picture as of :func:`framing`.

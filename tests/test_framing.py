@@ -84,3 +84,11 @@ def test_a_placed_camera_has_its_target_in_the_middle(scale, rng):
     assert (camera.projection is ORTHOGRAPHIC) == bool(scale)
     with pytest.raises(SceneError, match="--target are the same point"):
         Choice(eye=eye, target=eye).placed(30, 20)
+
+
+@pytest.mark.parametrize(
+    "width, height, size",
+    [(None, None, (960, 540)), (320, None, (320, 180)), (None, 270, (480, 270)), (7, 9, (7, 9))],
+)
+def test_of_a_size_one_side_follows_the_other(width, height, size):
+    assert Choice(width=width, height=height).size((960, 540)) == size

@@ -48,7 +48,7 @@ def chosen(choice: Choice) -> Iterator[None]:
             bake_bodies(scene, choice.frame)
             for frame in visited(scene, [choice.frame]):
                 scene.frame_set(frame)
-        _resize(scene.render, choice.width, choice.height)
+        _resize(scene.render, choice)
         if choice.camera or choice.eye or choice.frame_all:
             for marker in scene.timeline_markers:  # which would make its own the active one
                 marker.camera = None
@@ -103,19 +103,16 @@ def _named(what: str, name: str | None, things: Iterable[Any]) -> Any:
     """Return the thing of a name; None if no name is given."""
     found = {thing.name: thing for thing in things}
     if name is not None and name not in found:
-        raise SceneError(f"there is no {what} '{name}': {', '.join(found) or 'there is none'}")
+        there = f"; there is {', '.join(map(repr, found))}" if found else ""
+        raise SceneError(f"there is no {what} '{name}'{there}")
     return found.get(name)
 
 
-def _resize(render: Any, width: int | None, height: int | None) -> None:
-    """Give the picture another size; where only one side is given, the other follows."""
-    across, up = resolution(render)
-    if width:
-        size = width, height or max(1, round(width * up / across))
-    elif height:
-        size = max(1, round(height * across / up)), height
-    else:
+def _resize(render: Any, choice: Choice) -> None:
+    """Give the picture the size that is chosen."""
+    if choice.width is None and choice.height is None:
         return
+    size = choice.size(resolution(render))
     render.resolution_x, render.resolution_y = size
     render.resolution_percentage = 100
     if resolution(render) != size:

@@ -76,7 +76,7 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
 
 
 def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
-    size = choice.width or SIZE[0], choice.height or SIZE[1]
+    size = choice.size(SIZE)
     camera = choice.placed(*size) if choice.eye else None
     try:
         return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,6 +19,7 @@ from .case import Case
 from .cause import Causes
 from .causes import BY_NUMBER, CAUSES
 from .checks.background import Background
+from .checks.color import COLOR
 from .checks.hidden import HIDDEN
 from .checks.unmodelled import NOT_MODELLED
 from .diagnosis import Diagnosis
@@ -77,17 +78,27 @@ class Comparison:
             return "not comparable"
         return "warnings" if any(self._doubts()) else "agree"
 
-    def _doubts(self) -> Iterator[object]:
-        """Yield what is true if the verdict cannot be better than a warning."""
+    def _doubts(self) -> Iterator[str]:
+        """Yield why the verdict cannot be better than a warning, in a few words each."""
+        for feature in self.manifest.unmodelled:
+            if feature.effect in (Effect.UNPLACED, Effect.MISSING):
+                yield str(feature)
+        for entry in self.manifest.objects:
+            if entry.left_out:
+                yield f"triangles of '{entry.name}' are left out"
         for cause in CAUSES:
-            yield cause.warns and self.pixels["by_cause"][cause.key]
-        yield self.pixels["not_judged"]["pixels"]
-        yield self.excused.too_much
-        yield self.empty
-        yield from (u.effect in (Effect.UNPLACED, Effect.MISSING) for u in self.manifest.unmodelled)
-        yield from (entry.left_out for entry in self.manifest.objects)
-        yield from (row.missed for row in self.self_check)
-        yield self.background and not self.background.transparent
+            if cause.warns and self.pixels["by_cause"][cause.key]:
+                yield (cause == COLOR and self.causes.transform) or cause.label
+        if self.pixels["not_judged"]["pixels"]:
+            yield "a part cannot be judged"
+        if self.excused.too_much:
+            yield "much rests on rounding alone"
+        if self.empty:
+            yield "the picture is empty"
+        if any(row.missed for row in self.self_check):
+            yield "the self-check missed a fault"
+        if self.background and not self.background.transparent:
+            yield self.background.unjudged()
 
     def told(self, x: int, y: int) -> str:
         """Return why a pixel has its cause, in a sentence with its numbers and names."""
@@ -175,10 +186,13 @@ class Comparison:
         ]
 
     def _but(self) -> str:
-        """Return what the verdict leaves out, for its own line."""
-        if self.background is None or self.background.transparent:
-            return ""
-        return f" ({self.background.unjudged()})"
+        """Return why it is no better than a warning, or what it leaves out, for its own line."""
+        why: Iterable[str] = ()
+        if self.verdict in ("warnings", "not comparable"):
+            why = dict.fromkeys(self._doubts())
+        elif self.background and not self.background.transparent:
+            why = (self.background.unjudged(),)
+        return f" ({'; '.join(why)})" if why else ""
 
     def _of_causes(self) -> Iterator[str]:
         """Say how many pixels have each cause, and where the first of them are."""

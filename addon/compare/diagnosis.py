@@ -58,9 +58,20 @@ class Told:
             f"agree, and {lost} that agreed {'are' if self.broken > 1 else 'is'} lost"
         )
 
+    @property
+    def is_all(self) -> bool:
+        """Whether it settles all that was unexplained, and loses nothing."""
+        return self.settled == self.unexplained and not self.broken
+
     def enclosed(self) -> str:
-        """Say between what its numbers lie; empty if none was fitted, or each is one number."""
+        """Say between what its numbers lie; empty if none was fitted, or each is one number.
+
+        Where pixels are left, or lost, something else is wrong, too, or the fit ended beside the
+        best place: then nothing is said of how far the numbers may be off.
+        """
         g = self.guess
+        if not self.is_all:
+            return ""
         ends = zip(self.fault.numbers, g.low, g.high, strict=False)
         wide = ((name, f"{low:.6g}", f"{high:.6g}") for name, low, high in ends)
         return ", ".join(f"{name} from {low} to {high}" for name, low, high in wide if low != high)
@@ -81,8 +92,9 @@ class Told:
         """Return it as JSON can hold it."""
         g = self.guess
         numbers = {name: [v] for name, v in zip(self.fault.numbers, g.values, strict=False)}
-        for name, low, high in zip(self.fault.numbers, g.low, g.high, strict=False):
-            numbers[name] += [low, high]
+        if self.is_all:
+            for name, low, high in zip(self.fault.numbers, g.low, g.high, strict=False):
+                numbers[name] += [low, high]
         return {
             "fault": self.fault.name,
             "sentence": self.sentence,
@@ -114,12 +126,13 @@ class Diagnosis:
         """Return what a person wants to know first."""
         out = [line for told in self.told for line in told.lines()]
         if not out:
-            out = ["diagnosis: no known fault accounts for the unexplained pixels"]
+            which = "fault that was tried" if self.untried else "known fault"
+            out = [f"diagnosis: no {which} accounts for the unexplained pixels"]
         if self.left:
             places = "region" if len(self.regions) == 1 else "regions"
             out.append(f"           {self.left:,} px are left, in {len(self.regions)} {places}:")
             out += [f"             {_framed(region)}" for region in self.regions[:FRAMED]]
-        if self.untried:
+        if self.untried and not (self.told and self.told[-1].is_all):
             out.append(f"           (not looked for to the end, as it takes long: {self._untried})")
         return out
 

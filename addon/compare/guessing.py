@@ -58,7 +58,7 @@ STARTS = 2  # such guesses
 LOST = 0.1  # of the pixels that such a guess settles: it loses no more
 # Of work, after which no other guess is made, and one that is being made is given up. In a step, a
 # bounded number of rays, pairs or pixels is looked at: as many on each machine.
-STEPS = 36_000
+STEPS = 60_000
 
 
 class Guessing:

@@ -13,7 +13,7 @@ from ..arrays import Array, Floats, Index
 from ..scene import SceneError
 from .contents import Contents
 from .meshes import contents
-from .words import floats, integers, shown
+from .words import BYTE_ORDER_MARK, floats, integers, shown
 
 # What changes nothing of the shape: normals, texture coordinates, materials, how it is displayed.
 _NO_SHAPE = frozenset(
@@ -35,7 +35,7 @@ def read_obj(path: Path) -> Contents:
     SceneError, ValueError
         If a line is not understood as what it begins as; it says which line.
     """
-    content = path.read_bytes()
+    content = path.read_bytes().removeprefix(BYTE_ORDER_MARK)
     if b"\0" in content:
         raise SceneError("it is no OBJ file: it holds bytes that no text has")
     return _Reading(path.stem).read(content)

@@ -11,8 +11,9 @@ import numpy as np
 from ..scene import SceneError
 from .contents import Contents
 from .meshes import contents
-from .words import floats, integers
+from .words import BYTE_ORDER_MARK, floats, integers
 
+_GLUED = re.compile(rb"(OFF)(\d+)")  # as many files of ModelNet have it
 _KIND = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF")
 _COMMENT = re.compile(rb"#.*")
 
@@ -27,8 +28,10 @@ def read_off(path: Path) -> Contents:
     SceneError
         If it is cut off, not an OFF file, or one of another number of dimensions, or binary.
     """
-    lines = _lines(path.read_bytes())
+    lines = _lines(path.read_bytes().removeprefix(BYTE_ORDER_MARK))
     _, words = next(lines, (0, [b""]))
+    if glued := _GLUED.fullmatch(words[0]):
+        words = [*glued.groups(), *words[1:]]
     kind = _KIND.fullmatch(words[0])
     if not kind:
         raise SceneError("it is no OFF file: its first word is not OFF")

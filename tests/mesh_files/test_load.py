@@ -340,3 +340,23 @@ def test_a_property_of_a_ply_may_have_spaces_in_its_name(tmp_path):
     (tmp_path / "b.ply").write_text(head.replace("float Bone 1", "float"))
     with pytest.raises(SceneError, match="its head is not understood: 'property float'"):
         load_meshes(tmp_path / "b.ply")
+
+
+@pytest.mark.parametrize(
+    "name, text",
+    [
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 0 1\nf 1 2 3\n"),
+        ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 1\n3 0 1 2\n"),
+        ("b.off", "OFF3 1 0\n0 0 0\n1 0 0\n0 0 1\n3 0 1 2\n"),  # as ModelNet's files have it
+    ],
+)
+def test_a_byte_order_mark_is_no_part_of_the_first_line(name, text, tmp_path):
+    found = []
+    for number, mark in enumerate((b"", b"\xef\xbb\xbf")):
+        path = tmp_path / f"{number}{name}"
+        path.write_bytes(mark + text.encode())
+        contents = load_meshes(path)
+        assert not contents.notes
+        [placed] = contents.placed
+        found.append(placed.mesh.vertices[placed.mesh.triangles].tolist())
+    assert found[0] == found[1] == [[[0, 0, 0], [1, 0, 0], [0, 0, 1]]]

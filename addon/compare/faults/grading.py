@@ -71,7 +71,9 @@ def _balances(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
             if several(value):
                 first, second = low[fits, channel] / value, high[fits, channel] / value
                 factors.append(_most_covered(first, second))
-        if len(factors) == 3 and np.ptp(factors) > LEAST_CHANGE and min(factors) > 0:
+        if len(factors) < 3 or not np.isfinite(factors).all() or min(factors) <= 0:
+            continue
+        if np.ptp(factors) > LEAST_CHANGE:
             yield tuple(factors), through(into, back, np.array(factors).__mul__), words
 
 
@@ -87,7 +89,7 @@ def _saturations(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
                 continue
             first, second = ((v - grey)[fits] / apart[fits] for v in (low, high))
             share = _most_covered(np.minimum(first, second), np.maximum(first, second))
-            if share >= 0 and abs(share - 1) > LEAST_CHANGE:
+            if np.isfinite(share) and share >= 0 and abs(share - 1) > LEAST_CHANGE:
                 of = through(into, back, saturated(share, weights))
                 yield (share,), of, f"{space}, with the grey of {name}"
 
