@@ -242,6 +242,14 @@ def test_a_damaged_chunk_is_named(tmp_path, picture):
         read_picture(tmp_path / "p.png")
 
 
+@pytest.mark.parametrize("side", [2**31 - 1, 2**32 - 1])
+def test_a_picture_that_is_said_to_be_larger_than_any_memory(side):
+    header = struct.pack(">2I5B", side, side, 16, 6, 0, 0, 0)
+    parts = chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(bytes(9))), chunk(b"IEND", b"")
+    with pytest.raises(png.PngError, match="fewer pixels"):
+        png.decode(png.SIGNATURE + b"".join(parts))
+
+
 @pytest.mark.torture
 def test_a_picture_of_more_than_179_megapixels(tmp_path):
     rows = [bytes(1600)] * 14_000  # 1 bit each
