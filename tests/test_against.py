@@ -102,6 +102,21 @@ def test_a_png_without_alpha(scene, against):
     assert against(save=save)[0] == 0
 
 
+def test_few_bits_excuse_no_missing_object(make, against, tmp_path):
+    """In one bit both greys are white, which is what is compared."""
+    from PIL import Image
+
+    quads = make.quad(-0.5, 0.5, -0.5, 0.5, -2), make.quad(-9, 9, -9, 9, -3)
+    scene = make.scene(make.camera(24, 18), *quads)
+    table = ([[g, g, g, 1]] for g in (0.8, 0.3))
+    own = (replace(i, colors=c) for i, c in zip(scene.instances, table, strict=True))
+    scene = replace(scene, instances=tuple(own))
+    save_scene(tmp_path / "greys.npz", scene)
+    white = Image.new("1", (24, 18), 1)
+    code, found, _ = against(save=white.save, source="greys.npz")
+    assert code == 2 and found["pixels"]["unexplained"] > 0.9 * 24 * 18
+
+
 def test_half_transparent_colours_are_premultiplied_once(make, against, tmp_path):
     from PIL import Image
 

@@ -172,7 +172,7 @@ def test_few_levels_a_palette_and_a_clear_color(depth, palette, clear, tmp_path)
     level = bits @ (1 << np.arange(depth)[::-1])
     shown = table.reshape(-1, 3)[level] / 255 if palette else level[:, None].repeat(3, 1) / most
     alpha = np.where(level == 1, 128 / 255 if palette else 0, 1) if clear else np.ones(len(level))
-    assert read.levels == (255 if palette else most) and read.opaque is not clear
+    assert read.levels == 255 and read.opaque is not clear
     assert np.array_equal(read.color[0, :, 3], alpha.astype(np.float32))
     expected = images.curve_undone(shown) * alpha[:, None]
     np.testing.assert_allclose(read.color[0, :, :3], expected, rtol=1e-6)
