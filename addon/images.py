@@ -22,6 +22,7 @@ from . import png
 from .arrays import Array, Bytes, Colors, Floats
 from .runs import by_runs
 
+_EIGHT_BITS = 255  # levels above 0
 _ROWS = 64  # of an EXR that are written at a time: several of its blocks
 
 
@@ -131,7 +132,9 @@ class StoredPicture:
     """A picture from a file."""
 
     color: Colors  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
-    levels: int  # above 0 of sRGB's curve in which it was stored; 0 for floats
+    # Above 0 of sRGB's curve in which it was stored; 0 for floats. At least 255: programs store
+    # fewer bits where that loses nothing, and half a step of one bit would excuse any colour.
+    levels: int
     opaque: bool  # the file has no alpha
     engine: str = ""  # of Blender, as the file's own header has it: 'cycles', 'other'; else ''
 
@@ -202,7 +205,8 @@ def _png_of(path: Path) -> StoredPicture:
     color = np.ones((*values.shape[:2], 4), np.float32)
     for row, own in zip(color, values[::-1], strict=True):
         row[:, : len(order)] = by_runs(lambda some: decoded(some / stored.levels), own[:, order])
-    return StoredPicture(color, stored.levels, not has_alpha, _engine_of(stored.notes))
+    levels = max(stored.levels, _EIGHT_BITS)
+    return StoredPicture(color, levels, not has_alpha, _engine_of(stored.notes))
 
 
 @contextmanager

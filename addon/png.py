@@ -9,6 +9,7 @@ they are followed. Chunks that say more of colour (gAMA, iCCP, ...) are not appl
 from __future__ import annotations
 
 import struct
+import sys
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -116,17 +117,17 @@ def decode(content: bytes) -> Samples:
         If it is no PNG, or a damaged one.
     """
     header = header_of(content)
-    chunks: dict[bytes, bytes] = {}
-    notes = set()
+    parts: dict[bytes, list[bytes]] = {}
     for kind, body in _chunks(content):
-        chunks[kind] = chunks.get(kind, b"") + body
-        if kind in _TEXTS:
-            notes.add(body.partition(b"\0")[0].decode("latin-1"))
+        parts.setdefault(kind, []).append(body)
+    texts = (text for kind in _TEXTS for text in parts.get(kind, ()))
+    notes = frozenset(text.partition(b"\0")[0].decode("latin-1") for text in texts)
+    chunks = {kind: b"".join(bodies) for kind, bodies in parts.items()}
     if b"IEND" not in chunks:
         raise PngError("it is cut off")
     samples = _samples(header, chunks.get(b"IDAT", b""))
     values, levels, has_alpha = _in_channels(header, chunks, samples)
-    return Samples(values, levels, has_alpha, frozenset(notes))
+    return Samples(values, levels, has_alpha, notes)
 
 
 def _chunks(content: bytes) -> Iterator[tuple[bytes, bytes]]:
@@ -170,7 +171,7 @@ def _unpacked(packed: bytes, size: int) -> bytes:
     """Return so many bytes of zlib's; never more, whatever the stream holds."""
     reader = zlib.decompressobj()
     try:
-        data = reader.decompress(packed, size)
+        data = reader.decompress(packed, min(size, sys.maxsize))
     except zlib.error as error:
         raise PngError(f"its pixels are damaged ({error})") from error
     if len(data) < size:

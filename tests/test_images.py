@@ -172,7 +172,7 @@ def test_few_levels_a_palette_and_a_clear_color(depth, palette, clear, tmp_path)
     level = bits @ (1 << np.arange(depth)[::-1])
     shown = table.reshape(-1, 3)[level] / 255 if palette else level[:, None].repeat(3, 1) / most
     alpha = np.where(level == 1, 128 / 255 if palette else 0, 1) if clear else np.ones(len(level))
-    assert read.levels == (255 if palette else most) and read.opaque is not clear
+    assert read.levels == 255 and read.opaque is not clear
     assert np.array_equal(read.color[0, :, 3], alpha.astype(np.float32))
     expected = images.curve_undone(shown) * alpha[:, None]
     np.testing.assert_allclose(read.color[0, :, :3], expected, rtol=1e-6)
@@ -240,6 +240,14 @@ def test_a_damaged_chunk_is_named(tmp_path, picture):
     (tmp_path / "p.png").write_bytes(content)
     with pytest.raises(OSError, match=r"p\.png' cannot be read, save it again: its chunk IDAT"):
         read_picture(tmp_path / "p.png")
+
+
+@pytest.mark.parametrize("side", [2**31 - 1, 2**32 - 1])
+def test_a_picture_that_is_said_to_be_larger_than_any_memory(side):
+    header = struct.pack(">2I5B", side, side, 16, 6, 0, 0, 0)
+    parts = chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(bytes(9))), chunk(b"IEND", b"")
+    with pytest.raises(png.PngError, match="fewer pixels"):
+        png.decode(png.SIGNATURE + b"".join(parts))
 
 
 @pytest.mark.torture

@@ -25,15 +25,16 @@ def open_file(path: Path) -> None:
     RuntimeError
         If it cannot be opened, with Blender's reason. What was open before then still is.
     """
-    _reports.clear()
+    said: list[str] = []
     with _heard() as loaded, redirect_stdout(sys.stderr):  # Blender writes its reports by Python
         try:
             bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
         except RuntimeError as error:
             if not loaded:
                 raise
-            lines = (line.removeprefix("Error: ").strip() for line in str(error).splitlines())
-            _reports[bpy.data.filepath] = tuple(line for line in lines if line)
+            said = [line.removeprefix("Error: ").strip() for line in str(error).splitlines()]
+    _reports.clear()
+    _reports[bpy.data.filepath] = tuple(line for line in said if line)
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF8
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -13,7 +14,7 @@ from ..arrays import Array, Floats, Index
 from ..scene import SceneError
 from .contents import Contents
 from .meshes import contents
-from .words import BYTE_ORDER_MARK, floats, integers, shown
+from .words import floats, integers, shown
 
 # What changes nothing of the shape: normals, texture coordinates, materials, how it is displayed.
 _NO_SHAPE = frozenset(
@@ -35,7 +36,7 @@ def read_obj(path: Path) -> Contents:
     SceneError, ValueError
         If a line is not understood as what it begins as; it says which line.
     """
-    content = path.read_bytes().removeprefix(BYTE_ORDER_MARK)
+    content = path.read_bytes().removeprefix(BOM_UTF8)
     if b"\0" in content:
         raise SceneError("it is no OBJ file: it holds bytes that no text has")
     return _Reading(path.stem).read(content)
@@ -68,7 +69,7 @@ class _Reading:
                 by_name[key].take_up(b" ".join(words[1:]).decode("utf-8", "replace"))
             elif key not in _NO_SHAPE:
                 self.other[key] += 1
-        by = self.objects if len(self.objects.numbers) > 1 else self.groups
+        by = self.objects if self.objects.is_taken_up else self.groups
         return contents(
             self._vertices(),
             self._indices(),
@@ -92,7 +93,7 @@ class _Reading:
         for k, corner in enumerate(corners):
             if corner[:1] == b"-":  # -1 is the last vertex above the line
                 (back,) = _numbers(integers, [corner], lambda _: line)
-                corners[k] = b"%d" % (len(self.vertex_lines) + 1 + back)
+                corners[k] = b"%d" % (back and len(self.vertex_lines) + 1 + back)
         self.corners += corners
         self.sizes.append(len(corners))
         self.face_lines.append(line)
@@ -150,10 +151,12 @@ class _Names:
         self.numbers = {first: 0}
         self.first = first
         self.current = 0
+        self.is_taken_up = False
         self.of_faces: list[int] = []
 
     def take_up(self, name: str) -> None:
         """Make the next faces those of a name, which may have been there before."""
+        self.is_taken_up = True
         self.current = self.numbers.setdefault(name or self.first, len(self.numbers))
 
 

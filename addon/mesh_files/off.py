@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF8
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import numpy as np
 from ..scene import SceneError
 from .contents import Contents
 from .meshes import contents
-from .words import BYTE_ORDER_MARK, floats, integers
+from .words import floats, integers
 
 _GLUED = re.compile(rb"(OFF)(\d+)")  # as many files of ModelNet have it
 _KIND = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF")
@@ -28,7 +29,7 @@ def read_off(path: Path) -> Contents:
     SceneError
         If it is cut off, not an OFF file, or one of another number of dimensions, or binary.
     """
-    lines = _lines(path.read_bytes().removeprefix(BYTE_ORDER_MARK))
+    lines = _lines(path.read_bytes().removeprefix(BOM_UTF8))
     _, words = next(lines, (0, [b""]))
     if glued := _GLUED.fullmatch(words[0]):
         words = [*glued.groups(), *words[1:]]

@@ -48,7 +48,8 @@ def read_ply(path: Path) -> Contents:
     vertices: Floats = np.zeros((0, 3))
     faces = [Lists(np.zeros(0, np.intp), np.zeros(0, np.intp))]
     notes = []
-    for element, columns in zip(elements, read_tables(body, elements), strict=True):
+    tables, more = read_tables(body, elements)
+    for element, columns in zip(elements, tables, strict=True):
         if element.name == "vertex":
             vertices = _vertices(columns)
         elif element.name == "face":
@@ -57,6 +58,9 @@ def read_ply(path: Path) -> Contents:
             faces.append(_of_strips(_corners(element, columns)))
         elif element.count:
             notes.append(_passed_over(element))
+    if more:
+        units = "bytes" if order else "numbers"
+        notes.append(f"{more:,} {units} behind the last row are not understood, and left out")
     corners, sizes = map(np.concatenate, zip(*faces, strict=True))
     return contents(vertices, corners.astype(np.intp), sizes, [path.stem], notes=notes)
 
@@ -66,6 +70,8 @@ def _corners(element: Element, columns: Columns) -> Lists:
     found = next((columns[name] for name in _CORNERS if name in columns), None)
     if not isinstance(found, Lists):
         raise SceneError(f"its element '{element.name}' has no list '{_CORNERS[0]}'")
+    if found.values.dtype.kind == "f":
+        raise SceneError(f"its element '{element.name}' names vertices by numbers with fractions")
     return found
 
 
@@ -115,7 +121,7 @@ def _head(content: bytes) -> tuple[str, list[Element], int]:
         match words:
             case ["format", kind, *_] if kind in _ORDERS:
                 order = _ORDERS[kind]
-            case ["element", name, count] if count.isdecimal():
+            case ["element", name, count] if count.isdecimal() and not _has(elements, name):
                 elements.append(Element(name, int(count), ()))
             case ["property", *rest] if elements:
                 last = elements.pop()
@@ -128,6 +134,10 @@ def _head(content: bytes) -> tuple[str, list[Element], int]:
             case _:
                 raise SceneError(f"its head is not understood: '{' '.join(words)[:60]}'")
     raise SceneError("it is cut off: its head has no end")
+
+
+def _has(elements: list[Element], name: str) -> bool:
+    return any(element.name == name for element in elements)
 
 
 def _property(words: list[str]) -> Property:

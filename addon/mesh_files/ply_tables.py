@@ -67,7 +67,10 @@ class Text:
 
     def length(self, at: int, kind: str) -> int:
         """Return the integer at a place."""
-        return int(self.values[at])
+        found = float(self.values[at])
+        if not found.is_integer():
+            raise SceneError("what should be an integer is none")
+        return int(found)
 
     def numbers(self, at: Places, kind: str) -> Array:
         """Return the numbers at places (n,)."""
@@ -103,8 +106,8 @@ class Binary:
         return stored.astype(kind)
 
 
-def read_tables(body: Body, elements: list[Element]) -> list[Columns]:
-    """Return the columns of each element.
+def read_tables(body: Body, elements: list[Element]) -> tuple[list[Columns], int]:
+    """Return the columns of each element, and how many units follow the last one.
 
     Raises
     ------
@@ -115,12 +118,14 @@ def read_tables(body: Body, elements: list[Element]) -> list[Columns]:
     for element in elements:
         table, start = _table(body, element, start)
         out.append(table)
-    return out
+    return out, body.end - start
 
 
 def _table(body: Body, element: Element, start: int) -> tuple[Columns, int]:
     """Return the columns of an element that begins at a unit, and where the next one begins."""
     count = element.count
+    if not element.properties:
+        return {}, start  # rows of nothing, however many
     short = f"it is cut off: fewer than its {count:,} rows of '{element.name}' are there"
     least = sum(body.width(p.length_type or p.type) for p in element.properties)
     if start + least * count > body.end:

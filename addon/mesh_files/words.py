@@ -9,8 +9,6 @@ import numpy as np
 
 from ..arrays import Floats, Index
 
-BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # some editors write it before a text in UTF-8
-
 Number = TypeVar("Number", int, float)
 
 

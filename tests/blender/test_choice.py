@@ -176,7 +176,10 @@ def places(choice):
     ("choice", "words"),
     [
         ({"scene_name": "X"}, "there is no scene 'X'; there is 'Other', 'Scene"),
-        ({"scene_name": "Other", "view_layer": "X"}, "no view layer 'X'; there is 'ViewLayer', 'Second"),
+        (
+            {"scene_name": "Other", "view_layer": "X"},
+            "no view layer 'X'; there is 'ViewLayer', 'Second",
+        ),
         ({"camera": "Moving"}, "there is no camera 'Moving'; there is 'Hidden Camera', 'Near"),
         ({"width": 3}, "3 x 2 pixels"),
     ],

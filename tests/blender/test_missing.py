@@ -308,6 +308,31 @@ def test_a_missing_file(make, build, saved, export):
     assert FILES[make] in missing[1][1]
 
 
+def test_a_path_as_windows_has_it(build, saved, export):
+    """Blender reads the file, whatever the machine."""
+    (saved.folder / "textures").mkdir()
+    displacing_image(build, saved.folder / "textures")
+    bpy.data.images["bumps"].filepath = "//textures\\bumps.png"
+    saved.reopen()
+    assert bpy.data.images["bumps"].size[:] == (4, 4)
+    assert found(export.render()[1]) == {}
+    (saved.folder / "textures" / "bumps.png").unlink()
+    saved.reopen()
+    assert list(found(export.render()[1])) == ["missing file"]
+
+
+def test_a_sequence_has_its_frames_in_its_name_not_in_its_suffix(build, saved, export):
+    displacing_image(build, saved.folder)
+    (saved.folder / "bumps.png").rename(saved.folder / "bumps_0002.jp2")
+    bumps = bpy.data.images["bumps"]
+    bumps.source, bumps.filepath = "SEQUENCE", "//bumps_0001.jp2"
+    saved.reopen()
+    assert found(export.render()[1]) == {}
+    (saved.folder / "bumps_0002.jp2").unlink()
+    saved.reopen()
+    assert list(found(export.render()[1])) == ["missing file"]
+
+
 def test_packed_files_are_there(build, saved, export):
     displacing_image(build, saved.folder)
     font(build, saved.folder)

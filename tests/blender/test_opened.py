@@ -9,6 +9,7 @@ from pathlib import Path
 
 import bpy
 import pytest
+from reference_tracer.blender import opened
 from reference_tracer.cli.opening import open_blend
 from reference_tracer.scene import SceneError
 
@@ -53,6 +54,16 @@ def test_a_file_that_opens_with_a_report_is_compared(reported, tmp_path, reftrac
     found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
     assert any("channel" in note for note in found["scene"]["notes"])
     assert "channel larger" in (tmp_path / "out" / "page.html").read_text(encoding="utf-8")
+
+
+def test_a_report_is_kept_where_the_next_file_cannot_be_opened(reported, tmp_path):
+    opened.open_file(reported)
+    before = opened.notes()
+    assert "channel" in before[0]
+    (tmp_path / "no.blend").write_bytes(b"no .blend at all" * 100)
+    with pytest.raises(RuntimeError):
+        opened.open_file(tmp_path / "no.blend")
+    assert Path(bpy.data.filepath) == reported and opened.notes() == before
 
 
 def damaged(path: Path) -> None:

@@ -554,3 +554,13 @@ class TestNotes:
         triangles, (note,) = read(Build().shown(rotation=[0, 0, 2, 0], name="N").write(path))
         assert box(triangles) == [[-1, -1, 0], [0, 0, 0]]
         assert "length 1" in note and "node 0 'N'" in note
+
+
+def test_what_a_node_has_beside_its_matrix_is_named(tmp_path):
+    matrix = np.eye(4).ravel().tolist()
+    path = Build().shown(matrix=matrix, translation=[5, 0, 0]).write(tmp_path / "a.gltf")
+    triangles, notes = read(path)
+    assert box(triangles) == UNIT
+    assert notes == (
+        "Nodes have a matrix, and parts of one beside it, which are not used: node 0.",
+    )

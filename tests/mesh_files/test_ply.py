@@ -136,6 +136,9 @@ BODY = "0 0 0\n1 0 0\n0 1 0\n"
         (f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 two", "what should be a number is none"),
         (f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 1.5", "what should be an integer is none"),
         (f"{HEAD}{XYZ}{FACE}{BODY}-3 0 1 2", "it is cut off"),
+        (f"{HEAD}{XYZ}{FACE}{BODY}3.5 0 1 2", "what should be an integer is none"),
+        (f"{HEAD}{XYZ}{FACE.replace('int', 'float', 1)}{BODY}3 0 1 1.5", "with fractions"),
+        (f"{HEAD}{XYZ}element vertex 3\n{XYZ}{FACE}{BODY}{BODY}3 0 1 2", "'element vertex 3'"),
         (f"{HEAD}{XYZ}{FACE.replace('vertex_indices', 'corners')}{BODY}3 0 1 2", "no list"),
     ],
 )
@@ -143,6 +146,20 @@ def test_what_cannot_be_meant_is_refused(text, words, tmp_path):
     (tmp_path / "a.ply").write_text(text)
     with pytest.raises((SceneError, ValueError), match=words):
         read_ply(tmp_path / "a.ply")
+
+
+def test_what_follows_the_last_row_is_named(tmp_path):
+    (tmp_path / "a.ply").write_text(f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 2\n3 2 1 0\n")
+    found = read_ply(tmp_path / "a.ply")
+    assert found.notes == ("4 numbers behind the last row are not understood, and left out",)
+    assert len(corners(found)) == 1
+
+
+def test_rows_of_nothing_take_no_memory(tmp_path):
+    nothing = "element nothing 9999999999999\n"
+    head = HEAD.replace("element vertex", f"{nothing}element vertex")
+    (tmp_path / "a.ply").write_text(f"{head}{XYZ}{FACE}{BODY}3 0 1 2\n")
+    assert len(corners(read_ply(tmp_path / "a.ply"))) == 1
 
 
 def test_an_index_out_of_range_is_refused_with_its_face(tmp_path):

@@ -17,7 +17,8 @@ import bpy
 from ..versions import bake_folder
 
 _TILE = re.compile(r"<(UDIM|UVTILE)>")
-_NUMBER = re.compile(r"\d+(?=\D*$)")  # a sequence's: the last of a name
+# A sequence's: the last of a name, but for one of its suffix, as of .jp2.
+_NUMBER = re.compile(r"\d+(?=\D*(?:\.\w+)?$)")
 
 
 class Lost(NamedTuple):
@@ -79,21 +80,27 @@ def _is_lost(block: Any, pattern: str | None = None) -> bool:
 
 
 def _any_frame(path: str) -> str:
-    return _NUMBER.sub("*", path)
+    return _NUMBER.sub("*", path, count=1)
 
 
 def _of_frame(path: str, frame: int) -> str:
-    return _NUMBER.sub(lambda number: f"{frame:0{len(number[0])}}", path)
+    return _NUMBER.sub(lambda number: f"{frame:0{len(number[0])}}", path, count=1)
 
 
 def exists(block: Any, path: str) -> bool:
     """Return whether a path of a data-block leads anywhere; it may have a * in its name."""
-    full = bpy.path.abspath(path, library=block.library)
+    full = _absolute(path, block.library)
     if os.path.exists(full):
         return True
     folder, name = os.path.split(full)
     pattern = escape(_TILE.sub("*", name)).replace("[*]", "*")
     return "*" in pattern and bool(glob(os.path.join(escape(folder), pattern)))
+
+
+def _absolute(path: str, library: Any) -> str:
+    """Return a path of a library, or of the .blend itself; one of Windows' as Blender reads it."""
+    start = os.path.dirname(_absolute(library.filepath, library.parent)) if library else None
+    return bpy.path.abspath(path.replace("\\", "/"), start=start)
 
 
 def _of_object(obj: Any, mode: str) -> Iterator[tuple[str, str, str]]:

@@ -119,12 +119,15 @@ def _behind(part: Part, asked: _Asked) -> Work[None]:
     """Look for what Blender shows in surfaces that tie with the first one.
 
     That may be the centre itself: these rays are float64's, and of surfaces that are nearer than
-    its last place they may see another one than the picture, which is certified.
+    its last place they may see another one than the frame, which is certified. Where what the frame
+    met is shown as well, its colour is another for another reason, as of a mean of several samples.
     """
-    first = asked.centre
-    allowed = np.where(first.instance != NOTHING, part.resolution(first), -1.0)
+    first, frame = asked.centre, part.pixels.frame
+    met = frame.hits().take(np.ravel_multi_index(part.at, frame.shape))
+    may = (first.instance != NOTHING) & part.picture.differ(part.scene, met)
+    allowed = np.where(may, part.resolution(first), -1.0)
     with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
-        moved = np.abs(first.t - part.pixels.frame.t[part.at])
+        moved = np.abs(first.t - met.t)
     part.give(asked.lost & (moved <= allowed), DEPTH_TIE, moved, allowed)
     hits = first
     for _ in range(LAYERS):

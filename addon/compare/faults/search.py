@@ -89,12 +89,12 @@ class Search:
         best, right = yield from self.climbed(best, min(step, COARSE), last)
         if not enclose:
             return Guess(best, best, best, object=name)
-        for _ in range(ANEW):
+        for number in range(ANEW + 1):
             places = yield from self._region([np.array(best)], right)
             beside = yield from self._beside(np.array(best))
             better = max(beside.values())
-            if better <= right:
-                break
+            if better <= right or number == ANEW:
+                break  # `places` are those around `best`
             there = next(place for place, found in beside.items() if found == better)
             best, right = yield from self.climbed(there, COARSE / 2, self.finest)
         # As many are right there, too, with fewer between.
@@ -103,7 +103,7 @@ class Search:
         told = yield from self._told(best, places, right)
         if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
             places = yield from self._region([np.array(told), *places], right)
-        low, high = self._box(places)
+        low, high = self._box(np.array([told, *places]))  # its last digit may lie just outside
         return Guess(told, _values(low), _values(high), object=name)
 
     def _box(self, places: Floats) -> tuple[Floats, Floats]:

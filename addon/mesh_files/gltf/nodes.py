@@ -150,6 +150,10 @@ def _local(node: Thing, notes: Notes) -> Floats:
     """Return parent_from_node, (4, 4)."""
     matrix = node.numbers("matrix", 16)
     if matrix is not None:
+        if not {"translation", "rotation", "scale"}.isdisjoint(node.content):
+            notes.add(
+                "Nodes have a matrix, and parts of one beside it, which are not used", node.label
+            )
         return affine(matrix, node.label)
     translation, rotation, scale = (
         node.numbers(key, count)

@@ -229,3 +229,12 @@ def test_a_fan_of_needles_hides_no_fault(make, explained, needles, radius):
     picture = render(replace(scene, instances=scene.instances[1:])).color
     found = explained(scene, picture, sample_radius=radius)
     assert (found.cause[inside] == UNEXPLAINED).mean() > 0.8
+
+
+def test_a_mean_of_samples_is_no_depth_tie(stripes, count):
+    """The picture shows what the centre sees; the traced colour is another, on one surface."""
+    settings = Settings(samples=4)
+    picture = render(stripes).color
+    work = find_causes(stripes, render(stripes, settings), picture, settings=settings)
+    found = result_of(work)
+    assert count(found, DEPTH_TIE) == 0 and count(found, UNEXPLAINED) > 50
