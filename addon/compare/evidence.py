@@ -40,6 +40,7 @@ LEAST = 4  # unexplained pixels for which an object is suspected
 INVOLVED = 0.1  # of the pixels of the first suspect: others are suspected with as many
 MOST_SUSPECTS = 4
 MOST_COLORS = 512  # of a scene in which pixels are told by their colours
+BEYOND = 1e6  # times as far as the farthest surface: where the background is taken to be
 NEAR = 0.02  # of a channel: how far a color may lie from the one that is looked for
 
 
@@ -182,6 +183,15 @@ class Evidence:
         rows, columns = self.sample
         r = self.case.scene.camera.region
         return np.stack((columns + r.x0 + 0.5, rows + r.y0 + 0.5))
+
+    @cached_property
+    def points(self) -> Floats:
+        """What is traced in the n sampled pixels, (3, n) world space; the background far away."""
+        t = self.frame.t
+        seen = np.isfinite(t)
+        far = BEYOND * float(np.max(t[seen], initial=1.0))
+        rays = camera_rays(self.case.scene.camera, *self.film)
+        return rays.at(np.where(seen, t, far)[self.sample])
 
     @cached_property
     def suspects(self) -> tuple[str, ...]:

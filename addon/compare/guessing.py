@@ -134,15 +134,19 @@ class Guessing:
     def _tried(
         self, evidence: Evidence, of: Evidence, scored: list[tuple[float, Fault, Guess]], most: int
     ) -> Work[list[Trial]]:
-        """Return the trials of the guesses with the most gain; what was fitted is fitted finely."""
-        scored = sorted(scored, key=lambda one: -one[0])
+        """Return the trials of the guesses with the most gain; what was fitted is fitted finely.
+
+        Vague ones come last: their trials take long, and what is exact is told in their place.
+        """
+        promising = PROMISING * max((gain for gain, _, _ in scored), default=0.0)
+        scored = sorted((one for one in scored if one[0] >= promising), key=lambda one: -one[0])
+        exact = [one for one in scored if not one[1].vague]
+        vague = [one for one in scored if one[1].vague]
         out: list[Trial] = []
         done: set[str] = set()  # faults with a guess that does it all
-        for gain, fault, guess in scored[:most]:
+        for _, fault, guess in (*exact[:most], *vague[:most]):
             if fault.name in done:
                 continue
-            if gain < PROMISING * scored[0][0]:
-                break
             if fault.refine and guess.low:
                 finer = replace(evidence, size=ALL_EDGES, fine=True)
                 refining = self._limited(fault.refine(finer, guess), fault)

@@ -14,10 +14,10 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ...scene import Camera
-from ...tracer.camera import camera_rays, film_of
+from ...tracer.camera import film_of
 from ...tracer.progress import Work
 from ..checks.probe import Probe
-from ..evidence import NEAR, Evidence, film_beside_camera
+from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
 from .fault import Find, Guess, Refine
 from .search import Search, Values
 
@@ -30,11 +30,7 @@ LOOKED_UP = 512  # pixels in which the traced picture is looked up
 FINER = 1 / 8  # pixels: the first step where a fit is made finer
 ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
 MOVES = 3  # by which a right start is left, with steps of one length: it is a pixel or two away
-# Of the unexplained pixels: a camera is in all of them, so that one that settles fewer, with steps
-# of half a pixel, is not the right one.
-MOST_OF_IT = 0.5
 BETTER = 0.03  # by how much larger the share of right pixels must be for a start
-BEYOND = 1e6  # times as far as the farthest surface: where the background is taken to be
 
 LookUp = Callable[[Evidence, Camera], float]  # the share of some pixels that is right
 
@@ -66,7 +62,7 @@ def projected(evidence: Evidence, camera: Camera) -> float:
     """
     few = _few(evidence)
     at = tuple(v[few] for v in evidence.sample)
-    points = _points(evidence)[:, few]
+    points = evidence.points[:, few]
     with np.errstate(invalid="ignore"):
         x, y, _ = film_of(camera, points)
         inside, where = _inside(camera, np.stack((x, y)))
@@ -93,18 +89,6 @@ def _inside(camera: Camera, film: Floats) -> tuple[Bools, tuple[Floats, Floats]]
     return inside, (row[inside].astype(int), column[inside].astype(int))
 
 
-def _points(evidence: Evidence) -> Floats:
-    """Return what is seen in the n sampled pixels, (3, n) world space; the background far away."""
-    if "points" not in evidence.known:
-        t = evidence.frame.t
-        seen = np.isfinite(t)
-        far = BEYOND * float(np.max(t[seen], initial=1.0))
-        rays = camera_rays(evidence.case.scene.camera, *evidence.film)
-        evidence.known["points"] = rays.at(np.where(seen, t, far)[evidence.sample])
-    points: Floats = evidence.known["points"]
-    return points
-
-
 @dataclass(frozen=True)
 class Family:
     """Cameras that differ in a few numbers."""
@@ -115,6 +99,9 @@ class Family:
     starts: Callable[[Evidence], Iterator[Values]]
     words: Callable[[Camera, Guess], str] = lambda camera, guess: ""
     look_up: LookUp = looked_up
+    # Of the unexplained pixels: with fewer right, by steps of half a pixel, a fit is given up.
+    worth: float = WORTH
+    by_few: bool = False  # whether few pixels say how good numbers are, until they are made finer
     # Changes of the numbers, (m, j) columns, that change nothing in some pictures.
     unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
 
@@ -126,7 +113,7 @@ def fitting(family: Family) -> tuple[Find, Refine]:
         search = Search(
             _Traced(evidence, family, FINE_REACH if guess.low else REACH).right,
             family.axes(evidence),
-            least=evidence.least_right(MOST_OF_IT),
+            least=evidence.least_right(family.worth),
             unseen=family.unseen(evidence),
             moves=np.inf if guess.low else MOVES,
         )
@@ -137,7 +124,8 @@ def fitting(family: Family) -> tuple[Find, Refine]:
         return found and replace(found, words=words)
 
     def find(evidence: Evidence) -> Work[list[Guess]]:
-        evidence = evidence.few
+        if family.by_few:
+            evidence = evidence.few
         out: list[Guess] = []
         for start in (yield from _likely(evidence, family)):
             guess = yield from refine(evidence, Guess(start))
@@ -207,7 +195,7 @@ class _Traced:
 
     def _near(self, prepared: Camera, camera: Camera) -> bool:
         """Return whether a camera sees everything near where the prepared one does."""
-        points = _points(self.evidence)
+        points = self.evidence.points
         film = self.evidence.film
         with np.errstate(all="ignore"):
             before, now = (np.stack(film_of(c, points)[:2]) for c in (prepared, camera))

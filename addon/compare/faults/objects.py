@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import combinations
 
@@ -84,38 +85,45 @@ def _sheared(evidence: Evidence) -> Work[list[Guess]]:
 
 
 def _exchanged(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Return the case with two objects at each other's places; the values are their instances'."""
-    first, second = (int(v) for v in guess.values)
+    """Return the case with two objects at each other's places; the values are their numbers."""
+    names = [case.scene.objects[int(v)] for v in guess.values]
 
     def exchanged(scene: Scene) -> Scene:
+        own = [instances_named(scene, name) for name in names]  # numbered otherwise elsewhere
+        if any(len(some) != 1 for some in own):
+            return scene
         instances = list(scene.instances)
-        if max(first, second) < len(instances):
-            a, b = instances[first], instances[second]
-            instances[first] = replace(a, world_from_object=b.world_from_object)
-            instances[second] = replace(b, world_from_object=a.world_from_object)
+        first, second = (some[0] for some in own)
+        a, b = instances[first], instances[second]
+        instances[first] = replace(a, world_from_object=b.world_from_object)
+        instances[second] = replace(b, world_from_object=a.world_from_object)
         return replace(scene, instances=tuple(instances))
 
     return case.with_scenes(exchanged)
 
 
+def _exchange(scene: Scene, first: str, second: str) -> Guess:
+    numbers = (float(scene.objects.index(name)) for name in (first, second))
+    return Guess(tuple(numbers), words=f"'{first}' and '{second}'")
+
+
 def _pairs(evidence: Evidence) -> Work[list[Guess]]:
-    """Return each two of the suspects."""
+    """Return each two of the suspects that have one instance."""
     scene = evidence.case.scene
-    own = {name: instances_named(scene, name) for name in evidence.suspects}
-    return [
-        Guess((float(own[a][0]), float(own[b][0])), words=f"'{a}' and '{b}'")
-        for a, b in combinations([name for name in own if len(own[name]) == 1], 2)
-    ]
+    return [_exchange(scene, a, b) for a, b in combinations(_single(scene, evidence.suspects), 2)]
     yield
 
 
 def _two(case: Case, frame: Frame) -> Guess | None:
-    """Pick the two instances that are seen in the most pixels."""
-    seen = seen_instances(case, frame)[:2]
-    if len(seen) < 2:
-        return None
-    names = (f"'{case.scene.objects[case.scene.instances[n].object]}'" for n in seen)
-    return Guess(tuple(float(n) for n in seen), words=" and ".join(names))
+    """Pick the two that are seen in the most pixels, of those with one instance."""
+    scene = case.scene
+    seen = (scene.objects[scene.instances[n].object] for n in seen_instances(case, frame))
+    names = _single(scene, dict.fromkeys(seen))[:2]
+    return _exchange(scene, *names) if len(names) == 2 else None
+
+
+def _single(scene: Scene, names: Iterable[str]) -> list[str]:
+    return [name for name in names if len(instances_named(scene, name)) == 1]
 
 
 def _units_or_fitted(evidence: Evidence) -> Work[list[Guess]]:

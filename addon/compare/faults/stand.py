@@ -21,6 +21,8 @@ from .search import Search, Values
 FIRST = 8.0  # pixels: the first step of looking up
 LAST = 1 / 4  # pixels: the last one
 LEAST = 1e-4  # of the largest number: what is less is told as 0
+# Of the unexplained pixels: three numbers settle a part of them by chance, and the right ones most.
+WORTH = 0.4
 NEARER = (1.0, 0.8, 1.25)  # of the depth: how far away the first places are
 
 
@@ -122,5 +124,5 @@ def _in_the_world(camera: Camera, guess: Guess) -> str:
     return f"({x:+.4g}, {y:+.4g}, {z:+.4g}) m"
 
 
-MOVED = Family(moved, _seen, _places, _in_the_world, projected, _unseen)
-TURNED = Family(turned, _degrees, _turns, look_up=projected)
+MOVED = Family(moved, _seen, _places, _in_the_world, projected, WORTH, True, _unseen)
+TURNED = Family(turned, _degrees, _turns, look_up=projected, worth=WORTH, by_few=True)

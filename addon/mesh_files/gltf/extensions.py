@@ -94,7 +94,7 @@ def check_extensions(document: Document, notes: Notes) -> None:
     used = dict.fromkeys((*_names(document, "extensionsUsed"), *_present(document.content)))
     unknown = [name for name in used if name not in known | COMPRESSED]
     if unknown:
-        notes.add("Extensions are not known, so what they move or add is not traced", *unknown)
+        notes.lack("Extensions are not known, so what they move or add is not traced", *unknown)
 
 
 def _names(document: Document, key: str) -> list[str]:

@@ -44,7 +44,7 @@ def read_gltf(path: Path) -> Contents:
         buffers = Buffers(document, path.parent, container.binary, notes)
         placed = _Reader(document, Accessors(document, buffers), notes).placed()
     _name_the_unused(document, notes)
-    return Contents(tuple(placed), notes.sentences())
+    return Contents(tuple(placed), notes.sentences(), notes.missing())
 
 
 class _Reader:

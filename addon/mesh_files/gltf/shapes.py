@@ -108,7 +108,7 @@ class Shapes:
             if mode < TRIANGLES:
                 self._notes.add("Points and lines have no surface and are not traced", mesh.label)
             elif "POSITION" not in attributes.content:
-                self._notes.add("Primitives without positions are not traced", mesh.label)
+                self._notes.lack("Primitives without positions are not traced", mesh.label)
             else:
                 self._check_plain(primitive, attributes)
                 yield primitive, attributes
