@@ -323,3 +323,20 @@ def test_the_farthest_surface_is_seen(few):
 
 def _wider(window):
     return ViewWindow(*(7 * v for v in (window.left, window.right, window.bottom, window.top)))
+
+
+def test_a_turn_is_said_without_what_it_is_not():
+    from reference_tracer.compare.faults import FAULTS
+    from reference_tracer.compare.faults.fault import Guess
+    from reference_tracer.compare.faults.stand import TURNED
+
+    [fault] = [f for f in FAULTS if f.name == "camera_turned"]
+    for values, said in (
+        ((-2.0, 0.0, 0.0), "the camera is turned by 2 degrees to the left"),
+        (
+            (0.5, -0.25, 3e-5),
+            "the camera is turned by 0.5 degrees to the right, 0.25 degrees downwards",
+        ),
+    ):
+        guess = Guess(values, words=TURNED.words(None, Guess(values)))
+        assert fault.told(guess) == said

@@ -171,8 +171,7 @@ CAMERA_FAULTS = (
     ),
     Fault(
         "camera_turned",
-        "the camera is turned by {right:+.4g} degrees to the right, {up:+.4g} upwards, and rolled "
-        "by {roll:+.4g}",
+        "the camera is turned by {words}",
         "compare its world matrix with the one that the scene has, and the order of its angles",
         of_camera(TURNED.camera),
         _PANNED[0],

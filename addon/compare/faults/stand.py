@@ -23,6 +23,7 @@ LAST = 1 / 4  # pixels: the last one
 LEAST = 1e-4  # of the largest number: what is less is told as 0
 # Of the unexplained pixels: three numbers settle a part of them by chance, and the right ones most.
 WORTH = 0.4
+_SIDES = ("to the right", "to the left"), ("upwards", "downwards"), ("anticlockwise", "clockwise")
 NEARER = (1.0, 0.8, 1.25)  # of the depth: how far away the first places are
 
 
@@ -124,5 +125,15 @@ def _in_the_world(camera: Camera, guess: Guess) -> str:
     return f"({x:+.4g}, {y:+.4g}, {z:+.4g}) m"
 
 
+def _in_degrees(camera: Camera, guess: Guess) -> str:
+    """Return by how much it is turned, and to which side, without what it is not."""
+    least = LEAST * max(map(abs, guess.values))
+    return ", ".join(
+        f"{abs(v):.4g} degrees {ahead if v > 0 else back}"
+        for v, (ahead, back) in zip(guess.values, _SIDES, strict=True)
+        if abs(v) > least
+    )
+
+
 MOVED = Family(moved, _seen, _places, _in_the_world, projected, WORTH, True, _unseen)
-TURNED = Family(turned, _degrees, _turns, look_up=projected, worth=WORTH, by_few=True)
+TURNED = Family(turned, _degrees, _turns, _in_degrees, projected, WORTH, True)
