@@ -107,9 +107,13 @@ class Search:
         return Guess(told, _values(low), _values(high), object=name)
 
     def _box(self, places: Floats) -> tuple[Floats, Floats]:
-        """Return a box around places; a region of several numbers has corners beyond these."""
+        """Return a box around places; what is nearer than the finest step is not told apart.
+
+        A region of several numbers has corners beyond the places.
+        """
         low, high = places.min(axis=0), places.max(axis=0)
         beyond = 0.0 if self.all_axes.shape[1] == 1 else (WIDER - 1) / 2 * (high - low)
+        beyond += self.finest * np.abs(self.axes).sum(axis=1)
         return low - beyond, high + beyond
 
     def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
