@@ -2,7 +2,8 @@
 
 Both compute in float32. A rasteriser rounds corners to a fraction of a pixel besides, and keeps
 depths in a buffer of 24 bits, whose steps grow with the clip range. A ray tracer has neither: its
-depths are as good as float32's, and so is its clip range.
+depths and its clip range are float32's. Where triangles are thin, or seen at a grazing angle, its
+depths are worse for that, as they come from quotients.
 """
 
 from __future__ import annotations
