@@ -123,7 +123,9 @@ def _behind(part: Part, asked: _Asked) -> Work[None]:
     met is shown as well, its colour is another for another reason, as of a mean of several samples.
     """
     first, frame = asked.centre, part.pixels.frame
-    met = frame.hits().take(np.ravel_multi_index(part.at, frame.shape))
+    met = first  # where another scene is asked than the frame's
+    if part.scene.instances is frame.scene.instances:
+        met = frame.hits().take(np.ravel_multi_index(part.at, frame.shape))
     may = (first.instance != NOTHING) & part.picture.differ(part.scene, met)
     allowed = np.where(may, part.resolution(first), -1.0)
     with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
