@@ -116,7 +116,8 @@ def _of_camera(scene: Description, made: Made) -> list[tuple[str, str]]:
             return [(key, f"the film magnified by {ratio:.6g} around the principal point")]
     if not np.array_equal(own.k, other.k):
         return []
-    if np.allclose(turn, np.eye(3), **close):
+    moved = not np.allclose(own.center, other.center, **close)
+    if moved and np.allclose(turn, np.eye(3), **close):
         by = np.round(other.center - own.center, 6).tolist()
         names = ["camera_moved", *(["pixel_offset"] if own.parallel else [])]
         return [(key, f"the camera moved by {by} m") for key in names]
@@ -126,7 +127,7 @@ def _of_camera(scene: Description, made: Made) -> list[tuple[str, str]]:
         if np.array_equal(own.k, other.k) and abs(angle) > 1e-6:
             return [("roll", f"turned by {angle:+.4g} degrees about the view axis")]
     rotation = np.allclose(turn @ turn.T, np.eye(3)) and np.linalg.det(turn) > 0
-    if rotation and np.allclose(own.center, other.center, atol=1e-9):
+    if rotation and not moved and not np.allclose(turn, np.eye(3), **close):
         return [("camera_turned", "turned in its place")]
     return []
 

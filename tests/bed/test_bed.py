@@ -219,7 +219,7 @@ def test_names_are_not_the_same_where_a_picture_does():
     assert names("mirrored_y", 3) == {"mirrored_y"}
     assert names("sensor_fit", 3) == {"sensor_fit"}
     assert names("roll", 1) == {"roll"}
-    assert names("other_frame", 4) == {"other_frame", "camera_moved"}  # nothing else moves there
+    assert names("other_frame", 4) == {"other_frame"}
     assert names("object_moved", 1) == {"object_moved"}
 
 
