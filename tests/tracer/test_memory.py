@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+import struct
 import subprocess
 import sys
+import zlib
 
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer import png
 from reference_tracer.cli.main import main
 from reference_tracer.images import save_png, to_display
 from reference_tracer.rendering import render
@@ -116,7 +119,10 @@ def test_what_fits_is_done_and_what_does_not_is_refused(make, tmp_path, kind, co
 @pytest.mark.parametrize("command", ["trace", "compare"])
 def test_the_largest_picture_that_blender_has_is_refused_at_once(tmp_path, command, capsys):
     trimesh.creation.box().export(tmp_path / "box.ply")
-    save_png(tmp_path / "other.png", np.zeros((4, 4, 4), np.uint8))
+    header = png.encode(np.zeros((1, 1, 4), np.uint8))[12:29]  # a chunk's name and content
+    header = header[:4] + struct.pack(">2I", 32767, 32767) + header[12:]
+    chunk = struct.pack(">I", 13) + header + struct.pack(">I", zlib.crc32(header))
+    (tmp_path / "other.png").write_bytes(png.SIGNATURE + chunk)  # no pixel is read
     own = ["--against", str(tmp_path / "other.png")] if command == "compare" else []
     out = str(tmp_path / ("out" if own else "out.png"))
     size = ["--width", "32767", "--height", "32767"]

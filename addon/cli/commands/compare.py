@@ -24,6 +24,7 @@ from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
 from ...scene import Camera, SceneError
+from ...tracer.memory import ALWAYS, COMPARED, check_memory
 from ...tracer.progress import Work, result_of
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
@@ -189,13 +190,14 @@ def _shown(
 
     Raises
     ------
-    SizeError
-        If it shows neither; its pixels are not read then.
+    SizeError, PictureTooLargeError
+        If it shows neither, or there is not enough memory; its pixels are not read then.
     """
     r, own = camera.region, (file.height, file.width)
     whole = own == (camera.height, camera.width)
     if not whole:
         check_size(own, (r.height, r.width))
+    check_memory(r.width, r.height, COMPARED, ALWAYS)
     picture = file.read()
     color = picture.color
     if whole:
