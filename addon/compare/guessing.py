@@ -235,7 +235,7 @@ def _as_in(own: Scene, other: Scene) -> Scene:
 
 
 def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]]:
-    """Return the next fault, with those that do as well; or two, neither of which is enough.
+    """Return the next fault, with those that do as well; or two that account for it together.
 
     Of two, the first one alone must lose few pixels, and with the second one more must agree.
     """

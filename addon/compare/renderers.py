@@ -1,7 +1,7 @@
 """What the other side's own rounding may excuse: that of a rasteriser, or that of a ray tracer.
 
 Both compute in float32. A rasteriser rounds corners to a fraction of a pixel besides, and keeps
-depths in a buffer of 24 bits, whose steps grow with the clip range. A ray tracer has neither: its
+depths in a buffer of 24 bits: its steps grow with the clip range. A ray tracer has neither: its
 depths and its clip range are float32's. Where triangles are thin, or seen at a grazing angle, its
 depths are worse for that, as they come from quotients.
 """

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PIL import Image, ImageEnhance
 from reference_tracer.compare.cause import UNEXPLAINED
 from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.curves import CURVES
@@ -288,11 +289,9 @@ def test_numbers_are_those_that_were_put_in(quads):
 @pytest.mark.parametrize("levels", [255, 0])
 def test_a_viewer_that_grades_eight_bits_cuts_them_off(quads, levels):
     """As Pillow does; the file may have been read as floats since."""
-    image = pytest.importorskip("PIL.Image")
-    enhance = pytest.importorskip("PIL.ImageEnhance")
     color = render(quads).color
-    stored = image.fromarray(np.rint(255 * curve(color[..., :3])).astype(np.uint8))
-    graded = np.asarray(enhance.Color(stored).enhance(1.25)) / 255
+    stored = Image.fromarray(np.rint(255 * curve(color[..., :3])).astype(np.uint8))
+    graded = np.asarray(ImageEnhance.Color(stored).enhance(1.25)) / 255
     found = told(quads, np.concatenate((curve_undone(graded), color[..., 3:]), -1), levels=levels)
     assert set(found) == {"saturation"}
     assert found["saturation"].guess.values[0] == pytest.approx(1.25, abs=0.05)

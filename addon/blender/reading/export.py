@@ -151,7 +151,9 @@ def _plane(index: int, matrix: Floats, color: Colors) -> Plane:
 def _manifest(
     depsgraph: Any, camera: str, seen: dict[str, Seen], meshes: dict[int, Read]
 ) -> Manifest:
-    drawn, layer, mode = depsgraph.scene, depsgraph.view_layer, depsgraph.mode
+    drawn = depsgraph.scene
+    layer = depsgraph.view_layer
+    mode = depsgraph.mode
     scene = user_scene(drawn)
     gone = gone_objects()
     entries = [

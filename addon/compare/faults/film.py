@@ -63,7 +63,7 @@ def _zooms(evidence: Evidence) -> Iterator[Values]:
 
 
 def _stretches(evidence: Evidence) -> Iterator[Values]:
-    """Yield focal lengths of which one is another."""
+    """Yield pairs of focal lengths that differ from the camera's in one of the two."""
     for (percent,) in _zooms(evidence):
         yield percent, 0.0
         yield 0.0, percent

@@ -63,7 +63,7 @@ Mix = list[tuple[Places, Floats]]  # for each of n places, which pixels are take
 
 
 def _mix(have: int, size: int, way: float) -> Mix:
-    """Return of which pixels of a row of `have` each of one of `size` is made."""
+    """Return, for each pixel of a row of `size`, the pixels of a row of `have` that make it."""
     place = (np.arange(size) + 0.5) * have / size - 0.5
     if way == NEAREST:
         return [(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), np.ones(size))]

@@ -35,7 +35,7 @@ class Surfaces(NamedTuple):
 
 
 def inside(evidence: Evidence) -> Bools:
-    """Return the pixels (h, w) of surfaces, away from edges, of which something is known."""
+    """Return the pixels (h, w) of surfaces that are away from edges and can be judged."""
     inside = ~boundary(evidence.frame) & (evidence.causes.blind < 0)
     inside &= evidence.open | evidence.judged
     return inside & (evidence.frame.instance_index != NOTHING)
