@@ -220,8 +220,9 @@ class Comparison:
             f"{rim['total']:,} boundary pixels differ"
         )
         if self.case.picture.source.file:
-            words = self.case.picture.renderer.words
-            yield f"a pixel may differ by the rounding of {words} (--renderer)"
+            words, known = self.case.picture.renderer.words, self.case.picture.source.known
+            why = f", {known}" if known else ""
+            yield f"a pixel may differ by the rounding of {words}{why} (--renderer)"
         if self.background:
             yield self.background.line()
         if self.empty:

@@ -62,6 +62,7 @@ class Source:
     name: str = "picture"
     version: str | None = None
     file: str = ""
+    known: str = ""  # of a file: how it is known what made it, in words
     settings: dict[str, Any] = field(default_factory=dict)
 
     def __str__(self) -> str:
@@ -109,6 +110,7 @@ class Picture:
             **({"picture": source.file} if source.file else {}),
             "sample_radius": self.sample_radius,
             "renderer": self.renderer.name,
+            **({"renderer_known": source.known} if source.known else {}),
             "snapping": self.snapping,
             "filter_radius": self.filter_radius,
             "settings": source.settings,

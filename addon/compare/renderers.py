@@ -113,6 +113,27 @@ RASTER = Renderer(
 )
 RAYS = Renderer("rays", "float32 rays", 0.0, False, _of_rays, _ray_depth, _no_buffer)
 RENDERERS = {renderer.name: renderer for renderer in (RAYS, RASTER)}
+_RASTERISERS = "BLENDER_WORKBENCH", "BLENDER_EEVEE"  # from 4.2 to 4.5 BLENDER_EEVEE_NEXT
+
+
+def renderer_of(header: str, engine: str) -> tuple[Renderer, str]:
+    """Return what a picture was made by, and how that is known, in words.
+
+    Parameters
+    ----------
+    header : str
+        Which engine wrote the file's header: 'cycles', 'other' of Blender's; '' for no Blender.
+    engine : str
+        Blender's name of the engine that the scene is set to; '' where that is not known.
+    """
+    if header == "cycles":
+        return RAYS, "as Cycles made it"
+    if not header:
+        return RAYS, "as nothing says that it was rasterised"
+    if engine.startswith(_RASTERISERS):
+        return RASTER, f"as Blender wrote it, and the scene's engine is {engine}"
+    # What an add-on registers may trace rays, and a header does not name it.
+    return RAYS, "as Blender wrote it, but nothing says that it was rasterised"
 
 
 def sample_band(

@@ -68,6 +68,19 @@ def test_blenders_own_png_of_a_plain_view(scene, drawn, judged):
     assert code == 0 and found["verdict"] == "agree" and found["transform"] == ""
 
 
+@pytest.mark.parametrize(
+    ("engine", "renderer"),
+    [("BLENDER_WORKBENCH", "raster"), ("REFERENCE_TRACER", "rays"), ("CYCLES", "rays")],
+)
+def test_an_engine_of_an_add_on_is_no_rasteriser(engine, renderer, scene, drawn, judged):
+    scene.render.engine = engine
+    scene.cycles.samples = 1
+    drawn(view_transform="Standard")
+    _, found, text = judged("--no-diagnosis")
+    assert found["blender"]["renderer"] == renderer
+    assert f", {found['blender']['renderer_known']} (--renderer)" in text
+
+
 @pytest.mark.parametrize("mode", ["RGB", "RGBA"])
 def test_blenders_own_png_of_16_bits(mode, scene, drawn, judged, tmp_path):
     scene.render.film_transparent = mode == "RGBA"

@@ -10,7 +10,7 @@ import trimesh
 from reference_tracer import images
 from reference_tracer.compare.causes import CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
 from reference_tracer.compare.picture import Picture, Source
-from reference_tracer.compare.renderers import RASTER, RAYS
+from reference_tracer.compare.renderers import RASTER, RAYS, renderer_of
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
@@ -147,3 +147,22 @@ def test_blenders_header_says_which_engine_made_a_picture(make, tmp_path):
         assert images.read_picture(tmp_path / "picture.exr").engine == engine
     images.save_exr(tmp_path / "own.exr", {"color": np.zeros((3, 4, 4), F)})
     assert images.read_picture(tmp_path / "own.exr").engine == ""
+
+
+@pytest.mark.parametrize(
+    ("header", "engine", "renderer"),
+    [
+        ("", "BLENDER_EEVEE", RAYS),  # anybody's picture
+        ("cycles", "BLENDER_WORKBENCH", RAYS),  # the file's engine was changed since
+        ("other", "BLENDER_WORKBENCH", RASTER),
+        ("other", "BLENDER_EEVEE", RASTER),
+        ("other", "BLENDER_EEVEE_NEXT", RASTER),
+        ("other", "LUXCORE", RAYS),
+        ("other", "CYCLES", RAYS),  # which notes its samples: an engine that is not known
+        ("other", "", RAYS),
+    ],
+)
+def test_a_picture_is_rasterised_only_if_that_is_known(header, engine, renderer):
+    found, known = renderer_of(header, engine)
+    assert found is renderer
+    assert ("scene's engine" in known) == (renderer is RASTER)

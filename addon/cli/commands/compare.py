@@ -18,7 +18,7 @@ from ...compare.comparing import trace_and_compare
 from ...compare.comparison import EXIT_CODES, Comparison
 from ...compare.palette import By, GivenColors
 from ...compare.picture import Picture, Source, check_size
-from ...compare.renderers import RASTER, RAYS, RENDERERS, Renderer
+from ...compare.renderers import RENDERERS, renderer_of
 from ...mesh_diagnosis import diagnosed
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
@@ -158,7 +158,8 @@ def _blend(
 
         context = blender.context
         dither = DITHER * context.scene.render.dither_intensity
-        shown = _shown(options, picture, export_camera(context.scene), dither)
+        engine = context.scene.render.engine
+        shown = _shown(options, picture, export_camera(context.scene), dither, engine)
         settings = options.settings_over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         case = gather_against(context, shown, settings, bool(options.self_check), colors)
@@ -184,9 +185,15 @@ def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison
 
 
 def _shown(
-    options: CompareOptions, file: images.PictureFile, camera: Camera, dither: float = 0.0
+    options: CompareOptions,
+    file: images.PictureFile,
+    camera: Camera,
+    dither: float = 0.0,
+    engine: str = "",
 ) -> Picture:
     """Return what is compared of a picture: if it shows the whole view, the camera's border.
+
+    `engine` is Blender's name of the one that the scene is set to.
 
     Raises
     ------
@@ -206,17 +213,15 @@ def _shown(
         dither = options.dither * picture.levels / 255
     elif picture.levels > 255:  # Blender dithers only what has 8 bits
         dither = 0.0
+    renderer, known = renderer_of(picture.engine, engine)
+    if options.renderer:
+        renderer, known = RENDERERS[options.renderer], "as --renderer says"
     return Picture(
         color,
-        Source(file=options.against.name if options.against else ""),
+        Source(file=options.against.name if options.against else "", known=known),
         filter_radius=options.filter or 0.0,
         levels=picture.levels,
         dither=dither,
         opaque=picture.opaque,
-        renderer=RENDERERS[options.renderer] if options.renderer else _renderer_of(picture),
+        renderer=renderer,
     )
-
-
-def _renderer_of(picture: images.StoredPicture) -> Renderer:
-    """Return what a picture was made by: all but Cycles rasterise of Blender's engines."""
-    return RASTER if picture.engine not in ("", "cycles") else RAYS
