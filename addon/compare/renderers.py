@@ -1,4 +1,4 @@
-"""What the other side's own rounding may excuse: that of a rasteriser, or that of a ray tracer.
+"""What the other side's own rounding may excuse: that of a rasteriser, or of a ray tracer.
 
 Both compute in float32. A rasteriser rounds corners to a fraction of a pixel besides, and keeps
 depths in a buffer of 24 bits: its steps grow with the clip range. A ray tracer has neither: its
@@ -9,7 +9,7 @@ depths are worse for that, as they come from quotients.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -112,6 +112,11 @@ RASTER = Renderer(
     depth_step,
 )
 RAYS = Renderer("rays", "float32 rays", 0.0, False, _of_rays, _ray_depth, _no_buffer)
+# Cycles' rays. Its edges are Pluecker's, in which neighbours agree; where a triangle reaches so far
+# that they are worse than a rasteriser's, `embree.py` knows.
+EMBREE = replace(
+    RASTER, name="embree", words="Embree's float32 rays", along=_ray_depth, step=_no_buffer
+)
 RENDERERS = {renderer.name: renderer for renderer in (RAYS, RASTER)}
 _RASTERISERS = "BLENDER_WORKBENCH", "BLENDER_EEVEE"  # from 4.2 to 4.5 BLENDER_EEVEE_NEXT
 
