@@ -20,6 +20,7 @@ import numpy as np
 
 from . import png
 from .arrays import Array, Bytes, Colors, Floats
+from .png.samples import PngError
 from .runs import by_runs
 
 _EIGHT_BITS = 255  # levels above 0
@@ -136,6 +137,7 @@ class StoredPicture:
     # fewer bits where that loses nothing, and half a step of one bit would excuse any colour.
     levels: int
     opaque: bool  # the file has no alpha
+    remarks: tuple[str, ...] = ()  # what the file says of its pixels that is not applied
     engine: str = ""  # of Blender, as the file's own header has it: 'cycles', 'other'; else ''
 
 
@@ -206,7 +208,8 @@ def _png_of(path: Path) -> StoredPicture:
     for row, own in zip(color, values[::-1], strict=True):
         row[:, : len(order)] = by_runs(lambda some: decoded(some / stored.levels), own[:, order])
     levels = max(stored.levels, _EIGHT_BITS)
-    return StoredPicture(color, levels, not has_alpha, _engine_of(stored.notes))
+    engine = _engine_of(stored.notes)
+    return StoredPicture(color, levels, not has_alpha, stored.remarks, engine)
 
 
 @contextmanager
@@ -214,7 +217,7 @@ def _damage_named(path: Path) -> Iterator[None]:
     """Say of which file a PNG's damage is."""
     try:
         yield
-    except png.PngError as error:
+    except PngError as error:
         raise OSError(f"'{path}' cannot be read, save it again: {error}") from error
 
 
@@ -236,7 +239,7 @@ def _exr_of(path: Path) -> StoredPicture:
         notes = {note.name for note in file.spec().extra_attribs}
     color = np.ones((*stored.shape[:2], 4), np.float32)
     color[..., : len(at)] = stored[::-1][..., np.subtract(at, min(at))]
-    return StoredPicture(color, 0, len(at) == 3, _engine_of(notes))
+    return StoredPicture(color, 0, len(at) == 3, engine=_engine_of(notes))
 
 
 def _engine_of(notes: Collection[str]) -> str:

@@ -69,6 +69,20 @@ def test_its_own_picture_agrees(scene, against, name):
     assert found["scene"]["objects"][1]["triangles"] == 12
 
 
+def test_a_profile_of_the_pictures_is_named(scene, against):
+    """A note of the comparison: its values were read by sRGB's curve all the same."""
+    from PIL import Image, ImageCms
+
+    profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("LAB")).tobytes()
+    rows = images.to_display(render(scene).color)[::-1]
+    code, found, text = against(
+        save=lambda path: Image.fromarray(rows).save(path, icc_profile=profile)
+    )
+    (note,) = found["scene"]["notes"]
+    assert re.fullmatch(r"of the picture: its colour profile '.+' is not applied: .+", note)
+    assert code == 0 and note in text
+
+
 @pytest.mark.parametrize("name", ["picture.png", "picture.exr"])
 def test_a_missing_object_is_found(scene, against, name):
     color = render(replace(scene, instances=scene.instances[:1])).color

@@ -63,6 +63,7 @@ class Source:
     version: str | None = None
     file: str = ""
     known: str = ""  # of a file: how it is known what made it, in words
+    remarks: tuple[str, ...] = ()  # what a file says of its pixels that is not applied
     settings: dict[str, Any] = field(default_factory=dict)
 
     def __str__(self) -> str:

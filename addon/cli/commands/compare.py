@@ -163,7 +163,7 @@ def _blend(
         settings = options.settings_over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         case = gather_against(context, shown, settings, bool(options.self_check), colors)
-        return (yield from _written(options, compared(replace(case, **place))))
+        return (yield from _written(options, compared(_remarked(case, place))))
 
 
 def _file(
@@ -176,7 +176,13 @@ def _file(
     shown = _shown(options, picture, scene.camera)
     settings, checked = options.settings_over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
-    return (yield from _written(options, trace_and_compare(replace(case, **place))))
+    return (yield from _written(options, trace_and_compare(_remarked(case, place))))
+
+
+def _remarked(case: Case, place: dict[str, Any]) -> Case:
+    """Return the case with what was remarked of the picture among its notes, traced at a place."""
+    notes = (*case.manifest.notes, *case.picture.source.remarks)
+    return replace(case, manifest=replace(case.manifest, notes=notes), **place)
 
 
 def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison]:
@@ -213,12 +219,13 @@ def _shown(
         dither = options.dither * picture.levels / 255
     elif picture.levels > 255:  # Blender dithers only what has 8 bits
         dither = 0.0
+    remarks = tuple(f"of the picture: {remark}" for remark in picture.remarks)
     renderer, known = renderer_of(picture.engine, engine)
     if options.renderer:
         renderer, known = RENDERERS[options.renderer], "as --renderer says"
     return Picture(
         color,
-        Source(file=options.against.name if options.against else "", known=known),
+        Source(file=options.against.name if options.against else "", known=known, remarks=remarks),
         filter_radius=options.filter or 0.0,
         levels=picture.levels,
         dither=dither,
