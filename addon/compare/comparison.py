@@ -93,6 +93,9 @@ class Comparison:
             yield "a part cannot be judged"
         if self.excused.too_much:
             yield "much rests on rounding alone"
+        if unjudged := self.excused.objects:
+            more = f" and {len(unjudged) - 1:,} other objects" if len(unjudged) > 1 else ""
+            yield f"'{unjudged[0].object}'{more} rests on rounding alone"
         if self.empty:
             yield "the picture is empty"
         if any(row.missed for row in self.self_check):
