@@ -17,6 +17,7 @@ from .words import floats, integers
 _GLUED = re.compile(rb"(OFF)(\d+)")  # as many files of ModelNet have it
 _KIND = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF")
 _COMMENT = re.compile(rb"#.*")
+_MORE_OF_FACE = 0, 1, 3, 4  # numbers behind a face's corners: no colour, one of a map, RGB, RGBA
 
 
 def read_off(path: Path) -> Contents:
@@ -42,12 +43,15 @@ def read_off(path: Path) -> Contents:
         raise SceneError("it is a binary OFF file: save it as text")
     line, counts = (1, words[1:]) if words[1:] else next(lines, (0, []))
     vertex_count, face_count = _integers(line, counts[:2], 2)
+    more_of_vertex = _more_of_vertex(*kind.groups()[:3])
     numbers: list[bytes] = []
+    odd_vertices = odd_faces = 0
     for _ in range(vertex_count):
         line, words = _next(lines, "vertices", vertex_count)
         if len(words) < 3:
             raise SceneError(f"line {line}: a vertex has three coordinates")
         numbers += words[:3]
+        odd_vertices += len(words) - 3 not in more_of_vertex
     corners: list[int] = []
     sizes: list[int] = []
     for _ in range(face_count):
@@ -55,12 +59,28 @@ def read_off(path: Path) -> Contents:
         (size,) = _integers(line, words[:1], 1)
         corners += _integers(line, words[1 : 1 + size], size)
         sizes.append(size)
+        odd_faces += len(words) - 1 - size not in _MORE_OF_FACE
     vertices = floats(numbers).reshape(-1, 3)
     more = sum(1 for _ in lines)
-    said = f"what is behind the last face is not understood, and left out: {more:,} lines"
-    notes = [said] if more else []
+    said = {
+        f"{odd_vertices:,} vertices have other numbers than {kind[0].decode()} names: only the "
+        "first three of each are read": odd_vertices,
+        f"{odd_faces:,} faces have numbers behind their corners that are no colour, and left "
+        "out": odd_faces,
+        f"what is behind the last face is not understood, and left out: {more:,} lines": more,
+    }
+    notes = [note for note, count in said.items() if count]
     faces = np.array(corners, np.intp), np.array(sizes, np.intp)
     return contents(vertices, *faces, [path.stem], notes=notes)
+
+
+def _more_of_vertex(*parts: bytes | None) -> set[int]:
+    """Return how many numbers may follow a vertex's coordinates, by what the header has.
+
+    That is two texture coordinates (ST), a colour of three or four numbers (C), a normal (N).
+    """
+    texture, color, normal = (part is not None for part in parts)
+    return {2 * texture + 3 * normal + of_color for of_color in ((3, 4) if color else (0,))}
 
 
 def _lines(content: bytes) -> Iterator[tuple[int, list[bytes]]]:

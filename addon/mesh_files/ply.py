@@ -67,6 +67,10 @@ def read_ply(path: Path) -> Contents:
 
 def _corners(element: Element, columns: Columns) -> Lists:
     """Return the vertices of faces or strips."""
+    if all(name in columns for name in _CORNERS):
+        raise SceneError(
+            f"its element {element.name!r} has both {_CORNERS[0]!r} and {_CORNERS[1]!r}"
+        )
     found = next((columns[name] for name in _CORNERS if name in columns), None)
     if not isinstance(found, Lists):
         raise SceneError(f"its element '{element.name}' has no list '{_CORNERS[0]}'")
@@ -125,8 +129,10 @@ def _head(content: bytes) -> tuple[str, list[Element], int]:
                 elements.append(Element(name, int(count), ()))
             case ["property", *rest] if elements:
                 last = elements.pop()
-                properties = (*last.properties, _property(rest))
-                elements.append(Element(last.name, last.count, properties))
+                new = _property(rest)
+                if any(new.name == known.name for known in last.properties):
+                    raise SceneError(f"its element '{last.name}' has '{new.name}' twice")
+                elements.append(Element(last.name, last.count, (*last.properties, new)))
             case ["end_header"] if order is not None:
                 return order, elements, place
             case [] | ["ply"] | ["comment" | "obj_info", *_]:
