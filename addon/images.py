@@ -23,7 +23,7 @@ from .arrays import Array, Bytes, Colors, Floats
 from .png.samples import PngError
 from .runs import by_runs
 
-_EIGHT_BITS = 255  # levels above 0
+EIGHT_BITS = 255  # levels above 0
 _ROWS = 64  # of an EXR that are written at a time: several of its blocks
 
 
@@ -40,7 +40,7 @@ def to_display(color: Floats) -> Bytes:
 
     def shown(color: Array) -> Bytes:
         color = np.nan_to_num(color.astype(np.float64), posinf=1.0, neginf=0.0)
-        return np.rint(255 * encoded(color)).astype(np.uint8)
+        return np.rint(EIGHT_BITS * encoded(color)).astype(np.uint8)
 
     return by_runs(shown, np.reshape(color, (-1, 4))).reshape(np.shape(color))
 
@@ -207,7 +207,7 @@ def _png_of(path: Path) -> StoredPicture:
     color = np.ones((*values.shape[:2], 4), np.float32)
     for row, own in zip(color, values[::-1], strict=True):
         row[:, : len(order)] = by_runs(lambda some: decoded(some / stored.levels), own[:, order])
-    levels = max(stored.levels, _EIGHT_BITS)
+    levels = max(stored.levels, EIGHT_BITS)
     engine = _engine_of(stored.notes)
     return StoredPicture(color, levels, not has_alpha, stored.remarks, engine)
 

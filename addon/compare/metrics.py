@@ -146,3 +146,13 @@ def boundary(frame: Frame) -> Bools:
     """
     seen = frame.instance_index
     return (largest_within(seen, 1) != seen) | (largest_within(-seen, 1) != -seen)
+
+
+def beside_edges(color: Array, least: float) -> Bools:
+    """Return which pixels of a picture (h, w, c) have another colour than one of the eight around.
+
+    By more than `least` in a channel.
+    """
+    apart = [largest_within(v, 1) + largest_within(-v, 1) for v in np.moveaxis(color, -1, 0)]
+    out: Bools = np.max(apart, axis=0) > least
+    return out

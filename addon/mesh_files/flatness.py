@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..arrays import Floats
-from .scaling import dot, local, normals
+from ..tracer.vector import dot
+from .scaling import local, normals
 
 # How many roundings of its corners may take a flat face's corners from its plane: the corner's own
 # along the normal (below sqrt 3), and what the others' do to the plane, which is their mean.

@@ -13,11 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import Array, Bools, Floats, Index, Places
+from ..tracer.vector import cross, dot
 from . import planar
 from .ears import ears, of_convex
 from .flatness import Bends
 from .planar import Planar
-from .scaling import cross, dot, local, normals
+from .scaling import local, normals
 
 _AT_ONCE = 1 << 16  # faces: bounds the memory that they take meanwhile
 _UNIT = 2.0**-53

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Array, Colors
+from ...images import EIGHT_BITS
 from ...tracer.frame import Frame
 from ..case import Case
-from ..curves import EIGHT_BITS
 from ..picture import Picture, straight
 from .fault import Guess, Make
 
