@@ -187,8 +187,8 @@ def test_self_check_without_blender(scene, against):
     ("name", "content", "message"),
     [
         ("none.png", None, "there is no file"),
-        ("text.png", b"no picture", "cannot"),
-        ("text.exr", b"no picture", "cannot be read"),
+        ("text.png", b"no picture", "is no .png"),
+        ("text.exr", b"no picture", "is no .exr"),
         ("picture.jpg", b"", "must be .png or .exr"),
     ],
 )

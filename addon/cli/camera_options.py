@@ -6,10 +6,10 @@ from argparse import Namespace, _ActionsContainer
 from dataclasses import fields
 from pathlib import Path
 
+from ..file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
 from ..mesh_files.load import READERS
 from ..scene import SceneError
-from ..scene_files import check_is_file
 from .arguments import is_blend, refuse
 from .parser import COUNT, FINITE, POSITIVE, Parser, number
 

@@ -10,9 +10,9 @@ from typing import TypeVar
 import numpy as np
 
 from ..arrays import Floats
+from ..file_kinds import check_is_file
 from ..framing import ANGLE, BACKWARD, axes_of, framing, shown_points
 from ..scene import Camera, Instance, Scene, SceneError, check_size
-from ..scene_files import check_is_file
 from .contents import Contents
 from .gltf import read_gltf
 from .obj import read_obj
@@ -57,8 +57,6 @@ def load_meshes(path: str | Path, up: str | None = None) -> Contents:
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # a library's, of its own work
-            if not path.stat().st_size:
-                raise SceneError("it is empty")
             found = READERS[suffix](path)
     except Exception as error:  # each reader raises its own kinds
         why = str(error) or type(error).__name__

@@ -91,7 +91,7 @@ def test_bad_input_is_named_and_nothing_is_written(
 ):
     monkeypatch.chdir(tmp_path)
     for name in ("empty.obj", "empty.npz", "words.txt", "scene.fbx", "scene.blend1"):
-        (tmp_path / name).touch()
+        (tmp_path / name).write_text("PK")
     for name in ("folder.png", "folder.exr"):
         (tmp_path / name).mkdir()
     before = sorted(tmp_path.rglob("*"))
