@@ -78,6 +78,22 @@ BAD = {
     ),
     "unknown method": (["ball.ply", "--method", "magic"], "--method"),
     "not a number": (["ball.ply", "--width", "many"], "--width: many is not an integer"),
+    "a fraction": (["ball.ply", "--samples", "1.5"], "--samples: 1.5 is not an integer"),
+    "a comma": (
+        ["ball.ply", "--angle", "0,5"],
+        "--angle: 0,5 is not between 0 and 180 degrees; the decimal sign is a point",
+    ),
+    "a misspelt option": (
+        ["ball.ply", "--colour=facing"],
+        "reftrace trace: there is no option --colour; --color is the nearest\n"
+        "reftrace trace --help lists the options.\n",
+    ),
+    "no such option": (
+        ["ball.ply", "--zzz"],
+        "there is no option --zzz\nreftrace trace --",
+    ),
+    "options are told before words": (["ball.ply", "two.ply", "--zzz"], "no option --zzz"),
+    "a name with a space": (["ball.ply", "two.ply"], "'two.ply' is one word too many: put a name"),
     "out suffix": (["ball.ply", "--out", "x.jpg"], "x.jpg"),
     "out is a folder, PNG": (["ball.ply", "--out", "folder.png"], "folder.png"),
     "out is a folder, EXR": (["ball.ply", "--out", "folder.exr"], "folder.exr"),
@@ -144,6 +160,13 @@ def test_help_names_the_exit_codes(command, capsys):
     for words in ("0  the pictures agree", "1  warnings", "2  differences", "3  the sizes"):
         assert (words in text) == of_pictures
     assert ("example:" in text) == bool(command)
+
+
+def test_the_help_of_export_says_nothing_of_meshes(capsys):
+    with pytest.raises(SystemExit):
+        main(["export", "--help"])
+    text = capsys.readouterr().out
+    assert "mesh" not in text and "--up" not in text and "--width" in text
 
 
 def test_version_and_no_command(capsys):

@@ -46,7 +46,7 @@ def add(parser: Parser) -> None:
         metavar="SCENE.npz",
         help="the file to write",
     )
-    add_camera(parser)
+    add_camera(parser, of_meshes=False)
 
 
 def export(options: ExportOptions) -> int:

@@ -28,7 +28,7 @@ from ..arguments import (
 )
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
-from ..parser import AGREE, Parser
+from ..parser import AGREE, INTEGER, Parser
 from ..running import progress_bar
 
 
@@ -85,7 +85,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument(
         "--rows",
-        type=int,
+        type=INTEGER,
         nargs=2,
         metavar=("FIRST", "LAST"),
         help="trace only a part of a large picture: its rows FIRST to LAST, row 0 the lowest",
