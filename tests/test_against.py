@@ -152,7 +152,9 @@ def test_a_smoothed_picture_needs_its_filter(scene, against):
 def test_sizes_that_do_not_match(scene, against):
     code, found, text = against(render(scene).color[:-1])
     assert code == 3 and found["verdict"] == "failed"
-    assert "The picture has 60 x 44 pixels, the traced one 60 x 45." in text
+    assert (
+        "The picture has 60 x 44 pixels, the traced one 60 x 45. Render it at that size, or" in text
+    )
 
 
 def test_a_whole_picture_for_a_border(scene, against, tmp_path):

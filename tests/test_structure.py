@@ -22,6 +22,7 @@ FLOORS = {
     "runs": 0,
     "scene": 0,
     "svg": 0,
+    "wording": 0,
     "methods": 1,
     "tracer": 1,
     "framing": 1,
@@ -205,6 +206,7 @@ def test_the_tracer_knows_the_scene_and_nothing_of_blender():
         "runs",
         "scene",
         "tracer",
+        "wording",
     }
 
 

@@ -115,7 +115,9 @@ def check_kind(path: Path) -> None:
     if suffix == ".npz" or suffix in READERS:
         return
     do = ""
-    if suffix in _OF_OTHERS:
+    if not suffix:
+        do = ": its name has no such end; rename it"
+    elif suffix in _OF_OTHERS:
         do = ": import it into Blender, and save a .blend"
     elif suffix.startswith(".blend"):
         do = ": a backup of Blender's is a .blend once it is renamed"

@@ -21,6 +21,7 @@ BAD = {
     "no file": (["none.ply"], "none.ply"),
     "a kind that is not read": (["words.txt"], "'words.txt' is none of .blend, .npz, .obj"),
     "a kind that Blender imports": (["scene.fbx"], "import it into Blender"),
+    "a name without an end": (["words"], ".gltf: its name has no such end; rename it"),
     "a backup": (["scene.blend1"], "a .blend once it is renamed"),
     "a folder": (["folder.png"], "'folder.png' is no file but a folder"),
     "other suffix": (["words.txt"], "words.txt"),
@@ -106,7 +107,7 @@ def test_bad_input_is_named_and_nothing_is_written(
     case, ball, tmp_path, capsys, monkeypatch, exit_code
 ):
     monkeypatch.chdir(tmp_path)
-    for name in ("empty.obj", "empty.npz", "words.txt", "scene.fbx", "scene.blend1"):
+    for name in ("empty.obj", "empty.npz", "words", "words.txt", "scene.fbx", "scene.blend1"):
         (tmp_path / name).write_text("PK")
     for name in ("folder.png", "folder.exr"):
         (tmp_path / name).mkdir()
