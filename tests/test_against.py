@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -56,6 +57,15 @@ def test_an_object_without_a_surface_in_the_file_is_not_counted(scene, tmp_path,
     _, found, printed = against(render(scene).color, source="gone.npz")
     assert "2 of 3 objects exported" in printed and "skipped Gone (MESH): nothing of it" in printed
     assert [entry["exported"] for entry in found["scene"]["objects"]] == [True, True, False]
+
+
+def test_every_result_and_every_array_is_on_the_page_of_files(scene, tmp_path, against):
+    text = (Path(__file__).parent.parent / "docs" / "files.md").read_text(encoding="utf-8")
+    against(render(scene).color)
+    with np.load(tmp_path / "out" / "frame.npz") as held:
+        names = {*held} - {"rows_done"}  # of a picture that was cancelled
+    names |= {path.name for path in (tmp_path / "out").iterdir()}
+    assert not [name for name in names if f"`{name}`" not in text]
 
 
 @pytest.mark.parametrize("name", ["picture.png", "picture.exr"])
