@@ -20,6 +20,7 @@ import numpy as np
 
 from . import png
 from .arrays import Array, Bytes, Colors, Floats
+from .file_kinds import mistaken
 from .png.samples import PngError
 from .runs import by_runs
 
@@ -183,6 +184,8 @@ def open_picture(path: str | Path) -> PictureFile:
     of = _FORMATS.get(path.suffix.lower())
     if of is None:
         raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
+    if said := mistaken(path):
+        raise OSError(f"'{path}' {said}")
     return PictureFile(path, *of.size(path))
 
 
