@@ -7,29 +7,21 @@ A PNG takes zlib and numpy alone. An EXR takes OpenImageIO, the extra `images`.
 from __future__ import annotations
 
 import base64
-import errno
-import os
-import shutil
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from . import png
+from . import exr, png
 from .arrays import Array, Bytes, Colors, Floats
 from .file_kinds import mistaken
 from .png.samples import PngError
 from .runs import by_runs
 
 EIGHT_BITS = 255  # levels above 0
-_ROWS = 64  # of an EXR that are written at a time: several of its blocks
-
-
-class MissingLibraryError(RuntimeError):
-    """An optional library is not installed; the message says how to get it."""
 
 
 def to_display(color: Floats) -> Bytes:
@@ -90,43 +82,6 @@ def save_png(path: str | Path, picture: Bytes) -> None:
 def data_uri(picture: Bytes) -> str:
     """Return an (h, w, 4) uint8 picture, row 0 at the bottom, as an image's address in a page."""
     return f"data:image/png;base64,{base64.b64encode(png.encode(picture)).decode('ascii')}"
-
-
-def save_exr(path: str | Path, passes: dict[str, Array]) -> None:
-    """Write passes to one EXR: `color` as RGBA, the others as channels of a layer of their name.
-
-    All channels are float32: an index above 2^24 is rounded (`frame.npz` has it whole).
-
-    Raises
-    ------
-    MissingLibraryError
-        If OpenImageIO is not installed.
-    OSError
-        If the file cannot be written.
-    """
-    oiio = _library()
-    path = Path(path)
-    pictures = {name: np.atleast_3d(v) for name, v in passes.items() if np.ndim(v) > 1}
-    names = []
-    for name, values in pictures.items():
-        letters = "RGBA" if name == "color" else "XYZ" if values.shape[2] == 3 else "V"
-        names += [letter if name == "color" else f"{name}.{letter}" for letter in letters]
-    height, width = next(iter(pictures.values())).shape[:2]
-    spec = oiio.ImageSpec(width, height, len(names), "float")
-    spec.channelnames = names
-    spec.attribute("compression", "zip")
-    spec.attribute("DateTime", "")  # the same frame makes the same file
-    file = oiio.ImageOutput.create(str(path))
-    written = file and file.open(str(path), spec)
-    for first in range(0, height, _ROWS):
-        end = min(first + _ROWS, height)
-        rows = [v[height - end : height - first][::-1] for v in pictures.values()]
-        part = np.concatenate(rows, axis=-1, dtype=np.float32, casting="unsafe")
-        written = written and file.write_scanlines(first, end, 0, part)
-    if not (written and file.close()):
-        if shutil.disk_usage(path.parent).free < 1 << 20:  # the library does not say so
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        raise OSError(f"cannot write '{path.name}': {_error(file or oiio)}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,25 +179,9 @@ def _damage_named(path: Path) -> Iterator[None]:
         raise OSError(f"'{path}' cannot be read, save it again: {error}") from error
 
 
-def _exr_size(path: Path) -> tuple[int, int]:
-    with _exr(path) as file:
-        spec = file.spec()
-        return spec.width, spec.height
-
-
 def _exr_of(path: Path) -> StoredPicture:
-    with _exr(path) as file:
-        names = list(file.spec().channelnames)
-        if not {"R", "G", "B"} <= set(names):
-            raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(names))}")
-        at = [names.index(c) for c in "RGBA" if c in names]
-        stored = file.read_image(min(at), max(at) + 1, "float")
-        if stored is None:
-            raise OSError(f"'{path}' cannot be read, save it again: {_error(file)}")
-        notes = {note.name for note in file.spec().extra_attribs}
-    color = np.ones((*stored.shape[:2], 4), np.float32)
-    color[..., : len(at)] = stored[::-1][..., np.subtract(at, min(at))]
-    return StoredPicture(color, 0, len(at) == 3, engine=_engine_of(notes))
+    color, opaque, notes = exr.read(path)
+    return StoredPicture(color, 0, opaque, engine=_engine_of(notes))
 
 
 def _engine_of(notes: Collection[str]) -> str:
@@ -256,47 +195,4 @@ def _engine_of(notes: Collection[str]) -> str:
     return "cycles" if any(name.startswith("cycles.") for name in notes) else "other"
 
 
-@contextmanager
-def _exr(path: Path) -> Iterator[Any]:
-    """Open an EXR; what the library would print stays unsaid."""
-    oiio = _library()
-    asked = oiio.ImageSpec()
-    asked.attribute("oiio:UnassociatedAlpha", 1)
-    with open(os.devnull, "wb") as nowhere, redirected(2, nowhere.fileno()):
-        file = oiio.ImageInput.open(str(path), asked)
-        if not file:
-            raise OSError(f"'{path}' cannot be read, save it again: {_error(oiio)}")
-        yield file
-
-
-_FORMATS = {".png": _Format(_png_size, _png_of), ".exr": _Format(_exr_size, _exr_of)}
-
-
-def _library() -> Any:
-    try:
-        import OpenImageIO
-    except ImportError:
-        raise MissingLibraryError(
-            "EXR files take the library OpenImageIO: pip install 'reference_tracer[images]'"
-        ) from None
-    OpenImageIO.attribute("try_all_readers", 0)  # a JPEG that is named .exr is refused
-    return OpenImageIO
-
-
-def _error(of: Any) -> str:
-    try:
-        return " ".join(of.geterror().split())
-    except UnicodeDecodeError:  # the message quotes what it read
-        return "its header is damaged"
-
-
-@contextmanager
-def redirected(number: int, into: int) -> Iterator[None]:
-    """Send what is written to a file descriptor, also by C libraries, to another for a while."""
-    own = os.dup(number)
-    os.dup2(into, number)
-    try:
-        yield
-    finally:
-        os.dup2(own, number)
-        os.close(own)
+_FORMATS = {".png": _Format(_png_size, _png_of), ".exr": _Format(exr.size, _exr_of)}

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import images
+from reference_tracer import exr, images
 from reference_tracer.cli.main import main
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region
@@ -39,7 +39,7 @@ def against(scene, tmp_path, capsys, exit_code):
         elif name.endswith(".png"):
             images.save_png(path, images.to_display(color))
         elif color is not None:
-            images.save_exr(path, {"color": color})
+            exr.save(path, {"color": color})
         out = tmp_path / "out"
         arguments = ["compare", tmp_path / source, "--against", path, "--out", out, *options]
         code = exit_code([str(a) for a in arguments])

@@ -12,12 +12,11 @@ import numpy as np
 import OpenEXR
 import pytest
 from PIL import Image
-from reference_tracer import images, png
+from reference_tracer import exr, images, png
+from reference_tracer.exr import MissingLibraryError
 from reference_tracer.images import (
-    MissingLibraryError,
     open_picture,
     read_picture,
-    save_exr,
     save_png,
     to_display,
 )
@@ -81,7 +80,7 @@ def test_exr_holds_every_pass(tmp_path, rng):
         "object_index": rng.integers(-1, 2**24, (5, 7), dtype=np.int32),
         "rows_done": np.ones(5, bool),
     }
-    save_exr(tmp_path / "p.exr", passes)
+    exr.save(tmp_path / "p.exr", passes)
     with OpenEXR.File(str(tmp_path / "p.exr"), separate_channels=True) as file:
         channels = {name: c.pixels[::-1] for name, c in file.channels().items()}
     assert set(channels) == {
@@ -104,16 +103,16 @@ def test_exr_holds_every_pass(tmp_path, rng):
 
 def test_the_same_picture_is_the_same_file(tmp_path, picture):
     """Of another time, too: OpenImageIO would store when it was written."""
-    save_exr(tmp_path / "first.exr", {"color": picture})
+    exr.save(tmp_path / "first.exr", {"color": picture})
     time.sleep(1.1)
-    save_exr(tmp_path / "second.exr", {"color": picture})
+    exr.save(tmp_path / "second.exr", {"color": picture})
     assert (tmp_path / "first.exr").read_bytes() == (tmp_path / "second.exr").read_bytes()
 
 
 @pytest.mark.parametrize(
     "use",
     [
-        lambda path: save_exr(path / "p.exr", {}),
+        lambda path: exr.save(path / "p.exr", {}),
         lambda path: read_picture(path / "given.exr"),
     ],
 )
@@ -315,7 +314,7 @@ def test_a_picture_that_another_program_filtered(of, tmp_path, rng):
 def test_a_pictures_size_is_known_before_its_pixels(tmp_path):
     """Which may be many, or damaged."""
     png_file(tmp_path / "p.png", (100_000, 100_000), 1, 0, [])
-    save_exr(tmp_path / "p.exr", {"color": np.ones((4, 6, 4))})
+    exr.save(tmp_path / "p.exr", {"color": np.ones((4, 6, 4))})
     sizes = [
         (f.width, f.height) for f in (open_picture(tmp_path / f"p.{s}") for s in ("png", "exr"))
     ]
@@ -352,7 +351,7 @@ def test_a_picture_of_more_than_179_megapixels(tmp_path):
 @pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
 def test_a_truncated_picture_is_named_in_one_line(name, share, tmp_path, rng, capfd):
     whole = rng.random((40, 30, 4), np.float32)
-    save_png(tmp_path / name, to_display(whole)) if name == "p.png" else save_exr(
+    save_png(tmp_path / name, to_display(whole)) if name == "p.png" else exr.save(
         tmp_path / name, {"color": whole}
     )
     content = (tmp_path / name).read_bytes()
@@ -364,7 +363,7 @@ def test_a_truncated_picture_is_named_in_one_line(name, share, tmp_path, rng, ca
 
 def test_a_damaged_name_of_a_channel_is_no_error_of_its_own(tmp_path):
     """The library quotes the file's bytes, which are no UTF-8."""
-    save_exr(tmp_path / "p.exr", {"color": np.ones((4, 4, 4))})
+    exr.save(tmp_path / "p.exr", {"color": np.ones((4, 4, 4))})
     content = (tmp_path / "p.exr").read_bytes()
     (tmp_path / "p.exr").write_bytes(
         content.replace(b"channels\0chlist", b"ch\xffnnels\0chli\xfft")

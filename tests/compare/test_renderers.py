@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import images
+from reference_tracer import exr, images
 from reference_tracer.compare.causes import CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.compare.renderers import RASTER, RAYS, renderer_of
@@ -149,7 +149,7 @@ def test_blenders_header_says_which_engine_made_a_picture(make, tmp_path):
         assert file.open(str(tmp_path / "picture.exr"), spec)
         assert file.write_image(np.zeros((3, 4, 4), F)) and file.close()
         assert images.read_picture(tmp_path / "picture.exr").engine == engine
-    images.save_exr(tmp_path / "own.exr", {"color": np.zeros((3, 4, 4), F)})
+    exr.save(tmp_path / "own.exr", {"color": np.zeros((3, 4, 4), F)})
     assert images.read_picture(tmp_path / "own.exr").engine == ""
 
 

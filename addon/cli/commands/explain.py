@@ -9,7 +9,7 @@ from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
-from ... import images
+from ... import exr
 from ...explain import reproducer
 from ...explain.candidates import LIMIT, gather_pixel
 from ...explain.pixel import Pixel
@@ -106,7 +106,7 @@ def _gathered(options: ExplainOptions) -> Pixel:
     if options.pixel is None:
         return reproducer.read(options.scene)
     # What is said meanwhile, by Blender too, is no part of the Markdown.
-    with images.redirected(1, 2), redirect_stdout(sys.stderr):
+    with exr.redirected(1, 2), redirect_stdout(sys.stderr):
         scene, _ = load(options.scene, options.choice)
     x, y = options.pixel
     return gather_pixel(scene, x, y, options.limit, options.scene.name)

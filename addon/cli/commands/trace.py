@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ... import images
+from ... import exr, images
 from ...certified.rounding import check_can_be_checked, check_is_proven, check_rounding
 from ...framing import Choice
 from ...mesh_files.load import READERS
@@ -107,7 +107,7 @@ def trace(options: TraceOptions) -> int:
             if options.is_png:
                 images.save_png(new, images.to_display(frame.color))
             else:
-                images.save_exr(new, frame.passes())
+                exr.save(new, frame.passes())
     s = frame.statistics
     print(
         f"{frame.shape[1]} x {frame.shape[0]} pixels, {count_of(s.triangles, 'triangle')}, "
