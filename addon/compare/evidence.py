@@ -66,6 +66,7 @@ class Evidence:
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
     fine: bool = False  # whether pixels beside the picture's edges alone are sampled
+    chosen: tuple[Places, Places] | None = None  # the sample, if it was chosen
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # what faults share that look for the same
     trees: Trees = field(default_factory=Trees)
@@ -93,8 +94,13 @@ class Evidence:
     @cached_property
     def sample(self) -> tuple[Places, Places]:
         """Rows and columns of the n sampled pixels, row by row from the lowest."""
-        rows, columns = np.nonzero(self._weights)
+        rows, columns = np.nonzero(self._weights) if self.chosen is None else self.chosen
         return rows, columns
+
+    def only(self, some: Places) -> Evidence:
+        """Return the same with some of the sampled pixels alone, by their numbers."""
+        rows, columns = self.sample
+        return replace(self, chosen=(rows[some], columns[some]))
 
     @cached_property
     def _weights(self) -> Floats:
