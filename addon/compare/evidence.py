@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arrays import Array, Bools, Floats, Integers, Places
+from ..projections import ORTHOGRAPHIC
 from ..scene import Camera, Scene
 from ..tracer.camera import camera_rays, film_of
 from ..tracer.frame import Frame
@@ -192,11 +193,15 @@ class Evidence:
 
     @cached_property
     def points(self) -> Floats:
-        """What is traced in the n sampled pixels, (3, n) world space; the background far away."""
-        t = self.frame.t
+        """What is traced in the n sampled pixels, (3, n) world space; the background far away.
+
+        Parallel rays that are turned would lose it: of them it is as far as the farthest surface.
+        """
+        t, camera = self.frame.t, self.case.scene.camera
         seen = np.isfinite(t)
-        far = BEYOND * float(np.max(t[seen], initial=1.0))
-        rays = camera_rays(self.case.scene.camera, *self.film)
+        beyond = 1.0 if camera.projection is ORTHOGRAPHIC else BEYOND
+        far = beyond * float(np.max(t[seen], initial=1.0))
+        rays = camera_rays(camera, *self.film)
         return rays.at(np.where(seen, t, far)[self.sample])
 
     @cached_property

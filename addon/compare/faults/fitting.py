@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...arrays import Bools, Floats, Places
+from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
 from ...tracer.camera import film_of
 from ...tracer.progress import Work
@@ -210,6 +211,8 @@ class _Traced:
             before, now = (np.stack(film_of(c, points)[:2]) for c in (prepared, camera))
             beside = film_beside_camera(prepared, camera, *film) - film
             moved = now - before
+        # Parallel rays that are turned move what is far away by more than what is near.
         same_place = np.array_equal(prepared.origin, camera.origin)
+        same_place &= camera.projection is not ORTHOGRAPHIC
         apart = np.abs(beside).max() if same_place else np.nanmax(np.abs(moved))
         return bool(apart <= self.reach)
