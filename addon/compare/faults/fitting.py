@@ -159,7 +159,7 @@ def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
             score = family.look_up(evidence, other)
             if score > least:
                 scores.append((score, values))
-        if number % 32 == 0:
+        if number % 32 == 0 or family.by_few:
             yield 0.0
     best: list[Values] = []
     for _, values in sorted(scores, key=lambda pair: -pair[0]):

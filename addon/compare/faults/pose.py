@@ -156,9 +156,9 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
         starts, step = pose.starts, FIRST * looked.width
         if pose.axes.shape[1] == 1:  # of which more are looked at on each side
             step /= 4
-        if guess.values:
-            starts, step = [guess.values], FINER
         fine = bool(guess.low)
+        if guess.values:
+            starts, step = [guess.values], FINER if fine else 1.0
         least = 0.0 if guess.values else looked.least_right
         known = partial(right, looked)
         search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)

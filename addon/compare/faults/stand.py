@@ -115,9 +115,13 @@ def _climbed(
         yield
 
     climb = Climb(right, axes)
-    for start in dict.fromkeys(starts):
-        guess = result_of(climb.climbed(start, FIRST, LAST))
-        yield guess[0]
+    units = np.linalg.pinv(np.diag(axes) if np.ndim(axes) == 1 else axes)
+    begun: list[Values] = []
+    for start in starts:
+        if all(np.abs(units @ np.subtract(start, b)).max() >= FIRST for b in begun):
+            begun.append(start)
+            guess = result_of(climb.climbed(start, FIRST, LAST))
+            yield guess[0]
 
 
 def _in_the_world(camera: Camera, guess: Guess) -> str:
