@@ -78,12 +78,17 @@ class Looked:
         own = instances_named(scene, self.name)
         return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())
 
-    def right(self, changed: Scene) -> Work[int]:
-        """Return how many of the n pixels are right with the object as a scene has it alone."""
+    def only(self, some: Places) -> Looked:
+        """Return the same of some of the n pixels, by their numbers."""
+        rows, columns = self.at
+        at, behind = (rows[some], columns[some]), self.behind.take(some)
+        return replace(self, at=at, picture=self.picture.at(some), behind=behind)
+
+    def right(self, changed: Scene) -> Work[Bools]:
+        """Return which of the n pixels are right with the object as a scene has it alone, (n,)."""
         hits = yield from self.traced(changed)
         before = (hits.instance != NOTHING) & (hits.t < self.behind.t)
-        shown = (self._beneath & ~before) | self._agree(changed, hits, before)
-        return int(shown.sum())
+        return (self._beneath & ~before) | self._agree(changed, hits, before)
 
     @property
     def _may_settle(self) -> float:

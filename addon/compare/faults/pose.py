@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from ...arrays import Floats
+from ...arrays import Bools, Floats, Places
 from ...projections import ORTHOGRAPHIC
 from ...scene import Instance, Mesh, Scene
 from ...tracer.frame import Frame
@@ -15,9 +16,11 @@ from ...tracer.progress import Work
 from ...tracer.vector import cross
 from ..case import Case
 from ..evidence import Evidence
+from .climbing import Right, Values
 from .fault import Find, Guess, Refine, instances_named
+from .fitting import FINER
 from .looked import Looked
-from .search import Search, Values
+from .search import Search
 
 FINEST = 1 / 128  # pixels
 FIRST = 1 / 4  # of the object's width: the first step
@@ -141,18 +144,24 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
             return None
         pose = of(looked)
 
-        def right(values: Values) -> Work[int]:
-            changed = pose.change(looked.alone, values)
-            return -1 if changed is None else (yield from looked.right(changed))
+        alone = looked.alone
+
+        def among(some: Places) -> Right:
+            return partial(right, looked.only(some))
+
+        def right(looked: Looked, values: Values) -> Work[Bools | None]:
+            changed = pose.change(alone, values)
+            return None if changed is None else (yield from looked.right(changed))
 
         starts, step = pose.starts, FIRST * looked.width
         if pose.axes.shape[1] == 1:  # of which more are looked at on each side
             step /= 4
-        if guess.values:
-            starts, step = [guess.values], 1.0
         fine = bool(guess.low)
+        if guess.values:
+            starts, step = [guess.values], FINER if fine else 1.0
         least = 0.0 if guess.values else looked.least_right
-        search = Search(right, pose.axes, FINEST, least, pose.unseen)
+        known = partial(right, looked)
+        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
     def find(evidence: Evidence) -> Work[list[Guess]]:
