@@ -17,6 +17,11 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
+import trimesh
+from reference_tracer.cli.opening import PYTHONS
+from reference_tracer.cli.parser import INPUT_ERROR
+
+from . import others
 
 pytestmark = [pytest.mark.blender, pytest.mark.slow]
 
@@ -131,22 +136,47 @@ def test_package_is_all_of_the_code_and_nothing_else(clone: Path, release: Path)
     assert names - made == {*code, *top, "PKG-INFO", "setup.cfg"}
 
 
-def test_wheel_traces_in_an_environment_of_its_own(release: Path, tmp_path: Path):
-    """It has numpy and trimesh of this one, and nothing of this project but the wheel."""
-    assert run(sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv").returncode == 0
+@pytest.mark.parametrize("name", dict.fromkeys((*others.NAMES, others.OWN)))
+def test_wheel_is_of_use_alone(name: str, release: Path, tmp_path: Path):
+    """It has numpy and trimesh of an environment, and nothing of this project but the wheel."""
+    base = others.python(name)
+    assert run(base, "-m", "venv", "--without-pip", tmp_path / "venv").returncode == 0
     [wheel] = release.glob("*.whl")
     [python] = (tmp_path / "venv").glob("*/python")
-    pip = run(sys.executable, "-m", "pip", "--python", python, "install", "--no-deps", wheel)
+    library = run(base, "-c", "import trimesh; print(trimesh.__path__[0])").stdout.strip()
+    site = run(
+        python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"
+    ).stdout.strip()
+    for part in (p for name in ("numpy", "trimesh") for p in Path(library, "..").glob(f"{name}*")):
+        Path(site, part.name).symlink_to(part.resolve())
+    pip = run(sys.executable, "-m", "pip", "--python", python, "install", "--no-index", wheel)
     assert pip.returncode == 0, pip.stderr
-    [site] = (tmp_path / "venv").glob("lib/*/site-packages")
-    (site / "numpy.pth").write_text("\n".join(p for p in sys.path if p.endswith("site-packages")))
 
-    scene = site / "reference_tracer_grading/scenes/exercise_triangle.npz"
-    options = {"cwd": tmp_path, "env": {"PATH": os.environ["PATH"]}}
-    reftrace = python.with_name("reftrace")
-    assert run(reftrace, "--version", **options).stdout.split()[-1] in wheel.name
-    done = run(reftrace, "trace", scene, "--out", "picture.png", **options)
-    assert done.returncode == 0 and (tmp_path / "picture.png").exists(), done.stderr
+    def reftrace(*words: object, code: int = 0) -> str:
+        env = {"PATH": os.environ["PATH"], "PYTHONWARNINGS": "error,ignore::ResourceWarning"}
+        done = run(python.with_name("reftrace"), *words, cwd=tmp_path, env=env)
+        assert done.returncode == code, done.stderr
+        return done.stdout + done.stderr
+
+    assert reftrace("--version").split()[-1] in wheel.name
+    size = "--width", "48", "--height", "32"
+    ball = trimesh.creation.icosphere(2)
+    for suffix in ("ply", "glb"):
+        ball.export(tmp_path / f"ball.{suffix}")
+        reftrace("trace", f"ball.{suffix}", *size, "--out", f"{suffix}.png")
+    stored = Path(site, "reference_tracer_grading/scenes/exercise_triangle.npz")
+    reftrace("trace", stored, "--out", "stored.png")
+    reftrace("compare", "ball.ply", *size, "--against", "ply.png", "--out", "compared")
+    assert (tmp_path / "compared" / "page.html").exists()
+    blend = PROJECT / "sample_scenes/suzanne.blend"
+    said = reftrace("trace", blend, "--out", "x.png", code=INPUT_ERROR)
+    version = name.partition("-")[0]
+    if version in PYTHONS:
+        assert 'module: pip install "reference_tracer[blender]"' in said
+    else:
+        assert f"made for Python 3.11 and 3.13 and not for {version}: python3.13 -m pip" in said
+    exr = reftrace("trace", "ball.ply", *size, "--out", "ball.exr", code=INPUT_ERROR)
+    assert 'pip install "reference_tracer[images]"' in exr
 
 
 def test_blender_installs_it_by_address(release: Path, tmp_path: Path):
