@@ -1,7 +1,7 @@
 # Reference Tracer's chores. `make help` lists them.
 #
 # Everything runs in the virtual environment .venv, which the first command makes: with Python 3.13
-# and bpy 5.2.3, else with Python 3.11 and bpy 5.0.1. To choose: make PYTHON=python3.11 demo
+# and bpy 5.2.3, else with Python 3.11 and bpy 5.0.1, else with one that uv fetches. To choose: make PYTHON=python3.11 demo
 
 PYTHON_IN_VENV := .venv/bin/python
 
