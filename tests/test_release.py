@@ -59,14 +59,14 @@ def git(folder: Path, *arguments: object) -> str:
     return done.stdout
 
 
-def released(clone: Path, umask: int, **environment: str) -> Path:
+def released(clone: Path, umask: int, *options: str, **environment: str) -> Path:
     """Make the release in a clone; returns its folder."""
     if (PROJECT / "wheels").exists():  # else it is fetched
         shutil.copytree(PROJECT / "wheels", clone / "wheels")
-    done = run(
-        sys.executable, clone / "tools/release.py", env=os.environ | environment, umask=umask
-    )
+    command = sys.executable, clone / "tools/release.py", *options
+    done = run(*command, env=os.environ | environment, umask=umask)
     assert done.returncode == 0, done.stdout + done.stderr
+    assert "release: the address is still https://example.org/" in done.stderr
     return clone / "dist/release"
 
 
@@ -91,8 +91,10 @@ def release(clone: Path) -> Path:
 
 def test_two_clones_release_the_same_bytes(clone: Path, release: Path, tmp_path: Path):
     git(tmp_path, "clone", "--quiet", clone, "another place")
-    again = released(tmp_path / "another place", 0o077, TZ="Asia/Tokyo", PYTHONHASHSEED="1")
+    place, environment = tmp_path / "another place", {"TZ": "Asia/Tokyo", "PYTHONHASHSEED": "1"}
+    again = released(place, 0o077, "--no-try", **environment)
     first, second = ({p.name: p.read_bytes() for p in f.iterdir()} for f in (release, again))
+    assert b"the focal length is +5.7" in first.pop("try.html")  # it says how long it took
     assert len(first) == 7
     assert [name for name in first | second if first.get(name) != second.get(name)] == []
 
@@ -103,6 +105,34 @@ def test_two_clones_release_the_same_bytes(clone: Path, release: Path, tmp_path:
     refused = run(sys.executable, clone / "tools/release.py")
     assert refused.returncode == 1 and "not committed" in refused.stderr
     assert "?? changed" in refused.stderr
+
+
+def test_its_page_needs_only_what_is_beside_it(release: Path):
+    page = (release / "index.html").read_text(encoding="utf-8")
+    links = set(re.findall(r'(?:href|src)="([^"]+)"', page))
+    beside = {n.partition("?")[0] for n in links if not n.startswith(("https://", "data:"))}
+    beside = {name.removeprefix("./") for name in beside}
+    assert {"try.html", "NOTES.md", "index.json", "SHA256SUMS"} < beside
+    assert beside <= {path.name for path in release.iterdir()}
+    for sum_, name in re.findall(r"([0-9a-f]{64})  ([\w.-]+)", page):
+        assert hashlib.sha256((release / name).read_bytes()).hexdigest() == sum_
+        beside.discard(name)
+    assert not {name for name in beside if name.endswith((".zip", ".whl"))}
+    assert "{{" not in page and "${" not in page
+
+
+def test_an_address_takes_the_place_of_the_placeholder(script, clone: Path, tmp_path: Path):
+    holder, names = script["PLACEHOLDER"], script["ADDRESSED"]
+    assert set(git(clone, "grep", "-l", holder, "--", ".", ":!t*").split()) == set(names)
+    for name in names:
+        shutil.copy(clone / name, tmp_path)
+    script["addressed"](tmp_path, "https://forge.example:8443/us/tracer.py")
+    for name in names:
+        text = (tmp_path / name).read_text(encoding="utf-8")
+        assert "https://forge.example:8443/us/tracer.py" in text and holder not in text
+    for wrong in ("forge.example/us", "https://forge.example/us/", 'https://a/"', "https://"):
+        with pytest.raises(script["BuildError"], match="ADDRESS"):
+            script["addressed"](tmp_path, wrong)
 
 
 def test_documents_name_its_files(release: Path):
