@@ -85,7 +85,7 @@ class Build:
         if path.suffix == ".gltf":
             path.with_suffix(".bin").write_bytes(self.data)
             self.json["buffers"] = [{"byteLength": len(self.data), "uri": path.stem + ".bin"}]
-            path.write_text(json.dumps(self.json))
+            path.write_text(json.dumps(self.json), "utf-8")
             return path
         self.json.setdefault("buffers", [{"byteLength": len(self.data)}])
         path.write_bytes(glb(self.json, bytes(self.data)))

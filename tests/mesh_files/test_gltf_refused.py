@@ -388,6 +388,9 @@ def names_a_buffer(tmp_path, uri):
         "https://example.org/outside.bin",
         "//example.org/outside.bin",
         "C:outside.bin",
+        "C%3A/outside.bin",
+        "%5C%5Cserver/share/outside.bin",
+        "\\\\server\\share\\outside.bin",
     ],
 )
 def test_no_file_outside_of_the_folder_is_read(uri, tmp_path):
