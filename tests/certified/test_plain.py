@@ -24,7 +24,11 @@ TRIANGLES = [
     *((2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)),
 ]
 SEEDS = 150  # in a part
-PARTS = [0, 1, *(pytest.param(part, marks=pytest.mark.torture) for part in (2, 3))]
+PARTS = [
+    0,
+    pytest.param(1, marks=pytest.mark.slow),
+    *(pytest.param(part, marks=pytest.mark.torture) for part in (2, 3)),
+]
 MEMORY = 64 << 20
 
 
@@ -88,6 +92,7 @@ def test_the_sweep_is_equal_from_inside_a_closed_surface(make, rng):
         assert (swept.instance == 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rows", [1, 3])
 def test_as_a_contest_of_every_ray_with_every_triangle(make, rows, monkeypatch):
     """However it is divided."""

@@ -57,6 +57,7 @@ def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
     return names
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", range(3))
 def test_every_triangle_is_in_one_piece(make, part):
     """Of every instance that may be in view; whatever the limit, the same instances are."""
@@ -87,6 +88,7 @@ def test_vertices_that_no_triangle_uses_fill_no_chunk(make):
         assert len(expanded_of(scene, film, chunk).vertices.p) == 4  # what is used of one
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chunk", [1, 2, 7, 1 << 13])
 def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
     """Bit for bit, however many vertices are transformed together, and whoever shares them."""
