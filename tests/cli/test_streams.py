@@ -105,6 +105,7 @@ def test_results_are_there_before_anything_is_said(capsys):
     assert capsys.readouterr().out == "said\n"
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.parametrize(
     ("closed", "code"),

@@ -318,6 +318,7 @@ def test_nothing_is_done_where_nothing_is_unexplained(solids):
     assert found.to_dict()["diagnosis"] is None
 
 
+@pytest.mark.slow
 def test_a_variant_is_told_by_its_fault_and_words(solids):
     """Also where the scene that is compared lacks what its own camera does not see."""
     eye = solids.camera.world_from_camera.copy()

@@ -57,11 +57,12 @@ def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
     return names
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", range(3))
 def test_every_triangle_is_in_one_piece(make, part):
     """Of every instance that may be in view; whatever the limit, the same instances are."""
     left_out, several = 0, 0
-    for seed in range(part * 40, part * 40 + 40):
+    for seed in range(part * 20, part * 20 + 20):
         rng = np.random.default_rng(seed)
         scene = hostile_scene(make, rng)
         film = Film(scene.camera, *offsets(rng))
@@ -72,7 +73,7 @@ def test_every_triangle_is_in_one_piece(make, part):
             assert sorted(names) == [(i, k) for i in sorted(shown) for k in range(counts[i])], seed
         left_out += sum(bool(n) for n in counts) - len(shown)
         several += len(all_chunks(scene, film, 5)) > 1
-    assert left_out > 3 and several > 20
+    assert left_out > 1 and several > 10
 
 
 def test_vertices_that_no_triangle_uses_fill_no_chunk(make):
@@ -87,12 +88,13 @@ def test_vertices_that_no_triangle_uses_fill_no_chunk(make):
         assert len(expanded_of(scene, film, chunk).vertices.p) == 4  # what is used of one
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chunk", [1, 2, 7, 1 << 13])
 def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
     """Bit for bit, however many vertices are transformed together, and whoever shares them."""
     monkeypatch.setattr(module, "_CHUNK", chunk)
     compared = 0
-    for seed in range(15):
+    for seed in range(8):
         rng = np.random.default_rng(seed)
         scene = hostile_scene(make, rng)
         film = Film(scene.camera, *offsets(rng))
@@ -114,7 +116,7 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
                         known = plain.ahead
                         assert np.array_equal(expanded.vertices.box[at][known], plain.box[known])
                     compared += len(own)
-    assert compared > 1000
+    assert compared > 500
 
 
 def test_only_instances_that_no_ray_hits_are_left_out(make):

@@ -26,6 +26,7 @@ def small_in(scene: Scene, film: Film, region: Region) -> SmallTriangles:
         return SmallTriangles(scene, film, region, InstanceBoxes.of(scene, film).area)
 
 
+@pytest.mark.slow
 def test_what_is_left_out_has_no_pixel_in_its_box(make, monkeypatch):
     monkeypatch.setattr(module, "_PER_PIXEL", 0.0)
     left_out, kept, in_vain = 0, 0, 0
