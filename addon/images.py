@@ -20,6 +20,7 @@ import numpy as np
 
 from . import png
 from .arrays import Array, Bytes, Colors, Floats
+from .file_kinds import mistaken
 from .runs import by_runs
 
 _EIGHT_BITS = 255  # levels above 0
@@ -181,6 +182,8 @@ def open_picture(path: str | Path) -> PictureFile:
     of = _FORMATS.get(path.suffix.lower())
     if of is None:
         raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
+    if said := mistaken(path):
+        raise OSError(f"'{path}' {said}")
     return PictureFile(path, *of.size(path))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -56,6 +57,15 @@ def test_an_object_without_a_surface_in_the_file_is_not_counted(scene, tmp_path,
     _, found, printed = against(render(scene).color, source="gone.npz")
     assert "2 of 3 objects exported" in printed and "skipped Gone (MESH): nothing of it" in printed
     assert [entry["exported"] for entry in found["scene"]["objects"]] == [True, True, False]
+
+
+def test_every_result_and_every_array_is_on_the_page_of_files(scene, tmp_path, against):
+    text = (Path(__file__).parent.parent / "docs" / "files.md").read_text(encoding="utf-8")
+    against(render(scene).color)
+    with np.load(tmp_path / "out" / "frame.npz") as held:
+        names = {*held} - {"rows_done"}  # of a picture that was cancelled
+    names |= {path.name for path in (tmp_path / "out").iterdir()}
+    assert not [name for name in names if f"`{name}`" not in text]
 
 
 @pytest.mark.parametrize("name", ["picture.png", "picture.exr"])
@@ -152,7 +162,9 @@ def test_a_smoothed_picture_needs_its_filter(scene, against):
 def test_sizes_that_do_not_match(scene, against):
     code, found, text = against(render(scene).color[:-1])
     assert code == 3 and found["verdict"] == "failed"
-    assert "The picture has 60 x 44 pixels, the traced one 60 x 45." in text
+    assert (
+        "The picture has 60 x 44 pixels, the traced one 60 x 45. Render it at that size, or" in text
+    )
 
 
 def test_a_whole_picture_for_a_border(scene, against, tmp_path):
@@ -187,8 +199,8 @@ def test_self_check_without_blender(scene, against):
     ("name", "content", "message"),
     [
         ("none.png", None, "there is no file"),
-        ("text.png", b"no picture", "cannot"),
-        ("text.exr", b"no picture", "cannot be read"),
+        ("text.png", b"no picture", "is no .png"),
+        ("text.exr", b"no picture", "is no .exr"),
         ("picture.jpg", b"", "must be .png or .exr"),
     ],
 )

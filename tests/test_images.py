@@ -117,7 +117,7 @@ def test_the_same_picture_is_the_same_file(tmp_path, picture):
     ],
 )
 def test_missing_library_says_how_to_get_it(use, tmp_path, monkeypatch):
-    (tmp_path / "given.exr").touch()
+    (tmp_path / "given.exr").write_bytes(b"v/1\x01")
     monkeypatch.setitem(sys.modules, "OpenImageIO", None)
     with pytest.raises(
         MissingLibraryError, match=r"OpenImageIO: pip install 'reference_tracer\[images\]'"
@@ -259,7 +259,7 @@ def test_a_picture_of_more_than_179_megapixels(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["p.png", "p.exr"])
-@pytest.mark.parametrize("share", [0.0, 0.02, 0.5, 0.98])
+@pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
 def test_a_truncated_picture_is_named_in_one_line(name, share, tmp_path, rng, capfd):
     whole = rng.random((40, 30, 4), np.float32)
     save_png(tmp_path / name, to_display(whole)) if name == "p.png" else save_exr(
@@ -290,7 +290,7 @@ def test_the_picture_of_another_format(name, tmp_path, picture):
     if name == "p.png":
         content = b"P6 1 1 255\n\0\0\0"  # a PPM
     (tmp_path / name).write_bytes(content)
-    with pytest.raises(OSError, match=rf"{name}' cannot be read"):
+    with pytest.raises(OSError, match=rf"{name}' is (no .png|a PNG picture)"):
         read_picture(tmp_path / name)
 
 

@@ -14,6 +14,7 @@ FLOORS = {
     "arrays": 0,
     "certainty": 0,
     "checked_json": 0,
+    "file_kinds": 0,
     "images": 0,
     "manifest": 0,
     "png": 0,
@@ -21,6 +22,7 @@ FLOORS = {
     "runs": 0,
     "scene": 0,
     "svg": 0,
+    "wording": 0,
     "methods": 1,
     "tracer": 1,
     "framing": 1,
@@ -195,6 +197,7 @@ def test_the_tracer_knows_the_scene_and_nothing_of_blender():
         "",
         "arrays",
         "certainty",
+        "file_kinds",
         "images",
         "png",
         "manifest",
@@ -203,6 +206,7 @@ def test_the_tracer_knows_the_scene_and_nothing_of_blender():
         "runs",
         "scene",
         "tracer",
+        "wording",
     }
 
 

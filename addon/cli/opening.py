@@ -12,12 +12,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
 from ..manifest import Manifest
 from ..mesh_files.contents import Contents
 from ..mesh_files.load import READERS, load_meshes, scene_of_meshes
 from ..scene import Scene, SceneError
-from ..scene_files import check_is_file, load_scene
+from ..scene_files import load_scene
 from ..tracer.settings import Settings
 from . import running
 from .arguments import is_blend
@@ -144,7 +145,8 @@ def _open(bpy: Any, path: Path) -> None:
             open_file(path)
         except RuntimeError as error:
             reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
-            raise SceneError(f"'{path}' cannot be opened: {reason}") from error
+            do = "if it is cut off or damaged, copy or save it again"
+            raise SceneError(f"'{path}' cannot be opened by Blender ({reason}): {do}") from error
     saved, own = (".".join(map(str, v[:2])) for v in (bpy.data.version, bpy.app.version_file))
     if bpy.data.version[:2] > bpy.app.version_file[:2]:
         do = f"this is {own}: open it with {saved} or newer"

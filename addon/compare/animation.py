@@ -30,6 +30,8 @@ def frames_named(text: str) -> range | None:
         step = int(found[3] or 1)
         if -_LAST <= first <= last <= _LAST and step:
             return range(first, last + 1, step)
+        if last < first:
+            raise ValueError(f"is {text}, which ends before it begins: {last}-{first} does not")
     raise ValueError(
         f"is {text}; it must be 1-250, 1-250:5 for every fifth, 7, or all, for example"
     )

@@ -15,6 +15,7 @@ from ..manifest import Effect, Manifest
 from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
+from ..wording import count_of
 from .case import Case
 from .cause import Causes
 from .causes import BY_NUMBER, CAUSES
@@ -176,7 +177,7 @@ class Comparison:
             *self._evidence(),
             *(self.diagnosis.lines() if self.diagnosis else ()),
             self._measured(),
-            f"traced {traced.triangles:,} triangles in {traced.seconds:.2f} s "
+            f"traced {count_of(traced.triangles, 'triangle')} in {traced.seconds:.2f} s "
             f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
             "a pixel)",
             *(row.line() for row in self.methods),
@@ -206,10 +207,10 @@ class Comparison:
         m = self.metrics
         psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
         x, y = m["largest_difference"]["pixel"]
-        return (
-            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
-            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})"
-        )
+        most = f"largest difference {m['largest_difference']['value']:.3g} at pixel ({x}, {y})"
+        if not m["rmse"]:
+            most = "no difference anywhere"
+        return f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, {most}"
 
     def _evidence(self) -> Iterator[str]:
         """Say what else was found out about the pixels that differ."""

@@ -41,8 +41,10 @@ def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
         If they differ.
     """
     if own != traced:
+        (height, width), (h, w) = own[:2], traced[:2]
         raise SizeError(
-            f"The picture has {own[1]} x {own[0]} pixels, the traced one {traced[1]} x {traced[0]}."
+            f"The picture has {width} x {height} pixels, the traced one {w} x {h}. Render it at "
+            f"that size, or trace a .blend or a mesh at its own: --width {width} --height {height}"
         )
 
 

@@ -27,7 +27,7 @@ def test_all_are_the_scenes_own():
 
 
 @pytest.mark.parametrize(
-    "text", ["", "x", "5-1", "1-", "1-5:0", "1-5:-1", "1:5", "1-5,7", "1.5", "1048575", "9" * 5000]
+    "text", ["", "x", "1-", "1-5:0", "1-5:-1", "1:5", "1-5,7", "1.5", "1048575", "9" * 5000]
 )
 def test_what_names_no_frames_is_refused_in_a_line(text, tmp_path, capsys):
     with pytest.raises(ValueError, match="it must be"):
@@ -66,3 +66,8 @@ def test_the_worst_are_first():
     found = worst_first(rows)
     assert [row.frame for row in found] == [5, 4, 2, 3, 7, 1, 6]
     assert CODES[found[0].verdict] == 4 and CODES[found[1].verdict] == 2
+
+
+def test_frames_that_end_before_they_begin_are_told_in_order():
+    with pytest.raises(ValueError, match=r"^is 5-1, which ends before it begins: 1-5 does not$"):
+        frames_named("5-1")

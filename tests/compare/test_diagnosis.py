@@ -414,7 +414,7 @@ def test_it_ends_inside_a_guess_and_says_what_was_not_looked_for(pair, steps):
     before = result_of(trace_and_compare(case_of(pair, Picture(moved), curves=())))
     found = result_of(diagnosed(before, steps)).diagnosis
     assert found.steps == steps and "pixel_offset" in found.untried
-    said = [line for line in found.lines() if "not looked for" in line]
+    said = [line for line in found.lines() if "a limit of work ended" in line]
     assert len(said) == 1 and " more)" in said[0]
     assert found.to_dict()["ended"] and found.to_dict()["untried"] == list(found.untried)
 

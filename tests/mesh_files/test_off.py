@@ -46,11 +46,15 @@ def test_ways_to_write_the_same(text, read):
         ("OFF BINARY\n", "binary OFF file: save it as text"),
         ("OFF\n3 one 0\n", "line 2: "),
         ("OFF\n3\n", "line 2: 2 integers from 0 on"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n", "cut off: fewer than its 3 vertices"),
-        ("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "cut off: fewer than its 2 faces"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n", "cut off: it should have 3 vertices; copy it again"),
+        ("OFF\n1 1 0\n0 0 0\n", "cut off: it should have 1 face;"),
+        ("OFF\n3 1 0\n0 0 0\n0,5 0 0\n0 1 0\n3 0 1 2\n", "line 4: '0,5' is no number: the dec"),
+        ("OFF\n3.0 1 0\n0 0 0\n", "line 2: '3.0' is no integer"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1", "line 6: 3 integers .* it is cut off: copy"),
+        ("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "cut off: it should have 2 faces"),
         ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 6: 3 integers from 0 on"),
         ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4: a vertex has three coordinates"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "what should be a number is none"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "line 4: 'x' is no number"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(text, words, read):

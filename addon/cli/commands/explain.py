@@ -20,7 +20,7 @@ from ...scene import SceneError
 from ..arguments import refuse
 from ..camera_options import CAMERA_OPTIONS, add_camera, choice_from
 from ..opening import SOURCES, load
-from ..parser import AGREE, COUNT, Parser
+from ..parser import AGREE, COUNT, INTEGER, Parser
 from ..running import printable
 
 
@@ -68,7 +68,7 @@ def add(parser: Parser) -> None:
     parser.add_scene(f"{SOURCES}, or a pixel.json that --reproducer wrote")
     parser.add_argument(
         "--pixel",
-        type=int,
+        type=INTEGER,
         nargs=2,
         metavar=("X", "Y"),
         help="the pixel to explain; 0 0 is the picture's lower left",
