@@ -12,7 +12,7 @@ from reference_tracer.compare.diagnosis import diagnose
 from reference_tracer.compare.evidence import Evidence
 from reference_tracer.compare.faults import FAULTS
 from reference_tracer.compare.faults.fault import Guess
-from reference_tracer.compare.faults.fitting import _Traced
+from reference_tracer.compare.faults.fitting import Traced
 from reference_tracer.compare.faults.stand import TURNED
 from reference_tracer.compare.guessing import ALL_EDGES
 from reference_tracer.compare.picture import Picture
@@ -165,7 +165,7 @@ def test_an_orthographic_camera_that_turns_leaves_what_was_near_its_rays(few):
     scene = scene.seen_by(replace(scene.camera, world_from_camera=matrix))
     color = pictured(scene, "camera_turned", Guess(turn))
     found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
-    traced = _Traced(Evidence(found.case, found.frame, found.causes), TURNED)
+    traced = Traced(Evidence(found.case, found.frame, found.causes), TURNED.camera)
     assert not result_of(traced.right((0.0, 0.0, 0.0))).all()
     assert result_of(traced.right(turn)).all()
 

@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
 from ...arrays import Bools, Floats, Places
 from ...projections import ORTHOGRAPHIC
-from ...scene import Camera
+from ...scene import Camera, Scene
 from ...tracer.camera import film_of
+from ...tracer.hits import Hits
 from ...tracer.progress import Work
 from ..checks.probe import Probe
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
@@ -33,6 +35,17 @@ FINER = 1 / 8  # pixels: the first step where a fit is made finer
 ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
 MOVES = 3  # by which a right start is left, with steps of one length: it is a pixel or two away
 BETTER = 0.03  # by how much larger the share of right pixels must be for a start
+
+
+class Shown(Protocol):
+    """What some sampled pixels show."""
+
+    def only(self, some: Places) -> Shown:
+        """Return the same of some of the pixels, by their numbers."""
+
+    def agrees(self, scene: Scene, hits: Hits) -> Bools:
+        """Return which of the pixels show the hits of a scene, (n,)."""
+
 
 LookUp = Callable[[Evidence, Camera], float]  # the share of some pixels that is right
 
@@ -113,7 +126,7 @@ def fitting(family: Family) -> tuple[Find, Refine]:
 
     def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
         fine = bool(guess.low)
-        traced = _Traced(evidence, family, FINE_REACH if fine else REACH)
+        traced = Traced(evidence, family.camera, FINE_REACH if fine else REACH)
         search = Search(
             traced.right,
             family.axes(evidence),
@@ -135,7 +148,7 @@ def fitting(family: Family) -> tuple[Find, Refine]:
             guess = yield from refine(evidence, Guess(start))
             if guess:
                 out.append(guess)
-                right = yield from _Traced(evidence, family).right(guess.values)
+                right = yield from Traced(evidence, family.camera).right(guess.values)
                 if right is not None and right.mean() >= ENOUGH:
                     break
         return out
@@ -169,29 +182,48 @@ def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
     return best
 
 
-class _Traced:
-    """Says which pixels of the sample are right with the cameras of a family.
+class Traced:
+    """Says which pixels of a sample are right with a camera of some numbers.
 
     Rays are tested with the triangles near those of a camera that was prepared, as long as what
     they meet is seen near enough by it.
+
+    Parameters
+    ----------
+    evidence : Evidence
+        With the sample, and the scene that is traced.
+    camera : callable
+        The camera with some numbers, from the scene's own one.
+    reach : float
+        Pixels that rays may pass beside where they start.
+    shown : Evidence or Looked, optional
+        What says which of the sampled pixels show what is hit; by default the evidence.
     """
 
-    def __init__(self, evidence: Evidence, family: Family, reach: float = REACH) -> None:
+    def __init__(
+        self,
+        evidence: Evidence,
+        camera: Callable[..., Camera | None],
+        reach: float = REACH,
+        shown: Shown | None = None,
+    ) -> None:
         self.evidence = evidence
-        self.family = family
+        self.camera = camera
         self.reach = reach
+        self.shown = shown or evidence
         self.probes: list[Probe] = []  # the last one first
 
     def among(self, some: Places) -> Right:
         """Return what says so of some of the pixels, by their numbers."""
-        traced = _Traced(self.evidence.only(some), self.family, self.reach)
+        evidence, shown = self.evidence.only(some), self.shown.only(some)
+        traced = Traced(evidence, self.camera, self.reach, shown)
         traced.probes = [probe.take(some) for probe in self.probes]
         return traced.right
 
     def right(self, values: Values) -> Work[Bools | None]:
         """Return which of the n pixels agree, (n,); None if there is no such camera."""
         evidence = self.evidence
-        camera = self.family.camera(evidence.case.scene.camera, *values)
+        camera = self.camera(evidence.case.scene.camera, *values)
         if camera is None:
             return None
         probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
@@ -201,7 +233,7 @@ class _Traced:
             self.probes = [probe, *self.probes[: PREPARED - 1]]
         probe = replace(probe, scene=probe.scene.seen_by(camera))
         hits = yield from probe.trace()
-        return evidence.agrees(probe.scene, hits)
+        return self.shown.agrees(probe.scene, hits)
 
     def _near(self, prepared: Camera, camera: Camera) -> bool:
         """Return whether a camera sees everything near where the prepared one does."""

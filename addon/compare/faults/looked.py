@@ -86,9 +86,18 @@ class Looked:
 
     def right(self, changed: Scene) -> Work[Bools]:
         """Return which of the n pixels are right with the object as a scene has it alone, (n,)."""
-        hits = yield from self.traced(changed)
+        return self.agrees(changed, (yield from self.traced(changed)))
+
+    def agrees(self, changed: Scene, hits: Hits) -> Bools:
+        """Return which of the n pixels show the hits of a scene with the object alone, (n,)."""
         before = (hits.instance != NOTHING) & (hits.t < self.behind.t)
         return (self._beneath & ~before) | self._agree(changed, hits, before)
+
+    @property
+    def alone_in_evidence(self) -> Evidence:
+        """The evidence of the n pixels, of the object alone."""
+        case = self.evidence.case.in_scene(self.alone)
+        return replace(self.evidence, chosen=self.at, case=case)
 
     @property
     def _may_settle(self) -> float:
