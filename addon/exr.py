@@ -109,7 +109,7 @@ def _library() -> Any:
         import OpenImageIO
     except ImportError:
         raise MissingLibraryError(
-            "EXR files take the library OpenImageIO: pip install 'reference_tracer[images]'"
+            'EXR files take the library OpenImageIO: pip install "reference_tracer[images]"'
         ) from None
     OpenImageIO.attribute("try_all_readers", 0)  # a JPEG that is named .exr is refused
     return OpenImageIO

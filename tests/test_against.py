@@ -162,6 +162,7 @@ def _saved(image, stored, path):
     return path
 
 
+@pytest.mark.slow
 def test_a_smoothed_picture_needs_its_filter(scene, against):
     from reference_tracer.tracer.settings import Settings
 
@@ -249,6 +250,7 @@ def test_a_filter_needs_a_picture(tmp_path, capsys):
     assert "--filter is for a picture of --against" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_whose_rounding_excuses_is_chosen_and_said(make, against, tmp_path):
     """The farther of two walls: a depth buffer may show it, rays may not."""
     camera = make.camera(24, 18, clip_start=0.001, clip_end=1e4)

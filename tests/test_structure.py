@@ -335,6 +335,7 @@ def test_a_package_with_code_is_needed_too():
     assert ADDON / "projections" / "__init__.py" in needed_by(ADDON / "scene.py")
 
 
+@pytest.mark.slow
 def test_the_definition_does_without_the_sweep():
     for file in PROOF.glob("*.py"):
         assert not any("sweep" in path.parts for path in needed_by(file)), file

@@ -25,6 +25,7 @@ from .arguments import is_blend
 from .camera_options import check_kind
 from .file_manifest import file_manifest
 
+PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
 SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(READERS)})"
 
@@ -115,10 +116,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
         try:
             import bpy
         except ImportError as error:
-            raise SceneError(
-                "a .blend needs Blender as a module: pip install 'reference_tracer[blender]' "
-                f"({error})"
-            ) from error
+            raise SceneError(_without_blender(error)) from error
         from ..blender import registration
         from ..blender.choice import chosen
 
@@ -135,6 +133,15 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
     finally:
         if not choice.opened:
             registration.unregister()
+
+
+def _without_blender(error: ImportError) -> str:
+    own = "{}.{}".format(*sys.version_info)
+    pip = 'pip install "reference_tracer[blender]"'
+    if own not in PYTHONS:
+        made = f"which is made for Python {' and '.join(PYTHONS)} and not for {own}"
+        return f"a .blend needs Blender as a module, {made}: python{PYTHONS[-1]} -m {pip}"
+    return f"a .blend needs Blender as a module: {pip} ({error})"
 
 
 def _open(bpy: Any, path: Path) -> None:

@@ -57,6 +57,7 @@ def test_the_wrong_object_is_named_with_its_place(rows, room):
         assert wrong["shown"] == {0: "Ball", 1: "Wall", -1: "nothing"}[behind]
 
 
+@pytest.mark.slow
 def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room):
     """Hair over the wall: the name, not its number; and what both show is what lies beneath."""
     names = ("Ball", "Box", "Wall")

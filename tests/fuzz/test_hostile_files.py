@@ -26,7 +26,7 @@ from reference_tracer.scene_files import save_scene
 
 from ..mesh_files.gltf_build import rich
 
-DAILY, LONG, AT_ONCE = 2_000, 100_000, 20_000
+DAILY, LONG, AT_ONCE = 1_000, 100_000, 20_000
 SUFFIXES = {".npz", ".json", ".png", ".exr", ".obj", ".ply", ".off", ".stl", ".glb", ".gltf"}
 
 

@@ -45,10 +45,10 @@ def add(parser: Parser) -> None:
 
 def compare(options: CompareOptions) -> int:
     """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
-    results = [options.out.resolve() / name for name in comparison_report.NAMES]
+    results = [folders.place_of(options.out / name) for name in comparison_report.NAMES]
     colors = options.colors if isinstance(options.colors, Path) else None
     for file in (options.scene, options.against, colors, options.colors_out):
-        if file and file.resolve() in results:
+        if file and folders.place_of(file) in results:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
             )

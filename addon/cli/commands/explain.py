@@ -16,6 +16,7 @@ from ...explain.pixel import Pixel
 from ...explain.writers import WRITERS
 from ...framing import Choice
 from ...report import pixel
+from ...report.folders import place_of
 from ...scene import SceneError
 from ..arguments import refuse
 from ..camera_options import CAMERA_OPTIONS, add_camera, choice_from
@@ -39,7 +40,7 @@ class ExplainOptions:
     def parsed(cls, given: Namespace) -> ExplainOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
         out, again = given.out, given.reproducer
-        if out and again and out.resolve() == again.resolve():
+        if out and again and place_of(out) == place_of(again):
             raise SceneError(f"--out and --reproducer are the same file, '{out}'")
         choice = Choice()
         if given.scene.suffix.lower() == ".json":

@@ -8,7 +8,7 @@ picture at a time, in steps of a bounded number of pixels and pairs.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +25,7 @@ from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import interpolated, positions
 from ...tracer.vector import groups, parts
-from ...tracer.world import Pairs
+from ...tracer.world import Pairs, WorldTriangles
 from ..case import Case
 from ..cause import AGREE, Cause, Causes
 from ..picture import Picture
@@ -121,6 +121,22 @@ class Probe:
             yield share
         px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
         return cls(made.scene, px, py, chunks, settings)
+
+    def take(self, some: Places) -> Probe:
+        """Return the probe of some of the n pixels."""
+        number = np.full(len(self.px), -1)
+        number[some] = np.arange(len(some))
+        left = [p.take(np.flatnonzero(number[p.pixel] >= 0)) for p in self.chunks]
+        chunks = []
+        if any(len(p.pixel) for p in left):
+            pixel, instance, triangle = (
+                np.concatenate([getattr(p, name) for p in left])
+                for name in ("pixel", "instance", "triangle")
+            )
+            corners = np.concatenate([p.corners for p in left], axis=2)
+            triangles = WorldTriangles(corners, instance, triangle)
+            chunks.append(Pairs(number[pixel], np.arange(len(pixel)), triangles))
+        return replace(self, px=self.px[some], py=self.py[some], chunks=chunks)
 
     def rays(
         self,

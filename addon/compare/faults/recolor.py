@@ -15,6 +15,16 @@ from ..picture import Picture, straight
 from .fault import Guess, Make
 
 
+def alpha_multiplied(color: Array) -> Array:
+    """Return RGBA (..., 4) with its alpha multiplied in."""
+    return np.concatenate((color[..., :3] * color[..., 3:], color[..., 3:]), axis=-1)
+
+
+def alpha_divided(color: Array) -> Array:
+    """Return RGBA (..., 4) with its alpha divided out."""
+    return np.concatenate((straight(color), color[..., 3:]), axis=-1)
+
+
 def recolored(change: Callable[[Array], Array]) -> Make:
     """Return what changes the picture's colours, and its background, if it has one of its own."""
 
