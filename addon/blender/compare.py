@@ -221,7 +221,7 @@ def _diagnosed_too(
     work: Work[Comparison], diagnose: bool, told: Callable[[Comparison], object]
 ) -> Work[Comparison]:
     comparison = yield from scaled(work, 0.0, 0.6)
-    if diagnose and comparison.pixels["unexplained"]:
+    if diagnose and comparison.counts.unexplained:
         told(comparison)
         comparison = yield from scaled(diagnosed_of(comparison), 0.6, 0.4)
     return comparison

@@ -12,6 +12,7 @@ from string import Template
 from typing import Any
 
 from ..compare.animation import FrameRow, worst_first
+from ..compare.verdict import Verdict
 from ..wording import count_of
 from . import comparison, page, plots
 from .folders import replacing, write_json, write_text
@@ -77,9 +78,9 @@ def write(directory: Path, title: str, frames: range, rows: Sequence[FrameRow]) 
         write_json(new / JSON, held)
 
 
-def verdict(rows: Sequence[FrameRow]) -> str:
+def verdict(rows: Sequence[FrameRow]) -> Verdict:
     """Return the gravest verdict."""
-    return worst_first(rows)[0].verdict if rows else "cancelled"
+    return Verdict.gravest(row.verdict for row in rows) if rows else Verdict.CANCELLED
 
 
 def line(row: FrameRow) -> str:

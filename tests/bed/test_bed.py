@@ -117,7 +117,7 @@ def test_the_view_window_is_blenders(scene):
 @EVERY
 def test_the_right_picture_agrees_everywhere(scene):
     found = compared(scene, right(scene))
-    assert found.pixels["agree"] == found.pixels["total"]
+    assert found.counts.agree == found.counts.total
 
 
 @EVERY
@@ -162,7 +162,7 @@ def test_a_fault_is_seen(number):
     fault = FAULTS[number]
     scene = where(fault, number)
     found = compared(scene, fault.make(scene, right(scene)))
-    assert found.pixels["unexplained"] or found.causes.transform
+    assert found.counts.unexplained or found.causes.transform
 
 
 def test_every_fault_of_the_issue_is_there():
@@ -262,7 +262,7 @@ def test_damage_leaves_unexplained_pixels():
     for number in range(20):
         kind, scene, picture = damage.damaged(number)
         found = result_of(trace_and_compare(case_of(scene, picture)))
-        assert found.pixels["unexplained"] > 20, kind
+        assert found.counts.unexplained > 20, kind
 
 
 def test_damage_is_what_it_says():

@@ -50,7 +50,7 @@ def _compared():
 def test_what_is_advised_helps(make, verdict):
     make()
     found = _compared()
-    assert found.verdict == verdict and found.pixels["unexplained"] == 0
+    assert found.verdict == verdict and found.counts.unexplained == 0
     (advice,) = found.excused.advice
     start = re.search(r"raise the clip start from .* m to (\S+) m: surfaces", advice)
     assert any(advice in line for line in found.lines())
@@ -63,9 +63,9 @@ def test_cycles_has_no_depth_buffer():
     _two_walls()
     for judge, unexplained in (("CYCLES", True), ("WORKBENCH", False)):
         case = gather_case(bpy.context, judge=judge)
-        assert result_of(compared(case)).pixels["unexplained"] == 0
+        assert result_of(compared(case)).counts.unexplained == 0
         farther = case.scene.instances[case.scene.objects.index("Far")].colors[0]
         color = np.where(case.picture.color[..., 3:] > 0, farther, case.picture.color)
         shown = replace(case.picture, color=color.astype(np.float32), owner=None)
         found = result_of(compared(replace(case, picture=shown)))
-        assert (found.pixels["unexplained"] > 1000) is unexplained
+        assert (found.counts.unexplained > 1000) is unexplained

@@ -130,7 +130,7 @@ def test_a_warning_that_explains_nothing(build, saved, compare, monkeypatch):
     linked_scene(build, saved)
     comparison = compare()
     assert comparison.verdict == "warnings"
-    assert comparison.pixels["not_judged"]["pixels"] == comparison.pixels["unexplained"] == 0
+    assert comparison.counts.not_judged.pixels == comparison.counts.unexplained == 0
     real = compare_module.picture
 
     def with_the_object(*args, **options):
@@ -140,7 +140,7 @@ def test_a_warning_that_explains_nothing(build, saved, compare, monkeypatch):
 
     monkeypatch.setattr(compare_module, "picture", with_the_object)
     comparison = compare(diagnose=False)
-    assert comparison.pixels["unexplained"] == 64
+    assert comparison.counts.unexplained == 64
     assert comparison.verdict == "differences"
 
 

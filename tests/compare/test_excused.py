@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.comparison import EXIT_CODES
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
@@ -43,7 +42,7 @@ def test_a_clip_start_that_helps(make):
     scene = walls(make, camera, 900.0, 0.1, size=900)
     found = compared(scene, farther(scene))
     assert found.excused.share > 0.5
-    assert found.verdict == "not comparable" and EXIT_CODES[found.verdict] == 1
+    assert found.verdict == "not comparable" and found.verdict.exit_code == 1
     start = advised(found, r"raise the clip start from 0.001 m to (\S+) m")
     there = replace(scene, camera=replace(camera, clip_start=start))
     assert compared(there, there).verdict == "agree"
@@ -81,7 +80,7 @@ def test_more_pixels_help(make):
         return make.scene(camera, make.quad(-9, pixel / 2 + off * pixel, -9, 9, -1))
 
     found = compared(seen(24, -0.001), seen(24, 0.001))
-    assert found.verdict == "warnings" and found.pixels["by_cause"]["edge"] == 18
+    assert found.verdict == "warnings" and found.counts.by_cause["edge"] == 18
     times = int(advised(found, r"draw the picture (\d+) times as wide"))
     again = compared(seen(24 * times, -0.001), seen(24 * times, 0.001))
     assert again.verdict == "agree" and again.excused.share <= found.excused.share / times
@@ -96,8 +95,8 @@ def test_surfaces_in_one_place_do_not_count_for_the_picture(make, gap):
     camera = make.camera(24, 18, clip_start=0.001, clip_end=1e4)
     scene = walls(make, camera, 5.0, gap, size=1)
     found = compared(scene, farther(scene))
-    ties = found.pixels["by_cause"]["depth_tie"]
-    assert ties > 0.02 * found.pixels["total"]
+    ties = found.counts.by_cause["depth_tie"]
+    assert ties > 0.02 * found.counts.total
     assert bool(found.excused.advice) == found.excused.too_much == (gap == 1e-4)
     assert found.verdict == "warnings"
     (one,) = found.excused.objects
@@ -130,7 +129,7 @@ def test_an_object_that_is_shown_in_place_of_another_was_not_judged(make):
         return make.scene(make.camera(96, 72), wall, paper)
 
     found = shown_with_its_objects(seen(0.0), seen(1e-6))
-    assert found.pixels["unexplained"] == 0
+    assert found.counts.unexplained == 0
     assert [one.object for one in found.excused.objects] == ["Poster"]
     assert found.verdict == "warnings"
     assert found.to_dict()["excused"]["objects"][0]["object"] == "Poster"
@@ -143,7 +142,7 @@ def test_a_small_object_is_not_excused_whole(make):
     near = make.quad(-60, 60, -40, 40, -900, name="Near")
     scene = make.scene(camera, near, make.quad(-600, 600, -600, 600, -900.1, name="Far"))
     found = compared(scene, farther(scene))
-    assert 0 < found.excused.share <= 0.02 and found.pixels["unexplained"] == 0
+    assert 0 < found.excused.share <= 0.02 and found.counts.unexplained == 0
     assert [one.object for one in found.excused.objects] == ["Near"]
     (advice,) = found.excused.objects[0].advice
     start = float(re.search(r"raise the clip start from 0.001 m to (\S+) m", advice)[1])
@@ -161,7 +160,7 @@ def test_an_object_whose_edge_rests_on_rounding_was_judged(make):
         return make.scene(camera, make.quad(-9, pixel / 2 + off * pixel, -9, 9, -1))
 
     found = compared(seen(-0.001), seen(0.001))
-    assert found.pixels["by_cause"]["edge"] == 72
+    assert found.counts.by_cause["edge"] == 72
     assert found.excused.objects == () and found.verdict == "agree"
 
 

@@ -62,7 +62,7 @@ def told(scene, color, curves=(), faults=LOOKED_FOR, **known):
     """Return what is told of a picture (h, w, 4), by its name; none of it is excused."""
     picture = Picture(np.asarray(color, np.float32), **known)
     found = result_of(trace_and_compare(case_of(scene, picture, curves=curves)))
-    assert found.pixels["unexplained"] > 10 and found.verdict == "differences"
+    assert found.counts.unexplained > 10 and found.verdict == "differences"
     assert not found.causes.transform
     diagnosis = result_of(diagnose(found.case, found.frame, found.causes, faults, np.inf))
     for one in diagnosis.told:

@@ -70,7 +70,7 @@ def pictured(scene, name, guess):
 def told(scene, color, *names):
     """Return what is told of a picture, if only some faults are looked for."""
     found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
-    assert found.pixels["unexplained"] > 10
+    assert found.counts.unexplained > 10
     faults = [BY_NAME[name] for name in names] or FAULTS
     said = result_of(diagnose(found.case, found.frame, found.causes, faults, np.inf)).told
     assert all(t.settled >= 0.97 * t.unexplained for t in said[:1])

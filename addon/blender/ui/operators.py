@@ -34,7 +34,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
             """Show the comparison: Esc ends no more than the search for what is wrong with it."""
             results.keep_comparison(context, comparison)
             self.left = rpt_("the comparison stays, without a diagnosis")
-            count = comparison.pixels["unexplained"]
+            count = comparison.counts.unexplained
             self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
             redraw(context)
 

@@ -15,10 +15,11 @@ from ...compare import colors_file, engines
 from ...compare.case import Case
 from ...compare.colors_file import in_colors
 from ...compare.comparing import trace_and_compare
-from ...compare.comparison import EXIT_CODES, Comparison
+from ...compare.comparison import Comparison
 from ...compare.palette import By, GivenColors
 from ...compare.picture import Picture, Source, check_size
 from ...compare.renderers import RENDERERS, renderer_of
+from ...compare.verdict import Verdict
 from ...mesh_diagnosis import diagnosed
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
@@ -119,7 +120,7 @@ def _colors(options: CompareOptions) -> By | GivenColors | None:
 def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) -> int:
     verdict = engines.worst(rows)
     print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
-    pages = [options.out / row.engine / page.NAME for row in rows if row.pixels]
+    pages = [options.out / row.engine / page.NAME for row in rows if row.counts]
     return _told(options, verdict, *pages)
 
 
@@ -140,11 +141,11 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
     return _told(options, comparison.verdict, options.out / page.NAME)
 
 
-def _told(options: CompareOptions, verdict: str, *pages: Path) -> int:
+def _told(options: CompareOptions, verdict: Verdict, *pages: Path) -> int:
     """Say where the results are; return the verdict's exit code."""
     print(f"written to {options.out}", *filter(None, [options.colors_out]), sep=" and ")
     print("open", *pages, "in a browser")
-    return EXIT_CODES[verdict]
+    return verdict.exit_code
 
 
 def _blend(
