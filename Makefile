@@ -28,8 +28,9 @@ check: lint ## check the style, run the fast tests that need neither Blender nor
 
 # What the tests in a browser and in a window need, only root can install, and other Pythons have to
 # be there: where that is not possible they are skipped, the run says so and is still a success.
+# A whole Blender is set up by the first tests that need it, while others run.
 test: lint extension ## run all tests, those in a browser and in a window too where that is possible
-	@for tool in browser whole_blender others; do \
+	@for tool in browser others; do \
 		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
 	done
 	$(PYTEST) $(SHARED) -rs -m "not torture"

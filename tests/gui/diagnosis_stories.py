@@ -51,7 +51,7 @@ def ended():
 def diagnosis():
     """The panel, Esc in the midst, and the copy of the camera."""
     scene = window().scene
-    scene.render.resolution_percentage = 30
+    scene.render.resolution_percentage = 20
     scene.reference_tracer.identity = False
     yield 0.2
     lens = scene.camera.data.lens
