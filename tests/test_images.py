@@ -14,12 +14,7 @@ import pytest
 from PIL import Image
 from reference_tracer import exr, images, png
 from reference_tracer.exr import MissingLibraryError
-from reference_tracer.images import (
-    open_picture,
-    read_picture,
-    save_png,
-    to_display,
-)
+from reference_tracer.images import open_picture, read_picture, save_png, to_display
 
 
 def opaque(values):

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..certified.rounding import check_is_proven
-from ..compare.animation import frames_named
-from ..compare.palette import By
-from ..compare.renderers import RENDERERS
+from ..comparison.animation import frames_named
 from ..framing import Choice
+from ..pictures.palette import By
+from ..pictures.renderers import RENDERERS
 from ..scene import SceneError
 from ..tracer.settings import Settings
 from .arguments import (

@@ -61,7 +61,7 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
     """
     if is_blend(path):
         with open_blend(path, choice) as blender:
-            from ..blender.compare import export_open_file
+            from ..blender.jobs.compare import export_open_file
 
             scene, manifest, settings = export_open_file(blender.context)
         return Opened(scene, settings, manifest)
@@ -118,7 +118,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
         except ImportError as error:
             raise SceneError(_without_blender(error)) from error
         from ..blender import registration
-        from ..blender.choice import chosen
+        from ..blender.jobs.choice import chosen
 
         if not choice.opened:
             registration.register()
@@ -146,7 +146,7 @@ def _without_blender(error: ImportError) -> str:
 
 def _open(bpy: Any, path: Path) -> None:
     with running.held():
-        from ..blender.opened import open_file
+        from ..blender.reading.opened import open_file
 
         try:
             open_file(path)

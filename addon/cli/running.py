@@ -63,8 +63,8 @@ def run(work: Callable[[], int], program: str) -> int:
 
 def _failed(error: Exception, program: str) -> int:
     """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
-    from ..compare.picture import SizeError
     from ..errors import EXPECTED, words
+    from ..pictures.picture import SizeError
     from .parser import INPUT_ERROR, SIZES_DIFFER
 
     said = words(error)

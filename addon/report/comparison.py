@@ -11,10 +11,10 @@ import numpy as np
 
 from .. import images
 from ..arrays import Array, Colors
-from ..compare.comparing import diagnosed
-from ..compare.comparison import SCHEMA, Comparison
-from ..compare.maps import cause_map
-from ..compare.verdict import Verdict
+from ..causes.maps import cause_map
+from ..comparison.comparing import diagnosed
+from ..comparison.comparison import SCHEMA, Comparison
+from ..comparison.verdict import Verdict
 from ..tracer.progress import Work, scaled
 from . import page
 from .folders import replacing, write_json

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.boxes import crossed, inverted, together, tree
-from reference_tracer.compare.checks.probe import SOUND
-from reference_tracer.compare.seen import Trees
+from reference_tracer.causes.checks.probe import SOUND
+from reference_tracer.diagnosis.boxes import crossed, inverted, together, tree
+from reference_tracer.diagnosis.seen import Trees
 from reference_tracer.rendering import trace
 from reference_tracer.scene import Instance, Mesh, Plane
 from reference_tracer.tracer.camera import camera_rays, film_positions

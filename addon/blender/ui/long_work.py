@@ -78,7 +78,7 @@ class LongWork(Mixin):
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""
-        from ..compare import made_folder
+        from ..jobs.compare import made_folder
 
         directory = self.directory or default_folder(self.bl_idname.rpartition("_OT_")[2])
         if directory and not self.directory:

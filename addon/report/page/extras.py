@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...arrays import Colors
-from ...compare.comparison import Comparison
-from ...explain.derivation import Derivation, derive
+from ...comparison.comparison import Comparison
+from ...derivation.derivation import Derivation, derive
 from ...methods import Method
 from ...rendering import steps
 from ...study import extremes, tradeoff
