@@ -21,18 +21,16 @@ from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.nearest import plan
 from ..tracer.progress import Work
-from .bounds import largest_within
 from .case import Case, Variant
 from .cause import NOT_DECIDABLE, UNEXPLAINED, Causes
 from .checks.probe import SOUND, Probe, blocks
 from .checks.unmodelled import as_known
-from .metrics import boundary
+from .metrics import beside_edges, boundary
 from .picture import Picture
 from .seen import Trees
 
 SAMPLE = 512  # pixels of each kind that are looked at
 FEW = 128  # that are looked at first
-BESIDE = 1  # pixels that are looked at on both sides of an edge
 DENSE = 1 << 12  # pixels: for more, all triangles are looked at once
 SEED = 27
 WORTH = 0.2  # of unexplained pixels
@@ -124,9 +122,7 @@ class Evidence:
     @cached_property
     def beside_edges(self) -> Bools:
         """Which pixels (h, w) are beside an edge that is shown: small changes show nowhere else."""
-        shown = np.moveaxis(np.nan_to_num(self.picture.color), -1, 0)
-        apart = [largest_within(v, BESIDE) + largest_within(-v, BESIDE) for v in shown]
-        out = np.max(apart, axis=0) > 2 * NEAR
+        out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
         return out if (out & self.open).any() else np.ones_like(out)
 
     def least_right(self, share: float = WORTH) -> float:

@@ -73,6 +73,7 @@ def test_what_is_written_is_as_the_schema_says_and_is_read_again(scene, tmp_path
         assert shown.tolist() == slot["srgb"]
 
 
+@pytest.mark.slow
 def test_objects_that_are_exchanged_are_found(scene, files, tmp_path, capsys):
     """In one grey they agree; in the colours that were written for it they do not."""
     assert files(exchanged(scene)) == AGREE
