@@ -224,11 +224,14 @@ class Evidence:
             first = {int(o): n for n, o in reversed(list(enumerate(shown.owners[:-1])))}
             return objects[[first.get(int(owner), nothing) for owner in shown.owner]]
         table = scene.color_table[:-1]
+        first_rows = np.sort(np.unique(table, axis=0, return_index=True)[1])  # of each colour
+        table = table[first_rows]
         if not 0 < len(table) <= MOST_COLORS:
             return np.full(len(shown.color), NOTHING, np.int32)
         made = shown.made_of(table)
         apart = np.abs(shown.color[:, None, : made.shape[1]] - made).max(axis=-1)
-        row = np.where(apart.min(axis=1) <= NEAR, apart.argmin(axis=1), len(table))
+        known, nearest = apart.min(axis=1) <= NEAR, first_rows[apart.argmin(axis=1)]
+        row = np.where(known, nearest, len(scene.color_table) - 1)
         return objects[np.minimum(np.searchsorted(scene.color_rows[1][:-1], row), nothing)]
 
 
@@ -252,7 +255,7 @@ def spread(where: Bools, most: int) -> Places:
 def shows_colors(picture: Picture, colors: Array) -> Bools:
     """Return which pixels (h, w) of a picture show about one of some traced colours (m, 4)."""
     out = np.zeros(picture.color.shape[:2], bool)
-    for made in picture.made_of(colors):
+    for made in picture.made_of(np.unique(colors, axis=0)):  # a thousand trees have one
         for rows in blocks(out.shape):
             out[rows] |= (np.abs(picture.color[rows, :, : len(made)] - made) <= NEAR).all(axis=-1)
     return out

@@ -107,14 +107,13 @@ def _enter(
         if not len(now):
             return
         now = now[rank[now] < first + many]
-        _test(scene, rays, some[ray[now]], instance[now], nodes, hits)
-        yield 0.0
+        yield from _test(scene, rays, some[ray[now]], instance[now], nodes, hits)
         first, many = first + many, 4 * many
 
 
 def _test(
     scene: Scene, rays: Rays, ray: Places, instance: Places, nodes: Nodes, hits: Hits
-) -> None:
+) -> Work[None]:
     """Test rays (p,) with the triangles of an instance each whose boxes they pass through."""
     own = rays.take(ray)
     used, number = np.unique(instance, return_inverse=True)
@@ -128,6 +127,7 @@ def _test(
     through[:, flat] = 0
     for pairs in crossed(nodes, nodes.roots[scene.instance_meshes[instance]], o, through):
         _test_triangles(scene, rays, ray, instance, pairs, hits)
+        yield 0.0
 
 
 def _test_triangles(

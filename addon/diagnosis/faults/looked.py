@@ -45,6 +45,7 @@ class Looked:
         own = instances_named(scene, name)
         if not own:  # an infinite plane
             return None
+        those = set(own)
         seen = np.isin(frame.instance_index, own)
         shown = _shown(evidence, own) & (evidence.open | seen)
         if kept:
@@ -58,7 +59,7 @@ class Looked:
             chosen.flat[spread(some, evidence.size // 2)] = True
         rows, columns = np.nonzero(chosen)
         at = rows, columns
-        left = [i for n, i in enumerate(scene.instances) if kept or n not in own]
+        left = [i for n, i in enumerate(scene.instances) if kept or n not in those]
         rest = replace(scene, instances=tuple(left))
         depth = float(np.median(frame.t[seen]))
         picture = evidence.picture.at(at)
