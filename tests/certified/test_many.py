@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from reference_tracer.certified.exact import IntegerBatch
 from reference_tracer.certified.many import hits
 from reference_tracer.tracer.camera import Rays
