@@ -162,9 +162,12 @@ def levels(samples: int) -> list[int]:
 def converged(scene: Scene, samples: int) -> Work[Floats]:
     """Return the colour of a scene with `samples` x `samples` a pixel, (h, w, 4) linear RGBA.
 
-    That of a picture so many times as large, `watertight` in float64, averaged: the same rays as
-    with `Settings.samples`, in a fraction of the time.
+    That of a picture so many times as large, averaged: the same rays as with `Settings.samples`, in
+    a fraction of the time. It is certified; through a panorama, where that would take long,
+    `watertight` in float64.
     """
+    is_linear = scene.camera.projection.is_linear
+    settings = Settings(Method.CERTIFIED if is_linear else Method.WATERTIGHT)
     width, height = scene.camera.width, scene.camera.height
     out = np.empty((height, width, 4))
     rows = max(1, BAND // (samples * samples * width))
@@ -174,7 +177,7 @@ def converged(scene: Scene, samples: int) -> Work[Floats]:
         band = replace(scene.camera, width=samples * width, height=samples * height, region=region)
         part = replace(scene, camera=band)
         frame = Frame.empty(part)
-        for share in steps(part, Settings(Method.WATERTIGHT), frame):
+        for share in steps(part, settings, frame):
             yield (y + share * (end - y)) / height
         blocks = frame.color.reshape(end - y, samples, width, samples, 4)
         out[y:end] = blocks.mean(axis=(1, 3), dtype=np.float64)
