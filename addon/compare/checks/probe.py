@@ -8,7 +8,7 @@ picture at a time, in steps of a bounded number of pixels and pairs.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -132,6 +132,16 @@ class Probe:
         dtype = Precision(self.settings.precision).dtype
         return camera_rays(self.scene.camera, self.px[pixel] + dx, self.py[pixel] + dy, dtype)
 
+    def take(self, wanted: Bools) -> Probe:
+        """Return the probe of some of the n pixels."""
+        place = np.cumsum(wanted) - 1
+        chunks = []
+        for some in self.chunks:
+            kept = np.flatnonzero(wanted[some.pixel])
+            if len(kept):
+                chunks.append(replace(some, pixel=place[some.pixel[kept]], row=some.row[kept]))
+        return replace(self, px=self.px[wanted], py=self.py[wanted], chunks=chunks)
+
     def points(self, hits: Hits) -> Floats:
         """Return where the rays through the n centres end, (n, 3) world space."""
         return positions(camera_rays(self.scene.camera, self.px, self.py), hits)
@@ -168,6 +178,11 @@ class Part:
     def of(cls, pixels: OpenPixels, at: tuple[Places, ...], probe: Probe) -> Part:
         """Return the part of the pixels in some rows and columns."""
         return cls(pixels, at, pixels.case.scene, pixels.picture.at(at), pixels.band[at], probe)
+
+    def take(self, wanted: Bools) -> Part:
+        """Return the part of some of the n pixels."""
+        row, column = self.at
+        return Part.of(self.pixels, (row[wanted], column[wanted]), self.probe.take(wanted))
 
     @property
     def done(self) -> bool:
@@ -220,9 +235,41 @@ def near_surfaces(
 
     Rays pass at most `reach` pixels from the centres.
     """
+
+    def look_near(part: Part) -> Work[None]:
+        near = _near(part.picture, part.probe)
+        if near.any():
+            yield from look(part.take(near))
+
     made = yield from plan(scene, SOUND, reach)
     asked = yield from scaled(may_be_seen(pixels, scene), 0.0, 0.1)
-    yield from scaled(by_parts(pixels, made, look, asked), 0.1, 0.9)
+    yield from scaled(by_parts(pixels, made, look_near, asked), 0.1, 0.9)
+
+
+def _near(picture: Picture, probe: Probe) -> Bools:
+    """Return which of n pixels show a colour and an object that some ray near them may see.
+
+    No other ray of the probe can explain the others.
+    """
+    scene, count = probe.scene, len(probe.px)
+    color, object_ = np.zeros((2, count), bool)
+    any_color = interpolated(scene, np.arange(len(scene.instance_objects))).any()
+
+    def enter(pixel: Index, hits: Hits) -> None:
+        shown = picture.at(pixel)
+        color[pixel[any_color | shown.same_color(scene, hits)]] = True
+        object_[pixel[~shown.other_object(hits.instance)]] = True
+
+    every = np.arange(count)
+    for number in (NOTHING, *range(len(scene.instances), len(scene.instances) + len(scene.planes))):
+        hits = Hits.none(count)
+        hits.instance[:] = number
+        enter(every, hits)
+    for some in probe.chunks:
+        hits = Hits.none(len(some.pixel))
+        hits.instance[:], hits.triangle[:] = some.instance, some.triangle
+        enter(some.pixel, hits)
+    return color & object_
 
 
 def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
