@@ -14,7 +14,7 @@ from ..arrays import Array, Colors
 from ..compare.comparing import diagnosed
 from ..compare.comparison import SCHEMA, Comparison
 from ..compare.maps import cause_map
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work, called, scaled
 from . import page
 from .folders import replacing, write_json
 
@@ -23,10 +23,13 @@ ARRAYS, JSON = "frame.npz", "comparison.json"
 NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 
 
-def write(directory: str | Path, comparison: Comparison, extras: page.Extras | None = None) -> None:
+def write(
+    directory: str | Path, comparison: Comparison, extras: page.Extras | None = None
+) -> Work[None]:
     """Write the pictures, `frame.npz`, `page.html` with the extras, and `comparison.json`.
 
-    All or none, in a folder that is made where it is not there: see :func:`folders.replacing`.
+    In small steps; all or none, in a folder that is made where it is not there: see
+    :func:`folders.replacing`.
 
     Raises
     ------
@@ -40,10 +43,11 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
     with replacing(Path(directory), NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
+            yield 0.1
         arrays = comparison.frame.passes() | names
         arrays |= {"blender": comparison.picture, "cause": causes.cause, "blind": causes.blind}
         arrays |= {"cause_figure": causes.figure, "cause_allowed": causes.allowed}
-        _write_arrays(new / ARRAYS, arrays)
+        yield from scaled(_write_arrays(new / ARRAYS, arrays), 0.2, 0.4)
         page.write(new / page.NAME, comparison, extras)
         write_json(new / JSON, comparison.to_dict())
 
@@ -66,21 +70,22 @@ def written(
         comparison = yield from scaled(work, 0.0, rest)
         finding = page.extras(comparison, trade, extremes)
         extras = yield from scaled(finding, rest, end - rest)
-        write(folder, comparison, extras)
+        yield from scaled(called(write(folder, comparison, extras), "writing"), end, 0.0)
         if diagnose and comparison.pixels["unexplained"]:
             told(comparison)
             comparison = yield from scaled(diagnosed(comparison), end, 1 - end)
-            write(folder, comparison, extras)
+            yield from scaled(called(write(folder, comparison, extras), "writing"), 1.0, 0.0)
     yield 1.0
     return comparison
 
 
-def _write_arrays(path: Path, arrays: Mapping[str, Array]) -> None:
+def _write_arrays(path: Path, arrays: Mapping[str, Array]) -> Work[None]:
     """Write what `numpy.savez_compressed` does, a few per cent larger in less time."""
     with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=1) as stored:
         for name, values in arrays.items():
             with stored.open(f"{name}.npy", "w", force_zip64=True) as file:
                 np.lib.format.write_array(file, values, allow_pickle=False)
+            yield 0.0
 
 
 def difference_picture(comparison: Comparison) -> Colors:

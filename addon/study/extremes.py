@@ -16,7 +16,7 @@ import numpy as np
 from ..certified.definition import definition
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work, called, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .scenarios.sweeps import SCENARIOS, Scenario
 from .truth import CERTIFIED, Truth, largest_t_error, pixel_rays, plain_of, sample, truth_of
@@ -132,7 +132,8 @@ def measure(
         return (yield from every(scenes, rays, judged))
     rows: list[ExtremesRow] = []
     for done, (scenario, scale) in enumerate(scenes):
-        work = rows_of(scenario, scale, rays, judged)
+        words = f"{scenario.title}, {scenario.scale_name} {written(scale)}"
+        work = called(rows_of(scenario, scale, rays, judged), words)
         rows += yield from scaled(work, done / len(scenes), 1 / len(scenes))
     yield 1.0
     return rows

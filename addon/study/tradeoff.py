@@ -20,7 +20,7 @@ from ..methods import Method
 from ..rendering import steps
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work, called, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .trade import Trade, TradeRow, advice, mark
 from .truth import largest_t_error
@@ -123,15 +123,17 @@ def measure(
     k = max(2 * samples, min(CONVERGED, int((CONVERGED_RAYS / pixels) ** 0.5)))
     rays = k * k * pixels
     first = rays / (rays + 6 * each)
-    truth = yield from scaled(converged(choices[0].scene, k), 0.0, first)
+    converging = called(converged(choices[0].scene, k), f"tracing {k} × {k} rays a pixel")
+    truth = yield from scaled(converging, 0.0, first)
     rows = mark((yield from scaled((every or rows_of)(choices, truth), first, 1 - first)))
     return Trade(name, rows, advice(rows), k)
 
 
 def rows_of(choices: list[Choice], truth: Floats) -> Work[list[TradeRow]]:
     """Measure choices; of a width the certified ones are what the others are held against."""
-    yield from scaled(_look_at_all(choices, truth), 0.0, 1 / 3)
-    yield from scaled(_time_all(choices), 1 / 3, 2 / 3)
+    looking = called(_look_at_all(choices, truth), "looking at errors and memory")
+    yield from scaled(looking, 0.0, 1 / 3)
+    yield from scaled(called(_time_all(choices), "taking times"), 1 / 3, 2 / 3)
     return [choice.row() for choice in choices]
 
 

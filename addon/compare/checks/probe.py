@@ -7,7 +7,7 @@ picture at a time, in steps of a bounded number of pixels and pairs.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -237,7 +237,7 @@ def near_surfaces(
     """
 
     def look_near(part: Part) -> Work[None]:
-        near = _near(part.picture, part.probe)
+        near = yield from _near(part.picture, part.probe)
         if near.any():
             yield from look(part.take(near))
 
@@ -246,30 +246,31 @@ def near_surfaces(
     yield from scaled(by_parts(pixels, made, look_near, asked), 0.1, 0.9)
 
 
-def _near(picture: Picture, probe: Probe) -> Bools:
+def _near(picture: Picture, probe: Probe) -> Work[Bools]:
     """Return which of n pixels show a colour and an object that some ray near them may see.
 
-    No other ray of the probe can explain the others.
+    No ray of the probe can explain the others.
     """
     scene, count = probe.scene, len(probe.px)
     color, object_ = np.zeros((2, count), bool)
     any_color = interpolated(scene, np.arange(len(scene.instance_objects))).any()
-
-    def enter(pixel: Index, hits: Hits) -> None:
+    for pixel, instance, triangle in _surfaces(probe):
+        hits = Hits.none(len(pixel))
+        hits.instance[:], hits.triangle[:] = instance, triangle
         shown = picture.at(pixel)
         color[pixel[any_color | shown.same_color(scene, hits)]] = True
         object_[pixel[~shown.other_object(hits.instance)]] = True
-
-    every = np.arange(count)
-    for number in (NOTHING, *range(len(scene.instances), len(scene.instances) + len(scene.planes))):
-        hits = Hits.none(count)
-        hits.instance[:] = number
-        enter(every, hits)
-    for some in probe.chunks:
-        hits = Hits.none(len(some.pixel))
-        hits.instance[:], hits.triangle[:] = some.instance, some.triangle
-        enter(some.pixel, hits)
+        yield 0.0
     return color & object_
+
+
+def _surfaces(probe: Probe) -> Iterator[tuple[Index, Index | int, Index | int]]:
+    """Yield pixels (k,), and the instance and triangle that rays near each may meet, or NOTHING."""
+    every, first = np.arange(len(probe.px)), len(probe.scene.instances)
+    for number in (NOTHING, *range(first, first + len(probe.scene.planes))):
+        yield every, number, NOTHING
+    for some in probe.chunks:
+        yield some.pixel, some.instance, some.triangle
 
 
 def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
