@@ -25,7 +25,7 @@ from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .trade import Trade, TradeRow, advice, mark
 from .truth import largest_t_error
 
-WIDTH, SAMPLES = 160, 4  # by default: half a minute for a scene of 20,000 triangles
+WIDTH, SAMPLES = 160, 4  # by default: a quarter of a minute for a scene of 20,000 triangles
 SMALLER = (1, 2, 4)  # the widths measured: the largest, a half and a quarter of it
 
 # More samples are measured for these: the exercise's, the fastest, and the one with a proof.
