@@ -1,7 +1,7 @@
 # Reference Tracer's chores. `make help` lists them.
 #
 # Everything runs in the virtual environment .venv, which the first command makes: with Python 3.13
-# and bpy 5.2.3, else with Python 3.11 and bpy 5.0.1. To choose: make PYTHON=python3.11 demo
+# and bpy 5.2.3, else with Python 3.11 and bpy 5.0.1, else with one that uv fetches. To choose: make PYTHON=python3.11 demo
 
 PYTHON_IN_VENV := .venv/bin/python
 
@@ -81,8 +81,9 @@ lint: .venv/.stamp ## check the style of all code, its format, and the types of 
 extension: .venv/.stamp ## build and validate dist/reference_tracer-<version>.zip
 	$(PYTHON_IN_VENV) tools/build_extension.py
 
+# ADDRESS=https://...: the project's address, in the place of the placeholder in its files.
 release: .venv/.stamp ## write what a user downloads, of the last commit: dist/release
-	$(PYTHON_IN_VENV) tools/release.py
+	$(PYTHON_IN_VENV) tools/release.py $(if $(ADDRESS),--address "$(ADDRESS)")
 
 clean: ## remove what was built; keeps .venv and the whole Blender
 	rm -rf build dist out wheels *.egg-info .pytest_cache .ruff_cache

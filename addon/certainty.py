@@ -46,8 +46,13 @@ class Reason(Enum):
 def sentences(pairs: int, counts: Mapping[Reason, int]) -> list[str]:
     """Return what the scene required, in lines: the total, then each reason with its count."""
     exact = sum(counts.values())
+    if not pairs:
+        return ["no ray comes near a surface: there was nothing to decide"]
     if not exact:
-        return [f"all of {pairs:,} pairs of a ray and a surface were decided by the error bound"]
+        were = f"all of {pairs:,} pairs of a ray and a surface were"
+        if pairs == 1:
+            were = "the one pair of a ray and a surface was"
+        return [f"{were} decided by the error bound"]
     named = sorted((r for r in Reason if counts.get(r)), key=lambda r: -counts[r])
     return [
         f"{exact:,} of {pairs:,} pairs of a ray and a surface (one in {pairs / exact:,.0f}) "

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from .certified.arithmetic import AssumptionError
 from .compare.picture import SizeError
-from .images import MissingLibraryError
+from .exr import MissingLibraryError
 from .scene import SceneError
 from .tracer.memory import PictureTooLargeError
 

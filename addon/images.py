@@ -7,27 +7,21 @@ A PNG takes zlib and numpy alone. An EXR takes OpenImageIO, the extra `images`.
 from __future__ import annotations
 
 import base64
-import errno
-import os
-import shutil
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from . import png
+from . import exr, png
 from .arrays import Array, Bytes, Colors, Floats
+from .file_kinds import mistaken
+from .png.samples import PngError
 from .runs import by_runs
 
-_EIGHT_BITS = 255  # levels above 0
-_ROWS = 64  # of an EXR that are written at a time: several of its blocks
-
-
-class MissingLibraryError(RuntimeError):
-    """An optional library is not installed; the message says how to get it."""
+EIGHT_BITS = 255  # levels above 0
 
 
 def to_display(color: Floats) -> Bytes:
@@ -39,7 +33,7 @@ def to_display(color: Floats) -> Bytes:
 
     def shown(color: Array) -> Bytes:
         color = np.nan_to_num(color.astype(np.float64), posinf=1.0, neginf=0.0)
-        return np.rint(255 * encoded(color)).astype(np.uint8)
+        return np.rint(EIGHT_BITS * encoded(color)).astype(np.uint8)
 
     return by_runs(shown, np.reshape(color, (-1, 4))).reshape(np.shape(color))
 
@@ -90,43 +84,6 @@ def data_uri(picture: Bytes) -> str:
     return f"data:image/png;base64,{base64.b64encode(png.encode(picture)).decode('ascii')}"
 
 
-def save_exr(path: str | Path, passes: dict[str, Array]) -> None:
-    """Write passes to one EXR: `color` as RGBA, the others as channels of a layer of their name.
-
-    All channels are float32: an index above 2^24 is rounded (`frame.npz` has it whole).
-
-    Raises
-    ------
-    MissingLibraryError
-        If OpenImageIO is not installed.
-    OSError
-        If the file cannot be written.
-    """
-    oiio = _library()
-    path = Path(path)
-    pictures = {name: np.atleast_3d(v) for name, v in passes.items() if np.ndim(v) > 1}
-    names = []
-    for name, values in pictures.items():
-        letters = "RGBA" if name == "color" else "XYZ" if values.shape[2] == 3 else "V"
-        names += [letter if name == "color" else f"{name}.{letter}" for letter in letters]
-    height, width = next(iter(pictures.values())).shape[:2]
-    spec = oiio.ImageSpec(width, height, len(names), "float")
-    spec.channelnames = names
-    spec.attribute("compression", "zip")
-    spec.attribute("DateTime", "")  # the same frame makes the same file
-    file = oiio.ImageOutput.create(str(path))
-    written = file and file.open(str(path), spec)
-    for first in range(0, height, _ROWS):
-        end = min(first + _ROWS, height)
-        rows = [v[height - end : height - first][::-1] for v in pictures.values()]
-        part = np.concatenate(rows, axis=-1, dtype=np.float32, casting="unsafe")
-        written = written and file.write_scanlines(first, end, 0, part)
-    if not (written and file.close()):
-        if shutil.disk_usage(path.parent).free < 1 << 20:  # the library does not say so
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        raise OSError(f"cannot write '{path.name}': {_error(file or oiio)}")
-
-
 @dataclass(frozen=True, eq=False)
 class StoredPicture:
     """A picture from a file."""
@@ -136,6 +93,7 @@ class StoredPicture:
     # fewer bits where that loses nothing, and half a step of one bit would excuse any colour.
     levels: int
     opaque: bool  # the file has no alpha
+    remarks: tuple[str, ...] = ()  # what the file says of its pixels that is not applied
     engine: str = ""  # of Blender, as the file's own header has it: 'cycles', 'other'; else ''
 
 
@@ -181,6 +139,8 @@ def open_picture(path: str | Path) -> PictureFile:
     of = _FORMATS.get(path.suffix.lower())
     if of is None:
         raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
+    if said := mistaken(path):
+        raise OSError(f"'{path}' {said}")
     return PictureFile(path, *of.size(path))
 
 
@@ -205,8 +165,9 @@ def _png_of(path: Path) -> StoredPicture:
     color = np.ones((*values.shape[:2], 4), np.float32)
     for row, own in zip(color, values[::-1], strict=True):
         row[:, : len(order)] = by_runs(lambda some: decoded(some / stored.levels), own[:, order])
-    levels = max(stored.levels, _EIGHT_BITS)
-    return StoredPicture(color, levels, not has_alpha, _engine_of(stored.notes))
+    levels = max(stored.levels, EIGHT_BITS)
+    engine = _engine_of(stored.notes)
+    return StoredPicture(color, levels, not has_alpha, stored.remarks, engine)
 
 
 @contextmanager
@@ -214,29 +175,13 @@ def _damage_named(path: Path) -> Iterator[None]:
     """Say of which file a PNG's damage is."""
     try:
         yield
-    except png.PngError as error:
+    except PngError as error:
         raise OSError(f"'{path}' cannot be read, save it again: {error}") from error
 
 
-def _exr_size(path: Path) -> tuple[int, int]:
-    with _exr(path) as file:
-        spec = file.spec()
-        return spec.width, spec.height
-
-
 def _exr_of(path: Path) -> StoredPicture:
-    with _exr(path) as file:
-        names = list(file.spec().channelnames)
-        if not {"R", "G", "B"} <= set(names):
-            raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(names))}")
-        at = [names.index(c) for c in "RGBA" if c in names]
-        stored = file.read_image(min(at), max(at) + 1, "float")
-        if stored is None:
-            raise OSError(f"'{path}' cannot be read, save it again: {_error(file)}")
-        notes = {note.name for note in file.spec().extra_attribs}
-    color = np.ones((*stored.shape[:2], 4), np.float32)
-    color[..., : len(at)] = stored[::-1][..., np.subtract(at, min(at))]
-    return StoredPicture(color, 0, len(at) == 3, _engine_of(notes))
+    color, opaque, notes = exr.read(path)
+    return StoredPicture(color, 0, opaque, engine=_engine_of(notes))
 
 
 def _engine_of(notes: Collection[str]) -> str:
@@ -250,47 +195,4 @@ def _engine_of(notes: Collection[str]) -> str:
     return "cycles" if any(name.startswith("cycles.") for name in notes) else "other"
 
 
-@contextmanager
-def _exr(path: Path) -> Iterator[Any]:
-    """Open an EXR; what the library would print stays unsaid."""
-    oiio = _library()
-    asked = oiio.ImageSpec()
-    asked.attribute("oiio:UnassociatedAlpha", 1)
-    with open(os.devnull, "wb") as nowhere, redirected(2, nowhere.fileno()):
-        file = oiio.ImageInput.open(str(path), asked)
-        if not file:
-            raise OSError(f"'{path}' cannot be read, save it again: {_error(oiio)}")
-        yield file
-
-
-_FORMATS = {".png": _Format(_png_size, _png_of), ".exr": _Format(_exr_size, _exr_of)}
-
-
-def _library() -> Any:
-    try:
-        import OpenImageIO
-    except ImportError:
-        raise MissingLibraryError(
-            "EXR files take the library OpenImageIO: pip install 'reference_tracer[images]'"
-        ) from None
-    OpenImageIO.attribute("try_all_readers", 0)  # a JPEG that is named .exr is refused
-    return OpenImageIO
-
-
-def _error(of: Any) -> str:
-    try:
-        return " ".join(of.geterror().split())
-    except UnicodeDecodeError:  # the message quotes what it read
-        return "its header is damaged"
-
-
-@contextmanager
-def redirected(number: int, into: int) -> Iterator[None]:
-    """Send what is written to a file descriptor, also by C libraries, to another for a while."""
-    own = os.dup(number)
-    os.dup2(into, number)
-    try:
-        yield
-    finally:
-        os.dup2(own, number)
-        os.close(own)
+_FORMATS = {".png": _Format(_png_size, _png_of), ".exr": _Format(exr.size, _exr_of)}

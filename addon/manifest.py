@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import Floats
+from .wording import count_of
 
 OUTSIDE = "outside the view"
 
@@ -25,7 +26,7 @@ class ObjectEntry:
     type: str
     exported: bool
     reason: str = ""
-    triangles: int = 0  # of its meshes, each counted once
+    triangles: int = 0  # of its meshes, each count_of once
     vertices: int = 0
     instances: int = 0
     outside: int = 0  # instances that are not exported, as they are wholly outside the view
@@ -131,7 +132,8 @@ class Manifest:
         exported = [e for e in self.objects if e.exported]
         total = sum(e.traced_triangles for e in exported)
         yield (
-            f"{len(exported)} of {len(self.objects)} objects exported, {total:,} triangles, "
+            f"{len(exported)} of {count_of(len(self.objects), 'object')} exported, "
+            f"{count_of(total, 'triangle')}, "
             f"{self.evaluation.lower()} evaluation, camera '{self.camera}'",
             False,
         )
@@ -139,17 +141,18 @@ class Manifest:
             yield "  nothing is exported, so the picture is empty", True
         for e in exported:
             if e.left_out:
-                yield f"  {e.name}: {e.left_out} triangles left out (not finite)", True
+                yield f"  {e.name}: {count_of(e.left_out, 'triangle')} left out (not finite)", True
             if e.empty_slots:
-                yield f"  {e.name}: {e.empty_slots} empty material slots, shown in grey", False
+                slots = count_of(e.empty_slots, "empty material slot")
+                yield f"  {e.name}: {slots}, shown in grey", False
         for e in self.objects:
             if not (e.exported or e.outside):
                 yield f"  skipped {e.name} ({e.type}): {e.reason}", False
         if unseen := [e for e in self.objects if e.outside]:
-            told = f"{_count(sum(e.outside for e in unseen), 'instance')} of "
-            told += _count(len(unseen), "object")
+            told = f"{count_of(sum(e.outside for e in unseen), 'instance')} of "
+            told += count_of(len(unseen), "object")
             if whole := sum(not e.exported for e in unseen):
-                told += f", with nothing of {_count(whole, 'object')} in view"
+                told += f", with nothing of {count_of(whole, 'object')} in view"
             yield f"  outside the view, and not needed: {told}", False
         yield from self._remarks()
 
@@ -162,7 +165,3 @@ class Manifest:
             yield f"  {u.line()}", u.effect is not Effect.NONE
         for note in self.notes:
             yield f"  note: {note}", False
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number:,} {noun}{'s' * (number != 1)}"

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import warnings
 from itertools import zip_longest
 from pathlib import Path
@@ -17,6 +16,7 @@ import numpy as np
 
 from .arrays import Array
 from .checked_json import camera_of, whole
+from .file_kinds import check_is_file
 from .scene import Instance, Mesh, Plane, Scene, SceneError
 from .tracer.memory import free_memory
 
@@ -67,7 +67,8 @@ def load_scene(path: str | Path) -> Scene:
     except SceneError as error:
         raise SceneError(f"'{path}': {error}") from error
     except Exception as error:  # zip, zlib, numpy, JSON: each has its own ways to say no
-        raise SceneError(f"'{path}' is not a scene that Reference Tracer wrote: {error}") from error
+        say = f"'{path}' is cut off or damaged: copy it again, or export it again ({error})"
+        raise SceneError(say) from error
 
 
 def _scene(stored: ZipFile) -> Scene:
@@ -97,6 +98,8 @@ def _scene(stored: ZipFile) -> Scene:
 
 def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> Array:
     """Return one array of a .npz, once its header says that it is what is asked for."""
+    if f"{name}.npy" not in stored.namelist():
+        raise SceneError(f"it has no array '{name}': `reftrace export` writes a scene with all")
     info = stored.getinfo(f"{name}.npy")
     read = np.lib.format
     with stored.open(info) as file:
@@ -112,15 +115,3 @@ def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> Array:
             raise SceneError(f"{name} takes {size / 2**30:.1f} GiB, more than is free")
         file.seek(0)
         return read.read_array(file, allow_pickle=False)
-
-
-def check_is_file(path: str | Path) -> None:
-    """Raise a SceneError if there is no such file, or it cannot be read."""
-    if os.path.exists(path) and not os.path.isfile(path):
-        raise SceneError(f"'{path}' is no file but a folder, or a pipe: name a file")
-    try:
-        Path(path).open("rb").close()
-    except FileNotFoundError:
-        raise SceneError(f"there is no file '{path}'") from None
-    except (OSError, ValueError) as error:  # a name may be too long, or none
-        raise SceneError(f"'{path}' cannot be read: {getattr(error, 'strerror', error)}") from error

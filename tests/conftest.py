@@ -28,11 +28,14 @@ def exit_code():
     return run
 
 
-MARKED = {  # all tests of a folder
+MARKED = {  # all tests of a folder, or of a file
+    "tests/bed/": "slow",
     "tests/benchmarks/": "slow",
     "tests/blender/": "blender",
+    "tests/fuzz/": "slow",
     "tests/grading/": "slow",
     "tests/suites/": "slow",
+    "tests/test_errands.py": "slow",
 }
 
 

@@ -61,7 +61,7 @@ def compared(scene, picture, curves=(), settings=None):
 )
 def test_its_background_is_named(scene, background, name, opaque, verdict):
     found = compared(scene, stored(on(scene, background), opaque))
-    assert found.pixels["unexplained"] == 0 and found.pixels["agree"] == 120 * 90
+    assert found.counts.unexplained == 0 and found.counts.agree == 120 * 90
     said = found.to_dict()["background"]
     assert said["text"].startswith(f"the picture's background is {name} where the scene's is (")
     assert said["text"].endswith("compared with the picture's")
@@ -93,7 +93,7 @@ def test_damage_in_it_is_found(scene, background, size):
 def test_a_missing_object_is_found_on_it(scene):
     color = on(replace(scene, instances=scene.instances[:1]), (0, 0, 0, 0))
     found = compared(scene, stored(color))
-    assert found.background is not None and found.pixels["unexplained"] > 250
+    assert found.background is not None and found.counts.unexplained > 250
 
 
 def test_the_scenes_own_is_not_named(scene):
@@ -105,7 +105,7 @@ def test_several_colours_are_no_background(scene):
     nothing = render(scene).instance_index < 0
     color[nothing, 0] = np.linspace(0.2, 1, nothing.sum())
     found = compared(scene, stored(color))
-    assert found.background is None and found.pixels["unexplained"] > 0.9 * nothing.sum()
+    assert found.background is None and found.counts.unexplained > 0.9 * nothing.sum()
 
 
 def test_blenders_own_picture_must_have_the_scenes(scene):
@@ -117,7 +117,7 @@ def test_a_transform_of_the_scenes_own_is_named_as_that(scene):
     color = render(scene).color.copy()
     color[..., :3] = images.curve(color[..., :3])
     found = compared(scene, Picture(color))
-    assert found.background is None and found.pixels["unexplained"] == 0
+    assert found.background is None and found.counts.unexplained == 0
     assert found.causes.transform == "sRGB's curve applied once more"
 
 
@@ -127,7 +127,7 @@ def test_a_transform_and_another_background(scene, background):
     color[..., :3] = images.curve(color[..., :3])
     color[render(scene).instance_index < 0] = background
     found = compared(scene, Picture(color))
-    assert found.background is not None and found.pixels["unexplained"] == 0
+    assert found.background is not None and found.counts.unexplained == 0
     assert found.causes.transform == "sRGB's curve applied once more"
 
 
@@ -135,7 +135,7 @@ def test_several_samples_are_mixed_with_it(scene):
     settings = Settings(samples=4)
     color = render(replace(scene, background=(0, 0, 0, 0)), settings).color
     found = compared(scene, Picture(color), settings=settings)
-    assert found.background is not None and found.pixels["agree"] == 120 * 90
+    assert found.background is not None and found.counts.agree == 120 * 90
 
 
 def test_what_was_traced_already_has_it_too(scene):

@@ -5,11 +5,13 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import pytest
 from reference_tracer.scene_files import save_scene
 
 PROJECT = Path(__file__).parent.parent
 
 
+@pytest.mark.slow
 def test_draw_culling(make, tmp_path: Path):
     # Two squares whose edges run through the centres of pixels, one behind the other.
     camera = make.camera(16, 16, half=8, orthographic=True)

@@ -185,9 +185,9 @@ from reference_tracer.report.comparison import difference_picture
 from reference_tracer.report.page.content import content
 color[3:5, 4:9] = 1
 found = result_of(trace_and_compare(case))
-pixels = found.pixels
-assert pixels["by_cause"]["comet"] == pixels["explained"] == pixels["differ"] == 8
-assert pixels["unexplained"] == 0 and found.verdict == "warnings"
+pixels = found.counts
+assert pixels.by_cause["comet"] == pixels.explained == pixels.differ == 8
+assert pixels.unexplained == 0 and found.verdict == "warnings"
 assert "  comet: 8, as at (4, 3)" in "\\n".join(found.lines())
 held = json.loads(json.dumps(found.to_dict()))["causes"]["comet"]
 assert held["number"] == 42 and held["unit"] == "km", held

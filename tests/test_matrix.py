@@ -6,6 +6,8 @@ import re
 import runpy
 from pathlib import Path
 
+from reference_tracer.cli.opening import PYTHONS
+
 PROJECT = Path(__file__).parent.parent
 CELLS = runpy.run_path(str(PROJECT / "tools/matrix.py"))["CELLS"]
 
@@ -21,3 +23,7 @@ def test_the_workflow_asks_for_cells_that_there_are():
     workflow = (PROJECT / ".github/workflows/release.yml").read_text(encoding="utf-8")
     asked = {cell for only in re.findall(r'ONLY="(.+)"', workflow) for cell in only.split()}
     assert asked == {cell.blender for cell in CELLS if cell.bpy}
+
+
+def test_messages_name_the_pythons_that_a_bpy_is_made_for():
+    assert set(PYTHONS) == {cell.python for cell in CELLS if cell.bpy}

@@ -17,6 +17,11 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
+import trimesh
+from reference_tracer.cli.opening import PYTHONS
+from reference_tracer.cli.parser import INPUT_ERROR
+
+from . import others
 
 pytestmark = [pytest.mark.blender, pytest.mark.slow]
 
@@ -54,14 +59,14 @@ def git(folder: Path, *arguments: object) -> str:
     return done.stdout
 
 
-def released(clone: Path, umask: int, **environment: str) -> Path:
+def released(clone: Path, umask: int, *options: str, **environment: str) -> Path:
     """Make the release in a clone; returns its folder."""
     if (PROJECT / "wheels").exists():  # else it is fetched
         shutil.copytree(PROJECT / "wheels", clone / "wheels")
-    done = run(
-        sys.executable, clone / "tools/release.py", env=os.environ | environment, umask=umask
-    )
+    command = sys.executable, clone / "tools/release.py", *options
+    done = run(*command, env=os.environ | environment, umask=umask)
     assert done.returncode == 0, done.stdout + done.stderr
+    assert "release: the address is still https://example.org/" in done.stderr
     return clone / "dist/release"
 
 
@@ -86,8 +91,10 @@ def release(clone: Path) -> Path:
 
 def test_two_clones_release_the_same_bytes(clone: Path, release: Path, tmp_path: Path):
     git(tmp_path, "clone", "--quiet", clone, "another place")
-    again = released(tmp_path / "another place", 0o077, TZ="Asia/Tokyo", PYTHONHASHSEED="1")
+    place, environment = tmp_path / "another place", {"TZ": "Asia/Tokyo", "PYTHONHASHSEED": "1"}
+    again = released(place, 0o077, "--no-try", **environment)
     first, second = ({p.name: p.read_bytes() for p in f.iterdir()} for f in (release, again))
+    assert b"the focal length is +5.7" in first.pop("try.html")  # it says how long it took
     assert len(first) == 7
     assert [name for name in first | second if first.get(name) != second.get(name)] == []
 
@@ -98,6 +105,34 @@ def test_two_clones_release_the_same_bytes(clone: Path, release: Path, tmp_path:
     refused = run(sys.executable, clone / "tools/release.py")
     assert refused.returncode == 1 and "not committed" in refused.stderr
     assert "?? changed" in refused.stderr
+
+
+def test_its_page_needs_only_what_is_beside_it(release: Path):
+    page = (release / "index.html").read_text(encoding="utf-8")
+    links = set(re.findall(r'(?:href|src)="([^"]+)"', page))
+    beside = {n.partition("?")[0] for n in links if not n.startswith(("https://", "data:"))}
+    beside = {name.removeprefix("./") for name in beside}
+    assert {"try.html", "NOTES.md", "index.json", "SHA256SUMS"} < beside
+    assert beside <= {path.name for path in release.iterdir()}
+    for sum_, name in re.findall(r"([0-9a-f]{64})  ([\w.-]+)", page):
+        assert hashlib.sha256((release / name).read_bytes()).hexdigest() == sum_
+        beside.discard(name)
+    assert not {name for name in beside if name.endswith((".zip", ".whl"))}
+    assert "{{" not in page and "${" not in page
+
+
+def test_an_address_takes_the_place_of_the_placeholder(script, clone: Path, tmp_path: Path):
+    holder, names = script["PLACEHOLDER"], script["ADDRESSED"]
+    assert set(git(clone, "grep", "-l", holder, "--", ".", ":!t*").split()) == set(names)
+    for name in names:
+        shutil.copy(clone / name, tmp_path)
+    script["addressed"](tmp_path, "https://forge.example:8443/us/tracer.py")
+    for name in names:
+        text = (tmp_path / name).read_text(encoding="utf-8")
+        assert "https://forge.example:8443/us/tracer.py" in text and holder not in text
+    for wrong in ("forge.example/us", "https://forge.example/us/", 'https://a/"', "https://"):
+        with pytest.raises(script["BuildError"], match="ADDRESS"):
+            script["addressed"](tmp_path, wrong)
 
 
 def test_documents_name_its_files(release: Path):
@@ -111,7 +146,7 @@ def test_documents_name_its_files(release: Path):
 def test_workflow_runs_what_the_makefile_has():
     workflow = (PROJECT / ".github/workflows/release.yml").read_text(encoding="utf-8")
     makefile = (PROJECT / "Makefile").read_text(encoding="utf-8")
-    made = re.findall(r"\bmake (?:\w+=\w+ )?([a-z -]+?)(?: ONLY=.*)?$", workflow, re.M)
+    made = re.findall(r"\bmake (?:\w+=\w+ )?([a-z -]+?)(?: [A-Z]+=.*)?$", workflow, re.M)
     run = " ".join(made).split()
     assert {"test", "check", "release"} <= set(run)
     assert set(run) <= set(re.findall(r"^([a-z-]+):", makefile, re.M))
@@ -131,22 +166,47 @@ def test_package_is_all_of_the_code_and_nothing_else(clone: Path, release: Path)
     assert names - made == {*code, *top, "PKG-INFO", "setup.cfg"}
 
 
-def test_wheel_traces_in_an_environment_of_its_own(release: Path, tmp_path: Path):
-    """It has numpy and trimesh of this one, and nothing of this project but the wheel."""
-    assert run(sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv").returncode == 0
+@pytest.mark.parametrize("name", dict.fromkeys((*others.NAMES, others.OWN)))
+def test_wheel_is_of_use_alone(name: str, release: Path, tmp_path: Path):
+    """It has numpy and trimesh of an environment, and nothing of this project but the wheel."""
+    base = others.python(name)
+    assert run(base, "-m", "venv", "--without-pip", tmp_path / "venv").returncode == 0
     [wheel] = release.glob("*.whl")
     [python] = (tmp_path / "venv").glob("*/python")
-    pip = run(sys.executable, "-m", "pip", "--python", python, "install", "--no-deps", wheel)
+    library = run(base, "-c", "import trimesh; print(trimesh.__path__[0])").stdout.strip()
+    site = run(
+        python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"
+    ).stdout.strip()
+    for part in (p for name in ("numpy", "trimesh") for p in Path(library, "..").glob(f"{name}*")):
+        Path(site, part.name).symlink_to(part.resolve())
+    pip = run(sys.executable, "-m", "pip", "--python", python, "install", "--no-index", wheel)
     assert pip.returncode == 0, pip.stderr
-    [site] = (tmp_path / "venv").glob("lib/*/site-packages")
-    (site / "numpy.pth").write_text("\n".join(p for p in sys.path if p.endswith("site-packages")))
 
-    scene = site / "reference_tracer_grading/scenes/exercise_triangle.npz"
-    options = {"cwd": tmp_path, "env": {"PATH": os.environ["PATH"]}}
-    reftrace = python.with_name("reftrace")
-    assert run(reftrace, "--version", **options).stdout.split()[-1] in wheel.name
-    done = run(reftrace, "trace", scene, "--out", "picture.png", **options)
-    assert done.returncode == 0 and (tmp_path / "picture.png").exists(), done.stderr
+    def reftrace(*words: object, code: int = 0) -> str:
+        env = {"PATH": os.environ["PATH"], "PYTHONWARNINGS": "error,ignore::ResourceWarning"}
+        done = run(python.with_name("reftrace"), *words, cwd=tmp_path, env=env)
+        assert done.returncode == code, done.stderr
+        return done.stdout + done.stderr
+
+    assert reftrace("--version").split()[-1] in wheel.name
+    size = "--width", "48", "--height", "32"
+    ball = trimesh.creation.icosphere(2)
+    for suffix in ("ply", "glb"):
+        ball.export(tmp_path / f"ball.{suffix}")
+        reftrace("trace", f"ball.{suffix}", *size, "--out", f"{suffix}.png")
+    stored = Path(site, "reference_tracer_grading/scenes/exercise_triangle.npz")
+    reftrace("trace", stored, "--out", "stored.png")
+    reftrace("compare", "ball.ply", *size, "--against", "ply.png", "--out", "compared")
+    assert (tmp_path / "compared" / "page.html").exists()
+    blend = PROJECT / "sample_scenes/suzanne.blend"
+    said = reftrace("trace", blend, "--out", "x.png", code=INPUT_ERROR)
+    version = name.partition("-")[0]
+    if version in PYTHONS:
+        assert 'module: pip install "reference_tracer[blender]"' in said
+    else:
+        assert f"made for Python 3.11 and 3.13 and not for {version}: python3.13 -m pip" in said
+    exr = reftrace("trace", "ball.ply", *size, "--out", "ball.exr", code=INPUT_ERROR)
+    assert 'pip install "reference_tracer[images]"' in exr
 
 
 def test_blender_installs_it_by_address(release: Path, tmp_path: Path):

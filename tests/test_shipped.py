@@ -103,7 +103,7 @@ def beside_the_code(source: str) -> list[str]:
 # Who advises to install packages, and why nobody reads that in Blender.
 NOT_IN_BLENDER = {
     "cli.opening": "said where there is no Blender",
-    "images": "of OpenImageIO, which Blender brings along",
+    "exr": "of OpenImageIO, which Blender brings along",
 }
 # Who hands a folder of its own to others, and to whom.
 HANDED_ON = {"blender.ui.menus": "Blender lists the presets in it, which are files of the zip"}

@@ -15,7 +15,7 @@ import tracemalloc
 from pathlib import Path
 
 import numpy as np
-from reference_tracer import images
+from reference_tracer import exr, images
 from reference_tracer.compare.case import Case
 from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.picture import Picture, Source
@@ -41,7 +41,7 @@ def used(what: str, side: int, settings: Settings) -> None:
         if what == "png":
             images.save_png(Path(folder) / "p.png", images.to_display(frame.color))
         elif what == "exr":
-            images.save_exr(Path(folder) / "p.exr", frame.passes())
+            exr.save(Path(folder) / "p.exr", frame.passes())
 
 
 def main() -> None:

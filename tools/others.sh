@@ -1,14 +1,22 @@
 #!/usr/bin/env bash
-# Other Pythons with other numpys, in which the tests hold certified pictures equal to the bit:
-# environments of their own in .venv/others, for each Python that is there.
+# Other Pythons with other numpys and trimeshes: environments of their own in .venv/others. The tests
+# hold certified pictures equal there, to the bit, and run the wheel, for each Python that is there.
 #
 #   tools/others.sh check  exits 0 if there is one or it can be made, else says why not
 #   tools/others.sh setup  makes those that are not there: some seconds and 80 MB each, once
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# Python-numpy: what older Blenders have, the newest for Python 3.11, and the newest.
-others=(3.11-1.26.4 3.11-2.4.6 3.13-2.5.5)
+# Python-numpy-trimesh: the oldest that pyproject.toml allows, what older Blenders have, the newest
+# for Python 3.11, and the newest for each other one.
+others=(
+    3.11-1.24.0-4.0.0
+    3.11-1.26.4-4.4.0
+    3.11-2.4.6-5.2.0
+    3.12-2.5.5-5.2.0
+    3.13-2.5.5-5.2.0
+    3.14-2.5.5-5.2.0
+)
 
 say() { echo "others: $*" >&2; }
 
@@ -29,13 +37,28 @@ find_python() { # VERSION
             return
         fi
     done
-    return 1
+    if command -v uv >/dev/null && uv python find "$1" 2>/dev/null; then return; fi
+    of_maven "$1"
+}
+
+# Where no Python that new is installed: a build of it that Maven has, for programs in Java.
+of_maven() { # VERSION
+    local folder=.venv/others/maven
+    local python="$folder/org/bytedeco/cpython/linux-x86_64/bin/python3.14"
+    [ "$1 $(uname -sm)" = "3.14 Linux x86_64" ] && command -v mvn >/dev/null || return
+    if ! is_python "$python" "$1"; then
+        mvn --quiet --batch-mode dependency:copy -DoutputDirectory="$folder" \
+            -Dartifact=org.bytedeco:cpython:3.14.3-1.5.13:jar:linux-x86_64 >&2 &&
+            .venv/bin/python -m zipfile -e "$folder"/cpython-*.jar "$folder" &&
+            chmod +x "$python" || return
+    fi
+    echo "$PWD/$python"
 }
 
 own() { # the project's own Python is one of them
     .venv/bin/python -c '
-import sys, numpy
-print("{}.{}".format(*sys.version_info), numpy.__version__, sep="-")
+import sys, numpy, trimesh
+print("{}.{}".format(*sys.version_info), numpy.__version__, trimesh.__version__, sep="-")
 '
 }
 
@@ -45,21 +68,22 @@ is_there() { [ -e ".venv/others/$1/.ready" ] || [ "$1" = "$(own)" ]; }
 check() {
     local other
     for other in "${others[@]}"; do
-        if is_there "$other" || find_python "${other%-*}" >/dev/null; then return; fi
+        if is_there "$other" || find_python "${other%%-*}" >/dev/null; then return; fi
     done
-    echo "no other Python here: neither 3.11 nor 3.13 with its venv module"
+    echo "no other Python here: none of 3.11 to 3.14 with its venv module"
     return 1
 }
 
 setup() {
-    local other python folder
+    local other python folder numpy trimesh
     for other in "${others[@]}"; do
         folder=".venv/others/$other"
-        if is_there "$other" || ! python="$(find_python "${other%-*}")"; then continue; fi
+        if is_there "$other" || ! python="$(find_python "${other%%-*}")"; then continue; fi
+        IFS=- read -r _ numpy trimesh <<<"$other"
         say "making $folder"
         "$python" -m venv --clear --without-pip "$folder"
         .venv/bin/python -m pip --python "$folder/bin/python" install --quiet \
-            --only-binary=:all: "numpy==${other#*-}"
+            --only-binary=:all: "numpy==$numpy" "trimesh==$trimesh"
         touch "$folder/.ready"
     done
 }

@@ -1,10 +1,14 @@
 """Writes what a user downloads to dist/release/, of the last commit: same commit, same bytes.
 
-The extension, the Python package (sdist and wheel), the notes, the checksums; and index.json, which
-makes the folder's address one that Blender takes for a repository of extensions. `make release`
-runs it, in a Python that has bpy.
+The extension, the Python package (sdist and wheel), the notes, the checksums; index.json, which
+makes the folder's address one that Blender takes for a repository of extensions; index.html, the
+page of it all, which links only to what is beside it; and try.html, the page of a comparison, which
+says how long that took and so alone has other bytes each time. `make release ADDRESS=https://...`
+runs it, in a Python that has bpy: the project's address, where its files have a placeholder.
 """
 
+import argparse
+import base64
 import gzip
 import hashlib
 import io
@@ -21,6 +25,14 @@ import zipfile
 from pathlib import Path
 
 from build_extension import PROJECT, BuildError, blenders_tool, run, text_of
+
+PLACEHOLDER = "https://example.org/reference-tracer"
+# What has it: the files that users see.
+ADDRESSED = "README.md", "CITATION.cff", "blender_manifest.toml", "pyproject.toml"
+# The comparison to try is the one of the moving picture: another angle of view than the scene's.
+TRIED = ("sample_scenes/suzanne.blend", "--eye", "4", "-7.5", "3.6", "--target", "0", "0", "1",
+         "--width", "320", "--height", "180")  # fmt: skip
+ANGLES = "38", "40"
 
 
 def git(*arguments: str) -> bytes:
@@ -84,12 +96,27 @@ def date_tar(path: Path, seconds: int) -> None:
     path.write_bytes(gzip.compress(plain.getvalue(), mtime=seconds))
 
 
-def build(work: Path) -> Path:
+def addressed(source: Path, address: str) -> None:
+    """Put the project's address in the place of the placeholder, in each file that has it.
+
+    Raises
+    ------
+    BuildError
+        Where it is no address.
+    """
+    if not re.fullmatch(r"https?://[\w.-]+(:\d+)?(/[\w.~-]+)*", address):
+        raise BuildError(f"ADDRESS is no https://... without a slash at its end: {address}")
+    for path in (source / name for name in ADDRESSED):
+        path.write_bytes(path.read_bytes().replace(PLACEHOLDER.encode(), address.encode()))
+
+
+def build(work: Path, address: str, tried: bool) -> Path:
     """Build everything in a folder for the work; returns the folder of what is released."""
     source, out = work / "source", work / "release"
     out.mkdir()
     with tarfile.open(fileobj=io.BytesIO(git("archive", "HEAD"))) as committed:
         committed.extractall(source, filter="data")
+    addressed(source, address)
     if (PROJECT / "wheels").exists():  # what was fetched once
         shutil.copytree(PROJECT / "wheels", source / "wheels")
     seconds = int(git("log", "-1", "--format=%ct"))
@@ -99,8 +126,6 @@ def build(work: Path) -> Path:
     run(source / "tools/build_extension.py", "--out", out)
     [extension] = out.glob("*.zip")
     date_zip(extension, seconds)
-    page = source / "tools/release.html"
-    run(blenders_tool(), "server-generate", "--repo-dir", out, "--html", "--html-template", page)
 
     sdist = [sys.executable, "setup.py", "--quiet", "sdist", "--dist-dir", out]
     subprocess.run(sdist, cwd=source, check=True)
@@ -109,20 +134,69 @@ def build(work: Path) -> Path:
     # From the sdist, which shows that it is whole.
     run("-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation", "-w", out, sdist)
 
+    page = work / "page.html"
+    page.write_text(template(source, out, address), encoding="utf-8")
+    run(blenders_tool(), "server-generate", "--repo-dir", out, "--html", "--html-template", page)
     (out / "NOTES.md").write_bytes(newest(text_of("CHANGELOG.md"))[2].encode())
-    sums = [(hashlib.sha256(p.read_bytes()).hexdigest(), p.name) for p in sorted(out.iterdir())]
-    (out / "SHA256SUMS").write_bytes("".join(f"{s}  {name}\n" for s, name in sums).encode())
+    (out / "SHA256SUMS").write_bytes(sums(sorted(out.iterdir())).encode())
+    if tried:
+        shutil.copy(compared(work, source), out / "try.html")
     return out
 
 
+def sums(files: list[Path]) -> str:
+    """The checksums of files, as `sha256sum --check` reads them."""
+    return "".join(f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p.name}\n" for p in files)
+
+
+def template(source: Path, out: Path, address: str) -> str:
+    """The page of the release, into which Blender's tool then puts its table of extensions."""
+    [extension], [wheel] = out.glob("*.zip"), out.glob("*.whl")
+    picture = (source / "docs/images/diagnosis.gif").read_bytes()
+    values = {
+        "picture": base64.b64encode(picture).decode(),
+        "extension": extension.name,
+        "wheel": wheel.name,
+        "version": wheel.name.split("-")[1],
+        "address": address,
+        "sums": sums(sorted(out.iterdir())).rstrip(),
+    }
+    text = (source / "tools/release.html").read_text(encoding="utf-8")
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found[1]], text)
+
+
+def compared(work: Path, source: Path) -> Path:
+    """Compare a picture of a wrong camera, by the wheel itself; return the page."""
+    [wheel] = (work / "release").glob("*.whl")
+    with zipfile.ZipFile(wheel) as packed:
+        packed.extractall(work / "site")
+    wrong, right = ANGLES
+    scene, *camera = TRIED
+    render, out = work / "render.png", work / "compared"
+    for words, code in (
+        (("trace", scene, *camera, "--angle", wrong, "--out", render), 0),
+        (("compare", scene, *camera, "--angle", right, "--against", render, "--out", out), 2),
+    ):
+        command = [sys.executable, "-m", "reference_tracer.cli", *words]
+        env = os.environ | {"PYTHONPATH": str(work / "site")}
+        done = subprocess.run(command, cwd=source, env=env, capture_output=True, text=True)
+        if done.returncode != code:
+            raise BuildError(f"the comparison to try ended with {done.returncode}: {done.stderr}")
+    return out / "page.html"
+
+
 def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--address", default=PLACEHOLDER, help="the project's, https://...")
+    parser.add_argument("--no-try", action="store_true", help="leave out try.html: 20 seconds less")
+    given = parser.parse_args()
     out = PROJECT / "dist/release"
     try:
         status = git("status", "--porcelain").decode()
         tags = git("tag", "--points-at", "HEAD", "v*").decode().split()
         check(status, tags, text_of("blender_manifest.toml"), text_of("CHANGELOG.md"))
         with tempfile.TemporaryDirectory() as work:
-            built = build(Path(work))
+            built = build(Path(work), given.address, not given.no_try)
             shutil.rmtree(out, ignore_errors=True)
             shutil.copytree(built, out)
     except BuildError as error:
@@ -131,6 +205,9 @@ def main() -> int:
     except subprocess.CalledProcessError as error:
         return error.returncode  # the tool has said why
     print((out / "SHA256SUMS").read_text(encoding="ascii"), end="")
+    if given.address == PLACEHOLDER:
+        say = "make release ADDRESS=https://... puts the project's address in its place"
+        print(f"release: the address is still {PLACEHOLDER}: {say}", file=sys.stderr)
     return 0
 
 

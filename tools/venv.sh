@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Makes the virtual environment .venv with the project, a real bpy and all pinned packages.
 #
-#   tools/venv.sh            picks a Python: 3.13 (bpy 5.2.3), else 3.11 (bpy 5.0.1)
+#   tools/venv.sh            picks a Python: 3.13 (bpy 5.2.3), else 3.11 (bpy 5.0.1), else fetches one
 #   PYTHON=... tools/venv.sh takes that one
+#   tools/venv.sh which      only says which
 #   tools/venv.sh libraries PYTHON  only installs what that Python's bpy needs
 #
 # Safe to run again: an environment that works is kept and brought up to date.
@@ -25,21 +26,34 @@ find_python() {
     local version candidate pyenv_versions=""
     if command -v pyenv >/dev/null; then pyenv_versions="$(pyenv root)/versions"; fi
     for version in 3.13 3.11; do
-        for candidate in ${PYTHON:-"python$version" "$pyenv_versions/$version"*/bin/python python3}; do
+        for candidate in ${PYTHON:-"python$version" "$pyenv_versions/$version".*/bin/python python3 python}; do
             if is_python "$candidate" "$version"; then
                 echo "$candidate"
                 return
             fi
         done
     done
-    # uv fetches a Python of its own, into the user's folder.
-    if [ -z "${PYTHON:-}" ] && command -v uv >/dev/null && uv python install --quiet 3.13 >&2; then
-        uv python find 3.13
-        return
-    fi
-    say "no ${PYTHON:-Python 3.13 or 3.11}, which Blender's module needs: install python3.13-venv" \
-        "(Debian) or uv, or name a Python: make PYTHON=/path/to/python3.13 ..."
+    if [ -z "${PYTHON:-}" ] && fetch_python 2>/dev/null; then return; fi
+    say "no ${PYTHON:-Python 3.13 or 3.11} with its venv module, which Blender's module needs:" \
+        "install one (Debian 12 and 13: apt install python3-venv), or name it:" \
+        "make PYTHON=/path/to/python3.13 demo"
     return 1
+}
+
+# uv knows Pythons of its own, and fetches one into the folder .python; any Python can fetch uv.
+fetch_python() {
+    local uv=uv python
+    export UV_PYTHON_INSTALL_DIR="$PWD/.python"
+    if ! command -v uv >/dev/null; then
+        python="$(command -v python3 || command -v python)" &&
+            "$python" -m venv --clear .python/uv >&2 || return
+        uv=.python/uv/bin
+        if [ -d .python/uv/Scripts ]; then uv=.python/uv/Scripts; fi # Windows
+        "$uv/python" -m pip install --quiet uv >&2 || return
+        uv+=/uv
+    fi
+    "$uv" python find 3.13 && return
+    "$uv" python install --quiet 3.13 >&2 && "$uv" python find 3.13
 }
 
 # bpy needs some of the system's libraries, and without them dies with a bare linker error.
@@ -59,10 +73,10 @@ check_libraries() { # PYTHON
     fi
 }
 
-if [ "${1:-}" = libraries ]; then
-    check_libraries "$2"
-    exit
-fi
+case "${1:-}" in
+    libraries) check_libraries "$2"; exit ;;
+    which) find_python; exit ;;
+esac
 
 if ! is_python .venv/bin/python 3.13 && ! is_python .venv/bin/python 3.11; then
     python="$(find_python)"

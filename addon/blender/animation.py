@@ -12,7 +12,7 @@ from typing import Any
 
 import bpy
 
-from ..compare.animation import CODES, FrameRow, frames_named
+from ..compare.animation import FrameRow, frames_named
 from ..errors import words
 from ..report import animation as report
 from ..scene import SceneError
@@ -127,7 +127,7 @@ def compare_open_file(
         raise
     print(*report.lines(frames, rows), f"written to {directory}", sep="\n")
     print(f"open {Path(directory) / report.PAGE} in a browser")
-    return CODES[report.verdict(rows)]
+    return report.verdict(rows).exit_code
 
 
 def _made_by(options: dict[str, str]) -> dict[str, Any]:

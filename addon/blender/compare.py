@@ -22,6 +22,7 @@ from ..compare.comparing import trace_and_compare
 from ..compare.comparison import Comparison
 from ..compare.palette import VIEWPORT, By, GivenColors, Palette
 from ..compare.picture import Picture, Source
+from ..compare.renderers import EMBREE, RASTER
 from ..manifest import Manifest
 from ..mesh_diagnosis import diagnosed
 from ..report import comparison as comparison_report
@@ -190,6 +191,7 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
         filter_radius=0.0 if smooth == "OFF" else judge.filter_radius,
         sums=int(smooth) if smooth.isdigit() else 0,
         snapping=snapping,
+        renderer=EMBREE if judge.traces_rays else RASTER,
     )
 
 
@@ -219,7 +221,7 @@ def _diagnosed_too(
     work: Work[Comparison], diagnose: bool, told: Callable[[Comparison], object]
 ) -> Work[Comparison]:
     comparison = yield from scaled(work, 0.0, 0.6)
-    if diagnose and comparison.pixels["unexplained"]:
+    if diagnose and comparison.counts.unexplained:
         told(comparison)
         comparison = yield from scaled(diagnosed_of(comparison), 0.6, 0.4)
     return comparison

@@ -9,6 +9,7 @@ import bpy
 
 from ..compare.case import Case
 from ..compare.engines import EngineRow
+from ..compare.verdict import Verdict
 from ..errors import words
 from ..report import comparison as comparison_report
 from ..report import engines as engines_report
@@ -50,7 +51,7 @@ def _all_compared(
     rows = []
     for number, (engine, gathered) in enumerate(drawn):
         if isinstance(gathered, str):
-            rows.append(EngineRow(engine, "failed", error=gathered))
+            rows.append(EngineRow(engine, Verdict.FAILED, error=gathered))
             continue
         work = compared(gathered)
         if folder:

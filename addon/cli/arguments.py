@@ -12,7 +12,7 @@ from typing import Any
 from ..methods import Method
 from ..scene import SceneError
 from ..tracer.settings import Precision, Settings
-from .parser import Parser
+from .parser import INTEGER, Parser
 
 # While it is entered, the parameters that have the work done elsewhere, as by a cluster; or none.
 Place = AbstractContextManager[dict[str, Any]]
@@ -59,7 +59,7 @@ def add_settings(parser: Parser) -> None:
         help="floating-point type of rays and vertices; certified and auto need float64",
     )
     group.add_argument(
-        "--samples", type=int, metavar="N", help="trace N x N rays a pixel and show their mean"
+        "--samples", type=INTEGER, metavar="N", help="trace N x N rays a pixel and show their mean"
     )
 
 

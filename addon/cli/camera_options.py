@@ -6,10 +6,10 @@ from argparse import Namespace, _ActionsContainer
 from dataclasses import fields
 from pathlib import Path
 
+from ..file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
 from ..mesh_files.load import READERS
 from ..scene import SceneError
-from ..scene_files import check_is_file
 from .arguments import is_blend, refuse
 from .parser import COUNT, FINITE, POSITIVE, Parser, number
 
@@ -23,10 +23,11 @@ _FRAME = number(
 )
 
 
-def add_camera(parser: Parser, with_size: bool = True) -> None:
+def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -> None:
     """Add the options for the camera and the size of its picture."""
+    framed = ", or one that frames the mesh" if of_meshes else ""
     group = parser.add_argument_group(
-        "the camera and its picture (default: a scene's own, or one that frames the mesh)"
+        f"the camera and its picture (default: a scene's own{framed})"
     )
     if with_size:
         for name, other, size in zip(("width", "height"), ("height", "width"), SIZE, strict=True):
@@ -34,14 +35,15 @@ def add_camera(parser: Parser, with_size: bool = True) -> None:
                 f"--{name}",
                 type=COUNT,
                 metavar="PIXELS",
-                help=f"{name} of the picture (default {size} for a mesh; a scene's own, or what "
-                f"--{other} implies)",
+                help=f"{name} of the picture (default a scene's own, or what --{other} implies"
+                + (f"; {size} for a mesh)" if of_meshes else ")"),
             )
-    group.add_argument(
-        "--up",
-        choices=["y", "z"],
-        help="which axis of a mesh is up (default y of glTF, z of others); it is turned to Z",
-    )
+    if of_meshes:
+        group.add_argument(
+            "--up",
+            choices=["y", "z"],
+            help="which axis of a mesh is up (default y of glTF, z of others); it is turned to Z",
+        )
     _add_which(group.add_mutually_exclusive_group())
     group.add_argument(
         "--target",
@@ -113,7 +115,9 @@ def check_kind(path: Path) -> None:
     if suffix == ".npz" or suffix in READERS:
         return
     do = ""
-    if suffix in _OF_OTHERS:
+    if not suffix:
+        do = ": its name has no such end; rename it"
+    elif suffix in _OF_OTHERS:
         do = ": import it into Blender, and save a .blend"
     elif suffix.startswith(".blend"):
         do = ": a backup of Blender's is a .blend once it is renamed"

@@ -245,6 +245,6 @@ def _add_against(parser: Parser) -> None:
         "--renderer",
         choices=list(RENDERERS),
         help="whose rounding excuses a pixel: rays, of float32, or raster, with a depth buffer of "
-        "24 bits (default rays, unless Blender noted in the file that another engine than Cycles "
-        "made it)",
+        "24 bits (default rays; raster for a picture that Blender wrote, but not with Cycles, if "
+        "the .blend is set to Workbench or EEVEE)",
     )

@@ -6,23 +6,26 @@ meshes from other files need no Blender.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
 from ..manifest import Manifest
 from ..mesh_files.contents import Contents
 from ..mesh_files.load import READERS, load_meshes, scene_of_meshes
 from ..scene import Scene, SceneError
-from ..scene_files import check_is_file, load_scene
+from ..scene_files import load_scene
 from ..tracer.settings import Settings
 from . import running
 from .arguments import is_blend
 from .camera_options import check_kind
 from .file_manifest import file_manifest
 
+PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
 SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(READERS)})"
 
@@ -99,10 +102,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
         try:
             import bpy
         except ImportError as error:
-            raise SceneError(
-                "a .blend needs Blender as a module: pip install 'reference_tracer[blender]' "
-                f"({error})"
-            ) from error
+            raise SceneError(_without_blender(error)) from error
         from ..blender import registration
         from ..blender.choice import chosen
 
@@ -121,6 +121,15 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
             registration.unregister()
 
 
+def _without_blender(error: ImportError) -> str:
+    own = "{}.{}".format(*sys.version_info)
+    pip = 'pip install "reference_tracer[blender]"'
+    if own not in PYTHONS:
+        made = f"which is made for Python {' and '.join(PYTHONS)} and not for {own}"
+        return f"a .blend needs Blender as a module, {made}: python{PYTHONS[-1]} -m {pip}"
+    return f"a .blend needs Blender as a module: {pip} ({error})"
+
+
 def _open(bpy: Any, path: Path) -> None:
     with running.held():
         from ..blender.opened import open_file
@@ -129,7 +138,8 @@ def _open(bpy: Any, path: Path) -> None:
             open_file(path)
         except RuntimeError as error:
             reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
-            raise SceneError(f"'{path}' cannot be opened: {reason}") from error
+            do = "if it is cut off or damaged, copy or save it again"
+            raise SceneError(f"'{path}' cannot be opened by Blender ({reason}): {do}") from error
     saved, own = (".".join(map(str, v[:2])) for v in (bpy.data.version, bpy.app.version_file))
     if bpy.data.version[:2] > bpy.app.version_file[:2]:
         do = f"this is {own}: open it with {saved} or newer"

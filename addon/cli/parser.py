@@ -39,6 +39,21 @@ class Parser(ArgumentParser):
         """Print the message and how to go on, and exit."""
         self.exit(INPUT_ERROR, f"{self.prog}: {message}\n{self.prog} --help lists the options.\n")
 
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:
+        """Parse, and refuse what is not known: `ArgumentParser` would leave it to `reftrace`."""
+        given, unknown = super().parse_known_args(args, namespace)
+        for word in sorted(unknown, key=lambda word: not word.startswith("-")):
+            self.error(self._unknown(word.partition("=")[0]))
+        return given, unknown
+
+    def _unknown(self, word: str) -> str:
+        if not word.startswith("-"):
+            return f"'{word}' is one word too many: put a name that holds spaces in quotes"
+        from difflib import get_close_matches
+
+        near = get_close_matches(word, self._option_string_actions, 1)
+        return f"there is no option {word}" + "".join(f"; {name} is the nearest" for name in near)
+
     def runs(self, run: Callable[[Namespace], int], example: str, codes: str = DONE_HELP) -> None:
         """Set what this parser's command does and returns, and the end of its help."""
         self.set_defaults(run=run)
@@ -75,11 +90,13 @@ def number(
                 return value
         except ValueError:
             pass
-        raise ArgumentTypeError(f"{text} is not {must}")
+        point = "; the decimal sign is a point" if "," in text else ""
+        raise ArgumentTypeError(f"{text} is not {must}{point}")
 
     return read
 
 
+INTEGER = number(int, lambda _: True, "an integer")
 COUNT = number(int, lambda value: value >= 1, "an integer of at least 1")
 FINITE = number(float, math.isfinite, "a finite number")
 POSITIVE = number(float, lambda value: 0 < value < math.inf, "a finite number above 0")

@@ -90,7 +90,7 @@ def _open_streams() -> None:
     os.close(null)
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, "w"))
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))
         with suppress(AttributeError):  # a script's own stream; another may not have each letter
             getattr(sys, name).reconfigure(errors="backslashreplace")
 

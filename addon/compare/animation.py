@@ -6,10 +6,8 @@ import re
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from .comparison import EXIT_CODES
+from .verdict import Verdict
 
-FAILED = "failed"
-CODES = EXIT_CODES | {FAILED: 4}  # the gravest last: a frame that could not be compared
 _NAMED = re.compile(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?")
 _LAST = 1_048_574  # Blender's largest frame number
 
@@ -30,6 +28,8 @@ def frames_named(text: str) -> range | None:
         step = int(found[3] or 1)
         if -_LAST <= first <= last <= _LAST and step:
             return range(first, last + 1, step)
+        if last < first:
+            raise ValueError(f"is {text}, which ends before it begins: {last}-{first} does not")
     raise ValueError(
         f"is {text}; it must be 1-250, 1-250:5 for every fifth, 7, or all, for example"
     )
@@ -39,7 +39,7 @@ class FrameRow(NamedTuple):
     """What came of one frame: counts of pixels, or why it was not compared."""
 
     frame: int
-    verdict: str = FAILED
+    verdict: Verdict = Verdict.FAILED
     agree: int = 0
     explained: int = 0
     unexplained: int = 0
@@ -53,14 +53,15 @@ class FrameRow(NamedTuple):
         explained = p["differ"] - p["unexplained"]
         rests = found["excused"]
         excused = rests["pixels"] if rests["share"] > rests["most"] else 0
-        return cls(frame, found["verdict"], p["agree"], explained, p["unexplained"], excused)
+        return cls(
+            frame, Verdict(found["verdict"]), p["agree"], explained, p["unexplained"], excused
+        )
 
 
 def worst_first(rows: Iterable[FrameRow]) -> list[FrameRow]:
     """Sort rows by verdict, then by unexplained pixels, then by all that differ."""
-    order = list(CODES)
 
     def gravity(row: FrameRow) -> tuple[int, ...]:
-        return -order.index(row.verdict), -row.unexplained, -row.explained, row.frame
+        return -row.verdict.gravity, -row.unexplained, -row.explained, row.frame
 
     return sorted(rows, key=gravity)

@@ -15,8 +15,8 @@ import numpy as np
 
 from ..arrays import Colors, Floats
 from ..checked_json import numbers, part
+from ..file_kinds import check_is_file
 from ..scene import Scene, SceneError
-from ..scene_files import check_is_file
 from .palette import (
     By,
     GivenColors,

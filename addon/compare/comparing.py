@@ -60,7 +60,7 @@ def diagnosed(comparison: Comparison, steps: float = STEPS) -> Work[Comparison]:
 
     Yields the share of the work done. The verdict stays. No guess is begun after so many steps.
     """
-    if not comparison.pixels["unexplained"]:
+    if not comparison.counts.unexplained:
         return comparison
     case, frame, causes = comparison.case, comparison.frame, comparison.causes
     work = diagnose(case, frame, causes, steps=steps)
@@ -93,7 +93,7 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     at_boundary = boundary(traced)
     yield rest
     features = [str(u) for u in case.manifest.unmodelled]
-    pixels = count_pixels(found.causes, at_boundary, identity, features)
+    counts = count_pixels(found.causes, at_boundary, identity, features)
     yield rest
     checked: tuple[FaultRow, ...] = ()
     if case.self_check:
@@ -103,7 +103,7 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
         found.case,
         traced,
         found.causes,
-        pixels,
+        counts,
         measured,
         excused(found.case, traced, found.causes),
         identity=identity,

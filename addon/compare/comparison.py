@@ -15,6 +15,7 @@ from ..manifest import Effect, Manifest
 from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
+from ..wording import count_of
 from .case import Case
 from .cause import Causes
 from .causes import BY_NUMBER, CAUSES
@@ -22,17 +23,16 @@ from .checks.background import Background
 from .checks.color import COLOR
 from .checks.hidden import HIDDEN
 from .checks.unmodelled import NOT_MODELLED
+from .counts import PixelCounts
 from .diagnosis import Diagnosis
 from .excused import COMPARABLE, Excused
 from .identity import Identity
 from .methods import MethodRow
+from .metrics import Metrics
 from .self_check import FaultRow, table
+from .verdict import Verdict
 
 SCHEMA = "reference_tracer.comparison/1"
-
-# The verdicts, the gravest last, and what each is to a shell. 3 (the sizes do not match) and 4 (the
-# input cannot be read) end a command before there is a verdict.
-EXIT_CODES = {"agree": 0, "warnings": 1, "not comparable": 1, "cancelled": 1, "differences": 2}
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,8 +42,8 @@ class Comparison:
     case: Case  # with the scene before the picture's own background, if it has one
     frame: Frame
     causes: Causes
-    pixels: dict[str, Any]  # see count_pixels
-    metrics: dict[str, Any]  # see image_metrics
+    counts: PixelCounts
+    metrics: Metrics
     excused: Excused  # what rests on rounding
     methods: tuple[MethodRow, ...] = ()
     identity: Identity | None = None  # which object each side shows
@@ -67,16 +67,16 @@ class Comparison:
         return self.case.picture.color
 
     @property
-    def verdict(self) -> str:
-        """One of EXIT_CODES: differences are those that no cause explains."""
+    def verdict(self) -> Verdict:
+        """How it ended: differences are those that no cause explains."""
         if self.frame.cancelled:
-            return "cancelled"
+            return Verdict.CANCELLED
         certificate = self.case.certificate
-        if self.pixels["unexplained"] or (certificate and not certificate.passed):
-            return "differences"
-        if max(self.pixels["not_judged"]["share"], self.excused.share) > COMPARABLE:
-            return "not comparable"
-        return "warnings" if any(self._doubts()) else "agree"
+        if self.counts.unexplained or (certificate and not certificate.passed):
+            return Verdict.DIFFERENCES
+        if max(self.counts.not_judged.share, self.excused.share) > COMPARABLE:
+            return Verdict.NOT_COMPARABLE
+        return Verdict.WARNINGS if any(self._doubts()) else Verdict.AGREE
 
     def _doubts(self) -> Iterator[str]:
         """Yield why the verdict cannot be better than a warning, in a few words each."""
@@ -87,12 +87,15 @@ class Comparison:
             if entry.left_out:
                 yield f"triangles of '{entry.name}' are left out"
         for cause in CAUSES:
-            if cause.warns and self.pixels["by_cause"][cause.key]:
+            if cause.warns and self.counts.by_cause[cause.key]:
                 yield (cause == COLOR and self.causes.transform) or cause.label
-        if self.pixels["not_judged"]["pixels"]:
+        if self.counts.not_judged.pixels:
             yield "a part cannot be judged"
         if self.excused.too_much:
             yield "much rests on rounding alone"
+        if unjudged := self.excused.objects:
+            more = f" and {len(unjudged) - 1:,} other objects" if len(unjudged) > 1 else ""
+            yield f"'{unjudged[0].object}'{more} rests on rounding alone"
         if self.empty:
             yield "the picture is empty"
         if any(row.missed for row in self.self_check):
@@ -130,7 +133,7 @@ class Comparison:
             "blender": self.case.picture.to_dict(),
             "tracer": self._tracer(),
             "methods": [row.to_dict() for row in self.methods],
-            "pixels": self.pixels,
+            "pixels": self.counts.to_dict(),
             "excused": self.excused.to_dict(),
             "causes": {c.key: c.to_dict() for c in CAUSES},
             "transform": self.causes.transform,
@@ -141,7 +144,7 @@ class Comparison:
             "diagnosis": self.diagnosis and self.diagnosis.to_dict(),
             "certificate": certificate and certificate.to_dict(),
             "self_check": [row.to_dict() for row in self.self_check],
-            "metrics": self.metrics,
+            "metrics": self.metrics.to_dict(),
             "verdict": self.verdict,
         }
 
@@ -167,16 +170,16 @@ class Comparison:
 
     def lines(self) -> list[str]:
         """Return what a person wants to know first, a fact a line."""
-        pixels = self.pixels
+        counts = self.counts
         settings, traced = self.case.settings, self.frame.statistics
         return [
-            f"{pixels['agree']:,} of {pixels['total']:,} pixels agree with "
-            f"{self.case.picture.source}, {pixels['differ']:,} differ",
+            f"{counts.agree:,} of {counts.total:,} pixels agree with "
+            f"{self.case.picture.source}, {counts.differ:,} differ",
             *self._of_causes(),
             *self._evidence(),
             *(self.diagnosis.lines() if self.diagnosis else ()),
             self._measured(),
-            f"traced {traced.triangles:,} triangles in {traced.seconds:.2f} s "
+            f"traced {count_of(traced.triangles, 'triangle')} in {traced.seconds:.2f} s "
             f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
             "a pixel)",
             *(row.line() for row in self.methods),
@@ -188,7 +191,7 @@ class Comparison:
     def _but(self) -> str:
         """Return why it is no better than a warning, or what it leaves out, for its own line."""
         why: Iterable[str] = ()
-        if self.verdict in ("warnings", "not comparable"):
+        if self.verdict in (Verdict.WARNINGS, Verdict.NOT_COMPARABLE):
             why = dict.fromkeys(self._doubts())
         elif self.background and not self.background.transparent:
             why = (self.background.unjudged(),)
@@ -197,31 +200,32 @@ class Comparison:
     def _of_causes(self) -> Iterator[str]:
         """Say how many pixels have each cause, and where the first of them are."""
         for cause in sorted(CAUSES):
-            if count := self.pixels["by_cause"].get(cause.key):
-                first = self.pixels["examples"].get(cause.key, ())[:3]
+            if count := self.counts.by_cause.get(cause.key):
+                first = self.counts.examples.get(cause.key, ())[:3]
                 at = ", ".join(f"({x}, {y})" for x, y in first)
                 yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
 
     def _measured(self) -> str:
         m = self.metrics
-        psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
-        x, y = m["largest_difference"]["pixel"]
-        return (
-            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
-            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})"
-        )
+        psnr = f"{m.psnr:.1f} dB" if m.rmse else "infinite"
+        x, y = m.largest_difference.pixel
+        most = f"largest difference {m.largest_difference.value:.3g} at pixel ({x}, {y})"
+        if not m.rmse:
+            most = "no difference anywhere"
+        return f"RMSE {m.rmse:.3g}, PSNR {psnr}, SSIM {m.ssim:.6f}, {most}"
 
     def _evidence(self) -> Iterator[str]:
         """Say what else was found out about the pixels that differ."""
         causes, certificate = self.causes, self.case.certificate
-        inside, rim = self.pixels["interior"], self.pixels["boundary"]
+        inside, rim = self.counts.interior, self.counts.boundary
         yield (
-            f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
-            f"{rim['total']:,} boundary pixels differ"
+            f"{inside.differ:,} of {inside.total:,} interior and {rim.differ:,} of "
+            f"{rim.total:,} boundary pixels differ"
         )
         if self.case.picture.source.file:
-            words = self.case.picture.renderer.words
-            yield f"a pixel may differ by the rounding of {words} (--renderer)"
+            words, known = self.case.picture.renderer.words, self.case.picture.source.known
+            why = f", {known}" if known else ""
+            yield f"a pixel may differ by the rounding of {words}{why} (--renderer)"
         if self.background:
             yield self.background.line()
         if self.empty:
@@ -231,30 +235,30 @@ class Comparison:
             yield f"colours: {causes.transform}"
         yield from (shade.line() for shade in causes.shades)
         yield from (f"only one side shows {h}" for h in dict.fromkeys(causes.hidden))
-        if self.identity and self.pixels["unexplained"]:
-            shows = self.pixels["unexplained_shows"]
+        shows = self.counts.unexplained_shows
+        if shows and self.counts.unexplained:
             yield (
-                f"of the unexplained pixels {shows['same_object']:,} show the same object in "
-                f"another colour, {shows['other_object']:,} another object"
+                f"of the unexplained pixels {shows.same_object:,} show the same object in "
+                f"another colour, {shows.other_object:,} another object"
             )
         if certificate:
             yield certificate.line()
 
     def not_judged(self) -> Iterator[str]:
         """Say what share of the picture cannot be judged, why, and what would help."""
-        told, total = self.pixels["not_judged"], self.pixels["total"]
+        told, total = self.counts.not_judged, self.counts.total
         if lights := [str(u) for u in self.manifest.unmodelled if u.effect is Effect.LIGHT]:
             known = "whose surfaces it shows can" if self.identity else "nor whose surfaces"
             yield f"no colour of this picture can be judged, {known}: {', '.join(lights)}"
-        if told["pixels"]:
-            features = ", ".join(told["by_feature"])
-            yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {features}"
-        if behind := self.pixels.get("behind"):
+        if told.pixels:
+            features = ", ".join(told.by_feature)
+            yield f"{_share(told.pixels, total)} of this picture cannot be judged: {features}"
+        if behind := self.counts.behind:
             yield (
-                f"what is behind transparent surfaces was judged in {behind['pixels']:,} px, by a "
-                f"picture without them: {behind['unexplained']:,} px are unexplained"
+                f"what is behind transparent surfaces was judged in {behind.pixels:,} px, by a "
+                f"picture without them: {behind.unexplained:,} px are unexplained"
             )
-        if undecided := self.pixels["not_decidable"]:
+        if undecided := self.counts.not_decidable:
             yield (
                 f"{_share(undecided, total)} of this picture is not decidable: so far from the "
                 "origin, or at such a scale, float32 moves Blender's surfaces by more than half a "

@@ -3,17 +3,98 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arrays import Bools, Bytes
 from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Causes
 from .causes import CAUSES
-from .identity import Identity
+from .identity import Identity, Shows
 
 EXAMPLES = 10  # pixels named of each cause
+
+
+@dataclass(frozen=True)
+class Counts:
+    """How many pixels of a picture, or of a part of it, have each cause.
+
+    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained.
+    """
+
+    total: int
+    agree: int
+    explained: int
+    unexplained: int
+    not_decidable: int
+    not_traced: int
+    by_cause: Mapping[str, int]  # by the causes' keys, but for pixels that agree or are not traced
+
+    @property
+    def differ(self) -> int:
+        """Those that differ, explained or not."""
+        return self.explained + self.unexplained
+
+    @classmethod
+    def of(cls, cause: Bytes) -> Counts:
+        """Count pixels of any shape by the numbers of their causes."""
+        return cls(**_counted(cause))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return them as JSON can hold them."""
+        return {
+            "total": self.total,
+            "agree": self.agree,
+            "differ": self.differ,
+            "explained": self.explained,
+            "unexplained": self.unexplained,
+            "not_decidable": self.not_decidable,
+            "not_traced": self.not_traced,
+            "by_cause": dict(self.by_cause),
+        }
+
+
+class NotJudged(NamedTuple):
+    """Pixels in which something that the tracer does not model would excuse a fault."""
+
+    pixels: int
+    share: float  # of the picture
+    by_feature: Mapping[str, int]  # by the feature's words, the most pixels first
+
+
+class BehindCount(NamedTuple):
+    """Pixels in which what is behind transparent surfaces was judged."""
+
+    pixels: int
+    unexplained: int  # of these
+
+
+@dataclass(frozen=True)
+class PixelCounts(Counts):
+    """How many pixels of a picture have each cause, and where some of them are."""
+
+    interior: Counts  # pixels that see what all eight around them see
+    boundary: Counts  # the others
+    # Some pixels of each cause, spread over all, [x, y] of the region from its lower left.
+    examples: Mapping[str, list[list[int]]]
+    not_judged: NotJudged
+    behind: BehindCount | None = None  # None: it was not looked at
+    unexplained_shows: Shows | None = None  # whose surfaces unexplained pixels show, if it is known
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return them as JSON can hold them."""
+        shows, behind = self.unexplained_shows, self.behind
+        return {
+            **super().to_dict(),
+            "interior": self.interior.to_dict(),
+            "boundary": self.boundary.to_dict(),
+            "examples": dict(self.examples),
+            "not_judged": self.not_judged._asdict(),
+            **({"behind": behind._asdict()} if behind else {}),
+            **({"unexplained_shows": shows._asdict()} if shows else {}),
+        }
 
 
 def count_pixels(
@@ -21,10 +102,8 @@ def count_pixels(
     at_boundary: Bools,
     identity: Identity | None = None,
     features: Sequence[str] = (),
-) -> dict[str, Any]:
+) -> PixelCounts:
     """Count pixels by their causes: all of them, then those at boundaries and inside.
-
-    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained.
 
     Parameters
     ----------
@@ -32,61 +111,50 @@ def count_pixels(
         Of each pixel (h, w).
     at_boundary : (h, w) bool
     identity : Identity, optional
-        Which objects are shown. Then `unexplained_shows` counts how many unexplained pixels show
-        the same object in a wrong colour, and how many a wrong object.
+        Which objects are shown.
     features : sequence of str
-        What the tracer does not model; `not_judged` counts the pixels in which one of these would
-        excuse a fault. `behind` counts those in which what is behind glass was judged.
-
-    Returns
-    -------
-    dict
-        As JSON can hold it. `examples` has some pixels of each cause, spread over them, [x, y] of
-        the region from its lower left.
+        What the tracer does not model, by the numbers in `causes.blind`.
     """
     cause = causes.cause
-    out = _counts(cause)
-    out["interior"] = _counts(cause[~at_boundary])
-    out["boundary"] = _counts(cause[at_boundary])
-    out["examples"] = {
-        c.key: _positions(cause == c) for c in sorted(CAUSES) if out["by_cause"].get(c.key)
-    }
+    wrong = cause == UNEXPLAINED
     blind = causes.blind[causes.blind >= 0]
-    found, count = np.unique(blind, return_counts=True)
     by_feature: Counter[str] = Counter()
-    for n, many in zip(found, count, strict=True):
-        by_feature[features[n]] += int(many)
-    out["not_judged"] = {
-        "pixels": len(blind),
-        "share": len(blind) / max(cause.size, 1),
-        "by_feature": dict(by_feature.most_common()),
-    }
-    if causes.behind is not None:
-        wrong = causes.behind & (cause == UNEXPLAINED)
-        out["behind"] = {"pixels": int(causes.behind.sum()), "unexplained": int(wrong.sum())}
-    if identity is not None:
-        out["unexplained_shows"] = identity.counts(cause == UNEXPLAINED)
-    return out
+    for number, many in zip(*np.unique(blind, return_counts=True), strict=True):
+        by_feature[features[number]] += int(many)
+    whole = _counted(cause)
+    return PixelCounts(
+        **whole,
+        interior=Counts.of(cause[~at_boundary]),
+        boundary=Counts.of(cause[at_boundary]),
+        examples={
+            c.key: _places(cause == c) for c in sorted(CAUSES) if whole["by_cause"].get(c.key)
+        },
+        not_judged=NotJudged(
+            len(blind), len(blind) / max(cause.size, 1), dict(by_feature.most_common())
+        ),
+        behind=None
+        if causes.behind is None
+        else BehindCount(int(causes.behind.sum()), int((causes.behind & wrong).sum())),
+        unexplained_shows=identity and identity.shows(wrong),
+    )
 
 
-def _counts(cause: Bytes) -> dict[str, Any]:
+def _counted(cause: Bytes) -> dict[str, Any]:
+    """Return the fields of Counts."""
     count = {c: int((cause == c).sum()) for c in sorted(CAUSES)}
-    explained = sum(n for c, n in count.items() if c.explains)
+    apart = UNEXPLAINED, NOT_DECIDABLE
     return {
         "total": cause.size,
         "agree": count[AGREE],
-        "differ": explained + count[UNEXPLAINED],
-        "explained": explained,
+        "explained": sum(n for c, n in count.items() if c.explains),
         "unexplained": count[UNEXPLAINED],
         "not_decidable": count[NOT_DECIDABLE],
         "not_traced": count[NOT_TRACED],
-        "by_cause": {
-            c.key: n for c, n in count.items() if c.explains or c in (UNEXPLAINED, NOT_DECIDABLE)
-        },
+        "by_cause": {c.key: n for c, n in count.items() if c.explains or c in apart},
     }
 
 
-def _positions(where: Bools) -> list[list[int]]:
+def _places(where: Bools) -> list[list[int]]:
     """Return some pixels, spread evenly over all, as [x, y] from the lower left."""
     found = np.flatnonzero(where)
     chosen = np.linspace(0, len(found) - 1, min(len(found), EXAMPLES)).astype(int)

@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 
 from ..arrays import Array
-from ..images import curve, curve_undone
+from ..images import EIGHT_BITS, curve, curve_undone
 from .picture import MAJORITY, Curve, Transform
 
 FITTED_SHARE = 0.9  # the share of pixels for a curve with a number that was fitted to them
@@ -29,7 +29,6 @@ CURVES = (
     Curve("a power of 1/2.2", lambda c: np.clip(c, 0, None) ** (1 / 2.2), key="gamma"),
     Curve("red and blue swapped", lambda c: c[..., ::-1], key="channels"),
 )
-EIGHT_BITS = 255  # levels above 0
 
 
 def _eight(values: Array) -> Array:

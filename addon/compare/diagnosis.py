@@ -14,6 +14,7 @@ from typing import Any
 from ..arrays import Colors
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
+from ..wording import count_of
 from .case import Case
 from .cause import Causes
 from .evidence import Evidence
@@ -129,11 +130,11 @@ class Diagnosis:
             which = "fault that was tried" if self.untried else "known fault"
             out = [f"diagnosis: no {which} accounts for the unexplained pixels"]
         if self.left:
-            places = "region" if len(self.regions) == 1 else "regions"
-            out.append(f"           {self.left:,} px are left, in {len(self.regions)} {places}:")
+            places = count_of(len(self.regions), "region")
+            out.append(f"           {self.left:,} px are left, in {places}:")
             out += [f"             {_framed(region)}" for region in self.regions[:FRAMED]]
         if self.untried and not (self.told and self.told[-1].is_all):
-            out.append(f"           (not looked for to the end, as it takes long: {self._untried})")
+            out.append(f"           (a limit of work ended the search for: {self._untried})")
         return out
 
     @property
@@ -216,8 +217,9 @@ def _regions(evidence: Evidence) -> tuple[Region, ...]:
 
 
 def spoken(name: str) -> str:
-    """Return a fault's name in words."""
-    return name.replace("_", " ")
+    """Return a fault's name in words: its sentence, where that is the same for every guess."""
+    same = (f.sentence for f in FAULTS if f.name == name and "{" not in f.sentence)
+    return next(same, name.replace("_", " "))
 
 
 def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:

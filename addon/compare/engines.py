@@ -10,10 +10,11 @@ import numpy as np
 from .cause import UNEXPLAINED
 from .causes import BY_NUMBER, CAUSES
 from .checks.unmodelled import drawn_over
-from .comparison import EXIT_CODES, Comparison
-from .counts import EXAMPLES
+from .comparison import Comparison
+from .counts import EXAMPLES, PixelCounts
 from .identity import NOTHING, UNKNOWN
 from .self_check import FaultRow
+from .verdict import Verdict
 
 SCHEMA = "reference_tracer.engines/1"
 
@@ -22,8 +23,8 @@ class EngineRow(NamedTuple):
     """What came of one engine's picture."""
 
     engine: str
-    verdict: str
-    pixels: dict[str, Any] | None = None
+    verdict: Verdict
+    counts: PixelCounts | None = None  # None: there is no picture
     wrong: tuple[dict[str, Any], ...] = ()
     wrong_objects: int | None = None  # pixels that show another object; None: not known
     error: str = ""  # why there is no picture
@@ -37,20 +38,27 @@ class EngineRow(NamedTuple):
         return cls(
             comparison.case.picture.source.name,
             comparison.verdict,
-            {k: v for k, v in comparison.pixels.items() if k != "examples"},
+            comparison.counts,
             tuple(_wrong(comparison)),
-            None if identity is None else identity.counts()["other_object"],
+            None if identity is None else identity.shows().other_object,
             not_judged=tuple(comparison.not_judged()),
             self_check=comparison.self_check,
         )
 
     def to_dict(self) -> dict[str, Any]:
         """Return the row as JSON can hold it."""
-        checked = [fault.to_dict() for fault in self.self_check]
-        return self._asdict() | {
+        counts = self.counts and self.counts.to_dict()
+        if counts:
+            del counts["examples"]
+        return {
+            "engine": self.engine,
+            "verdict": self.verdict,
+            "pixels": counts,
             "wrong": list(self.wrong),
+            "wrong_objects": self.wrong_objects,
+            "error": self.error,
             "not_judged": list(self.not_judged),
-            "self_check": checked,
+            "self_check": [fault.to_dict() for fault in self.self_check],
         }
 
 
@@ -83,10 +91,9 @@ def _name(names: Sequence[str], index: int) -> str:
     return {NOTHING: "nothing", UNKNOWN: "not known"}.get(index) or names[index]
 
 
-def worst(rows: Sequence[EngineRow]) -> str:
+def worst(rows: Sequence[EngineRow]) -> Verdict:
     """Return the gravest verdict; an engine that made no picture is a warning."""
-    verdicts = [row.verdict if row.verdict in EXIT_CODES else "warnings" for row in rows]
-    return max(verdicts, key=list(EXIT_CODES).index)
+    return Verdict.gravest(row.verdict if row.counts else Verdict.WARNINGS for row in rows)
 
 
 def to_dict(rows: Sequence[EngineRow]) -> dict[str, Any]:

@@ -14,24 +14,23 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arrays import Array, Bools, Floats, Integers, Places
+from ..projections import ORTHOGRAPHIC
 from ..scene import Camera, Scene
 from ..tracer.camera import camera_rays, film_of
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.nearest import plan
 from ..tracer.progress import Work
-from .bounds import largest_within
 from .case import Case, Variant
 from .cause import NOT_DECIDABLE, UNEXPLAINED, Causes
 from .checks.probe import SOUND, Probe, blocks
 from .checks.unmodelled import as_known
-from .metrics import boundary
+from .metrics import beside_edges, boundary
 from .picture import Picture
 from .seen import Trees
 
 SAMPLE = 512  # pixels of each kind that are looked at
 FEW = 128  # that are looked at first
-BESIDE = 1  # pixels that are looked at on both sides of an edge
 DENSE = 1 << 12  # pixels: for more, all triangles are looked at once
 SEED = 27
 WORTH = 0.2  # of unexplained pixels
@@ -66,6 +65,7 @@ class Evidence:
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
     fine: bool = False  # whether pixels beside the picture's edges alone are sampled
+    chosen: tuple[Places, Places] | None = None  # the sample, if it was chosen
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # what faults share that look for the same
     trees: Trees = field(default_factory=Trees)
@@ -93,8 +93,13 @@ class Evidence:
     @cached_property
     def sample(self) -> tuple[Places, Places]:
         """Rows and columns of the n sampled pixels, row by row from the lowest."""
-        rows, columns = np.nonzero(self._weights)
+        rows, columns = np.nonzero(self._weights) if self.chosen is None else self.chosen
         return rows, columns
+
+    def only(self, some: Places) -> Evidence:
+        """Return the same with some of the sampled pixels alone, by their numbers."""
+        rows, columns = self.sample
+        return replace(self, chosen=(rows[some], columns[some]))
 
     @cached_property
     def _weights(self) -> Floats:
@@ -117,9 +122,7 @@ class Evidence:
     @cached_property
     def beside_edges(self) -> Bools:
         """Which pixels (h, w) are beside an edge that is shown: small changes show nowhere else."""
-        shown = np.moveaxis(np.nan_to_num(self.picture.color), -1, 0)
-        apart = [largest_within(v, BESIDE) + largest_within(-v, BESIDE) for v in shown]
-        out = np.max(apart, axis=0) > 2 * NEAR
+        out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
         return out if (out & self.open).any() else np.ones_like(out)
 
     def least_right(self, share: float = WORTH) -> float:
@@ -186,11 +189,15 @@ class Evidence:
 
     @cached_property
     def points(self) -> Floats:
-        """What is traced in the n sampled pixels, (3, n) world space; the background far away."""
-        t = self.frame.t
+        """What is traced in the n sampled pixels, (3, n) world space; the background far away.
+
+        Parallel rays that are turned would lose it: of them it is as far as the farthest surface.
+        """
+        t, camera = self.frame.t, self.case.scene.camera
         seen = np.isfinite(t)
-        far = BEYOND * float(np.max(t[seen], initial=1.0))
-        rays = camera_rays(self.case.scene.camera, *self.film)
+        beyond = 1.0 if camera.projection is ORTHOGRAPHIC else BEYOND
+        far = beyond * float(np.max(t[seen], initial=1.0))
+        rays = camera_rays(camera, *self.film)
         return rays.at(np.where(seen, t, far)[self.sample])
 
     @cached_property

@@ -31,7 +31,7 @@ from ..tracer.frame import Frame
 from ..tracer.progress import Work
 from .case import PRECISE, WHOLE
 from .causes import explain
-from .evidence import Evidence
+from .evidence import FEW, Evidence, Score
 from .faults.fault import Fault, Guess
 from .trial import Trial, tried
 
@@ -59,6 +59,7 @@ LOST = 0.1  # of the pixels that such a guess settles: it loses no more
 # Of work, after which no other guess is made, and one that is being made is given up. In a step, a
 # bounded number of rays, pairs or pixels is looked at: as many on each machine.
 STEPS = 60_000
+NONE = Score(0.0, 0.0)
 
 
 class Guessing:
@@ -126,10 +127,21 @@ class Guessing:
             found = yield from self._limited(fault.find(evidence), fault)
             for guess in (*given, *(found or ())):
                 self.guesses += 1
-                gain = (yield from self._limited(_gain(evidence, fault, guess), fault)) or 0.0
-                if gain >= _least(evidence):
-                    out.append((gain, fault, guess))
+                score = (yield from self._limited(_score(evidence, fault, guess), fault)) or NONE
+                if _may_be_finer(evidence, score):
+                    guess = yield from self._finer(evidence, fault, guess)
+                    again = self._limited(_score(evidence, fault, guess), fault)
+                    score = (yield from again) or NONE
+                if score.gain >= _least(evidence):
+                    out.append((score.gain, fault, guess))
         return out
+
+    def _finer(self, evidence: Evidence, fault: Fault, guess: Guess) -> Work[Guess]:
+        """Return a guess that was fitted roughly with its numbers fitted finely."""
+        if not (fault.refine and guess.low and guess.low == guess.high):
+            return guess
+        finer = replace(evidence, size=ALL_EDGES, fine=True)
+        return (yield from self._limited(fault.refine(finer, guess), fault)) or guess
 
     def _tried(
         self, evidence: Evidence, of: Evidence, scored: list[tuple[float, Fault, Guess]], most: int
@@ -147,10 +159,7 @@ class Guessing:
         for _, fault, guess in (*exact[:most], *vague[:most]):
             if fault.name in done:
                 continue
-            if fault.refine and guess.low:
-                finer = replace(evidence, size=ALL_EDGES, fine=True)
-                refining = self._limited(fault.refine(finer, guess), fault)
-                guess = (yield from refining) or guess
+            guess = yield from self._finer(evidence, fault, guess)
             trial = yield from self._limited(tried(evidence, fault, guess, of), fault)
             if trial and trial.gain > 0:
                 out.append(trial)
@@ -164,20 +173,26 @@ def _least(evidence: Evidence) -> float:
     return float(max(LEAST, SHARE * evidence.open.sum()))
 
 
-def _gain(evidence: Evidence, fault: Fault, guess: Guess) -> Work[float]:
-    """Return how many more pixels a guess explains, by the sample; all, if it cannot be sampled."""
+def _may_be_finer(evidence: Evidence, score: Score) -> bool:
+    """Return whether a rough fit may break as much as it settles, as that is very little."""
+    open_ = int(evidence.open.sum())
+    return score.gain < _least(evidence) and MAIN * open_ <= score.settled <= open_ <= FEW
+
+
+def _score(evidence: Evidence, fault: Fault, guess: Guess) -> Work[Score]:
+    """Return what a guess makes of the sample; all is settled by one that cannot be sampled."""
     if not fault.sampled:
-        return float(evidence.open.sum())
+        return Score(float(evidence.open.sum()), 0.0)
     try:
         case = fault.tried(evidence.case, evidence.frame, guess)
         if case is None:
-            return 0.0
-        few = (yield from evidence.few.score(case)).gain
-        if few < UNLIKELY * _least(evidence):
-            return 0.0
-        return (yield from evidence.score(case)).gain
+            return NONE
+        few = yield from evidence.few.score(case)
+        if few.gain < UNLIKELY * _least(evidence):
+            return few
+        return (yield from evidence.score(case))
     except SceneError:
-        return 0.0
+        return NONE
 
 
 def with_variants(evidence: Evidence) -> Work[Evidence]:

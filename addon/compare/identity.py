@@ -22,6 +22,14 @@ MOST_OBJECTS = LEVELS**3 // 2  # that can be told apart
 _OFF = 0.1  # how far a channel may lie from its digit, in steps (half of 1/255 is 0.06)
 
 
+class Shows(NamedTuple):
+    """How many pixels show what is traced there."""
+
+    same_object: int
+    other_object: int
+    not_known: int
+
+
 class Identity(NamedTuple):
     """Which object each side shows."""
 
@@ -29,19 +37,16 @@ class Identity(NamedTuple):
     traced: Integers  # (h, w) indices into `names`, or NOTHING
     shown: Integers  # (h, w) indices into `names`, NOTHING or UNKNOWN
 
-    def counts(self, where: Bools | bool = True) -> dict[str, int]:
+    def shows(self, where: Bools | bool = True) -> Shows:
         """Count the pixels, or some, that show the same object, another, or one not known."""
         unknown = self.shown == UNKNOWN
         same = self.shown == self.traced
-        return {
-            "same_object": int((same & where).sum()),
-            "other_object": int((~same & ~unknown & where).sum()),
-            "not_known": int((unknown & where).sum()),
-        }
+        kinds = same, ~same & ~unknown, unknown
+        return Shows(*(int((kind & where).sum()) for kind in kinds))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the names and the counts; the pictures are arrays."""
-        return {"names": list(self.names), "pixels": self.counts()}
+        return {"names": list(self.names), "pixels": self.shows()._asdict()}
 
 
 def colors_of(count: int) -> Colors:

@@ -5,7 +5,8 @@ Pictures are (h, w, c) of any real type; the data range is given, not guessed.
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,6 +14,39 @@ from ..arrays import Array, Bools, Colors, Floats
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from .bounds import largest_within
+
+
+class Largest(NamedTuple):
+    """The largest absolute difference of two pictures, and where it is."""
+
+    value: float
+    pixel: tuple[int, int]  # x, y; row 0 first
+    channel: int
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """How far two pictures differ, as images."""
+
+    rmse: float
+    ssim: float
+    largest_difference: Largest
+
+    @property
+    def psnr(self) -> float:
+        """The peak signal-to-noise ratio in decibels; infinite for equal pictures."""
+        return psnr(self.rmse)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return them as JSON can hold them: no ratio where it is infinite."""
+        largest = self.largest_difference
+        return {
+            "rmse": self.rmse,
+            "psnr": self.psnr if self.rmse else None,
+            "ssim": self.ssim,
+            "largest_difference": largest._asdict() | {"pixel": list(largest.pixel)},
+        }
+
 
 _ROWS, _COLUMNS = 32, 64  # looked at together, so that a step is short
 
@@ -82,20 +116,16 @@ def _similarity(first: Array, second: Array, data_range: float, size: int) -> Fl
     return ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
 
 
-def largest_difference(first: Array, second: Array) -> dict[str, Any]:
+def largest_difference(first: Array, second: Array) -> Largest:
     """Return the largest absolute difference, with the pixel (x, y; row 0 first) and channel."""
     _same_shape(first, second)
     difference = np.abs(first.astype(np.float64) - second)
     y, x, channel = np.unravel_index(int(np.argmax(difference)), difference.shape)
-    value = float(difference[y, x, channel])
-    return {"value": value, "pixel": [int(x), int(y)], "channel": int(channel)}
+    return Largest(float(difference[y, x, channel]), (int(x), int(y)), int(channel))
 
 
-def image_metrics(traced: Colors, picture: Colors) -> Work[dict[str, Any]]:
-    """Measure how far two pictures (h, w, 4) of linear RGBA differ; NaN counts as 0.
-
-    Returns RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
-    """
+def image_metrics(traced: Colors, picture: Colors) -> Work[Metrics]:
+    """Measure how far two pictures (h, w, 4) of linear RGBA differ; NaN counts as 0."""
     a = np.empty_like(traced)
     b = np.empty_like(picture)
     height = len(a)
@@ -107,17 +137,12 @@ def image_metrics(traced: Colors, picture: Colors) -> Work[dict[str, Any]]:
         b[rows] = np.nan_to_num(picture[rows])
         squares += rmse(a[rows], b[rows]) ** 2 * len(a[rows])
         found = largest_difference(a[rows], b[rows])
-        found["pixel"][1] += start
-        largest.append(found)
+        x, y = found.pixel
+        largest.append(found._replace(pixel=(x, start + y)))
         yield 0.2 * start / height
     error = float(np.sqrt(squares / height))
     similarity = yield from scaled(ssim(a, b), 0.2, 0.8)
-    return {
-        "rmse": error,
-        "psnr": psnr(error) if error else None,
-        "ssim": similarity,
-        "largest_difference": max(largest, key=lambda found: found["value"]),
-    }
+    return Metrics(error, similarity, max(largest, key=lambda found: found.value))
 
 
 def _window_mean(picture: Floats, size: int) -> Floats:
@@ -146,3 +171,13 @@ def boundary(frame: Frame) -> Bools:
     """
     seen = frame.instance_index
     return (largest_within(seen, 1) != seen) | (largest_within(-seen, 1) != -seen)
+
+
+def beside_edges(color: Array, least: float) -> Bools:
+    """Return which pixels of a picture (h, w, c) have another colour than one of the eight around.
+
+    By more than `least` in a channel.
+    """
+    apart = [largest_within(v, 1) + largest_within(-v, 1) for v in np.moveaxis(color, -1, 0)]
+    out: Bools = np.max(apart, axis=0) > least
+    return out

@@ -41,8 +41,10 @@ def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
         If they differ.
     """
     if own != traced:
+        (height, width), (h, w) = own[:2], traced[:2]
         raise SizeError(
-            f"The picture has {own[1]} x {own[0]} pixels, the traced one {traced[1]} x {traced[0]}."
+            f"The picture has {width} x {height} pixels, the traced one {w} x {h}. Render it at "
+            f"that size, or trace a .blend or a mesh at its own: --width {width} --height {height}"
         )
 
 
@@ -62,6 +64,8 @@ class Source:
     name: str = "picture"
     version: str | None = None
     file: str = ""
+    known: str = ""  # of a file: how it is known what made it, in words
+    remarks: tuple[str, ...] = ()  # what a file says of its pixels that is not applied
     settings: dict[str, Any] = field(default_factory=dict)
 
     def __str__(self) -> str:
@@ -109,6 +113,7 @@ class Picture:
             **({"picture": source.file} if source.file else {}),
             "sample_radius": self.sample_radius,
             "renderer": self.renderer.name,
+            **({"renderer_known": source.known} if source.known else {}),
             "snapping": self.snapping,
             "filter_radius": self.filter_radius,
             "settings": source.settings,

@@ -1,26 +1,27 @@
-"""What the other side's own rounding may excuse: that of a rasteriser, or that of a ray tracer.
+"""What the other side's own rounding may excuse: that of a rasteriser, or of a ray tracer.
 
 Both compute in float32. A rasteriser rounds corners to a fraction of a pixel besides, and keeps
 depths in a buffer of 24 bits: its steps grow with the clip range. A ray tracer has neither: its
 depths and its clip range are float32's. Where triangles are thin, or seen at a grazing angle, its
-depths are worse for that, as they come from quotients.
+depths and its edges are worse for that, as they come from quotients of products.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Floats, Places
 from ..scene import Camera, Scene
 from ..tracer import shading
 from ..tracer.camera import Rays, pixel_size
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.progress import Work
-from ..tracer.vector import cross, dot
+from ..tracer.vector import cross, dot, largest
 from ..tracer.world import world_corners
 from .bounds import SNAPPING, U32, corner_errors, depth_step, pixel_error, spread_error, view_error
 
@@ -28,6 +29,12 @@ from .bounds import SNAPPING, U32, corner_errors, depth_step, pixel_error, sprea
 # the products' size: a difference of corners (1), the cross product (3) and the scalar product (3),
 # for each side of the fraction; one for the division. A direction has three more, of its own.
 _QUOTIENT = 18
+# The roundings of (d x e) . s, by which a ray is on one side of an edge or the other: of d (3), e
+# and s (1 each), the cross product (2) and the scalar product (3). The absolute values of its terms
+# sum up to 2/sqrt(3) of |d| |e| |s| at most. The third edge is where two such quotients add up to
+# 1: |e1| |e2| in their denominator is at most |s| (|e1| + |e2|), for s to the farthest corner. That
+# makes two products as large, and three roundings more.
+_EDGE = 27
 _LEAST_SINE = 2.0**-20  # of a surface seen edge-on: float32 knows no smaller one
 
 
@@ -61,13 +68,66 @@ def _as_sideways(scene: Scene, hits: Hits, positions: Floats, rays: Rays) -> Flo
     return view_error(scene, hits, positions)
 
 
+def _moved(scene: Scene, hits: Hits, positions: Floats) -> Floats:
+    """Return how far float32 may move what n rays hit, (n,) metres: as far as any of its corners.
+
+    A ray is held against whole edges, and the way to a corner: so the farthest corner counts.
+    """
+    return corner_errors(scene, hits, positions, lambda own, s: own.max(axis=0))
+
+
 def _of_rays(scene: Scene, hits: Hits, positions: Floats) -> Floats:
     """Return how far float32 may move the edges of what n rays hit, (n,) metres.
 
-    A ray's place among a triangle's edges comes from products with whole edges and with the way to
-    a corner: the farthest corner's error counts wherever the triangle is hit.
+    They are moved with their corners. And a product of the size |d| |s| (|e1| + |e2|) is rounded,
+    where s leads to a corner and the e from it, while a ray beside the edge e3 makes |d x e3| of
+    its distance: the more an edge leads along the ray, the less is it known where.
     """
-    return corner_errors(scene, hits, positions, lambda own, s: own.max(axis=0))
+    moved = _moved(scene, hits, positions)
+    camera = scene.camera
+    ways = positions - camera.origin
+    if camera.projection.shares_direction:
+        ways = np.broadcast_to(camera.forward, ways.shape)
+    triangles = _Triangles.of(scene, hits)
+    moved[triangles.of_mesh] += triangles.edge_errors(ways[triangles.of_mesh].T)
+    return moved
+
+
+class _Triangles(NamedTuple):
+    """The m triangles of a mesh among what n rays hit."""
+
+    of_mesh: Places  # (m,) which of the n
+    reach: Floats  # (m,) metres: how far the camera is from their farthest corner
+    edges: tuple[Floats, ...]  # (3, m) each
+
+    @classmethod
+    def of(cls, scene: Scene, hits: Hits) -> _Triangles:
+        of_mesh = np.flatnonzero(hits.instance < len(scene.instances))
+        corners = world_corners(scene, hits.instance[of_mesh], hits.triangle[of_mesh])
+        eye = scene.camera.origin[:, None]
+        reach = largest(*(_length(p - eye) for p in corners))
+        p1, p2, p3 = corners
+        return cls(of_mesh, reach, (p2 - p1, p3 - p1, p3 - p2))
+
+    def edge_errors(self, ways: Floats) -> Floats:
+        """Return how far rounding moves the edges for rays (3, m), (m,) metres."""
+        lengths = np.array([_length(e) for e in self.edges])
+        others = lengths.sum(axis=0) - lengths
+        across = np.array([_length(cross(ways, e)) for e in self.edges]) / _length(ways)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.max(others / np.maximum(across, _LEAST_SINE * others), axis=0)
+        return np.asarray(_EDGE * U32 * self.reach * np.nan_to_num(share), np.float64)
+
+    def sines(self) -> Floats:
+        """Return the sine of their first corner, (m,)."""
+        e1, e2, _ = self.edges
+        with np.errstate(divide="ignore", invalid="ignore"):
+            sine = _length(cross(e1, e2)) / (_length(e1) * _length(e2))
+        return np.maximum(np.nan_to_num(sine), _LEAST_SINE)
+
+
+def _length(vectors: Floats) -> Floats:
+    return np.asarray(np.sqrt(dot(vectors, vectors)))
 
 
 def _ray_depth(scene: Scene, hits: Hits, positions: Floats, rays: Rays) -> Floats:
@@ -77,22 +137,16 @@ def _ray_depth(scene: Scene, hits: Hits, positions: Floats, rays: Rays) -> Float
     is seen. The quotient t rounds products of the size |e1| |e2| |s| / (|e1 x e2| |cosine|), where
     s leads from the eye to a corner: the sine of the triangle's corner counts as well.
     """
-    moved = _of_rays(scene, hits, positions)
+    moved = _moved(scene, hits, positions)
     directions = np.broadcast_to(rays.directions, (3, len(hits)))
-    length = np.sqrt(dot(directions, directions))
+    length = _length(directions)
     n = shading.normals(scene, hits).T
     cosine = np.maximum(np.abs(dot(n, directions)) / length, _LEAST_SINE)
     reach = np.abs(positions - scene.camera.origin).sum(axis=1)
     sine = np.ones(len(hits))
-    of_mesh = np.flatnonzero(hits.instance < len(scene.instances))
-    p1, p2, p3 = world_corners(scene, hits.instance[of_mesh], hits.triangle[of_mesh])
-    eye = scene.camera.origin[:, None]
-    reach[of_mesh] = np.max([np.abs(p - eye).sum(axis=0) for p in (p1, p2, p3)], axis=0)
-    e1, e2 = p2 - p1, p3 - p1
-    normal = cross(e1, e2)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        whole = np.sqrt(dot(normal, normal) / (dot(e1, e1) * dot(e2, e2)))
-    sine[of_mesh] = np.maximum(np.nan_to_num(whole), _LEAST_SINE)
+    triangles = _Triangles.of(scene, hits)
+    reach[triangles.of_mesh] = triangles.reach
+    sine[triangles.of_mesh] = triangles.sines()
     # t is in units of the direction's length, a depth; distances are along the ray.
     return (moved + _QUOTIENT * U32 * reach / sine) / (cosine * length)
 
@@ -112,7 +166,33 @@ RASTER = Renderer(
     depth_step,
 )
 RAYS = Renderer("rays", "float32 rays", 0.0, False, _of_rays, _ray_depth, _no_buffer)
+# Cycles' rays. Its edges are Pluecker's, in which neighbours agree; where a triangle reaches so far
+# that they are worse than a rasteriser's, `embree.py` knows.
+EMBREE = replace(
+    RASTER, name="embree", words="Embree's float32 rays", along=_ray_depth, step=_no_buffer
+)
 RENDERERS = {renderer.name: renderer for renderer in (RAYS, RASTER)}
+_RASTERISERS = "BLENDER_WORKBENCH", "BLENDER_EEVEE"  # from 4.2 to 4.5 BLENDER_EEVEE_NEXT
+
+
+def renderer_of(header: str, engine: str) -> tuple[Renderer, str]:
+    """Return what a picture was made by, and how that is known, in words.
+
+    Parameters
+    ----------
+    header : str
+        Which engine wrote the file's header: 'cycles', 'other' of Blender's; '' for no Blender.
+    engine : str
+        Blender's name of the engine that the scene is set to; '' where that is not known.
+    """
+    if header == "cycles":
+        return RAYS, "as Cycles made it"
+    if not header:
+        return RAYS, "as nothing says that it was rasterised"
+    if engine.startswith(_RASTERISERS):
+        return RASTER, f"as Blender wrote it, and the scene's engine is {engine}"
+    # What an add-on registers may trace rays, and a header does not name it.
+    return RAYS, "as Blender wrote it, but nothing says that it was rasterised"
 
 
 def sample_band(

@@ -14,8 +14,8 @@ import numpy as np
 
 from ..arrays import Colors, Floats
 from ..checked_json import ENDLESS, camera_of, numbers, part, whole
+from ..file_kinds import check_is_file
 from ..scene import SceneError
-from ..scene_files import check_is_file
 from ..tracer.hits import NOTHING
 from .pixel import Candidate, Pixel
 

@@ -15,7 +15,7 @@ import numpy as np
 from ..arrays import Integers
 from .planar import Planar, Triple
 
-_MOST = 2000  # corners of a polygon of which all ways are tried: it takes seconds
+_MOST = 1000  # corners of a polygon of which all ways are tried: it takes seconds, as their cube
 _FEW = 40  # corners that are looked at one by one; of more, those in a box are found first
 
 
@@ -42,6 +42,7 @@ class _Ring:
         self.left -= 1
         self.first = b if tip == self.first else self.first
         gone = {tip} if self.turns[tip] <= 0 else set()
+        self.turns[tip] = 1  # it hinders no more
         for k in (a, b):
             if self.turns[k] <= 0:
                 self.turns[k] = self.turn(*self.ear(k))
@@ -121,20 +122,27 @@ def _next_ear(ring: _Ring, start: int, ahead: list[int], is_free: Free) -> int:
 def _by_corners(shape: Planar) -> Free:
     """Return Blender's test of an ear: no corner that is not convex lies in it or on its rim."""
     flat, turn = np.array(shape.flat), shape.turn
+    hindered: dict[int, Triple] = {}  # a corner's neighbours, and what lay in the ear
 
     def is_free(ring: _Ring, tip: int) -> bool:
         ear = a, b, c = ring.ear(tip)
+        *neighbours, within = hindered.get(tip, (-1, -1, -1))
+        if neighbours == [a, c] and within >= 0 and ring.turns[within] <= 0:
+            return False
         near = ring.hindering
         if len(near) > _FEW:
             box = flat[[*ear]]
             at = flat[near]
             inside = ((at >= box.min(axis=0)) & (at <= box.max(axis=0))).all(axis=1)
             near = np.array(near)[inside].tolist()  # rounding keeps the order of coordinates
-        return not any(
-            turn(c, a, k) >= 0 and turn(a, b, k) >= 0 and turn(b, c, k) >= 0
+        lie_in_it = (
+            k
             for k in near
-            if k not in ear
+            if k not in ear and turn(c, a, k) >= 0 and turn(a, b, k) >= 0 and turn(b, c, k) >= 0
         )
+        within = next(lie_in_it, -1)
+        hindered[tip] = a, c, within
+        return within < 0
 
     return is_free
 

@@ -7,7 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..arrays import Floats
-from .scaling import dot, local, normals
+from ..tracer.vector import dot
+from ..wording import count_of
+from .scaling import local, normals
 
 # How many roundings of its corners may take a flat face's corners from its plane: the corner's own
 # along the normal (below sqrt 3), and what the others' do to the plane, which is their mean.
@@ -53,12 +55,12 @@ class Bends:
     def notes(self) -> Iterator[str]:
         """Say it, if there is something to say."""
         if self.count:
-            are, their = ("are", "their") if self.count > 1 else ("is", "its")
+            many = "of more than three corners"
+            are = count_of(self.count, f"face {many} is", f"faces {many} are")
             yield (
-                f"{self.count:,} face{'s' * (self.count > 1)} of more than three corners {are} "
-                f"not flat, by {self.metres:.2g} m or {100 * self.share:.2g} % of {their} size at "
-                "most: a program that cuts faces along other diagonals than Blender shows another "
-                "surface"
+                f"{are} not flat, by {self.metres:.2g} m or {100 * self.share:.2g} % of their size "
+                "at most: a program that cuts faces along other diagonals than Blender shows "
+                "another surface"
             )
 
 

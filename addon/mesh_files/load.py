@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Hashable, Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 
 from ..arrays import Floats
+from ..file_kinds import check_is_file
 from ..framing import ANGLE, BACKWARD, axes_of, framing, shown_points
 from ..scene import Camera, Instance, Scene, SceneError, check_size
-from ..scene_files import check_is_file
 from .contents import Contents
 from .gltf import read_gltf
 from .obj import read_obj
@@ -28,6 +29,7 @@ READERS: dict[str, Callable[[Path], Contents]] = {
     ".glb": read_gltf,
     ".gltf": read_gltf,
 }
+_BLENDERS_OBJ = "it is traced with Z up; Blender writes Y up unless told otherwise: then add --up y"
 _Y_UP = frozenset((".glb", ".gltf"))  # as their specification says; the others do not say
 
 Thing = TypeVar("Thing", bound=Hashable)
@@ -57,15 +59,15 @@ def load_meshes(path: str | Path, up: str | None = None) -> Contents:
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # a library's, of its own work
-            if not path.stat().st_size:
-                raise SceneError("it is empty")
             found = READERS[suffix](path)
     except Exception as error:  # each reader raises its own kinds
         why = str(error) or type(error).__name__
         raise SceneError(f"'{path}' cannot be read as a mesh: {why}") from error
     if not any(len(placed.mesh.triangles) for placed in found.placed):
         but = "".join(f"; {said}" for said in (*found.missing, *found.notes))
-        raise SceneError(f"'{path}' holds no triangles{but}")
+        raise SceneError(f"'{path}' holds no triangles, and a ray meets nothing else{but}")
+    if up is None and suffix == ".obj" and path.read_bytes()[:9] == b"# Blender":
+        found = replace(found, notes=(*found.notes, _BLENDERS_OBJ))
     if (up or ("y" if suffix in _Y_UP else "z")) == "y":
         found = _turned(found)
     return found

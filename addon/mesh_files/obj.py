@@ -5,16 +5,17 @@ from __future__ import annotations
 import re
 from codecs import BOM_UTF8
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
-from ..arrays import Array, Floats, Index
+from ..arrays import Floats, Index
 from ..scene import SceneError
+from ..wording import count_of
 from .contents import Contents
 from .meshes import contents
-from .words import floats, integers, shown
+from .words import SHORT_VERTEX, floats, integers, numbers, shown
 
 # What changes nothing of the shape: normals, texture coordinates, materials, how it is displayed.
 _NO_SHAPE = frozenset(
@@ -69,7 +70,7 @@ class _Reading:
                 by_name[key].take_up(b" ".join(words[1:]).decode("utf-8", "replace"))
             elif key not in _NO_SHAPE:
                 self.other[key] += 1
-        by = self.objects if self.objects.is_taken_up else self.groups
+        by = self.objects if self.objects.times else self.groups
         return contents(
             self._vertices(),
             self._indices(),
@@ -82,7 +83,7 @@ class _Reading:
 
     def _vertex(self, line: int, words: list[bytes]) -> None:
         if len(words) < 4:
-            raise SceneError(f"line {line}: a vertex has three coordinates")
+            raise SceneError(f"line {line}: {SHORT_VERTEX}")
         self.numbers += words[1:4]
         self.vertex_lines.append(line)
         if len(words) in (5, 8) and words[4] not in _ONE:
@@ -92,7 +93,7 @@ class _Reading:
         corners = [word.partition(b"/")[0] for word in words]
         for k, corner in enumerate(corners):
             if corner[:1] == b"-":  # -1 is the last vertex above the line
-                (back,) = _numbers(integers, [corner], lambda _: line)
+                (back,) = numbers(integers, [corner], lambda _: line)
                 corners[k] = b"%d" % (back and len(self.vertex_lines) + 1 + back)
         self.corners += corners
         self.sizes.append(len(corners))
@@ -101,12 +102,12 @@ class _Reading:
             names.of_faces.append(names.current)
 
     def _vertices(self) -> Floats:
-        found = _numbers(floats, self.numbers, lambda k: self.vertex_lines[k // 3])
+        found = numbers(floats, self.numbers, lambda k: self.vertex_lines[k // 3])
         return found.reshape(-1, 3)
 
     def _indices(self) -> Index:
         """Return the corners' indices, from 0."""
-        found = _numbers(integers, self.corners, self._line_of)
+        found = numbers(integers, self.corners, self._line_of)
         if len(bad := np.flatnonzero((found < 1) | (found > len(self.vertex_lines)))):
             line, count = self._line_of(int(bad[0])), len(self.vertex_lines)
             raise SceneError(f"line {line} names vertex {found[bad[0]]}, but there are {count}")
@@ -118,30 +119,25 @@ class _Reading:
     def _notes(self) -> Iterator[str]:
         for key, what in _NO_SURFACE.items():
             if count := self.other[key]:
-                yield (
-                    f"{count:,} line{'s' * (count > 1)} '{key.decode()}' ({what}) {_are(count)} "
-                    "not drawn: what has no surface meets no ray"
-                )
+                named = f"'{key.decode()}' ({what})"
+                said = count_of(count, f"line {named} is", f"lines {named} are")
+                yield f"{said} not drawn: what has no surface meets no ray"
         if self.weights:
-            count = self.weights
-            yield (
-                f"{count:,} vert{'ices have weights' if count > 1 else 'ex has a weight'} other "
-                "than 1, which polygons do not use"
-            )
+            said = count_of(self.weights, "vertex has a weight", "vertices have weights")
+            yield f"{said} other than 1, which polygons do not use"
+        if again := [f"'{name}'" for name, times in self.objects.times.items() if times > 1]:
+            yield f"objects that have the same name are taken as one: {', '.join(again[:3])}"
         for key, count in self.other.items():
             if key not in _CURVED and key not in _NO_SURFACE:
-                yield (
-                    f"{count:,} line{'s' * (count > 1)} '{shown(key)}' {_are(count)} not "
-                    "understood, and left out"
-                )
+                named = f"'{shown(key)}'"
+                said = count_of(count, f"line {named} is", f"lines {named} are")
+                yield f"{said} not understood, and left out"
 
     def _missing(self) -> Iterator[str]:
         if curved := [key.decode() for key in self.other if key in _CURVED]:
             count = sum(self.other[key.encode()] for key in curved)
-            yield (
-                f"curves and surfaces are not drawn: {count:,} line{'s' * (count > 1)} "
-                f"({', '.join(curved)}); save them as polygons"
-            )
+            said = f"{count_of(count, 'line')} ({', '.join(curved)})"
+            yield f"curves and surfaces are not drawn: {said}; save them as polygons"
 
 
 class _Names:
@@ -151,12 +147,12 @@ class _Names:
         self.numbers = {first: 0}
         self.first = first
         self.current = 0
-        self.is_taken_up = False
+        self.times = Counter[str]()  # that each was taken up
         self.of_faces: list[int] = []
 
     def take_up(self, name: str) -> None:
         """Make the next faces those of a name, which may have been there before."""
-        self.is_taken_up = True
+        self.times[name] += 1
         self.current = self.numbers.setdefault(name or self.first, len(self.numbers))
 
 
@@ -172,28 +168,3 @@ def _statements(content: bytes) -> Iterator[tuple[int, list[bytes]]]:
             line = _COMMENT.sub(b"", line)
         if words := line.split():
             yield number, words
-
-
-def _numbers(
-    read: Callable[[Sequence[bytes]], Array], words: list[bytes], line_of: Callable[[int], int]
-) -> Array:
-    """Return the numbers of words.
-
-    Raises
-    ------
-    SceneError
-        If one is none; it says in which line.
-    """
-    try:
-        return read(words)
-    except ValueError:
-        for k, word in enumerate(words):
-            try:
-                read([word])
-            except ValueError:
-                raise SceneError(f"line {line_of(k)}: '{shown(word)}' is no number") from None
-        raise
-
-
-def _are(count: int) -> str:
-    return "are" if count > 1 else "is"

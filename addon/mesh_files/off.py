@@ -10,13 +10,15 @@ from pathlib import Path
 import numpy as np
 
 from ..scene import SceneError
+from ..wording import count_of
 from .contents import Contents
 from .meshes import contents
-from .words import floats, integers
+from .words import AGAIN, SHORT_VERTEX, cut_off, floats, integers, numbers
 
 _GLUED = re.compile(rb"(OFF)(\d+)")  # as many files of ModelNet have it
 _KIND = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF")
 _COMMENT = re.compile(rb"#.*")
+_MORE_OF_FACE = 0, 1, 3, 4  # numbers behind a face's corners: no colour, one of a map, RGB, RGBA
 
 
 def read_off(path: Path) -> Contents:
@@ -42,25 +44,47 @@ def read_off(path: Path) -> Contents:
         raise SceneError("it is a binary OFF file: save it as text")
     line, counts = (1, words[1:]) if words[1:] else next(lines, (0, []))
     vertex_count, face_count = _integers(line, counts[:2], 2)
-    numbers: list[bytes] = []
+    more_of_vertex = _more_of_vertex(*kind.groups()[:3])
+    coordinates: list[bytes] = []
+    vertex_lines: list[int] = []
+    odd_vertices = odd_faces = 0
     for _ in range(vertex_count):
-        line, words = _next(lines, "vertices", vertex_count)
+        line, words = _next(lines, ("vertex", "vertices"), vertex_count)
         if len(words) < 3:
-            raise SceneError(f"line {line}: a vertex has three coordinates")
-        numbers += words[:3]
+            raise SceneError(f"line {line}: {SHORT_VERTEX}")
+        coordinates += words[:3]
+        vertex_lines.append(line)
+        odd_vertices += len(words) - 3 not in more_of_vertex
     corners: list[int] = []
     sizes: list[int] = []
     for _ in range(face_count):
-        line, words = _next(lines, "faces", face_count)
+        line, words = _next(lines, ("face", "faces"), face_count)
         (size,) = _integers(line, words[:1], 1)
         corners += _integers(line, words[1 : 1 + size], size)
         sizes.append(size)
-    vertices = floats(numbers).reshape(-1, 3)
+        odd_faces += len(words) - 1 - size not in _MORE_OF_FACE
+    vertices = numbers(floats, coordinates, lambda k: vertex_lines[k // 3]).reshape(-1, 3)
     more = sum(1 for _ in lines)
-    said = f"what is behind the last face is not understood, and left out: {more:,} lines"
-    notes = [said] if more else []
+    odd = count_of(odd_vertices, "vertex has", "vertices have")
+    colored = count_of(odd_faces, "face has", "faces have")
+    said = {
+        f"{odd} other numbers than {kind[0].decode()} names: three are read": odd_vertices,
+        f"{colored} numbers behind the corners that are no colour, and left out": odd_faces,
+        "what is behind the last face is not understood, and left out: "
+        + count_of(more, "line"): more,
+    }
+    notes = [note for note, count in said.items() if count]
     faces = np.array(corners, np.intp), np.array(sizes, np.intp)
     return contents(vertices, *faces, [path.stem], notes=notes)
+
+
+def _more_of_vertex(*parts: bytes | None) -> set[int]:
+    """Return how many numbers may follow a vertex's coordinates, by what the header has.
+
+    That is two texture coordinates (ST), a colour of three or four numbers (C), a normal (N).
+    """
+    texture, color, normal = (part is not None for part in parts)
+    return {2 * texture + 3 * normal + of_color for of_color in ((3, 4) if color else (0,))}
 
 
 def _lines(content: bytes) -> Iterator[tuple[int, list[bytes]]]:
@@ -71,11 +95,11 @@ def _lines(content: bytes) -> Iterator[tuple[int, list[bytes]]]:
 
 
 def _next(
-    lines: Iterator[tuple[int, list[bytes]]], what: str, count: int
+    lines: Iterator[tuple[int, list[bytes]]], what: tuple[str, str], count: int
 ) -> tuple[int, list[bytes]]:
     found = next(lines, None)
     if found is None:
-        raise SceneError(f"it is cut off: fewer than its {count:,} {what} are there")
+        raise cut_off(f"it should have {count_of(count, *what)}")
     return found
 
 
@@ -86,5 +110,6 @@ def _integers(line: int, words: Sequence[bytes], count: int) -> list[int]:
     except ValueError as error:
         raise SceneError(f"line {line}: {error}") from None
     if len(found) < count or min(found, default=0) < 0:
-        raise SceneError(f"line {line}: {count} integers from 0 on should be there")
+        wanted = f"line {line}: {count_of(count, 'integer')} from 0 on should be there"
+        raise SceneError(f"{wanted}; if this is the last line, it is cut off: {AGAIN}")
     return found

@@ -8,9 +8,11 @@ import numpy as np
 
 from ..arrays import Floats
 from ..scene import SceneError
+from ..wording import count_of
 from .contents import Contents
 from .meshes import contents
 from .ply_tables import Binary, Columns, Element, Lists, Property, Text, read_tables
+from .words import cut_off
 
 _TYPES = {  # numpy's names, by PLY's old and new ones
     "char": "i1",
@@ -44,7 +46,8 @@ def read_ply(path: Path) -> Contents:
     """
     content = path.read_bytes()
     order, elements, start = _head(content)
-    body = Binary(content[start:], order) if order else Text(content[start:])
+    held, first_line = content[start:], 1 + len(content[:start].splitlines())
+    body = Binary(held, order) if order else Text(held, first_line)
     vertices: Floats = np.zeros((0, 3))
     faces = [Lists(np.zeros(0, np.intp), np.zeros(0, np.intp))]
     notes = []
@@ -59,14 +62,19 @@ def read_ply(path: Path) -> Contents:
         elif element.count:
             notes.append(_passed_over(element))
     if more:
-        units = "bytes" if order else "numbers"
-        notes.append(f"{more:,} {units} behind the last row are not understood, and left out")
+        unit = "byte" if order else "number"
+        said = count_of(more, f"{unit} behind the last row is", f"{unit}s behind the last row are")
+        notes.append(f"{said} not understood, and left out")
     corners, sizes = map(np.concatenate, zip(*faces, strict=True))
     return contents(vertices, corners.astype(np.intp), sizes, [path.stem], notes=notes)
 
 
 def _corners(element: Element, columns: Columns) -> Lists:
     """Return the vertices of faces or strips."""
+    if all(name in columns for name in _CORNERS):
+        raise SceneError(
+            f"its element {element.name!r} has both {_CORNERS[0]!r} and {_CORNERS[1]!r}"
+        )
     found = next((columns[name] for name in _CORNERS if name in columns), None)
     if not isinstance(found, Lists):
         raise SceneError(f"its element '{element.name}' has no list '{_CORNERS[0]}'")
@@ -77,8 +85,10 @@ def _corners(element: Element, columns: Columns) -> Lists:
 
 def _passed_over(element: Element) -> str:
     if element.name == "edge":
-        return f"{element.count:,} edges are not drawn: what has no surface meets no ray"
-    return f"{element.count:,} rows of '{element.name}' are not understood, and left out"
+        said = count_of(element.count, "edge is", "edges are")
+        return f"{said} not drawn: what has no surface meets no ray"
+    said = count_of(element.count, f"row of '{element.name}' is", f"rows of '{element.name}' are")
+    return f"{said} not understood, and left out"
 
 
 def _vertices(columns: Columns) -> Floats:
@@ -125,15 +135,17 @@ def _head(content: bytes) -> tuple[str, list[Element], int]:
                 elements.append(Element(name, int(count), ()))
             case ["property", *rest] if elements:
                 last = elements.pop()
-                properties = (*last.properties, _property(rest))
-                elements.append(Element(last.name, last.count, properties))
+                new = _property(rest)
+                if any(new.name == known.name for known in last.properties):
+                    raise SceneError(f"its element '{last.name}' has '{new.name}' twice")
+                elements.append(Element(last.name, last.count, (*last.properties, new)))
             case ["end_header"] if order is not None:
                 return order, elements, place
             case [] | ["ply"] | ["comment" | "obj_info", *_]:
                 pass
             case _:
                 raise SceneError(f"its head is not understood: '{' '.join(words)[:60]}'")
-    raise SceneError("it is cut off: its head has no end")
+    raise cut_off("its head has no end")
 
 
 def _has(elements: list[Element], name: str) -> bool:

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..arrays import Array, Places
 from ..scene import SceneError
-from .words import floats
+from ..wording import count_of
+from .words import cut_off, floats, numbers
 
 
 class Property(NamedTuple):
@@ -57,8 +58,12 @@ class Body(Protocol):
 class Text:
     """A body in text."""
 
-    def __init__(self, content: bytes) -> None:
-        self.values = floats(content.split())
+    def __init__(self, content: bytes, first_line: int) -> None:
+        def line_of(word: int) -> int:
+            behind = np.cumsum([len(line.split()) for line in content.splitlines()])
+            return first_line + int(np.searchsorted(behind, word, "right"))
+
+        self.values = numbers(floats, content.split(), line_of)
         self.end = len(self.values)
 
     def width(self, kind: str) -> int:
@@ -69,14 +74,14 @@ class Text:
         """Return the integer at a place."""
         found = float(self.values[at])
         if not found.is_integer():
-            raise SceneError("what should be an integer is none")
+            raise SceneError(f"'{found:g}' is no integer")
         return int(found)
 
     def numbers(self, at: Places, kind: str) -> Array:
         """Return the numbers at places (n,)."""
         found = self.values[at]
-        if kind[0] != "f" and not np.array_equal(found, np.rint(found)):
-            raise SceneError("what should be an integer is none")
+        if kind[0] != "f" and len(other := found[found != np.rint(found)]):
+            raise SceneError(f"'{other[0]:g}' is no integer")
         return found.astype(kind if kind[0] == "f" else np.int64)
 
 
@@ -126,10 +131,10 @@ def _table(body: Body, element: Element, start: int) -> tuple[Columns, int]:
     count = element.count
     if not element.properties:
         return {}, start  # rows of nothing, however many
-    short = f"it is cut off: fewer than its {count:,} rows of '{element.name}' are there"
+    short = f"it should have {count_of(count, 'row')} of '{element.name}'"
     least = sum(body.width(p.length_type or p.type) for p in element.properties)
     if start + least * count > body.end:
-        raise SceneError(short)
+        raise cut_off(short)
     if not any(p.length_type for p in element.properties):
         rows = _Rows(start + least * np.arange(count), [], [], start + least * count)
     else:
@@ -162,13 +167,13 @@ def _rows_of_lists(body: Body, element: Element, start: int, short: str) -> _Row
             at += before
             length = length_at(at, kind) if at + width <= end else -1
             if length < 0:
-                raise SceneError(short)
+                raise cut_off(short)
             at += width
             places += (at, length)
             at += length * value_width
         at += gap
     if at > end:
-        raise SceneError(short)
+        raise cut_off(short)
     table = np.array(places, np.intp).reshape(element.count, 1 + 2 * len(steps)).T
     return _Rows(table[0], list(table[1::2]), list(table[2::2]), at)
 

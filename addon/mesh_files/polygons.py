@@ -13,11 +13,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import Array, Bools, Floats, Index, Places
+from ..tracer.vector import cross, dot
+from ..wording import count_of
 from . import planar
 from .ears import ears, of_convex
 from .flatness import Bends
 from .planar import Planar
-from .scaling import cross, dot, local, normals
+from .scaling import local, normals
 
 _AT_ONCE = 1 << 16  # faces: bounds the memory that they take meanwhile
 _UNIT = 2.0**-53
@@ -123,8 +125,8 @@ class _Found:
 
 
 def _faces(which: Index, what: str) -> str:
-    """Say how many faces are something, and which is the first of them, counted from 1."""
-    return f"{len(which):,} face{'s' * (len(which) > 1)} {what}, the first is face {which[0] + 1}"
+    """Say how many faces are something, and which is the first of them, count_of from 1."""
+    return f"{count_of(len(which), 'face')} {what}, the first is face {which[0] + 1}"
 
 
 def _quads(points: Floats) -> tuple[Places, Bools]:

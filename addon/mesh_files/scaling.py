@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats
+from ..tracer.vector import cross
 
 
 def local(points: Floats) -> Floats:
@@ -32,17 +33,6 @@ def local(points: Floats) -> Floats:
     exponents = np.frexp(np.where(largest > 0, largest, 1))[1]
     half = exponents // 2  # 2^-exponent itself may overflow
     return np.ldexp(np.ldexp(out, -half), half - exponents)
-
-
-def cross(a: Floats, b: Floats) -> Floats:
-    """Return the cross products (3, ...) of vectors."""
-    (x, y, z), (u, v, w) = a, b
-    return np.stack((y * w - z * v, z * u - x * w, x * v - y * u))
-
-
-def dot(a: Floats, b: Floats) -> Floats:
-    """Return the scalar products (...) of vectors."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def normals(at: Floats) -> Floats:

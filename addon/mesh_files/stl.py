@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from ..scene import SceneError
+from ..wording import count_of
 from .contents import Contents
 from .meshes import contents
-from .words import floats, shown
+from .words import AGAIN, cut_off, floats, numbers, shown
 
 _HEAD = 84  # bytes: 80 of any text, and the number of triangles
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -36,18 +37,22 @@ def read_stl(path: Path) -> Contents:
 
 def _binary(content: bytes, count: int, long: int, name: str) -> Contents:
     if len(content) < long or len(content) < _HEAD:
-        raise SceneError(f"it is cut off, or no STL: {len(content):,} bytes of {long:,} are there")
+        there = f"{len(content):,} bytes of {long:,} are there"
+        raise SceneError(f"it is cut off, or no STL: {there}; {AGAIN}")
     facets = np.frombuffer(content, _FACET, count, _HEAD)
     notes = []
     if more := len(content) - long:
-        notes = [f"{more:,} bytes behind the last triangle are not understood, and left out"]
+        at = "behind the last triangle"
+        said = count_of(more, f"byte {at} is", f"bytes {at} are")
+        notes = [f"{said} not understood, and left out"]
     corners = np.arange(3 * count)
     sizes = np.full(count, 3)
     return contents(facets["corners"].reshape(-1, 3), corners, sizes, [name], notes=notes)
 
 
 def _text(content: bytes, stem: str) -> Contents:
-    numbers: list[bytes] = []
+    coordinates: list[bytes] = []
+    vertex_lines: list[int] = []
     sizes: list[int] = []
     owners: list[int] = []
     names: dict[str, int] = {}
@@ -58,7 +63,8 @@ def _text(content: bytes, stem: str) -> Contents:
         if not words:
             continue
         if key == b"vertex" and len(words) == 4 and sizes:
-            numbers += words[1:]
+            coordinates += words[1:]
+            vertex_lines.append(line)
             sizes[-1] += 1
         elif key == b"solid":
             name = b" ".join(words[1:]).decode("utf-8", "replace") or stem
@@ -69,7 +75,7 @@ def _text(content: bytes, stem: str) -> Contents:
         elif key not in _OTHER:
             raise SceneError(f"line {line} is not understood: '{shown(text.strip())}'")
     if key != b"endsolid":
-        raise SceneError("it is cut off: its last line is not 'endsolid'")
-    vertices = floats(numbers).reshape(-1, 3)
+        raise cut_off("its last line is not 'endsolid'")
+    vertices = numbers(floats, coordinates, lambda k: vertex_lines[k // 3]).reshape(-1, 3)
     corners = np.arange(len(vertices))
     return contents(vertices, corners, np.array(sizes, np.intp), list(names), np.array(owners))

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
 
-from ..arrays import Floats, Index
+from ..arrays import Array, Floats, Index
+from ..scene import SceneError
 
 Number = TypeVar("Number", int, float)
+
+AGAIN = "copy it again, or export it again"
+SHORT_VERTEX = f"a vertex has three coordinates; if this is the last line, it is cut off: {AGAIN}"
 
 
 def floats(words: Sequence[bytes]) -> Floats:
@@ -37,13 +41,51 @@ def integers(words: Sequence[bytes]) -> Index:
     return np.array(found, np.int64)
 
 
-def _read(kind: type[Number], words: Sequence[bytes]) -> list[Number]:
-    if b"_" in b" ".join(words):
-        raise ValueError("what should be a number has an underscore")
+def numbers(
+    read: Callable[[Sequence[bytes]], Array], words: Sequence[bytes], line_of: Callable[[int], int]
+) -> Array:
+    """Return the numbers of words, by :func:`floats` or :func:`integers`.
+
+    Raises
+    ------
+    SceneError
+        If one is none; it says in which line.
+    """
     try:
-        return list(map(kind, words))
-    except ValueError as error:
-        raise ValueError(f"what should be a number is none: {error}") from None
+        return read(words)
+    except ValueError:
+        for k, word in enumerate(words):
+            try:
+                read([word])
+            except ValueError as error:
+                raise SceneError(f"line {line_of(k)}: {error}") from None
+        raise
+
+
+def _read(kind: type[Number], words: Sequence[bytes]) -> list[Number]:
+    try:
+        if b"_" not in b" ".join(words):
+            return list(map(kind, words))
+    except ValueError:
+        pass
+    raise ValueError(next(filter(None, (_why_not(kind, word) for word in words))))
+
+
+def _why_not(kind: type[Number], word: bytes) -> str:
+    """Return why a word is no number of a kind, and what to write; "" if it is one."""
+    try:
+        if b"_" not in word:
+            kind(word)
+            return ""
+    except ValueError:
+        pass
+    point = ": the decimal sign is a point" if b"," in word else ""
+    return f"'{shown(word)}' is no {'integer' if kind is int else 'number'}{point}"
+
+
+def cut_off(why: str) -> SceneError:
+    """Return the error of a file whose end is missing."""
+    return SceneError(f"it is cut off: {why}; {AGAIN}")
 
 
 def shown(word: bytes) -> str:

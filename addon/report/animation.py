@@ -12,6 +12,8 @@ from string import Template
 from typing import Any
 
 from ..compare.animation import FrameRow, worst_first
+from ..compare.verdict import Verdict
+from ..wording import count_of
 from . import comparison, page, plots
 from .folders import replacing, write_json, write_text
 from .tables import columns
@@ -76,9 +78,9 @@ def write(directory: Path, title: str, frames: range, rows: Sequence[FrameRow]) 
         write_json(new / JSON, held)
 
 
-def verdict(rows: Sequence[FrameRow]) -> str:
+def verdict(rows: Sequence[FrameRow]) -> Verdict:
     """Return the gravest verdict."""
-    return worst_first(rows)[0].verdict if rows else "cancelled"
+    return Verdict.gravest(row.verdict for row in rows) if rows else Verdict.CANCELLED
 
 
 def line(row: FrameRow) -> str:
@@ -91,7 +93,7 @@ def lines(frames: range, rows: Sequence[FrameRow]) -> list[str]:
     """Return the table of the worst frames, and the verdict of all."""
     table = columns([_HEAD, *map(_cells, worst_first(rows)[:_LISTED])], left=(4,))
     more = [f"and {len(rows) - _LISTED:,} more, in {PAGE}"] if len(rows) > _LISTED else []
-    done = f"{len(rows):,} of {len(frames):,} frames are done"
+    done = f"{len(rows):,} of {count_of(len(frames), 'frame is', 'frames are')} done"
     return [*table, *more, done, f"verdict: {verdict(rows)}"]
 
 
@@ -159,4 +161,4 @@ def _curves(frames: range, rows: Sequence[FrameRow]) -> str:
     title = "Pixels that differ, by frame"
     drawn = axes.drawn(title, "frame", "pixels") + plots.chart(axes, series.values())
     drawn += plots.legend({kind: s.sample for kind, s in series.items()}, 520)
-    return plots.picture(plots.WIDTH, 550, title, f"{len(rows)} frames", drawn)
+    return plots.picture(plots.WIDTH, 550, title, count_of(len(rows), "frame"), drawn)

@@ -14,6 +14,7 @@ from ..arrays import Array, Colors
 from ..compare.comparing import diagnosed
 from ..compare.comparison import SCHEMA, Comparison
 from ..compare.maps import cause_map
+from ..compare.verdict import Verdict
 from ..tracer.frame import PASSES
 from ..tracer.progress import Work, called, scaled
 from . import page
@@ -66,7 +67,7 @@ def written(
         finding = page.extras(comparison, trade, extremes)
         extras = yield from scaled(finding, rest, end - rest)
         yield from scaled(called(write(folder, comparison, extras), "writing"), end, 0.0)
-        if diagnose and comparison.pixels["unexplained"]:
+        if diagnose and comparison.counts.unexplained:
             told(comparison)
             comparison = yield from scaled(diagnosed(comparison), end, 1 - end)
             yield from scaled(called(write(folder, comparison, extras), "writing"), 1.0, 0.0)
@@ -113,7 +114,7 @@ def failure_written(directory: str | Path) -> Iterator[None]:
         yield
     except Exception as error:
         said = {"type": type(error).__name__, "message": str(error)}
-        content = {"schema": SCHEMA, "verdict": "failed", "error": said}
+        content = {"schema": SCHEMA, "verdict": Verdict.FAILED, "error": said}
         # Where the folder cannot be written, that may be what the error is.
         names = NAMES if Path(directory, JSON).exists() else (JSON,)
         with suppress(OSError), replacing(Path(directory), names) as new:

@@ -37,7 +37,7 @@ def lines(rows: Sequence[EngineRow]) -> list[str]:
         for w in row.wrong[:_NAMED]:
             x, y = w["pixel"]
             out.append(f"  {row.engine} at ({x}, {y}): {_sides(w)}: {w['cause']}: {w['why']}")
-        more = row.pixels["differ"] - _NAMED if row.pixels else 0
+        more = row.counts.differ - _NAMED if row.counts else 0
         if more > 0:
             out.append(f"  {row.engine}: and {more:,} more, on its page")
         out += [f"  {row.engine}: {line}" for line in (*row.not_judged, *table(row.self_check))]
@@ -45,11 +45,11 @@ def lines(rows: Sequence[EngineRow]) -> list[str]:
 
 
 def _cells(row: EngineRow) -> Sequence[str] | str:
-    if row.pixels is None:
+    if row.counts is None:
         return f"{row.engine:10} no picture: {row.error}"
-    p = row.pixels
-    counts = p["differ"], p["interior"]["differ"], p["boundary"]["differ"], row.wrong_objects
-    found = ["?" if n is None else f"{n:,}" for n in (*counts, p["unexplained"])]
+    p = row.counts
+    counts = p.differ, p.interior.differ, p.boundary.differ, row.wrong_objects
+    found = ["?" if n is None else f"{n:,}" for n in (*counts, p.unexplained)]
     return [row.engine, *found, f" {row.verdict}"]
 
 

@@ -77,11 +77,12 @@ def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
     folder = tempfile.TemporaryDirectory(dir=directory, prefix=_PREFIX)
     with _named(f"the folder '{directory}'"), folder as new:
         yield Path(new)
-        for name in reversed(names):
-            (directory / name).unlink(missing_ok=True)
-        for name in names:
-            if Path(new, name).exists():
-                os.replace(Path(new, name), directory / name)
+        with _free():
+            for name in reversed(names):
+                (directory / name).unlink(missing_ok=True)
+            for name in names:
+                if Path(new, name).exists():
+                    os.replace(Path(new, name), directory / name)
 
 
 @contextmanager
@@ -97,12 +98,32 @@ def _named(what: str) -> Iterator[None]:
 
 
 @contextmanager
+def _free() -> Iterator[None]:
+    """Say which file cannot be replaced where the system says only that it may not.
+
+    The folder can be written, as was tested. On Windows a file that a program has open is locked.
+    """
+    try:
+        yield
+    except PermissionError as error:
+        file = error.filename2 or error.filename
+        do = "another program may have it open: close it there, or write elsewhere"
+        raise OSError(f"cannot replace '{file}': {do} ({error.strerror})") from error
+
+
+def place_of(path: Path) -> str:
+    """Return what paths share that are one file wherever the case of a name does not count."""
+    return str(path.resolve()).casefold()
+
+
+@contextmanager
 def replacing_file(path: Path) -> Iterator[Path]:
     """Give a temporary path; its file replaces the file `path` at the end."""
     folder = tempfile.TemporaryDirectory(dir=path.parent, prefix=_PREFIX)
     with _named(f"'{path}'"), folder as new:
         yield Path(new) / path.name
-        os.replace(Path(new) / path.name, path)
+        with _free():
+            os.replace(Path(new) / path.name, path)
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from statistics import median
 
 from ..methods import Method
 from ..tracer.settings import Precision
+from ..wording import count_of
 
 NOTHING_SEEN = (
     "Nothing is seen: no ray through a pixel's centre meets a surface, so there is nothing to get "
@@ -244,14 +245,14 @@ def _costs(one: TradeRow, other: TradeRow) -> str:
     if more == 0:
         return f"costs no {'further ' if other.wrong_pixels else ''}pixel of {one.pixels:,}"
     if more < 0:
-        return f"has {-more:,} fewer wrong pixel{'s' * (more < -1)} of {one.pixels:,}"
+        return f"has {count_of(-more, 'fewer wrong pixel')} of {one.pixels:,}"
     further = "more " if other.wrong_pixels else ""
-    return f"costs {more:,} {further}wrong pixel{'s' * (more > 1)} of {one.pixels:,}"
+    return f"costs {count_of(more, f'{further}wrong pixel')} of {one.pixels:,}"
 
 
 def _takes(share: float, fastest: TradeRow) -> str:
-    count = f"{fastest.wrong_pixels:,}" if fastest.wrong_pixels else "no"
-    wrong = f"{count} wrong pixel{'s' * (fastest.wrong_pixels != 1)}"
+    count = fastest.wrong_pixels
+    wrong = count_of(count, "wrong pixel") if count else "no wrong pixels"
     name = f"{Method(fastest.method).record.words} in {fastest.precision} ({wrong})"
     if share < 0:
         return f"is faster than {name}, the next that loses no hits on purpose"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Bools, Bytes, Floats, Index
 from ..certainty import Certainty, Reason, sentences
+from ..wording import count_of
 from .vector import Vectors, groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
@@ -50,9 +51,10 @@ class Statistics:
         """Return what the scene required, in words, a fact a line; for a certified picture."""
         lines = list(self.notes)
         if self.refused:
+            were = count_of(self.refused, "triangle was", "triangles were")
             lines.append(
-                f"{self.refused:,} triangles were left out: their corners are not finite in world "
-                "space (clear the scale or the position that overflows)"
+                f"{were} left out: their corners are not finite in world space (clear the scale or "
+                "the position that overflows)"
             )
         if self.method == "certified":
             lines += sentences(self.pairs_tested, self.reasons)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from reference_tracer.cli.parser import Parser
+from reference_tracer.cli.parser import INTEGER, Parser
 from reference_tracer.cli.running import progress_bar
 from reference_tracer.report import folders
 
@@ -36,7 +36,7 @@ def add(parser: Parser) -> None:
         help="bench.json of an earlier run: say what has changed since",
     )
     parser.add_argument(
-        "--repeats", type=int, metavar="N", help="rounds (default 5, or 3 with --quick)"
+        "--repeats", type=INTEGER, metavar="N", help="rounds (default 5, or 3 with --quick)"
     )
 
 

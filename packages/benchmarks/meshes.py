@@ -127,7 +127,7 @@ def stored(path: Path) -> Triangles:
     """
     if not path.is_file():
         raise MissingMeshError(
-            f"there is no '{path}': Blender makes it: pip install 'reference_tracer[blender]'"
+            f"there is no '{path}': Blender makes it: pip install \"reference_tracer[blender]\""
         )
     with np.load(path, allow_pickle=False) as data:
         return data["vertices"].astype(np.float32), data["triangles"].astype(np.int32)

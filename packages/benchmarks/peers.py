@@ -38,7 +38,7 @@ def missing(library: str) -> MissingPeerError:
     """Return the error for a library that cannot be imported."""
     extra = "blender" if library == "bpy" else "bench"
     return MissingPeerError(
-        f"without {library}, which is not installed: pip install 'reference_tracer[{extra}]'"
+        f'without {library}, which is not installed: pip install "reference_tracer[{extra}]"'
     )
 
 

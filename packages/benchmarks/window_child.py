@@ -129,7 +129,7 @@ def go():
         pass
     except Exception:
         traceback.print_exc()
-    Path(sys.argv[-1]).write_text(json.dumps(found))
+    Path(sys.argv[-1]).write_text(json.dumps(found), encoding="utf-8")
     bpy.ops.wm.quit_blender()
 
 

@@ -14,7 +14,7 @@ from multiprocessing import resource_tracker
 from urllib.parse import urlsplit
 
 from reference_tracer.errors import words
-from reference_tracer.images import MissingLibraryError
+from reference_tracer.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 
 try:
@@ -24,7 +24,7 @@ try:
     from distributed.core import rpc
 except ImportError as error:
     raise MissingLibraryError(
-        f"--scheduler needs Dask: pip install 'reference_tracer[cluster]' ({error})"
+        f'--scheduler needs Dask: pip install "reference_tracer[cluster]" ({error})'
     ) from error
 
 from . import tasks
@@ -156,7 +156,7 @@ def _check_workers(cluster: Cluster) -> None:
 def difference(own: str, told: object) -> str:
     """Say what a worker has that is another than here."""
     if not isinstance(told, str):
-        return f"no usable Reference Tracer ({told}): pip install 'reference_tracer[cluster]' there"
+        return f'no usable Reference Tracer ({told}): pip install "reference_tracer[cluster]" there'
     here, there = json.loads(own), json.loads(told)
     found = [f"{k} {there[k]}, not {v}" for k, v in here.items() if there[k] != v]
     return f"{' and '.join(found)}: install the same there as here"

@@ -8,7 +8,7 @@ from contextlib import contextmanager, nullcontext
 from typing import Any
 
 from reference_tracer.cli.arguments import Place
-from reference_tracer.cli.parser import Parser
+from reference_tracer.cli.parser import FINITE, Parser
 from reference_tracer.scene import SceneError
 
 _COMMANDS = "trace", "compare", "trade", "extremes"
@@ -27,7 +27,7 @@ def add(parser: Parser, name: str) -> None:
     )
     group.add_argument(
         "--verify",
-        type=float,
+        type=FINITE,
         metavar="SHARE",
         help="have this share of the work (above 0, to 1) done again by another worker, and check "
         "exactly all that can be checked here",

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.images import data_uri, to_display
+from reference_tracer.wording import count_of
 
 from .examples import Example
 from .judging import Judgement
@@ -96,7 +97,7 @@ def _student(number: int, j: Judgement) -> str:
     if j.leaks:
         parts.append(f"<p>{escape(j.leaks)}.</p>")
     if j.printed:
-        parts.append(f"<details><summary>It prints {j.printed:,} bytes</summary>")
+        parts.append(f"<details><summary>It prints {count_of(j.printed, 'byte')}</summary>")
         parts.append(f"<pre>{escape(j.said)}</pre></details>")
     if counts := tallies(j):
         parts.append(_table(HEAD, [tuple(map(escape, row(*named))) for named in counts]))

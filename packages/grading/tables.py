@@ -11,6 +11,7 @@ from pathlib import Path
 
 from reference_tracer.report.tables import columns, percent
 from reference_tracer.study.extremes import written
+from reference_tracer.wording import count_of
 
 from .examples import Example
 from .extremes import held
@@ -65,7 +66,7 @@ def lines(j: Judgement) -> list[str]:
         out += wrapped(j.leaks)
     if j.printed:
         first = j.said.strip().splitlines()[:1]
-        out.append(f"  it prints ({j.printed:,} bytes): {' '.join(first)[:120]}")
+        out.append(f"  it prints ({count_of(j.printed, 'byte')}): {' '.join(first)[:120]}")
     if found := tallies(j):
         out += ["", *columns([HEAD, *(row(*named) for named in found)])]
         out += [NO_BOUNDARY] * dashed(found)

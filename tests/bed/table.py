@@ -90,7 +90,7 @@ def looked_at(
 ) -> Row:
     """Compare a picture, diagnose it, and judge what is told by the right names and reasons."""
     found = compared(scene, picture, made)
-    unexplained = found.pixels["unexplained"]
+    unexplained = found.counts.unexplained
     if only_compare:
         transform = found.causes.transform or ""
         return Row(what, scene.number, "compared", unexplained, 0.0, 0.0, (transform,))

@@ -24,6 +24,7 @@ from reference_tracer.cli.main import main
 from reference_tracer.tracer.progress import result_of
 
 from .live import kept  # noqa: F401  # a fixture
+from .missing import saved  # noqa: F401  # a fixture
 from .scenes import Build
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"

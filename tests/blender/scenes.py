@@ -204,10 +204,10 @@ class Build:
 
 def assert_same_colors(comparison, distinct: int = 2) -> None:
     """Where the tracer and Blender see the same surface, they show the same colour."""
-    pixels = comparison.pixels
-    assert pixels["unexplained"] == pixels["not_decidable"] == 0
-    assert pixels["by_cause"]["not_modelled"] == pixels["by_cause"]["depth_tie"] == 0
-    assert pixels["differ"] <= 0.02 * pixels["total"]  # edges
+    pixels = comparison.counts
+    assert pixels.unexplained == pixels.not_decidable == 0
+    assert pixels.by_cause["not_modelled"] == pixels.by_cause["depth_tie"] == 0
+    assert pixels.differ <= 0.02 * pixels.total  # edges
     seen = comparison.frame.instance_index >= 0
     assert seen.mean() > 0.05
     colors = np.unique(np.round(comparison.frame.color[seen], 3), axis=0)

@@ -68,6 +68,19 @@ def test_blenders_own_png_of_a_plain_view(scene, drawn, judged):
     assert code == 0 and found["verdict"] == "agree" and found["transform"] == ""
 
 
+@pytest.mark.parametrize(
+    ("engine", "renderer"),
+    [("BLENDER_WORKBENCH", "raster"), ("REFERENCE_TRACER", "rays"), ("CYCLES", "rays")],
+)
+def test_an_engine_of_an_add_on_is_no_rasteriser(engine, renderer, scene, drawn, judged):
+    scene.render.engine = engine
+    scene.cycles.samples = 1
+    drawn(view_transform="Standard")
+    _, found, text = judged("--no-diagnosis")
+    assert found["blender"]["renderer"] == renderer
+    assert f", {found['blender']['renderer_known']} (--renderer)" in text
+
+
 @pytest.mark.parametrize("mode", ["RGB", "RGBA"])
 def test_blenders_own_png_of_16_bits(mode, scene, drawn, judged, tmp_path):
     scene.render.film_transparent = mode == "RGBA"
@@ -179,3 +192,19 @@ def test_the_file_is_read_as_blender_shows_it(scene, drawn, tmp_path):
     stored = values[solid][:, :3]
     expected = images.curve(stored) if loaded.is_float else stored
     np.testing.assert_allclose(images.encoded(mine.color)[solid][:, :3], expected, atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "fault"), [("scale", "parent_scale"), ("parent", "parent_left_out")]
+)
+def test_a_parents_scale_that_was_left_out_is_named(wrong, fault, scene, drawn, judged, build):
+    """Of a picture of a scene in which the parent has none; another mistake has another name."""
+    parent = build.empty("Parent", location=(0.4, 0.2, 0.1), rotation=(0.1, 0.2, 0.3))
+    green = bpy.data.objects["Green"]
+    green.parent = None if wrong == "parent" else parent
+    drawn(view_transform="Standard")
+    green.parent = parent
+    parent.scale = (1.6, 0.7, 1.3)
+    _, found, _ = judged()
+    told = [one["fault"] for one in found["diagnosis"]["told"]]
+    assert told == [fault]

@@ -19,8 +19,8 @@ def test_light_and_anti_aliasing_are_named(build, compare, judge):
         {"studio light", "anti-aliasing"} if judge == "WORKBENCH" else {"materials and light"}
     )
     assert expected <= named
-    assert comparison.pixels["unexplained"] == 0
-    assert comparison.pixels["by_cause"]["color"] > 100  # the same objects in another light
+    assert comparison.counts.unexplained == 0
+    assert comparison.counts.by_cause["color"] > 100  # the same objects in another light
     assert comparison.causes.transform == "light that the tracer does not have"
     assert comparison.verdict == "warnings"
 
@@ -47,7 +47,7 @@ def test_what_a_render_shows_does_not_change_a_comparison(as_is, build, compare)
     scene.reference_tracer.color = "normal"
     after = compare(as_is=as_is)
     assert (before.frame.color == after.frame.color).all()
-    assert before.pixels == after.pixels and before.verdict == after.verdict
+    assert before.counts == after.counts and before.verdict == after.verdict
 
 
 def test_examples_say_where(build, compare):
@@ -56,7 +56,7 @@ def test_examples_say_where(build, compare):
     build.corner_camera(lens=40)
     scene.display.shading.light = "STUDIO"
     comparison = compare(as_is=True)
-    places = comparison.pixels["examples"]["color"]
+    places = comparison.counts.examples["color"]
     assert len(places) == 10
     for x, y in places:
         assert comparison.causes.cause[y, x] != 0
@@ -76,10 +76,10 @@ def test_anti_aliasing_alone_is_checked(name, smooth, opened, compare):
     scene = opened(name, 128)
     scene.display.shading.light, scene.display.render_aa = "FLAT", smooth
     found = compare(as_is=True)
-    by_cause = found.pixels["by_cause"]
-    assert found.pixels["unexplained"] == by_cause["not_modelled"] == by_cause["color"] == 0
+    by_cause = found.counts.by_cause
+    assert found.counts.unexplained == by_cause["not_modelled"] == by_cause["color"] == 0
     assert by_cause["anti_aliasing"] > 100
-    assert found.pixels["interior"]["agree"] > 0.8 * found.pixels["interior"]["total"]
+    assert found.counts.interior.agree > 0.8 * found.counts.interior.total
     assert found.verdict == "warnings"
 
 
@@ -102,4 +102,4 @@ def test_light_does_not_excuse_a_missing_object(build, compare, monkeypatch):
         monkeypatch.setattr(module, "stand_ins", lacking)
     found = compare(as_is=True)
     assert found.verdict == "differences"
-    assert found.pixels["unexplained_shows"]["other_object"] > 100
+    assert found.counts.unexplained_shows.other_object > 100

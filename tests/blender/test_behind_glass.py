@@ -67,11 +67,11 @@ def test_an_honest_scene_has_no_alarm(panes, compare, colors, identity):
     alphas = [m.diffuse_color[3] for m in bpy.data.materials]
     hidden = [o.hide_render for o in bpy.data.objects]
     found = compare(judge="WORKBENCH", colors=colors, identity=identity)
-    assert found.pixels["unexplained"] == 0
+    assert found.counts.unexplained == 0
     seen = through(found)
     assert seen.mean() > 0.1 and found.causes.behind is not None
     np.testing.assert_array_equal(found.causes.behind, seen)
-    assert found.pixels["behind"] == {"pixels": int(seen.sum()), "unexplained": 0}
+    assert found.counts.behind == {"pixels": int(seen.sum()), "unexplained": 0}
     assert any("what is behind transparent surfaces" in line for line in found.lines())
     assert [m.diffuse_color[3] for m in bpy.data.materials] == alphas
     assert [o.hide_render for o in bpy.data.objects] == hidden
@@ -115,7 +115,7 @@ def test_hair_behind_glass_is_no_alarm(panes, build, compare):
     settings = obj.particle_systems[0].settings
     settings.type, settings.count, settings.hair_length = "HAIR", 100, 0.6
     found = compare(judge="WORKBENCH", colors=By.VIEWPORT)
-    assert found.pixels["unexplained"] == 0 and found.causes.behind.any()
+    assert found.counts.unexplained == 0 and found.causes.behind.any()
 
 
 def test_panes_of_a_collection_instance(panes, build, compare):
@@ -125,7 +125,7 @@ def test_panes_of_a_collection_instance(panes, build, compare):
     empty.instance_type, empty.instance_collection = "COLLECTION", build.collection("Panes", one)
     scene.display.shading.color_type = "MATERIAL"
     found = compare(judge="WORKBENCH", colors=By.VIEWPORT)
-    assert found.pixels["unexplained"] == 0
+    assert found.counts.unexplained == 0
     np.testing.assert_array_equal(found.causes.behind, through(found))
 
 
@@ -146,4 +146,4 @@ def test_all_of_glass(build, compare):
     build.camera()
     build.square("Pane", material=build.material("Glass", 0.9, 0.1, 0.1, 0.5))
     found = compare(judge="WORKBENCH", colors=By.VIEWPORT)
-    assert found.pixels["unexplained"] == 0
+    assert found.counts.unexplained == 0

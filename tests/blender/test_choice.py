@@ -50,7 +50,7 @@ def test_all_is_framed_and_agrees_with_blender(aspect, solids, build):
     empty.instance_type = "COLLECTION"
     empty.instance_collection = build.collection("Kit", build.cube("Child", 0.3, link=False))
     found = compare(frame_all=True, width=96)
-    assert found.verdict == "agree" and found.pixels["unexplained"] == 0
+    assert found.verdict == "agree" and found.counts.unexplained == 0
     camera = found.scene.camera
     assert (camera.width, camera.height, camera.name) == (96, 54, "framing")
     assert "Child" in found.scene.objects and "Hidden" not in found.scene.objects
@@ -61,7 +61,7 @@ def test_all_is_framed_and_agrees_with_blender(aspect, solids, build):
 def test_a_placed_camera_agrees_with_blender(kind, solids):
     """Held to Blender's own projection by the certificate, and to its picture."""
     found = compare(eye=(3, -4, 3), target=(0, 0, -0.2), **kind)
-    assert found.verdict == "agree" and found.pixels["unexplained"] == 0
+    assert found.verdict == "agree" and found.counts.unexplained == 0
     assert found.case.certificate.points > 1000 and found.manifest.camera == "--eye"
     camera = found.scene.camera
     assert camera.origin == pytest.approx((3, -4, 3))

@@ -148,7 +148,8 @@ def test_input_errors(command, tmp_path, reftrace):
     out = tmp_path / {"compare": "out", "export": "scene.npz", "trace": "picture.png"}[command]
     broken = tmp_path / "broken.blend"
     broken.write_bytes(b"BLENDER-v402 and then nothing that belongs there")
-    for run, source in ((reftrace, tmp_path / "missing.blend"), (shell, broken)):
+    where = shell if command == "compare" else reftrace  # all that Blender says is heard
+    for run, source in ((reftrace, tmp_path / "missing.blend"), (where, broken)):
         done = run(command, source, "--out", out)
         assert done.returncode == 4
         said = [line for line in done.stderr.splitlines() if line.startswith("reftrace: ")]

@@ -170,7 +170,7 @@ def test_an_attribute_that_nodes_made(domain, build, compare):
     assert [(u.object, u.feature) for u in comparison.manifest.unmodelled] == [
         ("Made", "colour attribute")
     ]
-    assert comparison.pixels["by_cause"]["not_modelled"] > 0
+    assert comparison.counts.by_cause["not_modelled"] > 0
     assert comparison.verdict == "warnings"
 
 

@@ -42,30 +42,30 @@ def test_sample_scene_has_no_unexplained_pixel(name, opened, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == FILES
     found = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
     pixels = found["pixels"]
-    assert pixels["unexplained"] == 0
-    assert pixels["by_cause"]["unexplained"] == 0
-    assert pixels["explained"] == sum(
-        pixels["by_cause"][cause] for cause in ("edge", "depth_tie", "clip_plane")
+    assert pixels.unexplained == 0
+    assert pixels.by_cause["unexplained"] == 0
+    assert pixels.explained == sum(
+        pixels.by_cause[cause] for cause in ("edge", "depth_tie", "clip_plane")
     )
     assert found["certificate"]["passed"]
     identity = found["identity"]["pixels"]
     assert identity["not_known"] == 0
-    assert identity["other_object"] <= MAY_DIFFER * pixels["total"]
-    assert identity["same_object"] + identity["other_object"] == pixels["total"]
-    assert pixels["differ"] == pixels["explained"] + pixels["unexplained"]
-    assert pixels["not_traced"] == 0
-    assert pixels["total"] == pixels["agree"] + pixels["differ"] + pixels["not_decidable"]
-    assert pixels["differ"] <= MAY_DIFFER * pixels["total"]
+    assert identity["other_object"] <= MAY_DIFFER * pixels.total
+    assert identity["same_object"] + identity["other_object"] == pixels.total
+    assert pixels.differ == pixels.explained + pixels.unexplained
+    assert pixels.not_traced == 0
+    assert pixels.total == pixels.agree + pixels.differ + pixels.not_decidable
+    assert pixels.differ <= MAY_DIFFER * pixels.total
     assert found["scene"]["unmodelled"] == []
     assert found["scene"]["file"] == f"{name}.blend"
     assert found["scene"]["scene"] == bpy.context.scene.name
     assert found["blender"]["source"] == "workbench"
     assert found["blender"]["version"] == bpy.app.version_string
     if name in NOT_DECIDABLE:
-        assert pixels["not_decidable"] > 0
+        assert pixels.not_decidable > 0
         assert found["verdict"] == "warnings"
     else:
-        assert pixels["not_decidable"] == 0
+        assert pixels.not_decidable == 0
         assert found["verdict"] == "agree"
 
 
@@ -208,9 +208,9 @@ def test_camera_setting_has_no_unexplained_pixel(setting, build, compare):
     build.solids()
     setting(build)
     comparison = compare()
-    pixels = comparison.pixels
-    assert pixels["unexplained"] == pixels["not_decidable"] == 0
-    assert pixels["differ"] <= 0.01 * pixels["total"]
+    pixels = comparison.counts
+    assert pixels.unexplained == pixels.not_decidable == 0
+    assert pixels.differ <= 0.01 * pixels.total
     assert comparison.verdict == "agree"
     seen = {comparison.scene.objects[i] for i in np.unique(comparison.frame.object_index) if i >= 0}
     assert len(seen) >= 2  # or nothing would have been compared
@@ -222,5 +222,5 @@ def test_an_empty_scene_is_a_valid_picture_and_a_warning(build, compare):
     comparison = compare()
     assert comparison.verdict == "warnings"
     assert "the picture is empty: no ray meets anything" in comparison.lines()
-    assert comparison.pixels["agree"] == comparison.pixels["total"] == 96 * 54
+    assert comparison.counts.agree == comparison.counts.total == 96 * 54
     assert not comparison.frame.color.any()

@@ -150,9 +150,9 @@ def test_cycles_picture_has_no_unexplained_pixel(name, opened, compare):
     comparison = compare(judge="CYCLES")
     assert comparison.case.picture.source.name == "cycles"
     assert comparison.case.picture.sample_radius == RADIUS
-    pixels = comparison.pixels
-    assert pixels["unexplained"] == pixels["not_decidable"] == 0
-    assert pixels["differ"] <= 0.02 * pixels["total"]
+    pixels = comparison.counts
+    assert pixels.unexplained == pixels.not_decidable == 0
+    assert pixels.differ <= 0.02 * pixels.total
     assert comparison.verdict == "agree"
 
 
@@ -170,14 +170,14 @@ def test_cycles_shows_the_same_colors(color_type, build, compare):
         polygon.material_index = polygon.index % 4
     build.corner_camera(lens=40)
     comparison = compare(judge="CYCLES")
-    assert comparison.pixels["unexplained"] == 0
+    assert comparison.counts.unexplained == 0
     assert comparison.verdict == "agree"
 
 
 def test_far_away_cycles_is_not_decidable(opened, compare):
     opened("far_away", WIDTH)
     comparison = compare(judge="CYCLES")
-    assert comparison.pixels["unexplained"] == 0 < comparison.pixels["not_decidable"]
+    assert comparison.counts.unexplained == 0 < comparison.counts.not_decidable
     assert comparison.verdict == "warnings"
 
 
@@ -218,7 +218,7 @@ def test_triangles_that_reach_far(far, at, kind, build, compare):
     found = compare(judge="CYCLES")
     seen = {n: found.frame.object_index == k for k, n in enumerate(found.scene.objects)}
     undecided = found.causes.cause == NOT_DECIDABLE
-    assert found.pixels["unexplained"] == 0
+    assert found.counts.unexplained == 0
     assert seen["Near"].sum() > 100 and not undecided[seen["Near"]].any()
     shown = (found.picture[..., 0] > 0) & seen["Far"]
     if far > 1.844e18:
@@ -247,7 +247,7 @@ def test_what_is_missing_far_away_is_found(build, compare, monkeypatch):
             far.hide_render = False
 
     monkeypatch.setattr(compare_module, "picture", without)
-    assert compare(judge="CYCLES", identity=False).pixels["unexplained"] > 1000
+    assert compare(judge="CYCLES", identity=False).counts.unexplained > 1000
 
 
 @pytest.mark.parametrize("half", [2.0, 9.0, 36.0, 360.0])
@@ -261,14 +261,14 @@ def test_triangles_of_a_large_area(half, share, build, compare):
     found = compare(judge="CYCLES")
     seen = found.frame.object_index >= 0
     undecided = found.causes.cause == NOT_DECIDABLE
-    assert found.pixels["unexplained"] == 0 and seen.sum() > 500
+    assert found.counts.unexplained == 0 and seen.sum() > 500
     if share > 1:
         assert undecided[seen].all()
     else:  # a missing one would be found
         assert not undecided[seen].any()
         without = replace(found.case.picture, color=np.zeros_like(found.picture))
         wrong = result_of(trace_and_compare(replace(found.case, picture=without)))
-        assert wrong.pixels["unexplained"] > 0.9 * seen.sum()
+        assert wrong.counts.unexplained > 0.9 * seen.sum()
 
 
 @pytest.mark.parametrize("far", [1e4, 1e7, 1e10])
@@ -282,6 +282,6 @@ def test_strips_that_reach_far_in_any_direction(far, to, kind, build, compare):
     build.mesh("Strip", corners, [(0, 1, 2)]).color = (1, 0, 0, 1)
     build.square("Behind", 60.0, location=(0, 0, -50), color=(0, 1, 0, 1))
     found = compare(judge="CYCLES")
-    assert found.pixels["unexplained"] == 0
+    assert found.counts.unexplained == 0
     if far <= 1e4:  # but for some beside its edges
-        assert found.pixels["not_decidable"] < 10
+        assert found.counts.not_decidable < 10

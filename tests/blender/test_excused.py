@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 
 import bpy
+import numpy as np
 import pytest
 from reference_tracer.blender.compare import compared, gather_case
 from reference_tracer.tracer.progress import result_of
@@ -48,9 +50,22 @@ def _compared():
 def test_what_is_advised_helps(make, verdict):
     make()
     found = _compared()
-    assert found.verdict == verdict and found.pixels["unexplained"] == 0
+    assert found.verdict == verdict and found.counts.unexplained == 0
     (advice,) = found.excused.advice
     start = re.search(r"raise the clip start from .* m to (\S+) m: surfaces", advice)
     assert any(advice in line for line in found.lines())
     bpy.context.scene.camera.data.clip_start = float(start[1])
     assert _compared().verdict == "agree"
+
+
+def test_cycles_has_no_depth_buffer():
+    """A picture of Cycles' that shows the farther wall is wrong; of Workbench, nobody knows."""
+    _two_walls()
+    for judge, unexplained in (("CYCLES", True), ("WORKBENCH", False)):
+        case = gather_case(bpy.context, judge=judge)
+        assert result_of(compared(case)).counts.unexplained == 0
+        farther = case.scene.instances[case.scene.objects.index("Far")].colors[0]
+        color = np.where(case.picture.color[..., 3:] > 0, farther, case.picture.color)
+        shown = replace(case.picture, color=color.astype(np.float32), owner=None)
+        found = result_of(compared(replace(case, picture=shown)))
+        assert (found.counts.unexplained > 1000) is unexplained

@@ -249,7 +249,7 @@ def test_reftrace_goes_on_where_it_ended(moving, out):
     argv = [sys.executable, "-m", "reference_tracer.cli.main", "compare", bpy.data.filepath]
     argv += ["--out", str(out), "--no-identity", "--frames"]
     elsewhere = "--scheduler", "local:1"
-    for frames, place, told in (("2", (), [2]), ("1-3", elsewhere, [1, 3]), ("1-3", elsewhere, [])):
+    for frames, place, told in (("2", (), [2]), ("1-3", elsewhere, [1, 3]), ("1-3", (), [])):
         ended = subprocess.run([*argv, frames, *place], capture_output=True, text=True, timeout=300)
         assert ended.returncode == (frames != "2"), ended.stderr
         assert [int(n) for n in re.findall(r"^frame (\d):", ended.stderr, re.M)] == told

@@ -39,7 +39,7 @@ def test_no_false_alarm(modifier, shown, step, judge, build, compare):
     for own in bpy.data.objects["One"].modifiers:
         own.show_in_editmode = shown
     found = compare(judge=judge)
-    assert found.pixels["unexplained"] == 0
+    assert found.counts.unexplained == 0
 
 
 @pytest.mark.parametrize("judge", JUDGES)
@@ -70,4 +70,4 @@ def test_a_picture_of_the_other_judge_is_not_excused(judge, build):
     assert (here.picture.color != other.picture.color).any(axis=-1).sum() > 50
     wrong = replace(here.picture, color=np.array(other.picture.color), owner=other.picture.owner)
     found = result_of(compared(replace(here, picture=wrong)))
-    assert found.verdict == "differences" and found.pixels["unexplained"] > 50
+    assert found.verdict == "differences" and found.counts.unexplained > 50

@@ -16,10 +16,10 @@ CYCLES = ("exercise_plane", "geometry_nodes", "suzanne")
 def shown(comparison) -> set[str]:
     """Return the names of what Blender shows, all of it known."""
     identity = comparison.identity
-    counts = identity.counts()
-    assert counts["not_known"] == 0
-    assert counts["other_object"] <= 0.01 * identity.shown.size  # edges
-    assert comparison.pixels["unexplained"] == 0
+    counts = identity.shows()
+    assert counts.not_known == 0
+    assert counts.other_object <= 0.01 * identity.shown.size  # edges
+    assert comparison.counts.unexplained == 0
     return {identity.names[i] for i in np.unique(identity.shown) if i != NOTHING}
 
 
@@ -109,9 +109,9 @@ def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
         lambda *a, **k: np.ascontiguousarray(real(*a, **k)[..., [2, 1, 0, 3]]),
     )
     found = compare()
-    shows = found.pixels["unexplained_shows"]
+    shows = found.counts.unexplained_shows
     assert found.verdict == "differences"
-    assert shows["same_object"] > 100 and shows["other_object"] == 0
+    assert shows.same_object > 100 and shows.other_object == 0
     assert any("show the same object in another colour" in line for line in found.lines())
 
 
@@ -130,9 +130,9 @@ def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch)
 
     monkeypatch.setattr(drawings, "picture", lacking)
     found = compare(colors=By.VIEWPORT)
-    shows = found.pixels["unexplained_shows"]
+    shows = found.counts.unexplained_shows
     assert found.verdict == "differences"
-    assert shows["other_object"] > 100 and shows["same_object"] == 0
+    assert shows.other_object > 100 and shows.same_object == 0
 
 
 def test_it_can_be_left_out(build, compare):

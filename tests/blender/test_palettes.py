@@ -90,7 +90,7 @@ def test_objects_that_are_exchanged_are_found(ordinary, compare, monkeypatch, id
     exchanged(monkeypatch)
     assert compare(colors=By.VIEWPORT, identity=identity).verdict == "agree"
     found = compare(identity=identity)
-    assert found.verdict == "differences" and found.pixels["unexplained"] > 100
+    assert found.verdict == "differences" and found.counts.unexplained > 100
 
 
 def test_an_object_in_another_ones_color_is_found(ordinary, compare, monkeypatch):
@@ -104,7 +104,7 @@ def test_an_object_in_another_ones_color_is_found(ordinary, compare, monkeypatch
     monkeypatch.setattr(compare_module, "picture", recolored)
     assert compare(colors=By.VIEWPORT).verdict == "agree"
     found = compare()
-    assert found.verdict == "differences" and found.pixels["unexplained"] > 100
+    assert found.verdict == "differences" and found.counts.unexplained > 100
 
 
 def test_colors_that_tell_objects_apart_are_drawn_as_they_are(build, compare):
@@ -196,7 +196,7 @@ def test_colors_that_an_animation_sets_stay(ordinary, compare):
     obj.color = (0.3, 0.9, 0.1, 1)
     obj.keyframe_insert("color", frame=1)
     found = compare()
-    assert found.pixels["unexplained"] == 0
+    assert found.counts.unexplained == 0
     assert colors_of(found)["Left"] == pytest.approx((0.3, 0.9, 0.1))
     assert tuple(obj.color) == pytest.approx((0.3, 0.9, 0.1, 1))
 
@@ -226,7 +226,7 @@ def test_another_picture_in_colors_of_a_file(ordinary, compare, tmp_path):
     hidden.hide_render = True  # the picture is of before
     case = gather_against(bpy.context, shown, found.case.settings, colors=given)
     again = result_of(compared(case))
-    assert any("'Right'" in line for line in again.lines()) and not again.pixels["unexplained"]
+    assert any("'Right'" in line for line in again.lines()) and not again.counts.unexplained
 
 
 def test_colors_of_a_file_by_material(ordinary, build, compare, tmp_path):

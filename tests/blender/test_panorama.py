@@ -63,9 +63,9 @@ def test_cycles_sees_the_same(name, build, compare):
     panorama(build, **SETTINGS[name])
     comparison = compare(identity=True)
     assert comparison.case.picture.source.name == "cycles" and comparison.case.certificate is None
-    pixels = comparison.pixels
-    assert pixels["unexplained"] == pixels["not_decidable"] == 0
-    assert pixels["differ"] <= 0.002 * pixels["total"]
+    pixels = comparison.counts
+    assert pixels.unexplained == pixels.not_decidable == 0
+    assert pixels.differ <= 0.002 * pixels.total
     assert set(comparison.causes.cause[comparison.causes.cause > 0].tolist()) <= {1}  # edges
     assert comparison.verdict == "agree"
     seen = comparison.frame.instance_index >= 0
@@ -117,7 +117,7 @@ def test_an_infinite_plane_has_a_stand_in_all_around(build, compare):
     floor.reference_tracer.infinite_plane = True
     panorama(build, **LEVEL, clip_end=50)
     comparison = compare()
-    assert comparison.verdict == "agree" and comparison.pixels["unexplained"] == 0
+    assert comparison.verdict == "agree" and comparison.counts.unexplained == 0
     assert 0.3 < (comparison.frame.instance_index == 1).mean() < 0.5  # up to the clip range's end
 
 

@@ -81,7 +81,7 @@ def test_agrees_with_its_stand_in(bare, color_type, ground, compare):
         ground.data.materials.clear()
     comparison = compare()
     assert comparison.verdict == "agree"
-    assert comparison.pixels["differ"] <= 0.01 * comparison.pixels["total"]
+    assert comparison.counts.differ <= 0.01 * comparison.counts.total
     index = comparison.frame.object_index
     assert {comparison.scene.objects[i] for i in np.unique(index) if i >= 0} == {"Ground", "Cube"}
 
@@ -183,7 +183,7 @@ def test_agrees_however_the_scene_is_arranged(arrange, ground, build, compare):
     collections = {c.name: sorted(o.name for o in c.objects) for c in bpy.data.collections}
     names = sorted(o.name for o in bpy.data.objects)
     comparison = compare()
-    assert comparison.pixels["unexplained"] == comparison.pixels["not_decidable"] == 0
+    assert comparison.counts.unexplained == comparison.counts.not_decidable == 0
     assert comparison.verdict == "agree"
     assert comparison.frame.color.any()
     assert collections == {c.name: sorted(o.name for o in c.objects) for c in bpy.data.collections}
@@ -197,7 +197,7 @@ def test_an_instanced_plane_is_not_lost_in_silence(ground, build, compare):
     empty = build.empty("Empty", location=(0, 0, -0.3))
     empty.instance_type, empty.instance_collection = "COLLECTION", collection
     comparison = compare()
-    assert comparison.pixels["unexplained"] == 0
+    assert comparison.counts.unexplained == 0
     assert {e.name for e in comparison.manifest.objects} >= {"Ground"}
 
 

@@ -23,7 +23,7 @@ def test_sample_scenes_miss_no_fault(name, opened, compare):
 
 @pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
 def test_the_frame_after(judge, build, compare):
-    scene = build.scene()
+    scene = build.scene(48, 27)
     build.solids()
     build.corner_camera(lens=40)
     cube = bpy.data.objects["Red"]

@@ -45,8 +45,8 @@ def test_a_linked_collection_and_its_override_are_told_apart(judge, editable, bu
     colors = {o.name_full: o.color[:] for o in bpy.data.objects}
     found = compare(judge=judge)
     assert found.verdict == "agree"
-    counts = found.identity.counts()
-    assert counts["not_known"] == 0 and counts["other_object"] == 0
+    counts = found.identity.shows()
+    assert counts.not_known == 0 and counts.other_object == 0
     shown = {found.identity.names[n] for n in np.unique(found.identity.shown) if n >= 0}
     assert shown == {"Part", "Ball", "Kit"}
     assert colors == {o.name_full: o.color[:] for o in bpy.data.objects}
@@ -85,7 +85,7 @@ def test_a_wrong_instance_of_the_same_colour_is_still_found(build, compare, kit,
             empty.instance_type = kept
 
     monkeypatch.setattr(drawings, "picture", lacking)
-    assert compare(colors=By.VIEWPORT).pixels["unexplained"] > 100
+    assert compare(colors=By.VIEWPORT).counts.unexplained > 100
 
 
 @pytest.mark.parametrize("first", [True, False], ids=["override first", "linked first"])
@@ -109,7 +109,7 @@ def test_a_collection_is_left_out_of_by_itself_not_by_its_name(first, build, com
     next(c for c in layer.layer_collection.children if c.collection == kit).exclude = True
     build.camera(rotation=(0.2, 0, 0))
     found = compare()
-    assert found.verdict == "agree" and found.identity.counts()["other_object"] == 0
+    assert found.verdict == "agree" and found.identity.shows().other_object == 0
     shown = {found.identity.names[n] for n in np.unique(found.identity.shown) if n >= 0}
     assert shown == {o.name for o in made.objects}
     hidden = [e.reason for e in found.manifest.objects if e.name.endswith("[library.blend]")]

@@ -116,9 +116,9 @@ def test_explains_the_pixels_that_it_changes(make, build, compare):
     build.camera((0, 0, 9))
     make(build)
     comparison = compare()
-    pixels = comparison.pixels
-    assert pixels["unexplained"] == 0
-    assert pixels["by_cause"]["not_modelled"] > 5
+    pixels = comparison.counts
+    assert pixels.unexplained == 0
+    assert pixels.by_cause["not_modelled"] > 5
     assert comparison.verdict == "warnings"
     assert any(OF_OBJECTS[make] in line for line in comparison.manifest.lines())
 
@@ -139,7 +139,7 @@ def test_explains_nothing_elsewhere(build, compare, monkeypatch):
 
     monkeypatch.setattr(compare_module, "picture", with_a_fault)
     comparison = compare()
-    assert comparison.pixels["unexplained"] == 1
+    assert comparison.counts.unexplained == 1
     assert comparison.verdict == "differences"
 
 
@@ -213,7 +213,7 @@ def test_of_the_scene_is_not_in_the_picture_and_still_named(make, build, compare
     build.corner_camera(lens=40)
     make(scene, build)
     comparison = compare()
-    assert comparison.pixels["unexplained"] == 0
+    assert comparison.counts.unexplained == 0
     found = [u for u in comparison.manifest.unmodelled if u.feature == OF_SCENES[make]]
     assert [u.object for u in found] == [
         "Camera" if make is depth_of_field else f"scene '{scene.name}'"

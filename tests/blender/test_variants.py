@@ -170,6 +170,26 @@ def test_a_variant_is_what_blender_exports_after_the_change(
     assert_same(variant, expected)
 
 
+def test_a_parents_scale_is_left_out(rich, export, build):
+    """Of an object and of the camera: its place is scaled, and the object itself."""
+    scaled = build.empty("Scaled", location=(1, -2, 0), rotation=(0.2, 0.1, -0.3))
+    scaled.scale = (2, 0.5, 1.5)
+    below = build.cube("Below", location=(1.5, 1, 0.5))
+    below.parent = scaled
+    rich.camera.parent = scaled
+    bpy.context.view_layer.update()
+    of_object = made(rich, "parent_scale", "Below")
+    of_camera = made(rich, "parent_scale", "camera")
+    before, _ = export.render()
+    scaled.scale = (1, 1, 1)
+    bpy.context.view_layer.update()
+    expected, _ = export.render()
+    with pytest.raises(AssertionError):
+        assert_same(before, expected)
+    assert_same(of_object, expected.seen_by(before.camera))
+    assert_same(of_camera, before.seen_by(expected.camera))
+
+
 def test_another_view_layer(rich, export):
     variant = made(rich, "other_layer", "Second")
     bpy.context.window.view_layer = rich.view_layers["Second"]

@@ -80,7 +80,7 @@ def test_what_workbench_hides_is_hidden(hide, build, compare):
     collection = build.collection("Collection", cube, link=True)
     hide(cube, collection, bpy.context.view_layer.layer_collection.children["Collection"])
     comparison = compare()
-    assert comparison.pixels["unexplained"] == 0
+    assert comparison.counts.unexplained == 0
     assert comparison.picture.any() == ("RENDER" not in CASES[hide][0])
 
 

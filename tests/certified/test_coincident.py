@@ -39,6 +39,7 @@ def layers(make, rng, orthographic: bool) -> Scene:
     return replace(scene, instances=[instances[k] for k in rng.permutation(len(instances))])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("orthographic", [False, True])
 def test_memory_is_bounded(make, orthographic):
     """Beside the picture, which has each set of surfaces once, not for each pixel."""
@@ -53,6 +54,7 @@ def test_memory_is_bounded(make, orthographic):
     assert peak < LEAST
 
 
+@pytest.mark.slow
 def test_pieces_are_the_whole(make, rng, monkeypatch):
     """Arrays, ties and statistics, however little is held at once; as the oracle has it."""
     calls, in_one = [], sweep.sweep

@@ -32,6 +32,7 @@ def nothing_asked(monkeypatch):
     monkeypatch.setattr(Measured, "__call__", never)
 
 
+@pytest.mark.slow
 def test_what_is_asked_for_later_is_what_the_definition_finds_at_once(make):
     """In any order of rows and rays; of planes, and of what integers decided, too."""
     planes = exact = projections = 0

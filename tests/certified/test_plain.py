@@ -23,8 +23,12 @@ TRIANGLES = [
     *((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1)),
     *((2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)),
 ]
-SEEDS = 150  # in a part
-PARTS = [0, 1, *(pytest.param(part, marks=pytest.mark.torture) for part in (2, 3))]
+SEEDS = 75  # in a part
+PARTS = [
+    0,
+    pytest.param(1, marks=pytest.mark.slow),
+    *(pytest.param(part, marks=pytest.mark.torture) for part in range(2, 8)),
+]
 MEMORY = 64 << 20
 
 
@@ -66,7 +70,7 @@ def test_the_sweep_is_equal_on_hostile_scenes(make, part):
         for certainty in Certainty:
             count[certainty.name] += (defined.certainty == certainty).sum()
     assert count["NOT_CERTIFIED"] == 0 and count["same"] > 0.9 * count["pixels"], count
-    assert min(count[c] for c in ("hits", "BOUND", "EXACT", "AMBIGUOUS")) > 100, count
+    assert min(count[c] for c in ("hits", "BOUND", "EXACT", "AMBIGUOUS")) > 50, count
 
 
 @pytest.mark.parametrize("whole", [False, True], ids=["any", "coincident"])
@@ -88,11 +92,12 @@ def test_the_sweep_is_equal_from_inside_a_closed_surface(make, rng):
         assert (swept.instance == 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rows", [1, 3])
 def test_as_a_contest_of_every_ray_with_every_triangle(make, rows, monkeypatch):
     """However it is divided."""
     monkeypatch.setattr(plain, "_ROWS", rows)
-    for seed in range(50_000 + 75 * (rows == 3), 50_075 + 75 * (rows == 3)):
+    for seed in range(50_000 + 40 * (rows == 3), 50_040 + 40 * (rows == 3)):
         rng = np.random.default_rng(seed)
         scene, beside = hostile_scene(make, rng), offsets(rng)
         region = scene.camera.region

@@ -147,6 +147,7 @@ def test_a_bound_that_is_too_small_is_noticed(make, monkeypatch, orthographic, b
     assert any(checked(s)[0] < by_hand(s)[0] for s in scenes)
 
 
+@pytest.mark.slow
 def test_hostile_scenes_as_counted_by_hand(make):
     found = 0
     for seed in range(24):

@@ -20,6 +20,7 @@ TOGETHER = 1 << 17  # what numpy does with so many numbers takes some ten millis
 BY_PYTHON = 1 << 11  # what Python decides, one by one, likewise
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("surfaces", [1, 2])
 @pytest.mark.parametrize("orthographic", [False, True])
 def test_no_step_is_long_where_surfaces_coincide(make, monkeypatch, orthographic, surfaces):
@@ -56,6 +57,7 @@ def test_no_step_is_long_where_surfaces_coincide(make, monkeypatch, orthographic
     assert (frame.instance_index == 0).all()
 
 
+@pytest.mark.slow
 def test_no_step_is_long_where_integers_decide(make, monkeypatch):
     """Every ray meets a corner of six triangles, which Python's integers decide one by one."""
     columns, rows = 60, 40

@@ -48,6 +48,8 @@ def test_a_comparison_says_it_and_agrees_only_if_nothing_is_left_out(said, tmp_p
     )
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("said", ["lines", "curves"], indirect=True)  # a note, and a warning
 def test_other_commands_say_it_too(said, capfd):
     path, words, _ = said
     assert main(["explain", str(path), "--pixel", "8", "8", *SMALL]) == AGREE

@@ -21,6 +21,7 @@ BAD = {
     "no file": (["none.ply"], "none.ply"),
     "a kind that is not read": (["words.txt"], "'words.txt' is none of .blend, .npz, .obj"),
     "a kind that Blender imports": (["scene.fbx"], "import it into Blender"),
+    "a name without an end": (["words"], ".gltf: its name has no such end; rename it"),
     "a backup": (["scene.blend1"], "a .blend once it is renamed"),
     "a folder": (["folder.png"], "'folder.png' is no file but a folder"),
     "other suffix": (["words.txt"], "words.txt"),
@@ -78,6 +79,22 @@ BAD = {
     ),
     "unknown method": (["ball.ply", "--method", "magic"], "--method"),
     "not a number": (["ball.ply", "--width", "many"], "--width: many is not an integer"),
+    "a fraction": (["ball.ply", "--samples", "1.5"], "--samples: 1.5 is not an integer"),
+    "a comma": (
+        ["ball.ply", "--angle", "0,5"],
+        "--angle: 0,5 is not between 0 and 180 degrees; the decimal sign is a point",
+    ),
+    "a misspelt option": (
+        ["ball.ply", "--colour=facing"],
+        "reftrace trace: there is no option --colour; --color is the nearest\n"
+        "reftrace trace --help lists the options.\n",
+    ),
+    "no such option": (
+        ["ball.ply", "--zzz"],
+        "there is no option --zzz\nreftrace trace --",
+    ),
+    "options are told before words": (["ball.ply", "two.ply", "--zzz"], "no option --zzz"),
+    "a name with a space": (["ball.ply", "two.ply"], "'two.ply' is one word too many: put a name"),
     "out suffix": (["ball.ply", "--out", "x.jpg"], "x.jpg"),
     "out is a folder, PNG": (["ball.ply", "--out", "folder.png"], "folder.png"),
     "out is a folder, EXR": (["ball.ply", "--out", "folder.exr"], "folder.exr"),
@@ -90,8 +107,8 @@ def test_bad_input_is_named_and_nothing_is_written(
     case, ball, tmp_path, capsys, monkeypatch, exit_code
 ):
     monkeypatch.chdir(tmp_path)
-    for name in ("empty.obj", "empty.npz", "words.txt", "scene.fbx", "scene.blend1"):
-        (tmp_path / name).touch()
+    for name in ("empty.obj", "empty.npz", "words", "words.txt", "scene.fbx", "scene.blend1"):
+        (tmp_path / name).write_text("PK")
     for name in ("folder.png", "folder.exr"):
         (tmp_path / name).mkdir()
     before = sorted(tmp_path.rglob("*"))
@@ -144,6 +161,13 @@ def test_help_names_the_exit_codes(command, capsys):
     for words in ("0  the pictures agree", "1  warnings", "2  differences", "3  the sizes"):
         assert (words in text) == of_pictures
     assert ("example:" in text) == bool(command)
+
+
+def test_the_help_of_export_says_nothing_of_meshes(capsys):
+    with pytest.raises(SystemExit):
+        main(["export", "--help"])
+    text = capsys.readouterr().out
+    assert "mesh" not in text and "--up" not in text and "--width" in text
 
 
 def test_version_and_no_command(capsys):

@@ -56,7 +56,7 @@ def test_on_a_terminal_a_bar_says_what_is_done(monkeypatch):
     pty, fcntl, termios = map(pytest.importorskip, ("pty", "fcntl", "termios"))  # not on Windows
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
-    with open(theirs, "w") as terminal:
+    with open(theirs, "w", encoding="utf-8") as terminal:
         monkeypatch.setattr(sys, "stderr", terminal)
         with running.progress_bar() as show:
             for number in range(5):

@@ -121,6 +121,7 @@ def broken_arithmetic(monkeypatch):
     monkeypatch.setattr(arithmetic, "broken_assumptions", lambda: ["subnormal results"])
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("broken_arithmetic")
 def test_a_machine_that_cannot_certify_says_so(ball, tmp_path, capsys):
     assert trace(ball, tmp_path / "b.png", "--method", "certified") == INPUT_ERROR

@@ -16,6 +16,7 @@ import trimesh
 from reference_tracer.scene import Scene
 from reference_tracer_cluster.connection import connected
 
+SHARED = pytest.StashKey["Dask"]()
 WAIT = 60.0  # seconds for a process to begin, on a machine with more to do
 
 
@@ -83,12 +84,23 @@ def dask(folder: Path, *tls: str):
         running.end()
 
 
-@pytest.fixture(scope="package")
-def shared(tmp_path_factory):
+@pytest.fixture
+def shared(request, tmp_path_factory):
     """A scheduler with two workers, which every test leaves as they are."""
-    with dask(tmp_path_factory.mktemp("dask")) as running:
+    stash = request.config.stash
+    if SHARED not in stash:
+        stash[SHARED] = running = Dask(tmp_path_factory.mktemp("dask"))
         running.work("first"), running.work("second")
-        yield running
+    return stash[SHARED]
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown(item, nextitem):
+    """End what is shared with the folder's last test: idle, it takes a fifteenth of a core."""
+    if nextitem is None or nextitem.path.parent != item.path.parent:
+        if SHARED in item.config.stash:
+            item.config.stash[SHARED].end()
+            del item.config.stash[SHARED]
 
 
 @pytest.fixture

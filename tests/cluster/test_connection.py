@@ -165,4 +165,4 @@ def test_without_dask(monkeypatch, tmp_path, capsys):
     monkeypatch.delitem(sys.modules, "reference_tracer_cluster.connection")
     argv = ["extremes", "--out", str(tmp_path / "out"), "--scheduler", "local:2"]
     assert main(argv) == INPUT_ERROR
-    assert "pip install 'reference_tracer[cluster]'" in capsys.readouterr().err
+    assert 'pip install "reference_tracer[cluster]"' in capsys.readouterr().err

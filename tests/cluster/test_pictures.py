@@ -15,7 +15,6 @@ from reference_tracer.cli.parser import INPUT_ERROR
 from reference_tracer.rendering import render, steps
 from reference_tracer.scene_files import save_scene
 from reference_tracer.study import extremes
-from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import PLAIN_SETTINGS, Settings
@@ -24,6 +23,7 @@ from reference_tracer_cluster import pictures, tasks
 from reference_tracer_cluster.cluster import ClusterError
 from reference_tracer_cluster.connection import connected
 
+from ..scenarios import quick
 from .conftest import dask
 
 pytestmark = pytest.mark.slow
@@ -190,7 +190,7 @@ def test_commands(shared, scene, tmp_path, capsys, monkeypatch):
     here, there = ([{k: row[k] for k in facts} for row in f["rows"]] for f in found)
     assert here == there and len(here) == 3 * (len(PLAIN_SETTINGS) + 1)
     monkeypatch.setattr(
-        extremes.measure, "__defaults__", (SCENARIOS[:2], *extremes.measure.__defaults__[1:])
+        extremes.measure, "__defaults__", (tuple(quick()[:2]), *extremes.measure.__defaults__[1:])
     )
     here, there = both("extremes", "e", "--rays", "30")
     assert (here / "extremes.json").read_bytes() == (there / "extremes.json").read_bytes()

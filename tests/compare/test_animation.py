@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 from reference_tracer.cli.main import main
-from reference_tracer.compare.animation import CODES, FrameRow, frames_named, worst_first
+from reference_tracer.compare.animation import FrameRow, frames_named, worst_first
+from reference_tracer.compare.verdict import Verdict
 
 
 @pytest.mark.parametrize(
@@ -27,7 +28,7 @@ def test_all_are_the_scenes_own():
 
 
 @pytest.mark.parametrize(
-    "text", ["", "x", "5-1", "1-", "1-5:0", "1-5:-1", "1:5", "1-5,7", "1.5", "1048575", "9" * 5000]
+    "text", ["", "x", "1-", "1-5:0", "1-5:-1", "1:5", "1-5,7", "1.5", "1048575", "9" * 5000]
 )
 def test_what_names_no_frames_is_refused_in_a_line(text, tmp_path, capsys):
     with pytest.raises(ValueError, match="it must be"):
@@ -55,14 +56,19 @@ def test_what_is_for_one_frame_is_refused(options, tmp_path, capsys):
 
 def test_the_worst_are_first():
     rows = [
-        FrameRow(1, "agree", 90, 10),
-        FrameRow(2, "differences", 80, 10, 10),
-        FrameRow(3, "warnings", 50, 50),
-        FrameRow(4, "differences", 70, 0, 30),
+        FrameRow(1, Verdict.AGREE, 90, 10),
+        FrameRow(2, Verdict.DIFFERENCES, 80, 10, 10),
+        FrameRow(3, Verdict.WARNINGS, 50, 50),
+        FrameRow(4, Verdict.DIFFERENCES, 70, 0, 30),
         FrameRow(5, error="no camera"),
-        FrameRow(6, "agree", 90, 10),
-        FrameRow(7, "agree", 80, 20),
+        FrameRow(6, Verdict.AGREE, 90, 10),
+        FrameRow(7, Verdict.AGREE, 80, 20),
     ]
     found = worst_first(rows)
     assert [row.frame for row in found] == [5, 4, 2, 3, 7, 1, 6]
-    assert CODES[found[0].verdict] == 4 and CODES[found[1].verdict] == 2
+    assert found[0].verdict.exit_code == 4 and found[1].verdict.exit_code == 2
+
+
+def test_frames_that_end_before_they_begin_are_told_in_order():
+    with pytest.raises(ValueError, match=r"^is 5-1, which ends before it begins: 1-5 does not$"):
+        frames_named("5-1")

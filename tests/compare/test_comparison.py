@@ -17,10 +17,11 @@ from reference_tracer.compare.causes import (
     UNEXPLAINED,
 )
 from reference_tracer.compare.comparing import compare, trace_and_compare
-from reference_tracer.compare.comparison import EXIT_CODES, SCHEMA
+from reference_tracer.compare.comparison import SCHEMA
 from reference_tracer.compare.counts import count_pixels
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture, SizeError, Source
+from reference_tracer.compare.verdict import Verdict
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
@@ -69,16 +70,16 @@ def mixed(scene):
 
 def test_counts_add_up(scene):
     found = mixed(scene)
-    p = found.pixels
-    assert p["total"] == 320 == p["agree"] + p["differ"] + p["not_decidable"] + p["not_traced"]
-    assert p["differ"] == p["explained"] + p["unexplained"]
-    assert p["differ"] + p["not_decidable"] == sum(p["by_cause"].values())
-    assert p["by_cause"]["not_modelled"] > 10 and p["unexplained"] > 10
-    assert set(p["by_cause"]) == {c.key for c in CAUSES if c not in (AGREE, NOT_TRACED)}
+    p = found.counts
+    assert p.total == 320 == p.agree + p.differ + p.not_decidable + p.not_traced
+    assert p.differ == p.explained + p.unexplained
+    assert p.differ + p.not_decidable == sum(p.by_cause.values())
+    assert p.by_cause["not_modelled"] > 10 and p.unexplained > 10
+    assert set(p.by_cause) == {c.key for c in CAUSES if c not in (AGREE, NOT_TRACED)}
     for key in ("total", "agree", "differ", "explained", "unexplained", "not_decidable"):
-        assert p[key] == p["interior"][key] + p["boundary"][key]
-    assert p["boundary"]["total"] == boundary(found.frame).sum() > 0 < p["interior"]["total"]
-    for name, n in p["by_cause"].items():
+        assert getattr(p, key) == getattr(p.interior, key) + getattr(p.boundary, key)
+    assert p.boundary.total == boundary(found.frame).sum() > 0 < p.interior.total
+    for name, n in p.by_cause.items():
         assert n == (found.causes.cause == BY_KEY[name]).sum()
 
 
@@ -86,7 +87,7 @@ def test_examples_are_spread(scene):
     picture = render(scene).color.copy()
     picture[2:14, 3:19] = (1, 0, 1, 1)
     found = compared(scene, picture)
-    examples = found.pixels["examples"]["unexplained"]
+    examples = found.counts.examples["unexplained"]
     rows, columns = np.nonzero(found.causes.cause == UNEXPLAINED)
     assert len(examples) == 10 and len({y for _, y in examples}) > 8
     assert examples[0] == [columns[0], rows[0]] and examples[-1] == [columns[-1], rows[-1]]
@@ -96,14 +97,15 @@ def test_undecidable_pixels_have_examples_too():
     causes = Causes.none((3, 4))
     causes.cause[1, 2] = NOT_DECIDABLE
     counted = count_pixels(causes, np.zeros((3, 4), bool))
-    assert counted["examples"] == {"not_decidable": [[2, 1]]}
+    assert counted.examples == {"not_decidable": [[2, 1]]}
 
 
 def test_equal_pictures_agree(scene):
     found = compared(scene, render(scene).color)
-    assert found.verdict == "agree" and EXIT_CODES[found.verdict] == 0
+    assert found.verdict == "agree" and found.verdict.exit_code == 0
     assert "(certified, float64, 1 x 1 rays a pixel)" in "\n".join(found.lines())
-    assert found.metrics == {
+    assert found.metrics.psnr == np.inf
+    assert found.metrics.to_dict() == {
         "rmse": 0,
         "psnr": None,
         "ssim": pytest.approx(1),
@@ -120,7 +122,7 @@ def test_verdicts(scene):
         assert compared(scene, picture, manifest).verdict == "warnings"
         assert compared(scene, picture[::-1].copy(), manifest).verdict == "differences"
     assert mixed(scene).verdict == "differences"
-    assert [EXIT_CODES[v] for v in ("agree", "warnings", "differences")] == [0, 1, 2]
+    assert [Verdict(v).exit_code for v in ("agree", "warnings", "differences")] == [0, 1, 2]
 
 
 def test_what_is_not_decidable_is_not_comparable(make):
@@ -128,7 +130,7 @@ def test_what_is_not_decidable_is_not_comparable(make):
         make.camera(8, 6, eye=(1e7, 1e7, 0)), make.quad(1e7 - 1, 1e7, 1e7 - 1, 1e7 + 1, -2)
     )
     found = compared(far, render(far).color)
-    assert found.verdict == "not comparable" and found.pixels["not_decidable"] == 48
+    assert found.verdict == "not comparable" and found.counts.not_decidable == 48
     assert any(line.startswith("100 % of this picture is not decidable") for line in found.lines())
 
 
@@ -136,21 +138,17 @@ def test_cancelled(scene):
     frame = Frame.empty(scene)
     frame.cancelled = True
     found = compared(scene, render(scene).color, frame=frame)
-    assert found.verdict == "cancelled" and EXIT_CODES["cancelled"] != 0
-    assert found.pixels["not_traced"] == found.pixels["total"]
+    assert found.verdict == "cancelled" and found.verdict.exit_code != 0
+    assert found.counts.not_traced == found.counts.total
 
 
 def test_metrics_find_the_largest_difference(scene):
     picture = render(scene).color.copy()
     picture[11, 7] += (0, 0.25, 0, 0)
     found = compared(scene, picture).metrics
-    assert found["largest_difference"] == {
-        "value": pytest.approx(0.25),
-        "pixel": [7, 11],
-        "channel": 1,
-    }
-    assert found["rmse"] == pytest.approx(0.25 / np.sqrt(320 * 4))
-    assert found["psnr"] == pytest.approx(-20 * np.log10(found["rmse"]))
+    assert found.largest_difference == (pytest.approx(0.25), (7, 11), 1)
+    assert found.rmse == pytest.approx(0.25 / np.sqrt(320 * 4))
+    assert found.psnr == pytest.approx(-20 * np.log10(found.rmse))
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e30])
@@ -194,7 +192,7 @@ def test_json_has_what_is_promised(scene):
     }
     assert set(held["causes"]) == {c.key for c in CAUSES}
     assert held["identity"] is held["certificate"] is None and held["self_check"] == []
-    assert held["blender"] == BLENDER and held["pixels"] == found.pixels
+    assert held["blender"] == BLENDER and held["pixels"] == found.counts.to_dict()
     assert held["scene"]["unmodelled"][0]["object"] == "Hair"
     tracer = held["tracer"]
     named = tracer["method"], tracer["precision"], tracer["samples"]
@@ -206,9 +204,9 @@ def test_json_has_what_is_promised(scene):
 def test_lines_say_the_verdict_and_every_cause(scene):
     found = mixed(scene)
     text = "\n".join(found.lines())
-    assert f"{found.pixels['agree']} of 320 pixels agree" in text
-    assert f"unexplained: {found.pixels['unexplained']}" in text
-    assert f"not modelled: {found.pixels['by_cause']['not_modelled']}" in text
+    assert f"{found.counts.agree} of 320 pixels agree" in text
+    assert f"unexplained: {found.counts.unexplained}" in text
+    assert f"not modelled: {found.counts.by_cause['not_modelled']}" in text
     assert "verdict: differences" in text and "workbench" in text
     assert "PSNR infinite" in "\n".join(compared(scene, render(scene).color).lines())
 
@@ -254,5 +252,5 @@ def test_a_comparison_is_about_the_objects_colours(scene, color):
     picture = render(scene).color
     case = case_of(scene, picture, settings=Settings(color=color), self_check=True)
     found = result_of(trace_and_compare(case))
-    assert found.pixels["differ"] == 0 and found.verdict == "agree"
+    assert found.counts.differ == 0 and found.verdict == "agree"
     assert np.array_equal(found.frame.color, picture) and found.self_check

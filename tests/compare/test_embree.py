@@ -52,8 +52,8 @@ def test_a_triangle_beyond_is_not_decidable(make):
     np.testing.assert_array_equal(not_decidable(scene, frame, LIMIT), right)
     shown = render(without_the_right_triangle(scene)).color
     found = compared(scene, shown, LIMIT)
-    assert found.pixels["unexplained"] == 0
-    assert found.pixels["not_decidable"] == right.sum()
+    assert found.counts.unexplained == 0
+    assert found.counts.not_decidable == right.sum()
     assert found.verdict == "warnings"
 
 
@@ -63,8 +63,8 @@ def test_a_triangle_within_is_missed(make, far):
     scene = scene_of(make, far)
     shown = render(without_the_right_triangle(scene)).color
     found = compared(scene, shown, LIMIT)
-    assert found.pixels["not_decidable"] == 0
-    assert found.pixels["unexplained"] > 20
+    assert found.counts.not_decidable == 0
+    assert found.counts.unexplained > 20
 
 
 def test_what_is_wrong_beside_it_is_found(make):
@@ -72,7 +72,7 @@ def test_what_is_wrong_beside_it_is_found(make):
     front = replace(scene, instances=scene.instances[1:])
     found = compared(scene, render(front).color, LIMIT)
     undrawn = not_decidable(scene, render(scene), LIMIT)
-    assert found.pixels["unexplained"] > 20
+    assert found.counts.unexplained > 20
     assert not (found.causes.cause[undrawn] == 5).any()
 
 

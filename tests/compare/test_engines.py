@@ -12,6 +12,7 @@ from reference_tracer.compare.comparing import compare
 from reference_tracer.compare.engines import EngineRow
 from reference_tracer.compare.faults import EXAMPLES
 from reference_tracer.compare.picture import Picture, Source, numbered
+from reference_tracer.compare.verdict import Verdict
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.rendering import render
 from reference_tracer.report.engines import lines, write
@@ -37,7 +38,7 @@ def rows(room):
     return [
         row("workbench", frame.color, owners[frame.instance_index]),
         row("cycles", lacking.color, of_lacking),
-        EngineRow("eevee", "failed", error="it cannot"),
+        EngineRow("eevee", Verdict.FAILED, error="it cannot"),
     ]
 
 
@@ -49,7 +50,7 @@ def test_the_wrong_object_is_named_with_its_place(rows, room):
     first = bad.wrong[0]
     assert first["traced"] == "Box"
     assert first["cause"] == "unexplained" and first["why"] and first["triangle"] >= 0
-    assert failed.pixels is None
+    assert failed.counts is None
     without = render(replace(room, instances=[i for i in room.instances if i.object != 1]))
     for wrong in bad.wrong:
         x, y = wrong["pixel"]
@@ -57,6 +58,7 @@ def test_the_wrong_object_is_named_with_its_place(rows, room):
         assert wrong["shown"] == {0: "Ball", 1: "Wall", -1: "nothing"}[behind]
 
 
+@pytest.mark.slow
 def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room):
     """Hair over the wall: the name, not its number; and what both show is what lies beneath."""
     names = ("Ball", "Box", "Wall")
@@ -76,7 +78,7 @@ def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room)
     for w in row.wrong:
         assert (w["why"], w["beneath"]) == ("hair of 'Head' changes the pixel", "hair of 'Head'")
         assert w["shown"] == w["traced"] == "Wall"
-    assert row.pixels["not_judged"]["by_feature"] == {"hair of 'Head'": int(hair.sum())}
+    assert row.counts.not_judged.by_feature == {"hair of 'Head'": int(hair.sum())}
     text = "\n".join(lines([row]))
     told = "hair of 'Head': not modelled: hair of 'Head' changes the pixel"
     assert f"(triangle {row.wrong[0]['triangle']}) beneath {told}" in text

@@ -66,6 +66,7 @@ def test_a_dark_surface_in_another_shade_is_no_anti_aliasing(named):
     assert (wrong & ~near).sum() > 50 and (found[wrong & ~near]).all()
 
 
+@pytest.mark.slow
 def test_a_negative_colour_is_no_mix_of_positive_ones(named):
     """A logarithm that is cut off at 0 would take it for black."""
     frame = render(named)

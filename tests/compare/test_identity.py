@@ -9,6 +9,7 @@ from reference_tracer.compare.identity import (
     NOTHING,
     UNKNOWN,
     Identity,
+    Shows,
     colors_of,
     decode,
 )
@@ -73,6 +74,6 @@ def test_counts():
     traced = np.array([[0, 1, NOTHING], [1, 1, 0]], np.int32)
     shown = np.array([[0, 0, NOTHING], [UNKNOWN, 1, NOTHING]], np.int32)
     found = Identity(("A", "B"), traced, shown)
-    assert found.counts() == {"same_object": 3, "other_object": 2, "not_known": 1}
-    assert found.counts(traced == 1) == {"same_object": 1, "other_object": 1, "not_known": 1}
-    assert found.to_dict() == {"names": ["A", "B"], "pixels": found.counts()}
+    assert found.shows() == Shows(same_object=3, other_object=2, not_known=1)
+    assert found.shows(traced == 1) == Shows(same_object=1, other_object=1, not_known=1)
+    assert found.to_dict() == {"names": ["A", "B"], "pixels": found.shows()._asdict()}

@@ -65,7 +65,7 @@ def test_equal_pictures(shape, rng):
     assert rmse(picture, picture) == 0
     assert psnr(rmse(picture, picture)) == np.inf
     assert result_of(ssim(picture, picture)) == pytest.approx(1, abs=1e-12)
-    assert largest_difference(picture, picture)["value"] == 0
+    assert largest_difference(picture, picture).value == 0
 
 
 @pytest.mark.parametrize("shape", [(1, 1, 4), (1, 9, 4), (2, 2, 4)])
@@ -86,8 +86,8 @@ def test_the_largest_difference_is_where_it_is(rng):
     second = first + rng.uniform(-0.1, 0.1, first.shape)
     second[5, 8, 2] = first[5, 8, 2] - 0.7
     found = largest_difference(first, second)
-    assert (found["pixel"], found["channel"]) == ([8, 5], 2)
-    assert found["value"] == pytest.approx(0.7)
+    assert (found.pixel, found.channel) == ((8, 5), 2)
+    assert found.value == pytest.approx(0.7)
 
 
 @pytest.mark.parametrize("metric", [rmse, lambda a, b: result_of(ssim(a, b)), largest_difference])

@@ -6,6 +6,7 @@ test bed look for all.
 
 from __future__ import annotations
 
+import io
 from dataclasses import replace
 
 import numpy as np
@@ -61,7 +62,7 @@ def told(scene, color, curves=(), faults=LOOKED_FOR, **known):
     """Return what is told of a picture (h, w, 4), by its name; none of it is excused."""
     picture = Picture(np.asarray(color, np.float32), **known)
     found = result_of(trace_and_compare(case_of(scene, picture, curves=curves)))
-    assert found.pixels["unexplained"] > 10 and found.verdict == "differences"
+    assert found.counts.unexplained > 10 and found.verdict == "differences"
     assert not found.causes.transform
     diagnosis = result_of(diagnose(found.case, found.frame, found.causes, faults, np.inf))
     for one in diagnosis.told:
@@ -193,6 +194,34 @@ def test_a_mean_of_samples_is_no_filter(quads, n):
     found = told(quads, color)
     assert set(found) == {"supersampled"}
     assert f"{n} x {n} samples" in found["supersampled"].sentence
+
+
+def over_a_clear_background(quads):
+    """Return the scene without its floor, before a background that is half transparent."""
+    clear = np.array([0.1, 0.15, 0.2, 0.5], np.float32) * (0.5, 0.5, 0.5, 1)
+    return replace(quads, instances=quads.instances[1:], background=clear)
+
+
+def through_a_jpeg(color, quality=80):
+    """Return a picture whose straight colours went through a JPEG; its alpha is kept apart."""
+    alpha = color[..., 3:]
+    stored = np.rint(255 * curve(color[::-1, :, :3] / alpha[::-1])).astype(np.uint8)
+    Image.fromarray(stored).save(file := io.BytesIO(), "JPEG", quality=quality)
+    read = curve_undone(np.asarray(Image.open(file), np.float64)[::-1] / 255)
+    return np.concatenate((read * alpha, alpha), axis=-1)
+
+
+@pytest.mark.slow
+def test_what_is_stored_or_laid_over_keeps_its_alpha(quads):
+    """Straight colours are what a file stores, and what something is laid over."""
+    scene = over_a_clear_background(quads)
+    color = render(scene).color
+    quick = [f for f in LOOKED_FOR if f.name in ("jpeg", "overlay", "exposure", "premultiplied")]
+    assert set(told(scene, through_a_jpeg(color), faults=quick, levels=255)) == {"jpeg"}
+    white = marked(lambda c: 0.5 * c + 0.5 * np.concatenate((c[..., 3:],) * 4, axis=-1))(color)
+    assert set(told(scene, white, faults=quick)) == {"overlay"}
+    more = marked(lambda c: c * (1.2, 1.2, 1.2, 1))(color)  # each surface by its own amount
+    assert not set(told(scene, more, faults=quick))
 
 
 def resolved(scene, ratio):

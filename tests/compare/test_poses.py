@@ -12,6 +12,8 @@ from reference_tracer.compare.diagnosis import diagnose
 from reference_tracer.compare.evidence import Evidence
 from reference_tracer.compare.faults import FAULTS
 from reference_tracer.compare.faults.fault import Guess
+from reference_tracer.compare.faults.fitting import Traced
+from reference_tracer.compare.faults.stand import TURNED
 from reference_tracer.compare.guessing import ALL_EDGES
 from reference_tracer.compare.picture import Picture
 from reference_tracer.projections import ORTHOGRAPHIC
@@ -68,7 +70,7 @@ def pictured(scene, name, guess):
 def told(scene, color, *names):
     """Return what is told of a picture, if only some faults are looked for."""
     found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
-    assert found.pixels["unexplained"] > 10
+    assert found.counts.unexplained > 10
     faults = [BY_NAME[name] for name in names] or FAULTS
     said = result_of(diagnose(found.case, found.frame, found.causes, faults, np.inf)).told
     assert all(t.settled >= 0.97 * t.unexplained for t in said[:1])
@@ -142,6 +144,7 @@ def test_an_object_that_sinks_is_told_as_it_is(few):
     assert found.values[:2] == (0, 0) and found.values[2] == pytest.approx(-0.06, abs=0.01)
 
 
+@pytest.mark.slow
 def test_what_an_orthographic_camera_cannot_see_is_left_open(few):
     scene = few(parallel=True)
     move = (0.2, 0.1, 0)
@@ -152,6 +155,19 @@ def test_what_an_orthographic_camera_cannot_see_is_left_open(few):
     assert np.all(np.subtract(found.high, found.low) > np.abs(away))  # metres
     beside = np.subtract(found.values, move)
     assert np.linalg.norm(beside - (beside @ away) * away) < 0.05
+
+
+def test_an_orthographic_camera_that_turns_leaves_what_was_near_its_rays(few):
+    """What is far away moves by many pixels: triangles are looked for anew."""
+    scene, turn = few(parallel=True), (0.4, 0.25, 0.0)
+    matrix = scene.camera.world_from_camera.copy()
+    matrix[:3, 3] -= 60 * scene.camera.forward
+    scene = scene.seen_by(replace(scene.camera, world_from_camera=matrix))
+    color = pictured(scene, "camera_turned", Guess(turn))
+    found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
+    traced = Traced(Evidence(found.case, found.frame, found.causes), TURNED.camera)
+    assert not result_of(traced.right((0.0, 0.0, 0.0))).all()
+    assert result_of(traced.right(turn)).all()
 
 
 # ---- names
@@ -175,6 +191,15 @@ def test_a_camera_is_told_and_no_object(few, name, values, rivals):
     scene = few()
     found = told(scene, pictured(scene, name, Guess(values)), name, *rivals)
     assert list(found) == [name]
+
+
+@pytest.mark.slow
+def test_an_object_that_moves_by_a_fraction_of_a_pixel(few):
+    """Fitted roughly, it would break as many pixels at its edges as it settles."""
+    scene = few(384, 216)
+    color = pictured(scene, "object_moved", Guess((0, 0.004, -0.003), object="Box"))
+    found = told(scene, color, "object_moved", "object_missing")
+    assert list(found) == ["object_moved"] and found["object_moved"].guess.object == "Box"
 
 
 @pytest.mark.torture
@@ -202,6 +227,7 @@ def test_of_all_faults_that_of_the_camera_is_told(few, name, values):
     np.testing.assert_allclose(found[name].guess.values, values, atol=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "values"),
     [("last_pixel", (0.0,)), ("swapped_transforms", (1.0, 2.0)), ("picture_turned", (2.0,))],
@@ -217,6 +243,7 @@ def test_a_focal_length_is_not_taken_for_the_last_pixel(few):
     assert list(told(scene, color, "last_pixel", "focal_length")) == ["focal_length"]
 
 
+@pytest.mark.slow
 def test_a_square_picture_may_be_turned_by_a_quarter(few):
     """Also a roll turns what is shown, about the shifted window's axis."""
     scene = few(48, 48)
@@ -246,7 +273,11 @@ def test_a_shear_that_is_left_out(few):
     assert list(told(scene, without, "shear_left_out", "scale_left_out")) == ["scale_left_out"]
 
 
-@pytest.mark.parametrize("factor", [1 / 36, 36.0, 64.0])
+SHIFTS = "shift_length", "shift_left_out", "shift_sign", "shift_unit"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("factor", [1 / 36, 64.0])
 def test_a_shift_in_another_length(few, factor):
     scene = few()
     w = scene.camera.window
@@ -256,11 +287,12 @@ def test_a_shift_in_another_length(few, factor):
     wrong = replace(scene.camera, window=_about(w, factor * x, factor * y))
     scene = scene.seen_by(right)
     color = render(scene.seen_by(wrong)).color
-    names = "shift_length", "shift_left_out", "shift_sign", "shift_unit"
-    assert "shift_length" in told(scene, color, *names)
-    other = pictured(scene, "shift_sign", Guess((0.0,)))
-    assert "shift_length" not in told(few(), pictured(few(), "shift_sign", Guess((0.0,))), *names)
-    assert other.shape == color.shape
+    assert "shift_length" in told(scene, color, *SHIFTS)
+
+
+def test_a_shift_of_another_sign_is_in_no_other_length(few):
+    color = pictured(few(), "shift_sign", Guess((0.0,)))
+    assert "shift_length" not in told(few(), color, *SHIFTS)
 
 
 def _about(window, x, y):
@@ -326,9 +358,6 @@ def _wider(window):
 
 
 def test_a_turn_is_said_without_what_it_is_not():
-    from reference_tracer.compare.faults import FAULTS
-    from reference_tracer.compare.faults.fault import Guess
-    from reference_tracer.compare.faults.stand import TURNED
 
     [fault] = [f for f in FAULTS if f.name == "camera_turned"]
     for values, said in (

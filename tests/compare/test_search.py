@@ -7,6 +7,8 @@ import pytest
 from reference_tracer.compare.faults.search import Search
 from reference_tracer.tracer.progress import result_of
 
+SEED = 27
+
 
 @pytest.mark.parametrize("seed", range(80, 90))
 def test_what_is_told_lies_between_its_ends(seed):
@@ -17,7 +19,7 @@ def test_what_is_told_lies_between_its_ends(seed):
     half, height = rng.uniform(0.002, 0.05, count), rng.integers(1, 100, count)
 
     def right(values):
-        return int(np.max(height[np.abs(values[0] - middle) < half], initial=0))
+        return np.arange(100) < np.max(height[np.abs(values[0] - middle) < half], initial=0)
         yield
 
     search = Search(right, (1.0,))
@@ -27,3 +29,30 @@ def test_what_is_told_lies_between_its_ends(seed):
     assert most > 0
     ends = guess.low[0] + search.finest, guess.high[0] - search.finest
     assert all(result_of(search.right((end,))) >= most for end in ends)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_pixels_that_do_not_change_are_not_looked_at_again(count):
+    """Each pixel is right on one side of an edge: with fewer looked at, as much is told."""
+    rng = np.random.default_rng(SEED + count)
+    edges = rng.normal(size=(4000, count))
+    away = rng.uniform(-2, 2, 4000)  # units from the right numbers to each edge
+    right_numbers = rng.uniform(-0.2, 0.2, count)
+    looked_at = []
+
+    def right(values, some=slice(None)):
+        beside = edges[some] @ (np.array(values) - right_numbers)
+        looked_at.append(len(beside))
+        return (beside > away[some]) == (away[some] < 0)
+        yield
+
+    told = []
+    for among in (None, lambda some: lambda values: right(values, some)):
+        looked_at.clear()
+        search = Search(right, np.ones(count), among=among)
+        guess = result_of(search.guess([(0.0,) * count], 1 / 8))
+        told.append((guess.low, guess.values, guess.high, sum(looked_at)))
+    assert told[0][:3] == told[1][:3]
+    assert told[1][3] < told[0][3] / 3
+    assert np.all(np.less_equal(told[0][0], right_numbers))
+    assert np.all(np.less_equal(right_numbers, told[0][2]))

@@ -192,7 +192,7 @@ def test_an_alternative_excuses_no_fault_of_the_camera(case):
     shown = replace(case, picture=Picture(render(lacking).color), curves=())
     shown = replace(shown, alternatives=(Alternative("Box", "hidden", lacking),))
     found = result_of(trace_and_compare(shown))
-    assert found.causes.hidden == [Hidden("Box", "hidden")] and found.pixels["unexplained"] == 0
+    assert found.causes.hidden == [Hidden("Box", "hidden")] and found.counts.unexplained == 0
     rows = checked(shown, ("half_pixel", "one_pixel", "mirrored_x", "sensor_fit"))
     assert {row.result for row in rows.values()} == {"caught"}
 

@@ -120,6 +120,7 @@ def test_a_terminal_without_the_letters(ball):
         (["--pixel", "0", "0", "--out", "pixel.pdf"], "must end in .md or .html or .json"),
         (["--pixel", "0", "0", "--reproducer", "pixel.npz"], "must end in .json"),
         (["--pixel", "0", "0", "--reproducer", "p.json", "--out", "./p.json"], "the same file"),
+        (["--pixel", "0", "0", "--reproducer", "p.json", "--out", "P.json"], "the same file"),
     ],
 )
 def test_what_is_wrong_is_said(ball, capsys, exit_code, options, says):

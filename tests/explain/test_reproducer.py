@@ -138,7 +138,7 @@ def test_an_endless_clip_range(make, tmp_path):
     assert json.loads(writers.json_text(again))["camera"]["clip_end"] == "inf"
 
 
-@pytest.mark.parametrize("text", ["", "{", "[" * 100_000, "\x80", "null", "[]", '"x"', "NaN"])
+@pytest.mark.parametrize("text", ["{", "[" * 100_000, "\x80", "null", "[]", '"x"', "NaN"])
 def test_what_is_no_pixel(tmp_path, text):
     path = tmp_path / "pixel.json"
     path.write_bytes(text.encode("latin-1"))

@@ -65,12 +65,15 @@ def main() -> None:
     found: Counter[str] = Counter()
     for path in valid:  # also loads every library before memory is limited
         read(path, True)
-    limited = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize() + MEMORY
+    limited = (
+        int(Path("/proc/self/statm").read_text("utf-8").split()[0]) * resource.getpagesize()
+        + MEMORY
+    )
     resource.setrlimit(resource.RLIMIT_AS, (limited, limited))
     warnings.simplefilter("error", RuntimeWarning)
     warnings.simplefilter("error", UserWarning)
     for case in range(FIRST, FIRST + COUNT):
-        Path(FOLDER, "at").write_text(str(case))
+        Path(FOLDER, "at").write_text(str(case), "utf-8")
         rng = np.random.default_rng((SEED, case))
         number = case % len(valid)
         suffix = valid[number].suffix

@@ -176,7 +176,7 @@ def test_nothing_of_it_is_left(written, tmp_path):
 def alive(pid):
     """Whether a process runs; one that has ended, and that nobody has asked about, does not."""
     try:
-        with open(f"/proc/{pid}/stat") as file:
+        with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
             return file.read().rsplit(")", 1)[1].split()[0] != "Z"
     except OSError:
         return False

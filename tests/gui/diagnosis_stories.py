@@ -64,7 +64,7 @@ def diagnosis():
     found = result().content
     noted["esc"] = {
         "verdict": found.verdict,
-        "unexplained": found.pixels["unexplained"],
+        "unexplained": found.counts.unexplained,
         "diagnosed": found.diagnosis is not None,
         "lens": scene.camera.data.lens == lens,
     }

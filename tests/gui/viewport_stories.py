@@ -297,7 +297,7 @@ def turned(number):
 def memory():
     """Of this process, in MiB."""
     gc.collect()
-    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096 >> 20
+    return int(Path("/proc/self/statm").read_text("utf-8").split()[1]) * 4096 >> 20
 
 
 def viewport_shows():

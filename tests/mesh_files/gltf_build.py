@@ -14,6 +14,7 @@ from reference_tracer.tracer.vector import transform_points
 
 SQUARE = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], np.float32)
 INDICES = np.array((0, 1, 2, 0, 2, 3), np.uint16)
+UNIT = [[0, 0, 0], [1, 1, 0]]  # the box of the square
 CODES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
 KINDS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 
@@ -85,7 +86,7 @@ class Build:
         if path.suffix == ".gltf":
             path.with_suffix(".bin").write_bytes(self.data)
             self.json["buffers"] = [{"byteLength": len(self.data), "uri": path.stem + ".bin"}]
-            path.write_text(json.dumps(self.json))
+            path.write_text(json.dumps(self.json), "utf-8")
             return path
         self.json.setdefault("buffers", [{"byteLength": len(self.data)}])
         path.write_bytes(glb(self.json, bytes(self.data)))
@@ -174,3 +175,20 @@ def area(triangles: np.ndarray) -> float:
 def box(triangles: np.ndarray) -> list[list[float]]:
     """The lowest and the highest corner."""
     return [triangles.min(axis=(0, 1)).tolist(), triangles.max(axis=(0, 1)).tolist()]
+
+
+def moved(x: float, y: float = 0, z: float = 0) -> list[list[float]]:
+    """Return the box of the unit square, moved."""
+    return [[x, y, z], [x + 1, y + 1, z]]
+
+
+def sparse(build: Build, at: list, values: list, dtype: str = "u2") -> dict[str, Any]:
+    """Return the sparse part of an accessor, whose data are added."""
+    return {
+        "count": len(at),
+        "indices": {
+            "bufferView": build.view(np.array(at, dtype).tobytes()),
+            "componentType": CODES[dtype],
+        },
+        "values": {"bufferView": build.view(np.array(values, np.float32).tobytes())},
+    }

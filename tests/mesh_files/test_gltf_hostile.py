@@ -15,7 +15,7 @@ from reference_tracer.scene import SceneError
 from ..fuzz.mutations import changed, damaged
 from .gltf_build import Build, glb, rich
 
-DAILY, LONG = 1000, 100_000
+DAILY, LONG = 500, 100_000
 FREE = 1 << 25  # bytes that the reader is told are free
 MOST = 3 * FREE  # that a case may take: a part may fit by itself, and its copy, too
 

@@ -2,93 +2,21 @@
 
 from __future__ import annotations
 
-import base64
-import json
-import os
-import re
-
 import numpy as np
 import pytest
-from reference_tracer.mesh_files.gltf import read_gltf
-from reference_tracer.scene import SceneError
 
-from .gltf_build import INDICES, SQUARE, Build, glb, inverse_binds, skinned
-
-
-def refused(path, pattern):
-    with pytest.raises(SceneError, match=pattern) as found:
-        read_gltf(path)
-    assert "\n" not in str(found.value) and len(str(found.value)) < 300
-
-
-def edit(kind, /, **changes):
-    """Change the first of a list of the file's things."""
-
-    def change(build):
-        build.json[kind][0] |= changes
-
-    return change
-
-
-def primitive(**changes):
-    def change(build):
-        build.json["meshes"][0]["primitives"][0] |= changes
-
-    return change
-
-
-def whole(**changes):
-    def change(build):
-        build.json |= changes
-
-    return change
-
-
-def sparse(**changes):
-    """Make the positions sparse, with something wrong."""
-
-    def change(build):
-        parts = {
-            "count": 2,
-            "indices": {"bufferView": build.view(bytes([1, 2])), "componentType": 5121},
-            "values": {"bufferView": build.view(bytes(24))},
-        }
-        build.json["accessors"][0]["sparse"] = parts | changes
-
-    return change
-
-
-def positions(values, **more):
-    def change(build):
-        number = build.accessor(values, **more)
-        build.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = number
-
-    return change
-
-
-def indices(*values, dtype=np.uint8, **more):
-    def change(build):
-        number = build.accessor(np.array(values, dtype), **more)
-        build.json["meshes"][0]["primitives"][0]["indices"] = number
-
-    return change
-
-
-def instanced(**attributes):
-    def change(build):
-        held = {key: build.accessor(np.float32(values)) for key, values in attributes.items()}
-        extension = {"EXT_mesh_gpu_instancing": {"attributes": held}}
-        build.json["nodes"][0]["extensions"] = extension
-
-    return change
-
-
-def requiring(*names):
-    def change(build):
-        for name in names:
-            build.extension(name, required=True)
-
-    return change
+from .gltf_build import SQUARE, Build, inverse_binds, skinned
+from .gltf_wrong import (
+    edit,
+    indices,
+    instanced,
+    positions,
+    primitive,
+    refused,
+    requiring,
+    sparse,
+    whole,
+)
 
 
 def far(build):
@@ -316,120 +244,3 @@ def test_a_skin_with_something_wrong(change, pattern, tmp_path):
     build = skinned()
     change(build)
     refused(build.write(tmp_path / "a.glb"), pattern)
-
-
-def test_fourth_rows_that_float32_has_rounded(tmp_path):
-    build = skinned()
-    number = inverse_binds(build, (0, 0, 0), (0, 0, 0))
-    build.json["skins"][0]["inverseBindMatrices"] = number
-    start = build.json["bufferViews"][build.json["accessors"][number]["bufferView"]]["byteOffset"]
-    build.data[start + 60 : start + 64] = np.float32(0.9999999).tobytes()
-    assert read_gltf(build.write(tmp_path / "a.glb")).placed
-
-
-@pytest.mark.parametrize("length", [4, 11, 12, 16, 20, 300, -30, -1])
-def test_a_glb_that_is_cut_off(length, tmp_path):
-    path = Build().shown().write(tmp_path / "a.glb")
-    path.write_bytes(path.read_bytes()[:length])
-    refused(path, "cut off")
-
-
-def test_a_chunk_beyond_the_end(tmp_path):
-    content = bytearray(Build().shown().write(tmp_path / "a.glb").read_bytes())
-    content[12:16] = b"\xff\xff\xff\x7f"
-    (tmp_path / "a.glb").write_bytes(content)
-    refused(tmp_path / "a.glb", "a chunk of 2147483647 bytes reaches beyond its end")
-
-
-@pytest.mark.parametrize(
-    "content, pattern",
-    [
-        (b"", "JSON cannot be read"),
-        (b"{", "JSON cannot be read"),
-        (b"[]", "is no object"),
-        (b"\xff{}", "JSON cannot be read"),
-        (b"[" * 100_000, "nested too deeply"),
-        (b'{"asset": {"version": NaN}}', "holds NaN"),
-        (b"glTF" + (1).to_bytes(4, "little") + (12).to_bytes(4, "little"), "version 1"),
-        (glb({}, b"").replace(b"JSON", b"ABCD"), "does not begin with a chunk of JSON"),
-        (b"\x80\x04\x95K.", "JSON cannot be read"),  # a pickle
-    ],
-)
-def test_what_is_no_gltf(content, pattern, tmp_path):
-    (tmp_path / "a.gltf").write_bytes(content)
-    refused(tmp_path / "a.gltf", pattern)
-
-
-def names_a_buffer(tmp_path, uri):
-    """A file that would be read if its buffer were."""
-    build = Build().shown()
-    folder = tmp_path / "folder"
-    folder.mkdir()
-    (tmp_path / "outside.bin").write_bytes(build.data)
-    (folder / "inside.bin").write_bytes(build.data[:10])
-    os.symlink(tmp_path / "outside.bin", folder / "link.bin")
-    os.symlink(folder / "circle.bin", folder / "circle.bin")
-    os.mkfifo(folder / "pipe.bin")
-    build.json["buffers"] = [{"byteLength": len(build.data), "uri": uri}]
-    (folder / "a.gltf").write_text(json.dumps(build.json))
-    return folder / "a.gltf"
-
-
-@pytest.mark.parametrize(
-    "uri",
-    [
-        "../outside.bin",
-        "..%2Foutside.bin",
-        "sub/../../outside.bin",
-        "link.bin",
-        "{outside}",
-        "{address}",
-        "FILE:{outside}",
-        "https://example.org/outside.bin",
-        "//example.org/outside.bin",
-        "C:outside.bin",
-    ],
-)
-def test_no_file_outside_of_the_folder_is_read(uri, tmp_path):
-    outside = tmp_path / "outside.bin"
-    uri = uri.format(outside=outside, address=outside.as_uri())
-    refused(names_a_buffer(tmp_path, uri), "buffer 0 names .* not in the folder of the file")
-
-
-@pytest.mark.parametrize(
-    "uri, pattern",
-    [
-        ("none.bin", "names the file 'none.bin', which is not there"),
-        ("pipe.bin", "names the file 'pipe.bin', which is not there"),
-        ("", "names the file '', which is not there"),
-        ("a%00b", "no name of a file"),
-        ("a\0b", "no name of a file"),
-        ("%ff", "no name of a file"),
-        ("x" * 5000, "buffer 0 names"),
-        ("circle.bin", "buffer 0 names"),
-        ("inside.bin", "buffer 0 is cut off: it has 10 of 60 bytes"),
-        (7, "buffer 0 has no data"),
-        ("data:;base64,!!!!", "buffer 0 has a data URI that is no base64"),
-        ("data:;base64", "buffer 0 has a data URI without a comma"),
-        ("data:;base64," + base64.b64encode(bytes(9)).decode(), "it has 9 of 60 bytes"),
-    ],
-)
-def test_a_buffer_that_is_not_there(uri, pattern, tmp_path):
-    refused(names_a_buffer(tmp_path, uri), pattern)
-
-
-def test_the_command_names_the_file(tmp_path, exit_code, capsys):
-    build = Build().shown()
-    requiring("KHR_draco_mesh_compression")(build)
-    path = build.write(tmp_path / "a.glb")
-    assert exit_code(["trace", str(path), "--out", str(tmp_path / "a.png")]) == 4
-    said = capsys.readouterr().err
-    assert re.search(r"a\.glb'.* KHR_draco_mesh_compression", said)
-
-
-def test_a_million_corners_without_data_are_no_trouble(tmp_path):
-    """They are zeros, which the specification allows; the triangle has no area."""
-    build = Build().shown()
-    build.json["accessors"][0] = {"componentType": 5126, "count": 10**6, "type": "VEC3"}
-    (placed,) = read_gltf(build.write(tmp_path / "a.glb")).placed
-    assert not placed.mesh.vertices.any() and len(placed.mesh.triangles) == len(INDICES) // 3

@@ -11,11 +11,8 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli import opening
-from reference_tracer.mesh_diagnosis import diagnose
-from reference_tracer.mesh_files.contents import Contents, Placed
 from reference_tracer.mesh_files.load import load_meshes, scene_of_meshes
-from reference_tracer.rendering import render
-from reference_tracer.scene import Mesh, SceneError
+from reference_tracer.scene import SceneError
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.vector import transform_points
 
@@ -84,11 +81,6 @@ def test_faces_that_are_not_finite_are_left_out_and_named(tmp_path):
     assert "the first is face 2" in found.missing[0]
 
 
-def alone(mesh, matrix=None):
-    """Return a mesh as the only one of a file."""
-    return Contents((Placed(mesh, np.eye(4) if matrix is None else matrix, mesh.name),))
-
-
 def world(contents):
     """Return the corners of every mesh's triangles in world space, one after the other."""
     return [
@@ -145,108 +137,6 @@ def test_hostile_coordinates_warn_of_nothing(scale, tmp_path):
     assert scene_of_meshes(load_meshes(path), None, 8, 8).triangle_count == 1
 
 
-@pytest.mark.filterwarnings("error")
-def test_what_cannot_be_framed_or_is_no_number_is_refused_without_a_warning(tmp_path):
-    huge = Mesh(1.7e308 * np.eye(3) - 1e308, [[0, 1, 2]], name="huge.ply")
-    with pytest.raises(SceneError, match=r"^it is too large to be framed: scale it down$"):
-        scene_of_meshes(alone(huge), None, 8, 8)
-    bits = np.array([0x7F800001, 0, 0x7F7FFFFF] * 3, np.uint32).view(np.float32).reshape(3, 3)
-    write_ply(tmp_path / "a.ply", bits, {"face": [(0, 1, 2)]}, "binary_little_endian")
-    with pytest.raises(SceneError, match="holds no triangles"):
-        load_meshes(tmp_path / "a.ply")
-
-
-@pytest.mark.parametrize("size", [(90, 50), (40, 70)])
-@pytest.mark.parametrize(
-    "shape",
-    [
-        trimesh.creation.icosphere(2),
-        trimesh.creation.box((1, 2, 30)),
-        trimesh.creation.torus(1, 0.1),
-        trimesh.creation.box((1e-4, 3e-4, 2e-5)),
-    ],
-    ids=["ball", "tower", "ring", "tiny"],
-)
-def test_the_picture_of_a_mesh_is_nine_tenths_full(shape, size, make):
-    far = shape.bounding_box.extents.max() * np.array((9, -7, 2.0))
-    matrix = trimesh.transformations.translation_matrix(far)
-    frame = render(scene_of_meshes(alone(make.mesh(shape), matrix), None, *size))
-    seen = frame.instance_index == 0
-    y, x = (np.flatnonzero(seen.any(axis=axis)) for axis in (1, 0))
-    spans = np.array([np.ptp(x) + 1, np.ptp(y) + 1])
-    assert (np.abs(spans - 0.9 * np.array(size)) <= 1).any() and (
-        spans <= 0.9 * np.array(size) + 1
-    ).all()
-    assert 0 < x[0] and x[-1] < size[0] - 1 and 0 < y[0] and y[-1] < size[1] - 1
-
-
-class TestDiagnose:
-    def of(self, shape, **changes):
-        whole = {"vertices": np.array(shape.vertices), "triangles": np.array(shape.faces)} | changes
-        return diagnose(Mesh(**whole))
-
-    def test_closed(self):
-        expected = {
-            "closed": True,
-            "consistent_winding": True,
-            "degenerate_faces": 0,
-            "duplicate_faces": 0,
-        }
-        assert self.of(trimesh.creation.box()) == expected
-
-    def test_split_corners_are_still_closed(self):
-        shape = trimesh.creation.box()
-        split = self.of(
-            shape, vertices=shape.triangles.reshape(-1, 3), triangles=np.arange(36).reshape(-1, 3)
-        )
-        assert split["closed"] and split["consistent_winding"]
-
-    def test_open(self):
-        shape = trimesh.creation.box()
-        assert not self.of(shape, triangles=shape.faces[1:])["closed"]
-
-    def test_flipped_winding(self):
-        faces = np.array(trimesh.creation.box().faces)
-        faces[0] = faces[0][::-1]
-        found = self.of(trimesh.creation.box(), triangles=faces)
-        assert found["closed"] and not found["consistent_winding"]
-
-    def test_degenerate_and_duplicate(self):
-        shape = trimesh.creation.box()
-        faces = np.concatenate(
-            (shape.faces, [[0, 1, 1]], shape.faces[:2, [1, 2, 0]], shape.faces[:1, ::-1])
-        )
-        found = self.of(shape, triangles=faces)
-        assert (found["degenerate_faces"], found["duplicate_faces"]) == (1, 3)
-
-    @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e160])
-    def test_as_trimesh_has_it(self, rng, scale):
-        for count in range(60):
-            points = scale * rng.integers(-1, 2, (6, 3)).astype(float)
-            points[0] += 1e-8 * rng.normal(size=3)
-            faces = rng.integers(0, 6, (count % 12, 3))
-            if count % 2:  # all edges in pairs, one of them wound the wrong way at times
-                faces = np.concatenate((faces, np.roll(faces[:, ::-1], count, axis=1)))
-                faces[:1] = faces[:1, :: 1 if count % 4 == 1 else -1]
-            found = self.of(trimesh.Trimesh(points, faces, process=False), triangles=faces)
-            positions, index = np.unique(points, axis=0, return_inverse=True)
-            merged = trimesh.Trimesh(positions, index.reshape(-1)[faces], process=False)
-            with np.errstate(all="ignore"):
-                assert found["degenerate_faces"] == (~merged.nondegenerate_faces()).sum()
-            assert found["closed"] == merged.is_watertight
-            assert found["consistent_winding"] == merged.is_winding_consistent
-
-    def test_nothing(self):
-        found = diagnose(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int)))
-        assert not found["closed"] and not found["degenerate_faces"]
-
-    @pytest.mark.filterwarnings("error")
-    @pytest.mark.parametrize("scale", [1e-310, 1e150, 1e307])
-    def test_what_is_tiny_or_huge_is_closed_too(self, scale):
-        found = self.of(trimesh.creation.box(), vertices=trimesh.creation.box().vertices * scale)
-        assert found["closed"] and found["consistent_winding"]
-
-
 def test_a_mesh_of_points_in_a_plane_is_named(tmp_path):
     trimesh.creation.box().export(tmp_path / "a.glb")
     content = (tmp_path / "a.glb").read_bytes()
@@ -272,42 +162,13 @@ def test_there_is_no_such_file(load, kind, tmp_path, monkeypatch):
         load(kind("none.ply"))
 
 
-def test_a_mesh_that_is_placed_often_is_one_mesh_and_a_name_is_one_object():
-    same, other = (Mesh(np.eye(3) + k, [[0, 1, 2]], name="Mesh") for k in range(2))
-    far = trimesh.transformations.translation_matrix((5, 0, 0))
-    placed = (
-        Placed(same, np.eye(4), "first"),
-        Placed(other, np.eye(4), "first"),
-        Placed(same, far, "second"),
-    )
-    whole = scene_of_meshes(Contents(placed), None, 8, 8)
-    assert whole.meshes == (same, other) and whole.objects == ("first", "second")
-    assert [(i.mesh, i.object) for i in whole.instances] == [(0, 0), (1, 0), (0, 1)]
-    assert np.array_equal(whole.instances[2].world_from_object, far)
-    greys = [tuple(i.colors[0]) for i in whole.instances]
-    assert greys[0] == greys[1] != greys[2]
-
-
 @pytest.mark.parametrize("suffix", [".obj", ".ply", ".off", ".stl", ".glb"])
-@pytest.mark.parametrize("content", [b"", bytes(200), bytes(range(256)), b"{}"])
+@pytest.mark.parametrize("content", [bytes(200), bytes(range(256)), b"{}"])
 def test_what_is_no_mesh_at_all_gets_one_message(suffix, content, tmp_path):
     path = tmp_path / f"a{suffix}"
     path.write_bytes(content)
     with pytest.raises(SceneError, match=rf"^'{path}' (cannot be read as a mesh: |holds no tri)"):
         load_meshes(path)
-
-
-def test_no_meshes():
-    with pytest.raises(SceneError, match="no meshes"):
-        scene_of_meshes(Contents(()), None, 30, 20)
-
-
-@pytest.mark.parametrize("size, word", [((6.5, 4), "width .* is 6.5"), ((6, 4.0), "height .* 4.0")])
-def test_a_part_of_a_pixel(size, word):
-    box = Mesh(np.eye(3), [[0, 1, 2]])
-    with pytest.raises(SceneError, match=rf"{word}; it must be an integer"):
-        scene_of_meshes(alone(box), None, *size)
-    assert scene_of_meshes(alone(box), None, np.int64(6), 4).camera.width == 6
 
 
 def test_scipy_is_not_imported_for_a_mesh_and_is_not_missed(tmp_path):
@@ -377,3 +238,26 @@ def test_a_byte_order_mark_is_no_part_of_the_first_line(name, text, tmp_path):
         [placed] = contents.placed
         found.append(placed.mesh.vertices[placed.mesh.triangles].tolist())
     assert found[0] == found[1] == [[[0, 0, 0], [1, 0, 0], [0, 0, 1]]]
+
+
+@pytest.mark.parametrize("up", [None, "y", "z"])
+def test_an_obj_of_blenders_is_told_to_have_y_up_where_nobody_says(up, tmp_path):
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    (tmp_path / "a.obj").write_text(text)
+    assert not load_meshes(tmp_path / "a.obj", up).notes
+    (tmp_path / "a.obj").write_text(f"# Blender 5.0.0\n{text}")
+    notes = load_meshes(tmp_path / "a.obj", up).notes
+    assert ["--up y" in note for note in notes] == [True] * (up is None)
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".ply", ".off"])
+def test_points_alone_are_told_to_be_nothing_that_a_ray_meets(suffix, tmp_path):
+    texts = {
+        ".obj": "v 0 0 0\n",
+        ".off": "OFF\n1 0 0\n0 0 0\n",
+        ".ply": "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n0 0 0\n",
+    }
+    (tmp_path / f"a{suffix}").write_text(texts[suffix])
+    with pytest.raises(SceneError, match="holds no triangles, and a ray meets nothing else"):
+        load_meshes(tmp_path / f"a{suffix}")

@@ -97,13 +97,15 @@ def test_objects_keep_their_names_and_share_no_vertices(read):
         (f"{POINTS}f 1 2 5\n", "line 5 names vertex 5, but there are 4"),
         (f"{POINTS}f 1 2 0\n", "line 5 names vertex 0"),
         (f"{POINTS}f 1 2 3\nf -5 1 2\n", "line 6 names vertex 0"),
-        (f"{POINTS}f 1 2 3\n\nf 1 2 x/1\n", "line 7: 'x' is no number"),
-        (f"{POINTS}f 1 2 -x\n", "line 5: '-x' is no number"),
-        (f"{POINTS}f 1 2 2.5\n", "line 5: '2.5' is no number"),
+        (f"{POINTS}f 1 2 3\n\nf 1 2 x/1\n", "line 7: 'x' is no integer"),
+        (f"{POINTS}f 1 2 -x\n", "line 5: '-x' is no integer"),
+        (f"{POINTS}f 1 2 2.5\n", "line 5: '2.5' is no integer"),
         (f"{POINTS}v 1 2 1_0\n", "line 5: '1_0' is no number"),
-        (f"{POINTS}f 1 2 3_\n", "line 5: '3_' is no number"),
-        (f"{POINTS}f 1 2 {'9' * 30}\n", "line 5: '999.*' is no number"),
+        (f"{POINTS}f 1 2 3_\n", "line 5: '3_' is no integer"),
+        (f"{POINTS}f 1 2 {'9' * 30}\n", "line 5: an integer has too many digits"),
         (f"{POINTS}v 1 2\n", "line 5: a vertex has three coordinates"),
+        (f"{POINTS}v 1 2 0,5\n", "line 5: '0,5' is no number: the decimal sign is a point"),
+        (f"{POINTS}v 1 2", "line 5: a vertex has three coordinates; if .* it is cut off: copy it"),
         (f"{POINTS}v 1 2 three\n", "line 5: 'three' is no number"),
         ("\0\0\0\0", "holds bytes that no text has"),
     ],
@@ -132,3 +134,14 @@ def test_what_is_not_drawn_is_named(line, words, is_missing, read):
     told, other = (found.missing, found.notes) if is_missing else (found.notes, found.missing)
     assert len(told) == 1 and words in told[0] and other == ()
     assert corners(found)[-1].tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
+
+
+def test_objects_of_one_name_are_taken_as_one_with_a_note(tmp_path):
+    triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"
+    path = tmp_path / "a.obj"
+    path.write_text(f"o Box\n{triangle}o Ball\n{triangle}o Box\n{triangle}")
+    found = read_obj(path)
+    assert [(p.object, len(p.mesh.triangles)) for p in found.placed] == [("Box", 2), ("Ball", 1)]
+    assert found.notes == ("objects that have the same name are taken as one: 'Box'",)
+    path.write_text(f"g Box\n{triangle}g Ball\n{triangle}g Box\n{triangle}")  # a group goes on
+    assert not read_obj(path).notes

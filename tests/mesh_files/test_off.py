@@ -26,7 +26,10 @@ def read(tmp_path):
         "OFF\n4 1 0\n0 0 0\n2 1 0\n0 2 0\n1 1 0\n4 0 1 2 3\n",
         "OFF 4 1\n# corners\n0 0 0\n\n2 1 0 # right\n0 2 0\n1 1 0\n4 0 1 2 3 255 0 0",
         "COFF\n4 1 4\n0 0 0 1 0 0 1\n2 1 0 1 0 0 1\n0 2 0 0 0 1 1\n1 1 0 0 0 1 1\n4 0 1 2 3\n",
-        "STCNOFF\n4 1 4\n0 0 0 9 9\n2 1 0 9 9\n0 2 0 9 9\n1 1 0 9 9\n4 0 1 2 3 0.5 0.5 0.5\n",
+        "STCNOFF\n4 1 4\n"
+        + "".join(f"{v} 0 0 1 .5 .5 .5 .5 9 9\n" for v in ("0 0 0", "2 1 0", "0 2 0", "1 1 0"))
+        + "4 0 1 2 3 0.5 0.5 0.5\n",
+        "NOFF\n4 1 4\n0 0 0 0 0 1\n2 1 0 0 0 1\n0 2 0 0 0 1\n1 1 0 0 0 1\n4 0 1 2 3 7\n",
     ],
 )
 def test_ways_to_write_the_same(text, read):
@@ -46,11 +49,15 @@ def test_ways_to_write_the_same(text, read):
         ("OFF BINARY\n", "binary OFF file: save it as text"),
         ("OFF\n3 one 0\n", "line 2: "),
         ("OFF\n3\n", "line 2: 2 integers from 0 on"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n", "cut off: fewer than its 3 vertices"),
-        ("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "cut off: fewer than its 2 faces"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n", "cut off: it should have 3 vertices; copy it again"),
+        ("OFF\n1 1 0\n0 0 0\n", "cut off: it should have 1 face;"),
+        ("OFF\n3 1 0\n0 0 0\n0,5 0 0\n0 1 0\n3 0 1 2\n", "line 4: '0,5' is no number: the dec"),
+        ("OFF\n3.0 1 0\n0 0 0\n", "line 2: '3.0' is no integer"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1", "line 6: 3 integers .* it is cut off: copy"),
+        ("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "cut off: it should have 2 faces"),
         ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 6: 3 integers from 0 on"),
         ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4: a vertex has three coordinates"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "what should be a number is none"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "line 4: 'x' is no number"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(text, words, read):
@@ -62,3 +69,30 @@ def test_what_is_behind_the_last_face_is_named(read):
     found = read("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n")
     (note,) = found.notes
     assert note.startswith("what is behind the last face is not understood")
+
+
+@pytest.mark.parametrize(
+    ("header", "vertex", "face", "notes"),
+    [
+        ("OFF", " 1 0 0", "", ["3 vertices have other numbers than OFF names"]),
+        (
+            "OFF",
+            " 1",
+            "",
+            ["3 vertices have other numbers than OFF names"],
+        ),
+        ("COFF", "", "", ["3 vertices have other numbers than COFF names"]),
+        ("COFF", " 1 0 0", "", []),
+        ("NOFF", " 0 0 1 1 0 0", "", ["3 vertices have other numbers than NOFF names"]),
+        ("CNOFF", " 0 0 1 1 0 0 1", "", []),
+        ("OFF", "", " 1 0 0", []),
+        ("OFF", "", " 1 0", ["1 face has numbers behind the corners that are no colour"]),
+        ("OFF", "", " 1 0 0 1 5", ["1 face has numbers"]),
+    ],
+)
+def test_numbers_that_the_header_does_not_name_are_told(header, vertex, face, notes, read):
+    corners = "".join(f"{c}{vertex}\n" for c in ("0 0 0", "1 0 0", "0 1 0"))
+    found = read(f"{header}\n3 1 0\n{corners}3 0 1 2{face}\n")
+    assert len(found.placed[0].mesh.triangles) == 1
+    assert len(found.notes) == len(notes)
+    assert all(n.startswith(start) for n, start in zip(found.notes, notes, strict=True))

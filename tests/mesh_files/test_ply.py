@@ -121,6 +121,7 @@ def test_a_file_that_is_cut_off_is_refused_wherever_that_is(form, tmp_path):
 HEAD = "ply\nformat ascii 1.0\nelement vertex 3\n"
 XYZ = "property float x\nproperty float y\nproperty float z\n"
 FACE = "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+TWO_LISTS = FACE.replace("end_", "property list uchar int vertex_index\nend_")
 BODY = "0 0 0\n1 0 0\n0 1 0\n"
 
 
@@ -133,13 +134,22 @@ BODY = "0 0 0\n1 0 0\n0 1 0\n"
         (f"{HEAD}property half x\n", "'property half x'"),
         (f"{HEAD}property list float int x\n", "'property list float int x'"),
         (f"{HEAD}property float x\nproperty float y\n{FACE}0 0 1 0 0 1\n3 0 1 2", "no x, y and z"),
-        (f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 two", "what should be a number is none"),
-        (f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 1.5", "what should be an integer is none"),
-        (f"{HEAD}{XYZ}{FACE}{BODY}-3 0 1 2", "it is cut off"),
-        (f"{HEAD}{XYZ}{FACE}{BODY}3.5 0 1 2", "what should be an integer is none"),
+        (f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 two", "line 13: 'two' is no number"),
+        (f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 0,5", "is no number: the decimal sign is a point"),
+        (f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 1.5", "'1.5' is no integer"),
+        (
+            f"{HEAD}{XYZ}{FACE}{BODY}-3 0 1 2",
+            "cut off: it should have 1 row of 'face'; copy it again",
+        ),
+        (f"{HEAD}{XYZ}{FACE}{BODY}3.5 0 1 2", "'3.5' is no integer"),
         (f"{HEAD}{XYZ}{FACE.replace('int', 'float', 1)}{BODY}3 0 1 1.5", "with fractions"),
         (f"{HEAD}{XYZ}element vertex 3\n{XYZ}{FACE}{BODY}{BODY}3 0 1 2", "'element vertex 3'"),
         (f"{HEAD}{XYZ}{FACE.replace('vertex_indices', 'corners')}{BODY}3 0 1 2", "no list"),
+        (f"{HEAD}{XYZ}property float x\n{FACE}", "its element 'vertex' has 'x' twice"),
+        (
+            f"{HEAD}{XYZ}{TWO_LISTS}{BODY}3 0 1 2 3 2 1 0",
+            "has both 'vertex_indices' and 'vertex_index'",
+        ),
     ],
 )
 def test_what_cannot_be_meant_is_refused(text, words, tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
+import pytest
 from reference_tracer.projections.sine import sine
 
 BOUND = Fraction(1, 2**51)
@@ -29,6 +30,7 @@ def angles(rng) -> np.ndarray:
     return np.concatenate((near, rng.uniform(-7, 7, 300), rng.uniform(-1024, 1024, 8)))
 
 
+@pytest.mark.slow
 def test_it_is_within_its_bound(rng):
     worst = Fraction(0)
     for quarters in (0, 1):

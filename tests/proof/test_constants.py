@@ -28,8 +28,17 @@ TUNING = {
         **dict.fromkeys(("_FIRST", "BINS", "BINS - 1", "_GROWTH", "_GROWTH - 1"), _BINS),
         **dict.fromkeys(("2", "3"), _BINS + "; and the bytes of a kind of integer"),
     },
+    "sweep.chunks": {"2": "a kind of chunk"},
+    "sweep.clustered": {
+        **dict.fromkeys(("_FIRST * _TILE ** 2", "_GROWTH", "_GROWTH - 1"), _BINS),
+        "SIZE": "how many triangles a cluster has at most",
+    },
+    "sweep.clusters": dict.fromkeys(
+        ("SIZE", "LEAST", "_OWN", "_CELLS", "_CELLS - 1"),
+        "which triangles are a cluster: its box is that of its vertices, whichever they are",
+    ),
     "sweep.depth_buffer": dict.fromkeys(
-        ("FINE", "COARSE", "COARSE // FINE", "2 * FINE"),
+        ("FINE", "COARSE", "COARSE // FINE", "2"),
         "the size of a cell of pixels: integers; a cell has the least nearness of its pixels",
     ),
     "sweep.rasterise": dict.fromkeys(
@@ -37,6 +46,7 @@ TUNING = {
     ),
     "sweep.small_boxes": {"SIDE + 1": "a key for sorting boxes by their size, in integers"},
     "sweep.sweep": {
+        "_PER_PIXEL": "whether clusters are swept, or whole instances",
         "_PAIRS": _STEP,
         "_FRAGMENTS": _ROOM,
         "0.75": _ROOM,

@@ -9,15 +9,16 @@ import re
 import numpy as np
 import pytest
 from reference_tracer.compare.animation import FrameRow
+from reference_tracer.compare.verdict import Verdict
 from reference_tracer.images import save_png
 from reference_tracer.report import animation as report
 
 FRAMES = range(1, 31)
 HOSTILE = "shot <1> $most \"&'\udc80.blend"
 ROWS = [
-    *(FrameRow(f, "agree", 1000 - f, f) for f in FRAMES if f not in (4, 9)),
+    *(FrameRow(f, Verdict.AGREE, 1000 - f, f) for f in FRAMES if f not in (4, 9)),
     FrameRow(4, error="Camera '<b>$title' has scale 0"),
-    FrameRow(9, "differences", 900, 60, 40),
+    FrameRow(9, Verdict.DIFFERENCES, 900, 60, 40),
 ]
 
 
@@ -51,7 +52,10 @@ def test_few_frames_make_a_page_too(rows, tmp_path):
 
 def test_the_worst_frames_have_their_pictures_in_the_page(tmp_path):
     """Those of the frames that differ, from their folders: a frame that agrees has none."""
-    rows = [*(FrameRow(f, "agree", 1000) for f in range(1, 4)), *(r for r in ROWS if r.frame > 3)]
+    rows = [
+        *(FrameRow(f, Verdict.AGREE, 1000) for f in range(1, 4)),
+        *(r for r in ROWS if r.frame > 3),
+    ]
     for row in rows:
         folder = report.folder_of(tmp_path, row.frame)
         folder.mkdir()
@@ -83,7 +87,7 @@ def test_the_worst_frames_have_their_pictures_in_the_page(tmp_path):
     ("frames", "most"), [(range(1, 3), 1), (range(7, 8), 0), (range(1, 251), 2_000_000)]
 )
 def test_the_axes_have_whole_numbers(tmp_path, frames, most):
-    rows = [FrameRow(f, "differences", 10, 0, most) for f in frames]
+    rows = [FrameRow(f, Verdict.DIFFERENCES, 10, 0, most) for f in frames]
     report.write(tmp_path, "shot.blend", frames, rows)
     page = (tmp_path / report.PAGE).read_text(encoding="utf-8")
     words = re.findall(r'<text[^>]*text-anchor="(middle|end)"[^>]*>([^<]*)</text>', page)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 
 import pytest
@@ -119,6 +120,29 @@ def test_a_folder_that_does_not_take_files(tmp_path, monkeypatch):
     assert not (tmp_path / "out").exists()
     with pytest.raises(OSError, match="it is a folder"), folders.made_for_file(tmp_path):
         pass
+
+
+@pytest.mark.parametrize("locked", ["replace", "unlink"])
+def test_a_file_that_is_open_elsewhere_is_named(locked, folder, monkeypatch):
+    """Windows locks it; nothing that was there is then of two runs."""
+    fill(folder, "old")
+    name = NAMES[0]
+
+    def refused(*paths, **_):
+        if any(str(path) == str(folder / name) for path in paths):
+            path = [paths[0], None, paths[1]] if locked == "replace" else paths
+            raise PermissionError(errno.EACCES, "Access is denied", *path)
+        return real(*paths, **_)
+
+    real = getattr(os, locked)
+    monkeypatch.setattr(os, locked, refused)
+    with pytest.raises(OSError, match=f"cannot replace '.*{name}': another program may have it"):
+        with folders.replacing(folder, NAMES) as new:
+            fill(new, "new")
+    assert NAMES[-1] not in held(folder)
+    if locked == "replace":
+        with pytest.raises(OSError, match=f"cannot replace '.*{name}': another program may"):
+            folders.write_text(folder / name, "new")
 
 
 @pytest.fixture

@@ -261,7 +261,7 @@ def test_extras_are_the_literal_picture_and_derivations(differing):
     found = result_of(page.extras(differing))
     literal = render(differing.scene, Settings("textbook_literal"))
     assert np.array_equal(found.literal, literal.color)
-    examples = differing.pixels["examples"]
+    examples = differing.counts.examples
     assert set(found.derivations) == {tuple(p) for some in examples.values() for p in some[:3]}
     assert found.trade is found.extremes is None and not found.left_out
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.compare.animation import FrameRow
+from reference_tracer.compare.verdict import Verdict
 from reference_tracer.images import to_display
 from reference_tracer.report import animation
 from reference_tracer.report.page.content import content
@@ -229,7 +230,7 @@ def test_a_visited_pixel_shows_both_pictures_free_of_slider_and_mark(show, diffe
 
 def test_an_animations_curves_are_seen_and_its_table_opens_the_frames(chromium, tmp_path):
     """Pixels that no cause explains are of another colour, and higher up where there are more."""
-    rows = [FrameRow(f, "agree", 1000 - f, f, 40 * (f == 9)) for f in range(1, 31) if f != 4]
+    rows = [FrameRow(f, Verdict.AGREE, 1000 - f, f, 40 * (f == 9)) for f in range(1, 31) if f != 4]
     animation.write(tmp_path, "shot.blend", range(1, 31), rows)
     tab, wrong = chromium.new_page(), []
     tab.on("console", lambda message: wrong.append(message.text))

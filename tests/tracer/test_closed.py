@@ -25,6 +25,7 @@ def cube(half):
     return half * np.array(out).transpose(1, 2, 0)
 
 
+@pytest.mark.slow
 def test_a_closed_mesh_has_no_holes():
     """From each whole point inside, through all corners, edges and diagonals: one hit, always."""
     inside = np.stack(np.meshgrid(*[np.arange(-3, 4)] * 3), axis=-1).reshape(-1, 3).T * 1.0

@@ -98,6 +98,7 @@ def test_hostile_scenes(make):
     assert sum(n > 0 for n in found) > 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", EXERCISE, ids=lambda p: p.stem)
 def test_the_exercise(path):
     scene = load_scene(path)

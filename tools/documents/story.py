@@ -67,7 +67,7 @@ def _pictures(found: Comparison) -> Sequence[tuple[NDArray[np.uint8], str, tuple
     wrong = (found.picture != found.frame.color).any(axis=-1)[::-1]
     assert found.diagnosis is not None
     [told] = found.diagnosis.told
-    count = found.pixels["unexplained"]
+    count = found.counts.unexplained
     return [
         (shown, "A renderer's picture of your scene. Is it right?", WHITE),
         (_tinted(shown, wrong, RED), f"No: {count:,} pixels show something else.", RED),

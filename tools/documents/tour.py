@@ -86,7 +86,7 @@ def compare():
     screenshot("compared", view)
     view.spaces.active.show_region_ui = False
     content = result().content
-    x, y = content.metrics["largest_difference"]["pixel"]
+    x, y = content.metrics.largest_difference.pixel
     causes = content.causes
     figures = {"figure": float(causes.figure[y, x]), "allowed": float(causes.allowed[y, x])}
     (FOLDER / "comparison.json").write_text(json.dumps(content.to_dict() | {"largest": figures}))
@@ -117,7 +117,7 @@ def look(shown):
 
 def inspect(shown):
     """Come near the pixel that differs most, and click on it."""
-    x, y = result().content.metrics["largest_difference"]["pixel"]
+    x, y = result().content.metrics.largest_difference.pixel
     space, inside = shown.spaces.active, main_region(shown)
     space.image = bpy.data.images["Reference Tracer Difference"]
     yield from show_tab(shown)

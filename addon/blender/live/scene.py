@@ -16,6 +16,7 @@ import numpy as np
 from ...arrays import Colors
 from ...manifest import Effect
 from ...scene import Camera, Scene, alike
+from ...wording import count_of
 from ..reading.export import Parts, assemble
 from ..reading.meshes import Read, read_mesh
 from ..reading.visible import Seen, types_left_out, visible
@@ -88,7 +89,11 @@ class ViewScene:
 
 def _lines(seen: dict[str, Seen]) -> tuple[str, ...]:
     """Return what the picture lacks, a sentence each."""
-    lost = [f"{e.left_out} triangles of '{n}' left out" for n, e in seen.items() if e.left_out]
+    lost = [
+        f"{count_of(e.left_out, 'triangle')} of '{name}' left out"
+        for name, e in seen.items()
+        if e.left_out
+    ]
     features = [u for e in seen.values() for u in e.features.values()]
     return (*lost, *(f"not modelled: {u}" for u in features if u.effect is not Effect.NONE))
 

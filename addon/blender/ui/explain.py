@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
+from ...wording import count_of
 from ..drawing.judges import judge_named
 from . import choices, results
 from .long_work import Answer, named, with_ending
@@ -106,7 +107,8 @@ class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
 
         found = results.content(Kind.PIXEL, context.scene)
         collection = ray_objects.draw(context.scene, found)
-        self.report({"INFO"}, f"{len(collection.objects)} objects in '{collection.name}'")
+        count = count_of(len(collection.objects), "object")
+        self.report({"INFO"}, f"{count} in '{collection.name}'")
         return {"FINISHED"}
 
 

@@ -11,6 +11,7 @@ from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ...tracer.progress import Work
+from ...wording import count_of
 from . import results
 from .long_work import Answer, LongWork, named, say, with_ending
 from .results import Kind, redraw
@@ -33,7 +34,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
             """Show the comparison: Esc ends no more than the search for what is wrong with it."""
             results.keep_comparison(context, comparison)
             self.left = rpt_("the comparison stays, without a diagnosis")
-            count = comparison.pixels["unexplained"]
+            count = comparison.counts.unexplained
             self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
             redraw(context)
 
@@ -207,4 +208,4 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
         return scene
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        return "INFO", f"{result.triangle_count:,} triangles: {self.filepath}"
+        return "INFO", f"{count_of(result.triangle_count, 'triangle')}: {self.filepath}"

@@ -20,6 +20,7 @@ from .results import Kind
 if TYPE_CHECKING:
     from ...compare.animation import FrameRow
     from ...compare.comparison import Comparison
+    from ...compare.counts import PixelCounts
     from ...compare.engines import EngineRow
 
 _WORST = 5  # frames of an animation that are listed
@@ -69,10 +70,10 @@ class _Main(Part):
 def _draw_engines(layout: Any, found: Sequence[EngineRow]) -> None:
     rows = [("Engine", "Differ", "Wrong", "Open")]
     for row in found:
-        pixels = row.pixels or {"differ": "-", "unexplained": "-"}
+        counts = (row.counts.differ, row.counts.unexplained) if row.counts else ("-", "-")
         wrong = "?" if row.wrong_objects is None else str(row.wrong_objects)
         label = JUDGES[row.engine].label
-        rows.append((label, str(pixels["differ"]), wrong, str(pixels["unexplained"])))
+        rows.append((label, str(counts[0]), wrong, str(counts[1])))
     draw_table(layout, rows, NARROW)
 
 
@@ -109,7 +110,7 @@ class _Result(Part):
         for line in comparison.excused.lines():
             wrapped(layout, context, line.strip(), "ERROR")
         draw_findings(layout, context, comparison)
-        draw_table(layout, [*_counts(comparison.pixels), *_measures(comparison)])
+        draw_table(layout, [*_counts(comparison.counts), *_measures(comparison)])
         rows = [("Traced by", "s", "Wrong", "Ambig.")]
         for m in comparison.methods:
             wrong = "?" if m.wrong_pixels is None else f"{m.wrong_pixels:,}"
@@ -120,29 +121,31 @@ class _Result(Part):
         layout.operator(operators.REFERENCE_TRACER_OT_open_page.bl_idname, icon="URL")
 
 
-def _counts(pixels: dict[str, Any]) -> list[tuple[str, str]]:
+def _counts(pixels: PixelCounts) -> list[tuple[str, str]]:
     """Return how many pixels agree and differ: by cause, and in and around surfaces."""
     from ...compare.causes import CAUSES
 
-    counts = {"Agree": pixels["agree"], "Differ": pixels["differ"]}
+    counts = {"Agree": pixels.agree, "Differ": pixels.differ}
     for cause in sorted(CAUSES):
-        if count := pixels["by_cause"].get(cause.key):
+        if count := pixels.by_cause.get(cause.key):
             counts[f"  {cause.label.capitalize()}"] = count
-    for part in ("interior", "boundary"):
-        counts[f"Differ, {part.capitalize()}"] = pixels[part]["differ"]
+    counts |= {
+        "Differ, Interior": pixels.interior.differ,
+        "Differ, Boundary": pixels.boundary.differ,
+    }
     return [(label, f"{count:,} px") for label, count in counts.items()]
 
 
 def _measures(comparison: Comparison) -> list[tuple[str, str]]:
     """Return the metrics of a comparison, what it is with, and how long the tracer took."""
     metrics = comparison.metrics
-    psnr = metrics["psnr"]
-    x, y = metrics["largest_difference"]["pixel"]
+    largest = metrics.largest_difference
+    x, y = largest.pixel
     return [
-        ("RMSE", f"{metrics['rmse']:.3g}"),
-        ("PSNR", "infinite" if psnr is None else f"{psnr:.1f} dB"),
-        ("SSIM", f"{metrics['ssim']:.6f}"),
-        ("Largest Difference", f"{metrics['largest_difference']['value']:.3g} at ({x}, {y})"),
+        ("RMSE", f"{metrics.rmse:.3g}"),
+        ("PSNR", f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"),
+        ("SSIM", f"{metrics.ssim:.6f}"),
+        ("Largest Difference", f"{largest.value:.3g} at ({x}, {y})"),
         ("Compared With", JUDGES[comparison.case.picture.source.name].label),
         ("Traced In", f"{comparison.frame.statistics.seconds:.2f} s"),
     ]

@@ -15,10 +15,11 @@ from ...compare import colors_file, engines
 from ...compare.case import Case
 from ...compare.colors_file import in_colors
 from ...compare.comparing import trace_and_compare
-from ...compare.comparison import EXIT_CODES, Comparison
+from ...compare.comparison import Comparison
 from ...compare.palette import By, GivenColors
 from ...compare.picture import Picture, Source, check_size
-from ...compare.renderers import RASTER, RAYS, RENDERERS, Renderer
+from ...compare.renderers import RENDERERS, renderer_of
+from ...compare.verdict import Verdict
 from ...mesh_diagnosis import diagnosed
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
@@ -45,10 +46,10 @@ def add(parser: Parser) -> None:
 
 def compare(options: CompareOptions) -> int:
     """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
-    results = [options.out.resolve() / name for name in comparison_report.NAMES]
+    results = [folders.place_of(options.out / name) for name in comparison_report.NAMES]
     colors = options.colors if isinstance(options.colors, Path) else None
     for file in (options.scene, options.against, colors, options.colors_out):
-        if file and file.resolve() in results:
+        if file and folders.place_of(file) in results:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
             )
@@ -118,7 +119,7 @@ def _colors(options: CompareOptions) -> By | GivenColors | None:
 def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) -> int:
     verdict = engines.worst(rows)
     print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
-    pages = [options.out / row.engine / page.NAME for row in rows if row.pixels]
+    pages = [options.out / row.engine / page.NAME for row in rows if row.counts]
     return _told(options, verdict, *pages)
 
 
@@ -139,11 +140,11 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
     return _told(options, comparison.verdict, options.out / page.NAME)
 
 
-def _told(options: CompareOptions, verdict: str, *pages: Path) -> int:
+def _told(options: CompareOptions, verdict: Verdict, *pages: Path) -> int:
     """Say where the results are; return the verdict's exit code."""
     print(f"written to {options.out}", *filter(None, [options.colors_out]), sep=" and ")
     print("open", *pages, "in a browser")
-    return EXIT_CODES[verdict]
+    return verdict.exit_code
 
 
 def _blend(
@@ -157,11 +158,12 @@ def _blend(
 
         context = blender.context
         dither = DITHER * context.scene.render.dither_intensity
-        shown = _shown(options, picture, export_camera(context.scene), dither)
+        engine = context.scene.render.engine
+        shown = _shown(options, picture, export_camera(context.scene), dither, engine)
         settings = options.settings_over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         case = gather_against(context, shown, settings, bool(options.self_check), colors)
-        return (yield from _written(options, compared(replace(case, **place))))
+        return (yield from _written(options, compared(_remarked(case, place))))
 
 
 def _file(
@@ -174,7 +176,13 @@ def _file(
     shown = _shown(options, picture, scene.camera)
     settings, checked = options.settings_over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
-    return (yield from _written(options, trace_and_compare(replace(case, **place))))
+    return (yield from _written(options, trace_and_compare(_remarked(case, place))))
+
+
+def _remarked(case: Case, place: dict[str, Any]) -> Case:
+    """Return the case with what was remarked of the picture among its notes, traced at a place."""
+    notes = (*case.manifest.notes, *case.picture.source.remarks)
+    return replace(case, manifest=replace(case.manifest, notes=notes), **place)
 
 
 def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison]:
@@ -183,9 +191,15 @@ def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison
 
 
 def _shown(
-    options: CompareOptions, file: images.PictureFile, camera: Camera, dither: float = 0.0
+    options: CompareOptions,
+    file: images.PictureFile,
+    camera: Camera,
+    dither: float = 0.0,
+    engine: str = "",
 ) -> Picture:
     """Return what is compared of a picture: if it shows the whole view, the camera's border.
+
+    `engine` is Blender's name of the one that the scene is set to.
 
     Raises
     ------
@@ -205,17 +219,16 @@ def _shown(
         dither = options.dither * picture.levels / 255
     elif picture.levels > 255:  # Blender dithers only what has 8 bits
         dither = 0.0
+    remarks = tuple(f"of the picture: {remark}" for remark in picture.remarks)
+    renderer, known = renderer_of(picture.engine, engine)
+    if options.renderer:
+        renderer, known = RENDERERS[options.renderer], "as --renderer says"
     return Picture(
         color,
-        Source(file=options.against.name if options.against else ""),
+        Source(file=options.against.name if options.against else "", known=known, remarks=remarks),
         filter_radius=options.filter or 0.0,
         levels=picture.levels,
         dither=dither,
         opaque=picture.opaque,
-        renderer=RENDERERS[options.renderer] if options.renderer else _renderer_of(picture),
+        renderer=renderer,
     )
-
-
-def _renderer_of(picture: images.StoredPicture) -> Renderer:
-    """Return what a picture was made by: all but Cycles rasterise of Blender's engines."""
-    return RASTER if picture.engine not in ("", "cycles") else RAYS

@@ -9,18 +9,19 @@ from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
-from ... import images
+from ... import exr
 from ...explain import reproducer
 from ...explain.candidates import LIMIT, gather_pixel
 from ...explain.pixel import Pixel
 from ...explain.writers import WRITERS
 from ...framing import Choice
 from ...report import pixel
+from ...report.folders import place_of
 from ...scene import SceneError
 from ..arguments import refuse
 from ..camera_options import CAMERA_OPTIONS, add_camera, choice_from
 from ..opening import SOURCES, load
-from ..parser import AGREE, COUNT, Parser
+from ..parser import AGREE, COUNT, INTEGER, Parser
 from ..running import printable
 
 
@@ -39,7 +40,7 @@ class ExplainOptions:
     def parsed(cls, given: Namespace) -> ExplainOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
         out, again = given.out, given.reproducer
-        if out and again and out.resolve() == again.resolve():
+        if out and again and place_of(out) == place_of(again):
             raise SceneError(f"--out and --reproducer are the same file, '{out}'")
         choice = Choice()
         if given.scene.suffix.lower() == ".json":
@@ -68,7 +69,7 @@ def add(parser: Parser) -> None:
     parser.add_scene(f"{SOURCES}, or a pixel.json that --reproducer wrote")
     parser.add_argument(
         "--pixel",
-        type=int,
+        type=INTEGER,
         nargs=2,
         metavar=("X", "Y"),
         help="the pixel to explain; 0 0 is the picture's lower left",
@@ -106,7 +107,7 @@ def _gathered(options: ExplainOptions) -> Pixel:
     if options.pixel is None:
         return reproducer.read(options.scene)
     # What is said meanwhile, by Blender too, is no part of the Markdown.
-    with images.redirected(1, 2), redirect_stdout(sys.stderr):
+    with exr.redirected(1, 2), redirect_stdout(sys.stderr):
         scene, _ = load(options.scene, options.choice)
     x, y = options.pixel
     return gather_pixel(scene, x, y, options.limit, options.scene.name)

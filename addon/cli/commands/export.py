@@ -10,6 +10,7 @@ from ...framing import Choice
 from ...report import folders
 from ...scene import SceneError
 from ...scene_files import save_scene
+from ...wording import count_of
 from ..arguments import is_blend
 from ..camera_options import add_camera, choice_from
 from ..opening import load
@@ -46,7 +47,7 @@ def add(parser: Parser) -> None:
         metavar="SCENE.npz",
         help="the file to write",
     )
-    add_camera(parser)
+    add_camera(parser, of_meshes=False)
 
 
 def export(options: ExportOptions) -> int:
@@ -55,5 +56,5 @@ def export(options: ExportOptions) -> int:
         scene, _ = load(options.scene, options.choice)
         with folders.replacing_file(options.out) as new:
             save_scene(new, scene)
-    print(f"{scene.triangle_count:,} triangles: {options.out}")
+    print(f"{count_of(scene.triangle_count, 'triangle')}: {options.out}")
     return AGREE

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ... import images
+from ... import exr, images
 from ...certified.rounding import check_can_be_checked, check_is_proven, check_rounding
 from ...framing import Choice
 from ...mesh_files.load import READERS
@@ -18,6 +18,7 @@ from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.progress import result_of
 from ...tracer.settings import Settings
+from ...wording import count_of
 from ..arguments import (
     GivenSettings,
     Place,
@@ -28,7 +29,7 @@ from ..arguments import (
 )
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
-from ..parser import AGREE, Parser
+from ..parser import AGREE, INTEGER, Parser
 from ..running import progress_bar
 
 
@@ -85,7 +86,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument(
         "--rows",
-        type=int,
+        type=INTEGER,
         nargs=2,
         metavar=("FIRST", "LAST"),
         help="trace only a part of a large picture: its rows FIRST to LAST, row 0 the lowest",
@@ -106,11 +107,11 @@ def trace(options: TraceOptions) -> int:
             if options.is_png:
                 images.save_png(new, images.to_display(frame.color))
             else:
-                images.save_exr(new, frame.passes())
+                exr.save(new, frame.passes())
     s = frame.statistics
     print(
-        f"{frame.shape[1]} x {frame.shape[0]} pixels, {s.triangles:,} triangles, "
-        f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({s.method}, "
+        f"{frame.shape[1]} x {frame.shape[0]} pixels, {count_of(s.triangles, 'triangle')}, "
+        f"{count_of(s.pairs_tested, 'pair')} tested in {s.seconds:.2f} s ({s.method}, "
         f"{settings.precision}): {options.out}"
     )
     for line in (*s.required(), *checked):

@@ -16,7 +16,7 @@ from ...tracer.settings import Settings
 from ..arguments import GivenSettings, Place, place_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
-from ..parser import AGREE, COUNT, Parser
+from ..parser import AGREE, COUNT, INTEGER, Parser
 from ..running import progress_bar
 
 
@@ -57,7 +57,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument(
         "--samples",
-        type=int,
+        type=INTEGER,
         metavar="N",
         help=f"measure up to N x N rays a pixel (default {tradeoff.SAMPLES})",
     )

@@ -17,7 +17,7 @@ from ...arrays import Array, Bools, Floats, Index, Places
 from ...methods import Method
 from ...scene import Region, Scene
 from ...tracer.camera import Rays, camera_rays, film_positions
-from ...tracer.candidates import Plan, candidates
+from ...tracer.candidates import PAIRS, Plan, candidates
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.nearest import plan, test_pairs, test_planes
@@ -25,7 +25,7 @@ from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import interpolated, positions
 from ...tracer.vector import groups, parts
-from ...tracer.world import Pairs
+from ...tracer.world import Pairs, WorldTriangles
 from ..case import Case
 from ..cause import AGREE, Cause, Causes
 from ..picture import Picture
@@ -122,6 +122,16 @@ class Probe:
         px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
         return cls(made.scene, px, py, chunks, settings)
 
+    def take(self, some: Places) -> Probe:
+        """Return the probe of some of the n pixels."""
+        number = np.full(len(self.px), -1)
+        number[some] = np.arange(len(some))
+        kept = (p.take(np.flatnonzero(number[p.pixel] >= 0)) for p in self.chunks)
+        chunks = [replace(p, pixel=number[p.pixel]) for p in kept if len(p.pixel)]
+        if sum(len(p.pixel) for p in chunks) <= PAIRS:  # one short step in place of many
+            chunks = [_joined(chunks)] if chunks else []
+        return replace(self, px=self.px[some], py=self.py[some], chunks=chunks)
+
     def rays(
         self,
         dx: Floats | float = 0.0,
@@ -131,16 +141,6 @@ class Probe:
         """Return rays that pass the centres of some of the n pixels at (dx, dy), in pixels."""
         dtype = Precision(self.settings.precision).dtype
         return camera_rays(self.scene.camera, self.px[pixel] + dx, self.py[pixel] + dy, dtype)
-
-    def take(self, wanted: Bools) -> Probe:
-        """Return the probe of some of the n pixels."""
-        place = np.cumsum(wanted) - 1
-        chunks = []
-        for some in self.chunks:
-            kept = np.flatnonzero(wanted[some.pixel])
-            if len(kept):
-                chunks.append(replace(some, pixel=place[some.pixel[kept]], row=some.row[kept]))
-        return replace(self, px=self.px[wanted], py=self.py[wanted], chunks=chunks)
 
     def points(self, hits: Hits) -> Floats:
         """Return where the rays through the n centres end, (n, 3) world space."""
@@ -163,6 +163,16 @@ class Probe:
         return hits
 
 
+def _joined(chunks: list[Pairs]) -> Pairs:
+    """Return several lots of pairs as one, a triangle a pair."""
+    pixel, instance, triangle = (
+        np.concatenate([getattr(p, name) for p in chunks])
+        for name in ("pixel", "instance", "triangle")
+    )
+    corners = np.concatenate([p.corners for p in chunks], axis=2)
+    return Pairs(pixel, np.arange(len(pixel)), WorldTriangles(corners, instance, triangle))
+
+
 @dataclass(frozen=True, eq=False)
 class Part:
     """The n open pixels of a part of the picture, and the probe that asks about them."""
@@ -181,8 +191,8 @@ class Part:
 
     def take(self, wanted: Bools) -> Part:
         """Return the part of some of the n pixels."""
-        row, column = self.at
-        return Part.of(self.pixels, (row[wanted], column[wanted]), self.probe.take(wanted))
+        probe = self.probe.take(np.flatnonzero(wanted))
+        return Part.of(self.pixels, tuple(axis[wanted] for axis in self.at), probe)
 
     @property
     def done(self) -> bool:
@@ -239,7 +249,7 @@ def near_surfaces(
     def look_near(part: Part) -> Work[None]:
         near = yield from _near(part.picture, part.probe)
         if near.any():
-            yield from look(part.take(near))
+            yield from look(part if near.all() else part.take(near))
 
     made = yield from plan(scene, SOUND, reach)
     asked = yield from scaled(may_be_seen(pixels, scene), 0.0, 0.1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,9 +12,9 @@ from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, ViewWindow
 from ...tracer.camera import pixel_size
 from ..evidence import Evidence
+from .climbing import Values
 from .fault import Guess
 from .fitting import KEPT, Family
-from .search import Values
 
 STEP = 4.0  # pixels that the picture's corners move from one start to the next
 
@@ -74,9 +74,15 @@ def _rolls(evidence: Evidence) -> Iterator[Values]:
         yield (float(degrees),)
 
 
-def offsets(evidence: Evidence) -> Iterator[tuple[float, float]]:
-    """Yield offsets for which the traced picture and the shown one correlate best, and (0, 0)."""
-    yield (0.0, 0.0)
+def offsets(evidence: Evidence) -> Sequence[tuple[float, float]]:
+    """Return offsets for which the traced picture and the shown one correlate best, and (0, 0)."""
+    if "offsets" not in evidence.known:
+        evidence.known["offsets"] = [(0.0, 0.0), *_correlated(evidence)]
+    known: Sequence[tuple[float, float]] = evidence.known["offsets"]
+    return known
+
+
+def _correlated(evidence: Evidence) -> Iterator[tuple[float, float]]:
     traced, shown = (_gray(c) for c in (evidence.frame.color, evidence.picture.color))
     size = [2 * n for n in traced.shape]
     product = np.fft.rfft2(traced, size) * np.conj(np.fft.rfft2(shown, size))
@@ -116,7 +122,7 @@ def _beside(camera: Camera, guess: Guess) -> str:
 OFFSET = Family(
     offset,
     lambda evidence: (1.0, 1.0),
-    offsets,
+    lambda evidence: iter(offsets(evidence)),
     _beside,
 )
 FOCAL = Family(

@@ -12,7 +12,7 @@ from itertools import product
 
 import numpy as np
 
-from ...arrays import Array, Bools, Colors
+from ...arrays import Array, Colors
 from ...images import decoded, encoded
 from ...tracer import shading
 from ...tracer.frame import Frame
@@ -20,6 +20,7 @@ from ...tracer.progress import Work
 from ..bounds import largest_within
 from ..case import Case
 from ..evidence import NEAR, Evidence
+from ..metrics import beside_edges
 from .fault import Effort, Example, Fault, Guess
 from .sizes import at_size, sampled_right
 
@@ -164,8 +165,7 @@ def _edges_mix(evidence: Evidence, radius: float) -> bool:
     if evidence.picture.filter_radius:
         return True  # most are mixed already
     made = evidence.picture.made_of(evidence.frame.color)
-    apart = [largest_within(v, 1) + largest_within(-v, 1) for v in np.moveaxis(made, -1, 0)]
-    edge: Bools = np.max(apart, axis=0) > 2 * NEAR
+    edge = beside_edges(made, 2 * NEAR)
     return bool(edge.any() and evidence.open[edge].mean() >= EDGES[radius >= 1])
 
 

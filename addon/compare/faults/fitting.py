@@ -9,17 +9,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
-from ...arrays import Bools, Floats
-from ...scene import Camera
+from ...arrays import Bools, Floats, Places
+from ...projections import ORTHOGRAPHIC
+from ...scene import Camera, Scene
 from ...tracer.camera import film_of
+from ...tracer.hits import Hits
 from ...tracer.progress import Work
 from ..checks.probe import Probe
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
+from .climbing import Right, Values
 from .fault import Find, Guess, Refine
-from .search import Search, Values
+from .search import Search
 
 REACH = 4.0  # pixels that rays may pass beside where they start; beyond, they start anew
 FINE_REACH = 1.0  # pixels, where a fit is made finer: fewer triangles are near
@@ -31,6 +35,17 @@ FINER = 1 / 8  # pixels: the first step where a fit is made finer
 ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
 MOVES = 3  # by which a right start is left, with steps of one length: it is a pixel or two away
 BETTER = 0.03  # by how much larger the share of right pixels must be for a start
+
+
+class Shown(Protocol):
+    """What some sampled pixels show."""
+
+    def only(self, some: Places) -> Shown:
+        """Return the same of some of the pixels, by their numbers."""
+
+    def agrees(self, scene: Scene, hits: Hits) -> Bools:
+        """Return which of the pixels show the hits of a scene, (n,)."""
+
 
 LookUp = Callable[[Evidence, Camera], float]  # the share of some pixels that is right
 
@@ -110,14 +125,16 @@ def fitting(family: Family) -> tuple[Find, Refine]:
     """Return what finds the numbers of a family in a picture, and what fits them finely."""
 
     def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
+        fine = bool(guess.low)
+        traced = Traced(evidence, family.camera, FINE_REACH if fine else REACH)
         search = Search(
-            _Traced(evidence, family, FINE_REACH if guess.low else REACH).right,
+            traced.right,
             family.axes(evidence),
             least=evidence.least_right(family.worth),
             unseen=family.unseen(evidence),
-            moves=np.inf if guess.low else MOVES,
+            moves=np.inf if fine else MOVES,
+            among=traced.among,
         )
-        fine = bool(guess.low)
         step = FINER if fine else 1.0
         found = yield from search.guess([guess.values], step, enclose=fine)
         words = family.words(evidence.case.scene.camera, found) if found else ""
@@ -131,8 +148,8 @@ def fitting(family: Family) -> tuple[Find, Refine]:
             guess = yield from refine(evidence, Guess(start))
             if guess:
                 out.append(guess)
-                right = yield from _Traced(evidence, family).right(guess.values)
-                if right >= ENOUGH * len(evidence.was_open):
+                right = yield from Traced(evidence, family.camera).right(guess.values)
+                if right is not None and right.mean() >= ENOUGH:
                     break
         return out
 
@@ -155,7 +172,7 @@ def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
             score = family.look_up(evidence, other)
             if score > least:
                 scores.append((score, values))
-        if number % 32 == 0:
+        if number % 32 == 0 or family.by_few:
             yield 0.0
     best: list[Values] = []
     for _, values in sorted(scores, key=lambda pair: -pair[0]):
@@ -165,25 +182,50 @@ def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
     return best
 
 
-class _Traced:
-    """Counts the right pixels of the sample for the cameras of a family.
+class Traced:
+    """Says which pixels of a sample are right with a camera of some numbers.
 
     Rays are tested with the triangles near those of a camera that was prepared, as long as what
     they meet is seen near enough by it.
+
+    Parameters
+    ----------
+    evidence : Evidence
+        With the sample, and the scene that is traced.
+    camera : callable
+        The camera with some numbers, from the scene's own one.
+    reach : float
+        Pixels that rays may pass beside where they start.
+    shown : Evidence or Looked, optional
+        What says which of the sampled pixels show what is hit; by default the evidence.
     """
 
-    def __init__(self, evidence: Evidence, family: Family, reach: float = REACH) -> None:
+    def __init__(
+        self,
+        evidence: Evidence,
+        camera: Callable[..., Camera | None],
+        reach: float = REACH,
+        shown: Shown | None = None,
+    ) -> None:
         self.evidence = evidence
-        self.family = family
+        self.camera = camera
         self.reach = reach
+        self.shown = shown or evidence
         self.probes: list[Probe] = []  # the last one first
 
-    def right(self, values: Values) -> Work[int]:
-        """Return how many pixels agree, -1 if there is no such camera."""
+    def among(self, some: Places) -> Right:
+        """Return what says so of some of the pixels, by their numbers."""
+        evidence, shown = self.evidence.only(some), self.shown.only(some)
+        traced = Traced(evidence, self.camera, self.reach, shown)
+        traced.probes = [probe.take(some) for probe in self.probes]
+        return traced.right
+
+    def right(self, values: Values) -> Work[Bools | None]:
+        """Return which of the n pixels agree, (n,); None if there is no such camera."""
         evidence = self.evidence
-        camera = self.family.camera(evidence.case.scene.camera, *values)
+        camera = self.camera(evidence.case.scene.camera, *values)
         if camera is None:
-            return -1
+            return None
         probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
         if probe is None:
             scene = evidence.case.scene.seen_by(camera)
@@ -191,7 +233,7 @@ class _Traced:
             self.probes = [probe, *self.probes[: PREPARED - 1]]
         probe = replace(probe, scene=probe.scene.seen_by(camera))
         hits = yield from probe.trace()
-        return int(evidence.agrees(probe.scene, hits).sum())
+        return self.shown.agrees(probe.scene, hits)
 
     def _near(self, prepared: Camera, camera: Camera) -> bool:
         """Return whether a camera sees everything near where the prepared one does."""
@@ -201,6 +243,8 @@ class _Traced:
             before, now = (np.stack(film_of(c, points)[:2]) for c in (prepared, camera))
             beside = film_beside_camera(prepared, camera, *film) - film
             moved = now - before
+        # Parallel rays that are turned move what is far away by more than what is near.
         same_place = np.array_equal(prepared.origin, camera.origin)
+        same_place &= camera.projection is not ORTHOGRAPHIC
         apart = np.abs(beside).max() if same_place else np.nanmax(np.abs(moved))
         return bool(apart <= self.reach)

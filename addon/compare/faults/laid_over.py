@@ -7,10 +7,15 @@ import numpy as np
 from ...arrays import Bools, Colors, Floats, Index
 from ...tracer.progress import Work
 from ..evidence import NEAR, Evidence, spread
+from ..picture import straight
 from .fault import Effort, Fault, Guess
-from .filters import VALUES
+from .filters import VALUES as OF_MIXES
+from .recolor import alpha_divided, alpha_multiplied
 
 Values = tuple[float, ...]
+
+# In which values it is laid over: straight linear ones, or those of a file.
+VALUES = OF_MIXES | {0.0: (alpha_divided, alpha_multiplied, "")}
 
 LEAST_SURFACES = 2  # that a colour laid over a picture must cover: else it may be an object's
 LEAST_COVERED = 0.02  # of what is covered, for a surface to count
@@ -72,14 +77,18 @@ def _in_values(evidence: Evidence, values: float) -> list[Guess]:
     if not np.isfinite(shown).all():
         return []
     under = np.unique(traced, axis=0, return_inverse=True)[1].reshape(-1)
+
+    def linear(inks: Floats) -> Floats:
+        return back(np.pad(inks, ((0, 0), (0, 1)), constant_values=1.0))[:, :3]
+
     best = max((_inks(traced, shown, under, o) for o in OPACITIES), key=lambda found: found[0])
     covered, opacity, inks = best
     boxed = len(rows) >= COVERED * (right - left) * (top - bottom)
     if covered < COVERED and boxed:
         covered, opacity, inks = _inks(traced, shown, under, 1.0, surfaces=1)
-        own = _of_scene(evidence, back(inks)).all() or len(inks) < MOST_INKS  # it may be an object
+        own = _of_scene(evidence, linear(inks)).all() or len(inks) < MOST_INKS
     else:
-        own = opacity > 1 - NEAR and _of_scene(evidence, back(inks)).any()
+        own = opacity > 1 - NEAR and _of_scene(evidence, linear(inks)).any()
     if covered < COVERED or own:
         return []
     numbers = (opacity, *inks.ravel().tolist())
@@ -155,7 +164,7 @@ def _inks(
 
 def _of_scene(evidence: Evidence, inks: Floats) -> Bools:
     """Return which of k colours (k, 3) an object of the scene may have, (k,)."""
-    table = evidence.case.scene.color_table[:, None, :3]
+    table = straight(evidence.case.scene.color_table)[:, None]
     return (np.abs(table - inks).max(axis=-1) <= NEAR).any(axis=0)
 
 

@@ -220,7 +220,8 @@ LENS_FAULTS = (
     ),
     Fault(
         "shift_length",
-        "the camera's shift is taken for millimetres or pixels, or these for a shift",
+        f"the camera's shift is taken for millimetres (of a sensor {SENSOR:g} mm wide) or pixels, "
+        "or these for a shift",
         "a shift is in lengths of the side that the sensor is fitted to: divide millimetres by the "
         "sensor's width, pixels by the picture's",
         *_LENGTH,

@@ -78,12 +78,26 @@ class Looked:
         own = instances_named(scene, self.name)
         return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())
 
-    def right(self, changed: Scene) -> Work[int]:
-        """Return how many of the n pixels are right with the object as a scene has it alone."""
-        hits = yield from self.traced(changed)
+    def only(self, some: Places) -> Looked:
+        """Return the same of some of the n pixels, by their numbers."""
+        rows, columns = self.at
+        at, behind = (rows[some], columns[some]), self.behind.take(some)
+        return replace(self, at=at, picture=self.picture.at(some), behind=behind)
+
+    def right(self, changed: Scene) -> Work[Bools]:
+        """Return which of the n pixels are right with the object as a scene has it alone, (n,)."""
+        return self.agrees(changed, (yield from self.traced(changed)))
+
+    def agrees(self, changed: Scene, hits: Hits) -> Bools:
+        """Return which of the n pixels show the hits of a scene with the object alone, (n,)."""
         before = (hits.instance != NOTHING) & (hits.t < self.behind.t)
-        shown = (self._beneath & ~before) | self._agree(changed, hits, before)
-        return int(shown.sum())
+        return (self._beneath & ~before) | self._agree(changed, hits, before)
+
+    @property
+    def alone_in_evidence(self) -> Evidence:
+        """The evidence of the n pixels, of the object alone."""
+        case = self.evidence.case.in_scene(self.alone)
+        return replace(self.evidence, chosen=self.at, case=case)
 
     @property
     def _may_settle(self) -> float:

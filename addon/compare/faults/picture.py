@@ -16,7 +16,7 @@ from .fault import Example, Fault, Guess, Make, with_values
 from .filters import FILTER_FAULTS
 from .grading import GRADING_FAULTS
 from .pixels import PIXEL_FAULTS
-from .recolor import recolored
+from .recolor import alpha_divided, alpha_multiplied, recolored
 from .rounding import ROUNDING_FAULTS
 from .sizes import SIZE_FAULTS
 from .tones import CURVE_FAULTS
@@ -57,16 +57,6 @@ def _find_rolled(evidence: Evidence) -> Work[list[Guess]]:
     yield
 
 
-def _premultiplied(color: Array) -> Array:
-    """Multiply colours by their alpha a second time."""
-    return np.concatenate((color[..., :3] * color[..., 3:], color[..., 3:]), axis=-1)
-
-
-def _straight(color: Array) -> Array:
-    alpha = color[..., 3:]
-    return np.concatenate((color[..., :3] / np.where(alpha > 0, alpha, 1), alpha), axis=-1)
-
-
 def _find_partly(evidence: Evidence) -> Work[list[Guess]]:
     """Return the guess if pixels are covered in part: others have the same colour either way.
 
@@ -101,18 +91,18 @@ PICTURE_FAULTS = (
         "premultiplied",
         "the picture's colours are multiplied by alpha twice",
         "store premultiplied colours as they are, straight ones as straight",
-        recolored(_premultiplied),
+        recolored(alpha_multiplied),
         _find_partly,
-        put_right=recolored(_straight),
+        put_right=recolored(alpha_divided),
         sampled=False,
     ),
     Fault(
         "straight_alpha",
         "the picture's colours are straight, not premultiplied by alpha",
         "multiply them by alpha",
-        recolored(_straight),
+        recolored(alpha_divided),
         _find_partly,
-        put_right=recolored(_premultiplied),
+        put_right=recolored(alpha_multiplied),
         sampled=False,
     ),
     *FILTER_FAULTS,

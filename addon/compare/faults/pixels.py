@@ -25,7 +25,7 @@ JPEG_LEVELS = 8.0  # by how much two writers' pixels may differ: each rounds its
 
 
 def _jpeg(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return what a JPEG file makes of a picture (h, w, 4)."""
+    """Return what a JPEG file makes of a picture (h, w, 4), whose alpha is kept elsewhere."""
     from PIL import Image
 
     levels = np.rint(255 * encoded(colors)[::-1, :, :3]).astype(np.uint8)
@@ -33,9 +33,8 @@ def _jpeg(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
     quality, sampling = (int(v) for v in guess.values)
     Image.fromarray(levels).save(file, "JPEG", quality=quality, subsampling=sampling)
     read = np.asarray(Image.open(file), np.float64)[::-1] / 255
-    return np.concatenate(
-        (curve_undone(read), np.ones_like(read[..., :1])), axis=-1, dtype=np.float32
-    )
+    alpha = evidence.picture.color[..., 3:]
+    return np.concatenate((curve_undone(read) * alpha, alpha), axis=-1, dtype=np.float32)
 
 
 def _find_jpeg(evidence: Evidence) -> Work[list[Guess]]:

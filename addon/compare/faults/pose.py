@@ -4,20 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from ...arrays import Floats
+from ...arrays import Bools, Floats, Places
 from ...projections import ORTHOGRAPHIC
-from ...scene import Instance, Mesh, Scene
+from ...scene import Camera, Instance, Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ...tracer.vector import cross
 from ..case import Case
 from ..evidence import Evidence
+from .climbing import Among, Right, Values
 from .fault import Find, Guess, Refine, instances_named
+from .fitting import FINE_REACH, FINER, Traced
 from .looked import Looked
-from .search import Search, Values
+from .search import Search
 
 FINEST = 1 / 128  # pixels
 FIRST = 1 / 4  # of the object's width: the first step
@@ -83,6 +86,8 @@ class Pose:
     axes: Floats  # the numbers that a unit, about a pixel, of each stands for, (m, k) columns
     starts: list[Values]
     unseen: Floats | None = None  # the same of what cannot be seen, (m, j) columns
+    # The camera that sees the object alone as it is seen after the change.
+    camera: Callable[..., Camera] | None = None
 
 
 def _placed(looked: Looked) -> Pose:
@@ -98,7 +103,15 @@ def _placed(looked: Looked) -> Pose:
     starts = [start, beside]
     if np.abs(start).max() < SMALL:  # then its middle says little
         starts.append(0 * start)
-    return Pose(change, axes, [tuple((axes @ v).tolist()) for v in starts], unseen)
+    numbers = [tuple((axes @ v).tolist()) for v in starts]
+    return Pose(change, axes, numbers, unseen, _moved_against)
+
+
+def _moved_against(camera: Camera, *by: float) -> Camera:
+    """Return a camera that sees the world as if it were moved by (x, y, z) m."""
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, 3] -= by
+    return replace(camera, world_from_camera=matrix)
 
 
 def _sized(looked: Looked) -> Pose:
@@ -141,18 +154,28 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
             return None
         pose = of(looked)
 
-        def right(values: Values) -> Work[int]:
-            changed = pose.change(looked.alone, values)
-            return -1 if changed is None else (yield from looked.right(changed))
+        alone = looked.alone
+
+        def other(some: Places) -> Right:
+            return partial(right, looked.only(some))
+
+        def right(looked: Looked, values: Values) -> Work[Bools | None]:
+            changed = pose.change(alone, values)
+            return None if changed is None else (yield from looked.right(changed))
 
         starts, step = pose.starts, FIRST * looked.width
         if pose.axes.shape[1] == 1:  # of which more are looked at on each side
             step /= 4
-        if guess.values:
-            starts, step = [guess.values], 1.0
         fine = bool(guess.low)
+        if guess.values:
+            starts, step = [guess.values], FINER if fine else 1.0
         least = 0.0 if guess.values else looked.least_right
-        search = Search(right, pose.axes, FINEST, least, pose.unseen)
+        known: Right = partial(right, looked)
+        among: Among = other
+        if fine and pose.camera:  # then the triangles near its rays stay
+            traced = Traced(looked.alone_in_evidence, pose.camera, FINE_REACH, looked)
+            known, among = traced.right, traced.among
+        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
     def find(evidence: Evidence) -> Work[list[Guess]]:

@@ -8,11 +8,21 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Array, Colors
+from ...images import EIGHT_BITS
 from ...tracer.frame import Frame
 from ..case import Case
-from ..curves import EIGHT_BITS
 from ..picture import Picture, straight
 from .fault import Guess, Make
+
+
+def alpha_multiplied(color: Array) -> Array:
+    """Return RGBA (..., 4) with its alpha multiplied in."""
+    return np.concatenate((color[..., :3] * color[..., 3:], color[..., 3:]), axis=-1)
+
+
+def alpha_divided(color: Array) -> Array:
+    """Return RGBA (..., 4) with its alpha divided out."""
+    return np.concatenate((straight(color), color[..., 3:]), axis=-1)
 
 
 def recolored(change: Callable[[Array], Array]) -> Make:

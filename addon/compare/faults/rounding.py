@@ -10,11 +10,11 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Array
-from ...images import curve, curve_undone
+from ...images import EIGHT_BITS, curve, curve_undone
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
-from ..curves import EIGHT_BITS, FITTED_SHARE
+from ..curves import FITTED_SHARE
 from ..evidence import Evidence
 from .fault import Example, Fault, Guess, with_values
 from .recolor import of_straight, with_slack

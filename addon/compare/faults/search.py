@@ -1,31 +1,23 @@
-"""Finds the numbers of a fault with which the most pixels of a sample are right.
+"""Finds the numbers of a fault with which the most pixels of a sample are right, and their range.
 
-The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no slope to
-follow. Looked at are the places around the best ones, ever nearer; then the region around the best
-one in which as many are right: all numbers in it agree as well.
+The best place is climbed to (`climbing.py`). Then the region around it is enclosed in which as many
+are right: all numbers in it agree as well.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ...arrays import Array, Floats
+from ...arrays import Floats
 from ...tracer.progress import Work
 from ..evidence import SEED
+from .climbing import COARSE, Among, Climb, Right, Values, values_of
 from .fault import Guess
 
-Values = tuple[float, ...]
-Right = Callable[[Values], Work[int]]  # how many pixels are right, -1 if these numbers cannot be
-
 FINEST = 1 / 512  # of a unit, which is about a pixel
-# How many steps are looked at on each side, by how many numbers there are; 1 otherwise.
-WIDE = {1: 4, 2: 2}
-NARROW = {1: 2}
-COARSE = 1 / 2  # of a unit: with smaller steps only the best start is followed
 ROUGH = 1 / 32  # of a unit: the last step where a finer fit follows
-ASKEW = 8  # directions besides those of the axes, where there are three numbers
 FARTHEST = 256.0  # units to which a number is enclosed, at most
 ROUNDS = 5  # in which a region of several numbers is enclosed, at most
 GROWN = 1.2  # times as large after a round: then there is another one
@@ -37,15 +29,17 @@ LOTS = 12  # places at each of these distances
 DIGITS = range(-1, 5)  # that a number is told with, beside those of its interval
 
 
-class Search:
-    """A search among the numbers of one fault; each place is looked at once.
+class Search(Climb):
+    """A search among the numbers of one fault.
 
     Parameters
     ----------
-    right : callable
-        How many pixels are right with m numbers.
-    axes : (m, k) or (m,) float
-        What a unit, about a pixel, along each of k axes adds to the numbers; or of each alone.
+    right, axes, moves, among
+        As those of :class:`Climb`.
+    finest : float
+        Units: the last step.
+    least : float
+        Right pixels after large steps, for smaller ones to be worth while.
     unseen : (m, j) float, optional
         Further axes, along which nothing changes: they are not searched, only enclosed.
     """
@@ -58,16 +52,13 @@ class Search:
         least: float = 0,
         unseen: Floats | None = None,
         moves: float = np.inf,
+        among: Among | None = None,
     ) -> None:
-        axes = np.asarray(axes, np.float64)
-        self._right = right
-        self.axes = np.diag(axes) if axes.ndim == 1 else axes
+        super().__init__(right, axes, moves, among)
         self.all_axes = self.axes if unseen is None else np.hstack((self.axes, unseen))
         self.finest = finest
-        self.moves = moves  # with steps of one length
-        self.least = least  # right pixels after large steps, for smaller ones to be worth while
+        self.least = least
         self.own = self.all_axes  # half the region along each of its own axes, (m, k)
-        self._known: dict[Values, int] = {}
 
     def guess(
         self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
@@ -104,7 +95,7 @@ class Search:
         if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
             places = yield from self._region([np.array(told), *places], right)
         low, high = self._box(np.array([told, *places]))  # its last digit may lie just outside
-        return Guess(told, _values(low), _values(high), object=name)
+        return Guess(told, values_of(low), values_of(high), object=name)
 
     def _box(self, places: Floats) -> tuple[Floats, Floats]:
         """Return a box around places; what is nearer than the finest step is not told apart.
@@ -115,35 +106,6 @@ class Search:
         beyond = 0.0 if self.all_axes.shape[1] == 1 else (WIDER - 1) / 2 * (high - low)
         beyond += self.finest * np.abs(self.axes).sum(axis=1)
         return low - beyond, high + beyond
-
-    def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
-        """Return the best place that smaller and smaller steps reach, and how many are right."""
-        right = yield from self.right(values)
-        moves = 0
-        while step >= last and right >= 0:
-            values, better = yield from self._around(values, step)
-            moves += 1
-            if better == right or moves >= self.moves:
-                step, moves = step / 2, 0
-            right = better
-        return values, right
-
-    def right(self, values: Values) -> Work[int]:
-        """Return how many pixels are right with these numbers."""
-        if values not in self._known:
-            self._known[values] = yield from self._right(values)
-        return self._known[values]
-
-    def _around(self, values: Values, step: float) -> Work[tuple[Values, int]]:
-        """Return the best place a step away in any direction, or this one."""
-        best, most = values, (yield from self.right(values))
-        count = self.axes.shape[1]
-        for direction in _directions(count, WIDE if step >= COARSE else NARROW):
-            there = _values(values + step * self.axes @ direction)
-            found = yield from self.right(there)
-            if found > most:
-                best, most = there, found
-        return best, most
 
     def _region(self, known: list[Floats], right: int) -> Work[Floats]:
         """Return the ends of the region around a place in which as many are right, (n, m).
@@ -168,7 +130,7 @@ class Search:
             axes = self._own_axes(np.array(ends))
             first, far = CLOSE, 4.0
             mean: Floats = np.array(ends).mean(axis=0)
-            if (yield from self.right(_values(mean))) >= right:
+            if (yield from self.right(values_of(mean))) >= right:
                 centre = mean
             if (number or len(known) > 1) and _size(ends) < GROWN * size:
                 break
@@ -181,7 +143,7 @@ class Search:
         out = {}
         for far in BESIDE:
             for direction in rng.normal(size=(LOTS, self.axes.shape[1])):
-                there = _values(centre + far * self.axes @ direction)
+                there = values_of(centre + far * self.axes @ direction)
                 out[there] = yield from self.right(there)
         return out
 
@@ -197,11 +159,11 @@ class Search:
     ) -> Work[Floats]:
         """Return the last place along a direction (m,) before fewer pixels are right."""
         good, bad = 0.0, first
-        while bad < far and (yield from self.right(_values(centre + bad * along))) >= right:
+        while bad < far and (yield from self.right(values_of(centre + bad * along))) >= right:
             good, bad = bad, 2 * bad
         while bad - good > max(first / 4, close * good):
             between = (good + bad) / 2
-            if (yield from self.right(_values(centre + between * along))) >= right:
+            if (yield from self.right(values_of(centre + between * along))) >= right:
                 good = between
             else:
                 bad = between
@@ -238,10 +200,6 @@ class Search:
         return None
 
 
-def _values(numbers: Floats) -> Values:
-    return tuple(numbers.tolist())
-
-
 def _size(ends: Sequence[Floats]) -> float:
     """Return how large the box around some places is, by the sum of its sides."""
     return float(np.ptp(ends, axis=0).sum())
@@ -262,14 +220,3 @@ def _spokes(count: int) -> Floats:
         return np.eye(1)
     askew = np.random.default_rng(SEED).normal(size=(count, count))
     return np.concatenate((np.eye(count), askew / np.linalg.norm(askew, axis=1, keepdims=True)))
-
-
-def _directions(count: int, far: Mapping[int, int]) -> Array:
-    """Return the steps with which is looked around: (m, count), also some that follow no axis."""
-    steps = far.get(count, 1)
-    around = np.array(np.meshgrid(*[range(-steps, steps + 1)] * count)).reshape(count, -1).T
-    around = around[around.any(axis=1)]
-    if count < 3:
-        return around
-    rng = np.random.default_rng(SEED)
-    return np.concatenate((around[np.abs(around).sum(axis=1) < 3], rng.normal(size=(ASKEW, count))))

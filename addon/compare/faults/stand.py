@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Floats
+from ...arrays import Bools, Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
 from ...tracer.camera import pixel_size
 from ...tracer.progress import Work, result_of
 from ..evidence import Evidence
+from .climbing import Climb, Values
 from .fault import Guess
 from .film import offsets, radius
 from .fitting import LOOKED_UP, Family, projected
-from .search import Search, Values
 
 FIRST = 8.0  # pixels: the first step of looking up
 LAST = 1 / 4  # pixels: the last one
@@ -109,14 +109,19 @@ def _climbed(
     """Yield where looking up leads from each start, in ever smaller steps."""
     own = evidence.case.scene.camera
 
-    def right(values: Values) -> Work[int]:
-        return round(LOOKED_UP * projected(evidence, of(own, *values)))
+    def right(values: Values) -> Work[Bools | None]:
+        share = projected(evidence, of(own, *values))
+        return np.arange(LOOKED_UP) < round(LOOKED_UP * share)
         yield
 
-    search = Search(right, axes)
-    for start in dict.fromkeys(starts):
-        guess = result_of(search.climbed(start, FIRST, LAST))
-        yield guess[0]
+    climb = Climb(right, axes)
+    units = np.linalg.pinv(np.diag(axes) if np.ndim(axes) == 1 else axes)
+    begun: list[Values] = []
+    for start in starts:
+        if all(np.abs(units @ np.subtract(start, b)).max() >= FIRST for b in begun):
+            begun.append(start)
+            guess = result_of(climb.climbed(start, FIRST, LAST))
+            yield guess[0]
 
 
 def _in_the_world(camera: Camera, guess: Guess) -> str:

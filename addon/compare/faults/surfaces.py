@@ -11,10 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...arrays import Bools, Colors
-from ...images import encoded
+from ...images import EIGHT_BITS, encoded
 from ...tracer.hits import NOTHING
 from ..checks.color import groups, medians
-from ..curves import EIGHT_BITS
 from ..evidence import Evidence, spread
 from ..metrics import boundary
 from ..picture import Picture, Transform

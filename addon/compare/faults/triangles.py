@@ -202,7 +202,7 @@ TRIANGLE_FAULTS = (
     ),
     Fault(
         "triangles_missing",
-        "{count:.0f} triangles of '{object}' are missing",
+        "'{object}' lacks {count:.0f} of its triangles",
         "check which faces are exported: hidden ones, large polygons, the end of the list",
         _without_triangles,
         _missing_triangles,

@@ -7,13 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...arrays import Bools
 from ...scene import Camera
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
 from ..evidence import Evidence
+from .climbing import Values
 from .fault import Example, Fault, Guess, of_camera
-from .search import Search, Values
+from .search import Search
 
 FEW = (0.0, 0.001, 0.01, 0.05)  # shares of unexplained pixels that may have another cause
 STEPS = 32  # of the depths that are seen: the first step of a fit
@@ -68,18 +70,19 @@ def _fitted(
     # The pixels' rays are the same with each depth: what may be on them is looked for once.
     probe = yield from evidence.probe(evidence.case.scene.seen_by(widest))
 
-    def right(values: Values) -> Work[int]:
+    def right(values: Values) -> Work[Bools | None]:
         other = changed(camera, *values) if values[0] > 0 else None
         if other is None:
-            return -1
+            return None
         clipped = replace(probe, scene=probe.scene.seen_by(other))
         hits = yield from clipped.trace()
-        return int(evidence.agrees(clipped.scene, hits).sum())
+        return evidence.agrees(clipped.scene, hits)
 
     starts = []
     for depth in _parting(evidence, sign):
         # It parts the pixels already: if most are wrong with it, so they are beside it.
-        if (yield from right(depth)) >= evidence.least_right():
+        found = yield from right(depth)
+        if found is not None and found.sum() >= evidence.least_right():
             starts.append(depth)
     if not starts:
         return []

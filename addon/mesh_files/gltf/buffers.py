@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import base64
 import binascii
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from urllib.parse import unquote, unquote_to_bytes, urlsplit
 
 from ...scene import SceneError
@@ -96,8 +96,10 @@ def _file(folder: Path, uri: str, size: int, label: str) -> memoryview:
     shown = short(uri)
     try:
         parts = urlsplit(uri)
-        is_address = bool(parts.scheme or parts.netloc)
-        path = (folder / unquote(uri, errors="strict")).resolve()
+        named = unquote(uri, errors="strict")
+        # A drive or a server of Windows is not even asked for, nor where it means nothing.
+        is_address = bool(parts.scheme or parts.netloc or PureWindowsPath(named).anchor)
+        path = folder if is_address else (folder / named).resolve()
         is_inside = path.is_relative_to(folder.resolve())
         is_file = not is_address and is_inside and path.is_file()
     except (OSError, ValueError, RuntimeError):  # no name of a file; RuntimeError: links in circles

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from ...scene import SceneError
+from ...wording import count_of
 from .document import Document, quoted
 from .notes import Notes
 
@@ -68,7 +69,9 @@ def _chunks(content: memoryview, notes: Notes) -> list[tuple[bytes, memoryview]]
     if length > len(content):
         raise SceneError(f"it is cut off: it has {len(content)} of {length} bytes: export it again")
     if length < len(content):
-        notes.add(f"{len(content) - length} bytes follow the end of the .glb and are not read")
+        more, end = len(content) - length, "the end of the .glb and"
+        said = count_of(more, f"byte follows {end} is", f"bytes follow {end} are")
+        notes.add(f"{said} not read")
     found, at = [], _HEADER.size
     while at < length:
         if at + _CHUNK.size > length:

@@ -76,8 +76,8 @@ def content(
 
 def _causes(comparison: Comparison) -> list[dict[str, Any]]:
     """Return the text, the colour and the count of each cause, in the order of their numbers."""
-    pixels = comparison.pixels
-    count = pixels["by_cause"] | {"agree": pixels["agree"], "not_traced": pixels["not_traced"]}
+    counts = comparison.counts
+    count = {**counts.by_cause, "agree": counts.agree, "not_traced": counts.not_traced}
     return [
         {
             "value": int(cause),

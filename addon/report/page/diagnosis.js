@@ -19,10 +19,11 @@ function drawDiagnosis() {
   byId("diagnosis").hidden = !diagnosis;
   byId("told").hidden = !diagnosis?.told.length;
   if (!diagnosis) return;
-  const { told, guesses, regions, ended } = diagnosis;
+  const { told, guesses, regions, untried } = diagnosis;
+  const names = untried.map((name) => name.replaceAll("_", " ")).join(", ");
   const work =
     `${count(guesses)} guesses were tried in ${seconds(diagnosis.seconds)}` +
-    (ended ? ", and it ended before all were: that takes long." : ".");
+    (names ? `; a limit of work ended the search for: ${names}.` : ".");
   byId("told").replaceChildren(
     element("strong", {}, "Diagnosis: "),
     ...told.flatMap(({ sentence, alternative }, k) => [

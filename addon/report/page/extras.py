@@ -92,7 +92,7 @@ def _derivations(
             "reftrace explain writes that of any pixel."
         )
         return found
-    wanted = [p for some in comparison.pixels["examples"].values() for p in some[:DERIVED]]
+    wanted = [p for some in comparison.counts.examples.values() for p in some[:DERIVED]]
     for number, (x, y) in enumerate(wanted):
         found[x, y] = derive(scene, x, y, source=comparison.manifest.file)
         yield number / len(wanted)

@@ -73,6 +73,10 @@ function headline(score) {
       `${percent(excused, score.total)} of the picture rests on rounding alone.`,
       ...advice.map((line) => `To have it judged, ${line}.`),
     );
+  for (const { object, pixels, total } of page.comparison.excused.objects)
+    parts.push(
+      `'${object}' was not judged: ${count(pixels)} of the ${count(total)} in which it is seen rest on rounding alone.`,
+    );
   if (score.not_traced) parts.push(`${count(score.not_traced)} were not traced.`);
   return parts.join(" ");
 }

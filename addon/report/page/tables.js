@@ -132,16 +132,18 @@ function metricsCard() {
       ["SSIM", ssim.toFixed(6)],
       [
         "Largest difference",
-        element(
-          "span",
-          {},
-          `${general(most.value, 4)} at `,
-          element(
-            "button",
-            { type: "button", class: "link", onclick: () => visit(x, y) },
-            `(${x}, ${y})`,
-          ),
-        ),
+        most.value === 0
+          ? "none"
+          : element(
+              "span",
+              {},
+              `${general(most.value, 4)} at `,
+              element(
+                "button",
+                { type: "button", class: "link", onclick: () => visit(x, y) },
+                `(${x}, ${y})`,
+              ),
+            ),
       ],
     ]),
     element("p", { class: "muted" }, "Of linear RGBA, over all pixels."),

@@ -105,6 +105,7 @@ def cases(make):
             yield seed, film, corners, found, *map(np.array, (triangle, x, y))
 
 
+@pytest.mark.slow
 def test_functions_are_off_by_no_more_than_they_say(make):
     """Edges, the sign of T and nearness; and what is surely inside is."""
     count, worst = Counter(), Counter()

@@ -122,6 +122,7 @@ def test_rays_are_off_by_no_more_than_is_claimed(make):
     assert largest > 2.0**-9
 
 
+@pytest.mark.slow
 def test_boxes_hold_every_pixel_that_is_hit(make):
     """Every pixel of the picture outside the box is judged; so is how near what is hit comes."""
     outside_boxes, hits, unseen, ahead_of_all = 0, 0, 0, 0

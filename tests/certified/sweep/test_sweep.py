@@ -12,10 +12,13 @@ from reference_tracer.certified import ladder, measures
 from reference_tracer.certified.sweep import (
     boxes,
     chunks,
+    clustered,
+    clusters,
     depth_buffer,
     rasterise,
     resolve,
     small_boxes,
+    small_triangles,
     sweep,
 )
 from reference_tracer.certified.sweep.edge_functions import set_up
@@ -32,10 +35,10 @@ from ...tracer.hostile_scenes import brute_force, hostile_scene, offsets, scaled
 from ...tracer.rational import t_of_pixels
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
-SEEDS = 500  # in a part
-PARTS = [0, *(pytest.param(part, marks=pytest.mark.torture) for part in range(1, 8))]
-SAMPLE = 120  # seeds that the oracle decides
-DIVIDED = 20
+SEEDS = 250  # in a part
+PARTS = [0, *(pytest.param(part, marks=pytest.mark.torture) for part in range(1, 16))]
+SAMPLE = 60  # seeds that the oracle decides
+DIVIDED = range(20_001, 20_020, 2), range(20_000, 20_020)  # seeds, of every day and of the long run
 ARRAYS = ("t", "instance", "triangle", "s", "certainty")
 
 
@@ -93,8 +96,8 @@ def test_as_the_ladder_with_every_ray_and_every_triangle(make, part):
         count["beside"] += beside != (0, 0)
         count["mirrored"] += (np.linalg.slogdet(scene.instance_matrices[:3, :3].T)[0] < 0).any()
     assert count.pop("NOT_CERTIFIED") == 0
-    assert min(count[k] for k in ("orthographic", "borders", "beside", "mirrored")) > 100, count
-    assert min(count.values()) > 100 and count["BOUND"] > 0.4 * count["pixels"], count
+    assert min(count[k] for k in ("orthographic", "borders", "beside", "mirrored")) > 50, count
+    assert min(count.values()) > 50 and count["BOUND"] > 0.4 * count["pixels"], count
 
 
 def test_as_the_oracle_has_it(make):
@@ -111,7 +114,7 @@ def test_as_the_oracle_has_it(make):
         for k, ties in found.ties.items():
             assert names[k] in ties and may(truth[k]) <= ties <= touched(truth[k]), seed
         ambiguous, hits = ambiguous + len(found.ties), hits + (found.triangle != NOTHING).sum()
-    assert ambiguous > 600 and hits > 1800
+    assert ambiguous > 300 and hits > 900
 
 
 def sizes(fine, coarse):
@@ -143,6 +146,11 @@ DIVISIONS = {
     "fragments by threes": [(resolve, "_FRAGMENTS", 3), (sweep, "_PAIRS", 3)],
     "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
     "chunks of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
+    "clusters by twos": [
+        (sweep, "clusters_of", clusters.Clusters.of), (sweep, "_PER_PIXEL", 0.0),
+        (small_triangles, "_PER_PIXEL", 0.0),
+        (clusters, "SIZE", 2), (clustered, "SIZE", 2), (clustered, "_TILE", 4),
+    ],
     "all small": [
         (sweep, "_TRIANGLES", 2), (boxes, "BINS", 3), (resolve, "_PAIRS", 5),
         (rasterise, "_CELLS", 2),
@@ -152,11 +160,15 @@ DIVISIONS = {
 }  # fmt: skip
 
 
-@pytest.fixture(scope="module")
-def undivided(make):
+@pytest.fixture(
+    scope="module",
+    params=[DIVIDED[0], pytest.param(DIVIDED[1], marks=pytest.mark.torture)],
+    ids=["some", "all"],
+)
+def undivided(make, request):
     """Return scenes, where their rays pass the pixels' centres, and what they see."""
     out = []
-    for seed in range(20_000, 20_000 + DIVIDED):
+    for seed in request.param:
         rng = np.random.default_rng(seed)
         scene, beside = hostile_scene(make, rng), offsets(rng)
         out.append((seed, scene, beside, swept(scene, beside=beside)))
@@ -246,12 +258,12 @@ def test_the_order_of_instances_only_names(undivided):
             assert now < (new[then[0]], then[1]) and then < (old[now[0]], now[1]), seed
             renamed += 1
         assert found.s[:, same].tobytes() == expected.s[:, same].tobytes(), seed
-    assert renamed > 20
+    assert renamed > 10
 
 
 def test_bands_of_a_frame_do_not_matter(undivided, monkeypatch):
     """A whole frame with samples, as memory divides it."""
-    for seed, scene, *_ in undivided[:6]:
+    for seed, scene, *_ in undivided[:3]:
         settings = Settings("certified", samples=2)
         monkeypatch.setattr(loop, "BYTES_PER_PIXEL", 224)
         whole = render(scene, settings)

@@ -54,11 +54,12 @@ def work(monkeypatch):
     return done
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [1.5, 0.0], ids=["a filter", "one sample"])
 def test_a_step_is_bounded_whatever_differs(make, work, radius):
     """A fine mesh of which every pixel differs: nothing is drawn in one long step."""
     ball = trimesh.creation.icosphere(3, radius=1.0)
-    camera = make.camera(24, 18, half=0.5, eye=(0.1, 0.2, 3), clip_end=100)
+    camera = make.camera(20, 15, half=0.5, eye=(0.1, 0.2, 3), clip_end=100)
     scene = make.scene(camera, make.mesh(ball), make.quad(-9, 9, -9, 9, -4))
     settings = Settings("moller_trumbore")
     color = render(scene, replace(settings, samples=2)).color.copy()

@@ -1,32 +1,24 @@
-"""Writes and reads PNG files with zlib and numpy alone.
+"""The pixels of a PNG: unpacked, unfiltered, put in their places, and turned into channels.
 
 References
 ----------
 W3C, "Portable Network Graphics (PNG) Specification", third edition. Its sections are named where
-they are followed. Chunks that say more of colour (gAMA, iCCP, ...) are not applied.
+they are followed.
 """
 
 from __future__ import annotations
 
-import struct
 import sys
 import zlib
-from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from .arrays import Array, Bytes
-
-SIGNATURE = b"\x89PNG\r\n\x1a\n"
-_LEVEL = 6  # of zlib's compression: 9 takes several times as long for a few per cent
+from ..arrays import Array, Bytes
 
 GREY, RGB, PALETTE, GREY_ALPHA, RGBA = 0, 2, 3, 4, 6  # colour types (11.2.1)
-_CHANNELS = {GREY: 1, RGB: 3, PALETTE: 1, GREY_ALPHA: 2, RGBA: 4}
-_DEPTHS = {GREY: (1, 2, 4, 8, 16), RGB: (8, 16), PALETTE: (1, 2, 4, 8)}
-_SUB, _UP, _AVERAGE, _PAETH = 1, 2, 3, 4  # filter types (9.2)
-_TEXTS = b"tEXt", b"zTXt", b"iTXt"  # each begins with a keyword (11.3.3)
+CHANNELS = {GREY: 1, RGB: 3, PALETTE: 1, GREY_ALPHA: 2, RGBA: 4}
+_PAETH = 4  # the last of the filter types (9.2)
 # The first column and row of each pass of an interlaced picture, and its steps (8.1).
 _ADAM7 = (
     (0, 0, 8, 8),
@@ -55,98 +47,14 @@ class Header(NamedTuple):
     @property
     def bits(self) -> int:
         """The bits of a pixel."""
-        return self.depth * _CHANNELS[self.kind]
+        return self.depth * CHANNELS[self.kind]
 
     def line(self, width: int) -> int:
         """Return the bytes of a row of some pixels, without its filter type."""
         return -(-width * self.bits // 8)
 
 
-@dataclass(frozen=True, eq=False)
-class Samples:
-    """The pixels of a PNG."""
-
-    values: Array  # (h, w, c) uint8 or uint16, row 0 on top; 1 or 3 channels, and alpha if any
-    levels: int  # the value that stands for 1: 255 for 8 bits, and for a palette
-    has_alpha: bool
-    notes: frozenset[str]  # the keywords of the texts in the file
-
-
-def encode(picture: Bytes) -> bytes:
-    """Return an (h, w, 4) uint8 picture, row 0 at the bottom, as the content of a PNG file.
-
-    It has 8 bits a channel, and no filter: flat colours are smaller without.
-    """
-    height, width = picture.shape[:2]
-    rows = np.zeros((height, 1 + 4 * width), np.uint8)  # each begins with 0: it is not filtered
-    rows[:, 1:] = picture[::-1].reshape(height, -1)
-    header = struct.pack(">2I5B", width, height, 8, RGBA, 0, 0, 0)
-    out = [SIGNATURE]
-    for chunk in (b"IHDR" + header, b"IDAT" + zlib.compress(rows, _LEVEL), b"IEND"):
-        out += struct.pack(">I", len(chunk) - 4), chunk, struct.pack(">I", zlib.crc32(chunk))
-    return b"".join(out)
-
-
-def header_of(content: bytes) -> Header:
-    """Return what the first bytes of a file, 33 or more, say of the picture.
-
-    Raises
-    ------
-    PngError
-        If they do not begin a PNG.
-    """
-    if not content.startswith(SIGNATURE):
-        raise PngError("it is no PNG file")
-    kind, body = next(_chunks(content), (b"", b""))
-    if kind != b"IHDR" or len(body) != 13:
-        raise PngError("its header is damaged")
-    width, height, depth, color, packed, filtered, interlaced = struct.unpack(">2I5B", body)
-    if not (width and height) or depth not in _DEPTHS.get(color, (8, 16)):
-        raise PngError("its header is damaged")
-    if color not in _CHANNELS or packed or filtered or interlaced > 1:
-        raise PngError("its header is damaged")
-    return Header(width, height, depth, color, bool(interlaced))
-
-
-def decode(content: bytes) -> Samples:
-    """Return the pixels of a PNG file: of every colour type and depth, interlaced or not.
-
-    Raises
-    ------
-    PngError
-        If it is no PNG, or a damaged one.
-    """
-    header = header_of(content)
-    parts: dict[bytes, list[bytes]] = {}
-    for kind, body in _chunks(content):
-        parts.setdefault(kind, []).append(body)
-    texts = (text for kind in _TEXTS for text in parts.get(kind, ()))
-    notes = frozenset(text.partition(b"\0")[0].decode("latin-1") for text in texts)
-    chunks = {kind: b"".join(bodies) for kind, bodies in parts.items()}
-    if b"IEND" not in chunks:
-        raise PngError("it is cut off")
-    samples = _samples(header, chunks.get(b"IDAT", b""))
-    values, levels, has_alpha = _in_channels(header, chunks, samples)
-    return Samples(values, levels, has_alpha, notes)
-
-
-def _chunks(content: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """Yield the name and the content of each chunk that is whole (5.3)."""
-    at = len(SIGNATURE)
-    while at + 12 <= len(content):
-        (size,) = struct.unpack_from(">I", content, at)
-        end = at + 12 + size
-        if end > len(content):
-            return
-        kind, body = content[at + 4 : at + 8], content[at + 8 : end - 4]
-        (sum_,) = struct.unpack_from(">I", content, end - 4)
-        if sum_ != zlib.crc32(content[at + 4 : end - 4]):
-            raise PngError(f"its chunk {kind.decode('ascii', 'replace')} is damaged")
-        yield kind, body
-        at = end
-
-
-def _samples(header: Header, packed: bytes) -> Array:
+def unpacked(header: Header, packed: bytes) -> Array:
     """Return the samples of all pixels, (h, w, c) as they are stored (8, 9, 10)."""
     passes = _ADAM7 if header.interlaced else ((0, 0, 1, 1),)
     sizes = [
@@ -154,8 +62,8 @@ def _samples(header: Header, packed: bytes) -> Array:
     ]
     sizes = [size if min(size) > 0 else (0, 0) for size in sizes]
     whole = sum(height * (1 + header.line(width)) for width, height in sizes)
-    data = _unpacked(packed, whole)
-    shape = header.height, header.width, _CHANNELS[header.kind]
+    data = _inflated(packed, whole)
+    shape = header.height, header.width, CHANNELS[header.kind]
     out = np.zeros(shape, np.uint16 if header.depth == 16 else np.uint8)
     at = 0
     for (x, y, dx, dy), (width, height) in zip(passes, sizes, strict=True):
@@ -167,7 +75,7 @@ def _samples(header: Header, packed: bytes) -> Array:
     return out
 
 
-def _unpacked(packed: bytes, size: int) -> bytes:
+def _inflated(packed: bytes, size: int) -> bytes:
     """Return so many bytes of zlib's; never more, whatever the stream holds."""
     reader = zlib.decompressobj()
     try:
@@ -221,7 +129,7 @@ def _predicted(kinds: Bytes, left: Array, above: Array, corner: Array) -> Array:
 
 def _of_bytes(header: Header, lines: Bytes, width: int) -> Array:
     """Return the samples (h, w, c) of rows of bytes (7.2)."""
-    shape = len(lines), width, _CHANNELS[header.kind]
+    shape = len(lines), width, CHANNELS[header.kind]
     if header.depth == 16:
         return np.ascontiguousarray(lines).view(">u2").reshape(shape)
     if header.depth == 8:
@@ -231,7 +139,7 @@ def _of_bytes(header: Header, lines: Bytes, width: int) -> Array:
     return (bits[:, :width] @ weights).reshape(shape)
 
 
-def _in_channels(
+def in_channels(
     header: Header, chunks: dict[bytes, bytes], samples: Array
 ) -> tuple[Array, int, bool]:
     """Return the samples as colours, their levels, and whether there is alpha (11.3.2.1)."""
@@ -243,14 +151,15 @@ def _in_channels(
     if clear is not None and not has_alpha:
         if len(clear) != 2 * samples.shape[2]:
             raise PngError("its chunk tRNS is damaged")
-        hole = (samples == np.frombuffer(clear, ">u2")).all(axis=-1, keepdims=True)
+        level = np.frombuffer(clear, ">u2") & most  # the other bits say nothing
+        hole = (samples == level).all(axis=-1, keepdims=True)
         alpha = np.where(hole, 0, most).astype(samples.dtype)
         samples, has_alpha = np.concatenate((samples, alpha), axis=-1), True
     return samples, most, has_alpha
 
 
 def _looked_up(palette: bytes, clear: bytes | None, index: Bytes) -> tuple[Array, int, bool]:
-    """Return what :func:`_in_channels` does, of indices (h, w) into a palette."""
+    """Return what :func:`in_channels` does, of indices (h, w) into a palette."""
     if not palette or len(palette) % 3 or len(palette) // 3 <= int(np.max(index)):
         raise PngError("its palette is damaged")
     table = np.frombuffer(palette, np.uint8).reshape(-1, 3)

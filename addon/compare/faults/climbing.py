@@ -1,0 +1,156 @@
+"""Climbs to the numbers of a fault with which the most pixels are right.
+
+The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no slope to
+follow. Looked at are the places around the best ones, ever nearer.
+
+A pixel that is the same at all the places around one is the same between them, as far as edges are
+straight: with steps that are small, only the others are looked at from then on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Array, Bools, Floats, Places
+from ...tracer.progress import Work
+from ..evidence import SEED
+
+Values = tuple[float, ...]
+Right = Callable[[Values], Work[Bools | None]]  # which pixels are right; None if no such can be
+Among = Callable[[Places], Right]  # the same of some of the pixels, by their numbers
+
+# How many steps are looked at on each side, by how many numbers there are; 1 otherwise.
+WIDE = {1: 4, 2: 2}
+NARROW = {1: 2}
+COARSE = 1 / 2  # of a unit: with smaller steps fewer places around are looked at
+ASKEW = 8  # directions besides those of the axes, where there are three numbers
+SMALL = 1 / 8  # of a unit: with larger steps pixels may be others between places where they are not
+ROUNDING = 1e-9  # of a step
+FEWER = 1 / 2  # of the pixels that are looked at: with more left, all of these still are
+
+
+@dataclass(frozen=True, eq=False)
+class _Near:
+    """What is known between the places around one."""
+
+    units: Floats  # units of numbers, (k, m)
+    centre: Floats
+    step: float
+    known: Bools  # (n,) which pixels are right in the centre
+    changing: Places  # those that are not the same in all the places
+    right: Right  # of these
+
+    def holds(self, values: Values) -> bool:
+        """Return whether numbers lie between the places: on the axes, and on two at once."""
+        away = np.abs(self.units @ (values - self.centre)) / self.step
+        return bool(np.max(away) <= 1 + ROUNDING and np.sum(away) <= 2 + ROUNDING)
+
+
+class Climb:
+    """Places among the numbers of one fault; each is looked at once.
+
+    Parameters
+    ----------
+    right : callable
+        Which of n pixels are right with m numbers.
+    axes : (m, k) or (m,) float
+        What a unit, about a pixel, along each of k axes adds to the numbers; or of each alone.
+    moves : float
+        With steps of one length, at most.
+    among : callable, optional
+        What says the same of some pixels, by their numbers, and takes less work.
+    """
+
+    def __init__(
+        self,
+        right: Right,
+        axes: Sequence[float] | Floats,
+        moves: float = np.inf,
+        among: Among | None = None,
+    ) -> None:
+        axes = np.asarray(axes, np.float64)
+        self._right = right
+        self.axes = np.diag(axes) if axes.ndim == 1 else axes
+        self.moves = moves
+        self._among = among
+        self._known: dict[Values, Bools | None] = {}
+        self._near: list[_Near] = []  # one in the other, the smallest last
+
+    def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
+        """Return the best place that smaller and smaller steps reach, and how many are right."""
+        right = yield from self.right(values)
+        moves = 0
+        while step >= last and right >= 0:
+            values, better = yield from self._around(values, step)
+            moves += 1
+            if better == right:
+                self._narrow(values, step)
+            if better == right or moves >= self.moves:
+                step, moves = step / 2, 0
+            right = better
+        return values, right
+
+    def right(self, values: Values) -> Work[int]:
+        """Return how many pixels are right with these numbers, -1 if there can be no such."""
+        if values not in self._known:
+            self._known[values] = yield from self._found(values)
+        found = self._known[values]
+        return -1 if found is None else int(np.count_nonzero(found))
+
+    def _found(self, values: Values) -> Work[Bools | None]:
+        near = next((n for n in reversed(self._near) if n.holds(values)), None)
+        if near is None:
+            return (yield from self._right(values))
+        found = near.known.copy()
+        if len(near.changing):
+            some = yield from near.right(values)
+            if some is None:
+                return None
+            found[near.changing] = some
+        return found
+
+    def _narrow(self, values: Values, step: float) -> None:
+        """From now on, look only at pixels that change a step away from numbers, or nearer."""
+        own = self._known[values]
+        if self._among is None or step > SMALL or own is None:
+            return
+        others = [self._known[there] for there in self._places(values, step)]
+        changing = np.flatnonzero(np.any([own != v for v in others if v is not None], axis=0))
+        before = len(self._near[-1].changing if self._near else own)
+        if len(changing) <= FEWER * before:
+            units = np.linalg.pinv(self.axes)
+            right = self._among(changing)
+            self._near.append(_Near(units, np.array(values), step, own, changing, right))
+
+    def _places(self, values: Values, step: float) -> list[Values]:
+        """Return the places a step away in any direction."""
+        directions = _directions(self.axes.shape[1], WIDE if step >= COARSE else NARROW)
+        return [values_of(values + step * self.axes @ direction) for direction in directions]
+
+    def _around(self, values: Values, step: float) -> Work[tuple[Values, int]]:
+        """Return the best place a step away in any direction, or this one."""
+        best, most = values, (yield from self.right(values))
+        for there in self._places(values, step):
+            found = yield from self.right(there)
+            if found > most:
+                best, most = there, found
+        return best, most
+
+
+def values_of(numbers: Floats) -> Values:
+    """Return numbers (m,) as a tuple."""
+    return tuple(numbers.tolist())
+
+
+def _directions(count: int, far: Mapping[int, int]) -> Array:
+    """Return the steps with which is looked around: (m, count), also some that follow no axis."""
+    steps = far.get(count, 1)
+    around = np.array(np.meshgrid(*[range(-steps, steps + 1)] * count)).reshape(count, -1).T
+    around = around[around.any(axis=1)]
+    if count < 3:
+        return around
+    rng = np.random.default_rng(SEED)
+    return np.concatenate((around[np.abs(around).sum(axis=1) < 3], rng.normal(size=(ASKEW, count))))

@@ -1,0 +1,134 @@
+"""Reads and writes EXR files by OpenImageIO, the extra `images`."""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .arrays import Array, Colors
+
+_ROWS = 64  # written at a time: several of a file's blocks
+
+
+class MissingLibraryError(RuntimeError):
+    """An optional library is not installed; the message says how to get it."""
+
+
+def save(path: str | Path, passes: dict[str, Array]) -> None:
+    """Write passes to one EXR: `color` as RGBA, the others as channels of a layer of their name.
+
+    All channels are float32: an index above 2^24 is rounded (`frame.npz` has it whole).
+
+    Raises
+    ------
+    MissingLibraryError
+        If OpenImageIO is not installed.
+    OSError
+        If the file cannot be written.
+    """
+    oiio = _library()
+    path = Path(path)
+    pictures = {name: np.atleast_3d(v) for name, v in passes.items() if np.ndim(v) > 1}
+    names = []
+    for name, values in pictures.items():
+        letters = "RGBA" if name == "color" else "XYZ" if values.shape[2] == 3 else "V"
+        names += [letter if name == "color" else f"{name}.{letter}" for letter in letters]
+    height, width = next(iter(pictures.values())).shape[:2]
+    spec = oiio.ImageSpec(width, height, len(names), "float")
+    spec.channelnames = names
+    spec.attribute("compression", "zip")
+    spec.attribute("DateTime", "")  # the same frame makes the same file
+    file = oiio.ImageOutput.create(str(path))
+    written = file and file.open(str(path), spec)
+    for first in range(0, height, _ROWS):
+        end = min(first + _ROWS, height)
+        rows = [v[height - end : height - first][::-1] for v in pictures.values()]
+        part = np.concatenate(rows, axis=-1, dtype=np.float32, casting="unsafe")
+        written = written and file.write_scanlines(first, end, 0, part)
+    if not (written and file.close()):
+        if shutil.disk_usage(path.parent).free < 1 << 20:  # the library does not say so
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        raise OSError(f"cannot write '{path.name}': {_error(file or oiio)}")
+
+
+def size(path: Path) -> tuple[int, int]:
+    """Return the width and the height that a file's header says; raises as :func:`read` does."""
+    with _opened(path) as file:
+        spec = file.spec()
+        return spec.width, spec.height
+
+
+def read(path: Path) -> tuple[Colors, bool, set[str]]:
+    """Return what a file shows, (h, w, 4) linear RGBA with premultiplied alpha, row 0 below.
+
+    Then whether it has no alpha, and the names of what its header notes.
+
+    Raises
+    ------
+    MissingLibraryError
+        If OpenImageIO is not installed.
+    OSError
+        If the file is damaged, or has no colours.
+    """
+    with _opened(path) as file:
+        names = list(file.spec().channelnames)
+        if not {"R", "G", "B"} <= set(names):
+            raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(names))}")
+        at = [names.index(c) for c in "RGBA" if c in names]
+        stored = file.read_image(min(at), max(at) + 1, "float")
+        if stored is None:
+            raise OSError(f"'{path}' cannot be read, save it again: {_error(file)}")
+        notes = {note.name for note in file.spec().extra_attribs}
+    color = np.ones((*stored.shape[:2], 4), np.float32)
+    color[..., : len(at)] = stored[::-1][..., np.subtract(at, min(at))]
+    return color, len(at) == 3, notes
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[Any]:
+    """Open an EXR; what the library would print stays unsaid."""
+    oiio = _library()
+    asked = oiio.ImageSpec()
+    asked.attribute("oiio:UnassociatedAlpha", 1)
+    with open(os.devnull, "wb") as nowhere, redirected(2, nowhere.fileno()):
+        file = oiio.ImageInput.open(str(path), asked)
+        if not file:
+            raise OSError(f"'{path}' cannot be read, save it again: {_error(oiio)}")
+        yield file
+
+
+def _library() -> Any:
+    try:
+        import OpenImageIO
+    except ImportError:
+        raise MissingLibraryError(
+            'EXR files take the library OpenImageIO: pip install "reference_tracer[images]"'
+        ) from None
+    OpenImageIO.attribute("try_all_readers", 0)  # a JPEG that is named .exr is refused
+    return OpenImageIO
+
+
+def _error(of: Any) -> str:
+    try:
+        return " ".join(of.geterror().split())
+    except UnicodeDecodeError:  # the message quotes what it read
+        return "its header is damaged"
+
+
+@contextmanager
+def redirected(number: int, into: int) -> Iterator[None]:
+    """Send what is written to a file descriptor, also by C libraries, to another for a while."""
+    own = os.dup(number)
+    os.dup2(into, number)
+    try:
+        yield
+    finally:
+        os.dup2(own, number)
+        os.close(own)

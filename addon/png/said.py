@@ -1,0 +1,73 @@
+"""What a PNG says of its pixels that the reader does not apply: each is told in words.
+
+All values are read by sRGB's curve.
+
+References
+----------
+W3C, "Portable Network Graphics (PNG) Specification", third edition: 4.3 says which of the chunks
+on colour counts, 11.3 what they hold, 5.4 what a reader has to understand.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator, Mapping
+
+from .samples import PALETTE, Header, PngError
+
+_CRITICAL = {b"IHDR", b"PLTE", b"IDAT", b"IEND"}
+# What is applied or looked at here; then what says nothing of the pixels.
+_KNOWN = {b"tRNS", b"cICP", b"iCCP", b"sRGB", b"gAMA", b"cHRM", b"sBIT"}
+_IDLE = {b"tEXt", b"zTXt", b"iTXt", b"tIME", b"pHYs", b"bKGD", b"hIST", b"sPLT"}
+_SRGB_CODES = bytes((1, 13, 0, 1))  # ITU-T H.273: BT.709's primaries, sRGB's curve, RGB, full range
+_SRGB_GAMMA = 45455  # 1/2.2, in units of 1/100,000
+# White, red, green, blue: x and y each, in the same units.
+_SRGB_CHROMATICITIES = 31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000
+_ROUNDED = 10  # of these units: programs store them as they round them
+
+
+def remarks(header: Header, chunks: Mapping[bytes, bytes]) -> Iterator[str]:
+    """Yield what is not applied, a sentence without its full stop each.
+
+    Raises
+    ------
+    PngError
+        If a chunk that a reader must understand is not known, or one of them is damaged.
+    """
+    unknown = sorted(chunks.keys() - _CRITICAL - _KNOWN - _IDLE)
+    for kind in unknown:
+        if not kind[0] & 0x20:  # a capital: it is critical
+            raise PngError(f"its chunk {_name(kind)} is not understood")
+    try:
+        yield from _of_color(chunks)
+    except struct.error:
+        raise PngError("a chunk on its colours is damaged") from None
+    bits = 8 if header.kind == PALETTE else header.depth
+    if (significant := min(chunks.get(b"sBIT", b""), default=bits)) < bits:
+        yield f"only {significant} of {bits} bits of a sample count, as its chunk sBIT says"
+    if unknown:
+        names = ", ".join(map(_name, unknown))
+        yield f"what its chunks {names} say is not understood, and passed over"
+
+
+def _of_color(chunks: Mapping[bytes, bytes]) -> Iterator[str]:
+    """Yield what the first kind of chunk that counts says of colours, if that is not sRGB."""
+    read = "it was read by sRGB's curve"
+    if codes := chunks.get(b"cICP"):
+        if codes != _SRGB_CODES:
+            yield f"its chunk cICP names other colours ({', '.join(map(str, codes))}): {read}"
+    elif profile := chunks.get(b"iCCP"):
+        yield f"its colour profile '{_name(profile.partition(bytes(1))[0])}' is not applied: {read}"
+    elif b"sRGB" not in chunks:
+        if gamma := chunks.get(b"gAMA"):
+            (found,) = struct.unpack(">I", gamma)
+            if abs(found - _SRGB_GAMMA) > _ROUNDED:
+                yield f"its chunk gAMA says {found / 1e5:g}, sRGB is about {1 / 2.2:.5f}: {read}"
+        if places := chunks.get(b"cHRM"):
+            off = zip(struct.unpack(">8I", places), _SRGB_CHROMATICITIES, strict=True)
+            if any(abs(own - srgb) > _ROUNDED for own, srgb in off):
+                yield f"its chunk cHRM names other primaries than sRGB's: {read}"
+
+
+def _name(kind: bytes) -> str:
+    return kind.decode("latin-1")
