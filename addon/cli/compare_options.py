@@ -213,10 +213,10 @@ def _add_page(parser: Parser) -> None:
     group.add_argument(
         "--trade",
         action="store_true",
-        help="also measure what each method costs on this scene: half a minute",
+        help="also measure what each method costs on this scene: a quarter of a minute",
     )
     group.add_argument(
-        "--extremes", action="store_true", help="also find where every method breaks: two minutes"
+        "--extremes", action="store_true", help="also find where every method breaks: half a minute"
     )
 
 

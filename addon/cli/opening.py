@@ -70,8 +70,6 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
     if path.suffix.lower() == ".npz":
         scene = load_scene(path)
     else:
-        if path.suffix.lower() == ".glb":
-            import_trimesh()
         contents = load_meshes(path, choice.up)
         scene = _framed(path, contents, choice)
     return Opened(scene, Settings(), file_manifest(path, scene, contents))
@@ -84,18 +82,6 @@ def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
         return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)
     except SceneError as error:
         raise SceneError(f"'{path}': {error}") from error
-
-
-def import_trimesh() -> None:
-    """Import trimesh without the libraries that it does not need here: they take half a second."""
-    hidden = [name for name in ("scipy", "networkx") if name not in sys.modules]
-    for name in hidden:
-        sys.modules[name] = None  # type: ignore[assignment]  # "it cannot be imported"
-    try:
-        import trimesh  # noqa: F401
-    finally:
-        for name in hidden:
-            del sys.modules[name]
 
 
 @contextmanager

@@ -16,7 +16,7 @@ from ..pictures.metrics import boundary, image_metrics
 from ..rendering import steps
 from ..tracer.frame import Frame
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work, called, scaled
 from .comparison import Comparison
 from .methods import list_methods
 
@@ -45,9 +45,10 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     frame = Frame.empty(case.scene)
     case.picture.check(frame.color.shape)
     rest = 1 - _CHECKING if case.self_check else 1.0
-    tracing = steps(case.scene, case.settings, frame, case.tracer)
+    tracing = called(steps(case.scene, case.settings, frame, case.tracer), "tracing")
     yield from scaled(tracing, 0.0, rest * _TRACING)
     listing = list_methods(case.scene, case.settings, frame, case.tracer)
+    listing = called(listing, "tracing by the textbook")
     rows = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
     done = rest * (_TRACING + _METHODS)
     found = yield from scaled(compare(case, frame), done, 1 - done)
@@ -62,7 +63,8 @@ def diagnosed(comparison: Comparison, steps: float = STEPS) -> Work[Comparison]:
     if not comparison.counts.unexplained:
         return comparison
     case, frame, causes = comparison.case, comparison.frame, comparison.causes
-    found = yield from diagnose(case, frame, causes, steps=steps)
+    work = diagnose(case, frame, causes, steps=steps)
+    found = yield from called(work, "looking for what is wrong")
     return replace(comparison, diagnosis=found)
 
 
@@ -78,9 +80,10 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     """
     case.picture.check(frame.color.shape)
     rest = 1 - _CHECKING if case.self_check else 1.0
-    found = yield from scaled(explain(case, frame), 0.0, rest * _CAUSES)
+    explaining = called(explain(case, frame), "looking for causes")
+    found = yield from scaled(explaining, 0.0, rest * _CAUSES)
     traced, picture = found.frame, found.case.picture  # both before the picture's own background
-    measuring = image_metrics(traced.color, picture.color)
+    measuring = called(image_metrics(traced.color, picture.color), "measuring differences")
     measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
     identity = None
     if picture.owner is not None and picture.owners is not None:

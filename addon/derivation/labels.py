@@ -78,7 +78,15 @@ def placed(labels: Sequence[Label], lines: Sequence[Segment], room: Box) -> list
     dots = [label.at for label in together if not label.inside]
     out: list[Placed] = []
     for label in together:
-        best = min(_tries(label), key=lambda p: _cost(p, out, dots, lines, room))
+        tries = _tries(label)
+        best, least = tries[0], math.inf
+        for place in tries:
+            box = place.box
+            cost = _cost(place, box, out, dots, room)
+            if cost < least:  # else the lines, of which there are many, cannot make it the best
+                cost += _ON_LINE * sum(crosses(line, box) for line in lines)
+            if cost < least:
+                best, least = place, cost
         out.append(best)
     return out
 
@@ -101,20 +109,21 @@ def _tries(label: Label) -> list[Placed]:
 
 def _cost(
     place: Placed,
+    box: Box,
     others: Sequence[Placed],
     dots: Sequence[Place],
-    lines: Sequence[Segment],
     room: Box,
 ) -> float:
-    left, top, right, bottom = box = place.box
+    """Return how bad a place with this box is, but for the lines in it."""
+    left, top, right, bottom = box
     x, y = place.at
     cost = math.hypot(max(left - x, 0, x - right), max(top - y, 0, y - bottom))
     cost += 0.3 * math.dist(place.at, place.middle)
     if left < room[0] or top < room[1] or right > room[2] or bottom > room[3]:
         cost += _OUTSIDE
     cost += _ON_LABEL * sum(overlap(box, other.box) for other in others)
-    cost += _ON_DOT * sum(left - 5 < x < right + 5 and top - 5 < y < bottom + 5 for x, y in dots)
-    return cost + _ON_LINE * sum(crosses(line, box) for line in lines)
+    near = sum(left - 5 < x < right + 5 and top - 5 < y < bottom + 5 for x, y in dots)
+    return cost + _ON_DOT * near
 
 
 def overlap(one: Box, other: Box) -> bool:

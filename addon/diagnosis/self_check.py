@@ -22,7 +22,7 @@ from ..pictures.bounds import differing
 from ..rendering import steps
 from ..scene import SceneError
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work, called, scaled
 from .faults import EXAMPLES
 from .faults.fault import Example, Fault
 
@@ -78,7 +78,8 @@ def self_check(
     rows: list[FaultRow] = []
     part = 1 / len(examples)
     for fault, example in examples:
-        checking = _checked(case, frame, causes, fault, example)
+        words = f"self-check: {example.name.replace('_', ' ')}"
+        checking = called(_checked(case, frame, causes, fault, example), words)
         row = yield from scaled(checking, len(rows) * part, part)
         rows.append(row)
     return tuple(rows)

@@ -147,7 +147,7 @@ def test_content_is_as_the_schema_says(differing, compared, room):
 
 def test_comparison_json_is_as_the_schema_says(differing, tmp_path):
 
-    write_folder(tmp_path, differing)
+    result_of(write_folder(tmp_path, differing))
     held = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
     own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
     own.validate(held)

@@ -16,7 +16,7 @@ from ...comparison.animation import FrameRow, frames_named
 from ...errors import words
 from ...report import animation as report
 from ...scene import SceneError
-from ...tracer.progress import Work, result_of, scaled
+from ...tracer.progress import Work, called, result_of, scaled
 from ..reading.camera import export_camera
 from ..values import values_restored
 from .compare import compare_to_folder, made_folder
@@ -71,6 +71,7 @@ def compare_frames(
                 yield share
                 if frame in todo:
                     work = _compared(folder, frame, made_by, choices)
+                    work = called(work, f"frame {frame}")
                     rows.append((yield from scaled(work, share, 1 / len(todo))))
                     report.write(folder, title, frames, rows)
                     told(rows)

@@ -135,10 +135,11 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
     # Pixels that differ and have the cause to agree were passed over.
     wrong = inside & np.isin(pixels.out.cause, (UNEXPLAINED, AGREE))
     wrong &= yield from other_color(picture, frame.color)
-    count = np.bincount(frame.object_index[wrong])
-    share = count / np.maximum(np.bincount(frame.object_index[inside])[: len(count)], 1)
+    shown = frame.object_index
+    count = np.bincount(shown[wrong])
+    share = count / np.maximum(np.bincount(shown[inside])[: len(count)], 1)
     for number in np.argsort(-count, kind="stable")[:SHADES]:
-        where = wrong & (frame.object_index == number)
+        where = wrong & (shown == number)
         if share[number] > MAJORITY and _is_its_own(frame, picture, where):
             found = yield from find_transform(frame, picture, where, pixels.case.curves or ())
             if found or _one_other_each(picture.at(where), frame.color[where]):

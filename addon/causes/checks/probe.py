@@ -7,7 +7,7 @@ picture at a time, in steps of a bounded number of pixels and pairs.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,7 +18,7 @@ from ...methods import Method
 from ...pictures.picture import Picture
 from ...scene import Region, Scene
 from ...tracer.camera import Rays, camera_rays, film_positions
-from ...tracer.candidates import Plan, candidates
+from ...tracer.candidates import PAIRS, Plan, candidates
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.nearest import plan, test_pairs, test_planes
@@ -126,16 +126,10 @@ class Probe:
         """Return the probe of some of the n pixels."""
         number = np.full(len(self.px), -1)
         number[some] = np.arange(len(some))
-        left = [p.take(np.flatnonzero(number[p.pixel] >= 0)) for p in self.chunks]
-        chunks = []
-        if any(len(p.pixel) for p in left):
-            pixel, instance, triangle = (
-                np.concatenate([getattr(p, name) for p in left])
-                for name in ("pixel", "instance", "triangle")
-            )
-            corners = np.concatenate([p.corners for p in left], axis=2)
-            triangles = WorldTriangles(corners, instance, triangle)
-            chunks.append(Pairs(number[pixel], np.arange(len(pixel)), triangles))
+        kept = (p.take(np.flatnonzero(number[p.pixel] >= 0)) for p in self.chunks)
+        chunks = [replace(p, pixel=number[p.pixel]) for p in kept if len(p.pixel)]
+        if sum(len(p.pixel) for p in chunks) <= PAIRS:  # one short step in place of many
+            chunks = [_joined(chunks)] if chunks else []
         return replace(self, px=self.px[some], py=self.py[some], chunks=chunks)
 
     def rays(
@@ -169,6 +163,16 @@ class Probe:
         return hits
 
 
+def _joined(chunks: list[Pairs]) -> Pairs:
+    """Return several lots of pairs as one, a triangle a pair."""
+    pixel, instance, triangle = (
+        np.concatenate([getattr(p, name) for p in chunks])
+        for name in ("pixel", "instance", "triangle")
+    )
+    corners = np.concatenate([p.corners for p in chunks], axis=2)
+    return Pairs(pixel, np.arange(len(pixel)), WorldTriangles(corners, instance, triangle))
+
+
 @dataclass(frozen=True, eq=False)
 class Part:
     """The n open pixels of a part of the picture, and the probe that asks about them."""
@@ -184,6 +188,11 @@ class Part:
     def of(cls, pixels: OpenPixels, at: tuple[Places, ...], probe: Probe) -> Part:
         """Return the part of the pixels in some rows and columns."""
         return cls(pixels, at, pixels.case.scene, pixels.picture.at(at), pixels.band[at], probe)
+
+    def take(self, wanted: Bools) -> Part:
+        """Return the part of some of the n pixels."""
+        probe = self.probe.take(np.flatnonzero(wanted))
+        return Part.of(self.pixels, tuple(axis[wanted] for axis in self.at), probe)
 
     @property
     def done(self) -> bool:
@@ -236,9 +245,42 @@ def near_surfaces(
 
     Rays pass at most `reach` pixels from the centres.
     """
+
+    def look_near(part: Part) -> Work[None]:
+        near = yield from _near(part.picture, part.probe)
+        if near.any():
+            yield from look(part if near.all() else part.take(near))
+
     made = yield from plan(scene, SOUND, reach)
     asked = yield from scaled(may_be_seen(pixels, scene), 0.0, 0.1)
-    yield from scaled(by_parts(pixels, made, look, asked), 0.1, 0.9)
+    yield from scaled(by_parts(pixels, made, look_near, asked), 0.1, 0.9)
+
+
+def _near(picture: Picture, probe: Probe) -> Work[Bools]:
+    """Return which of n pixels show a colour and an object that some ray near them may see.
+
+    No ray of the probe can explain the others.
+    """
+    scene, count = probe.scene, len(probe.px)
+    color, object_ = np.zeros((2, count), bool)
+    any_color = interpolated(scene, np.arange(len(scene.instance_objects))).any()
+    for pixel, instance, triangle in _surfaces(probe):
+        hits = Hits.none(len(pixel))
+        hits.instance[:], hits.triangle[:] = instance, triangle
+        shown = picture.at(pixel)
+        color[pixel[any_color | shown.same_color(scene, hits)]] = True
+        object_[pixel[~shown.other_object(hits.instance)]] = True
+        yield 0.0
+    return color & object_
+
+
+def _surfaces(probe: Probe) -> Iterator[tuple[Index, Index | int, Index | int]]:
+    """Yield pixels (k,), and the instance and triangle that rays near each may meet, or NOTHING."""
+    every, first = np.arange(len(probe.px)), len(probe.scene.instances)
+    for number in (NOTHING, *range(first, first + len(probe.scene.planes))):
+        yield every, number, NOTHING
+    for some in probe.chunks:
+        yield some.pixel, some.instance, some.triangle
 
 
 def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:

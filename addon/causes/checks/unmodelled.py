@@ -93,12 +93,17 @@ def blind(case: Case, frame: Frame) -> Integers:
 def check_in_place(pixels: OpenPixels) -> Work[None]:
     """Find open pixels in which a feature is drawn, or the colour of a surface is not known."""
     number, seen = pixels.out.blind, pixels.frame.instance_index
-    effects = np.array([*(u.effect for u in pixels.case.manifest.unmodelled), None])[number]
-    drawn = effects == Effect.DRAWN
-    drawn &= drawn_over(pixels.case.picture) == NOTHING  # else what lies beneath is judged
+    effects = [*(u.effect for u in pixels.case.manifest.unmodelled), None]
+    is_drawn, is_recolored = (
+        np.array([each is effect for each in effects])[number]
+        for effect in (Effect.DRAWN, Effect.COLOR)
+    )
+    drawn = is_drawn & (
+        drawn_over(pixels.case.picture) == NOTHING
+    )  # else what lies beneath is judged
     own = pixels.case.feature_of(Effect.COLOR)[seen]
     number = np.where(drawn | (own == NOTHING), number, own)  # hair before glass: it is glass
-    recolored = (effects == Effect.COLOR) | (own != NOTHING)
+    recolored = is_recolored | (own != NOTHING)
     recolored &= ~pixels.picture.other_object(seen)
     pixels.give(pixels.open & (drawn | recolored), NOT_MODELLED, number)
     yield 1.0
