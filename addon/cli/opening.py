@@ -61,7 +61,7 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
     """
     if is_blend(path):
         with open_blend(path, choice) as blender:
-            from ..blender.compare import export_open_file
+            from ..blender.jobs.compare import export_open_file
 
             scene, manifest, settings = export_open_file(blender.context)
         return Opened(scene, settings, manifest)
@@ -70,8 +70,6 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
     if path.suffix.lower() == ".npz":
         scene = load_scene(path)
     else:
-        if path.suffix.lower() == ".glb":
-            import_trimesh()
         contents = load_meshes(path, choice.up)
         scene = _framed(path, contents, choice)
     return Opened(scene, Settings(), file_manifest(path, scene, contents))
@@ -84,18 +82,6 @@ def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
         return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)
     except SceneError as error:
         raise SceneError(f"'{path}': {error}") from error
-
-
-def import_trimesh() -> None:
-    """Import trimesh without the libraries that it does not need here: they take half a second."""
-    hidden = [name for name in ("scipy", "networkx") if name not in sys.modules]
-    for name in hidden:
-        sys.modules[name] = None  # type: ignore[assignment]  # "it cannot be imported"
-    try:
-        import trimesh  # noqa: F401
-    finally:
-        for name in hidden:
-            del sys.modules[name]
 
 
 @contextmanager
@@ -118,7 +104,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
         except ImportError as error:
             raise SceneError(_without_blender(error)) from error
         from ..blender import registration
-        from ..blender.choice import chosen
+        from ..blender.jobs.choice import chosen
 
         if not choice.opened:
             registration.register()
@@ -146,7 +132,7 @@ def _without_blender(error: ImportError) -> str:
 
 def _open(bpy: Any, path: Path) -> None:
     with running.held():
-        from ..blender.opened import open_file
+        from ..blender.reading.opened import open_file
 
         try:
             open_file(path)

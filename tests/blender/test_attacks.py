@@ -12,8 +12,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.compare import gather_case
-from reference_tracer.compare.causes import (
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.causes.explain import (
     AGREE,
     ANTI_ALIASING,
     CAUSES,
@@ -22,7 +22,7 @@ from reference_tracer.compare.causes import (
     UNEXPLAINED,
     explain,
 )
-from reference_tracer.compare.comparing import compare as compare_traced
+from reference_tracer.comparison.comparing import compare as compare_traced
 from reference_tracer.rendering import render
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of

@@ -13,15 +13,15 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.against import gather_against
-from reference_tracer.blender.compare import gather_case
 from reference_tracer.blender.drawing.judges import judge_named
 from reference_tracer.blender.drawing.picture import picture, prepare_scene
+from reference_tracer.blender.jobs.against import gather_against
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.blender.jobs.stepping import bake_bodies
 from reference_tracer.blender.reading.camera import export_camera
-from reference_tracer.blender.stepping import bake_bodies
-from reference_tracer.compare.causes import NOT_MODELLED, UNEXPLAINED
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.palette import By
+from reference_tracer.causes.explain import NOT_MODELLED, UNEXPLAINED
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.pictures.palette import By
 from reference_tracer.tracer.progress import result_of
 
 from . import hard_cases as hard
@@ -195,7 +195,7 @@ def test_rigid_bodies_that_are_not_baked(build, compare):
 # A Blender of its own: one that frees what it still uses ends at once, and all tests with it.
 PLAYED_ON = """
 import sys, bpy, reference_tracer
-from reference_tracer.blender.compare import gather_case
+from reference_tracer.blender.jobs.compare import gather_case
 reference_tracer.register()
 bpy.ops.wm.open_mainfile(filepath=sys.argv[1], load_ui=False)
 scene = bpy.context.scene

@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.compare.identity import NOTHING
-from reference_tracer.compare.palette import By
+from reference_tracer.pictures.identity import NOTHING
+from reference_tracer.pictures.palette import By
 
 from .test_unchanged import differences, state
 
@@ -97,7 +97,7 @@ def test_what_is_linked_animated_and_modified_stays(build, compare):
 
 def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
     """Blender's picture with two colours swapped: the same objects in other colours."""
-    from reference_tracer.blender import compare as compare_module
+    from reference_tracer.blender.jobs import compare as compare_module
 
     build.scene()
     build.solids()

@@ -7,10 +7,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.compare import gather_case
+from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.blender.reading.camera import window_of
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.picture import Picture
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.tracer.progress import result_of
 
 SCENES = ("exercise_perspective", "exercise_orthographic", "suzanne")

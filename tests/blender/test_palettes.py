@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from reference_tracer import images
 from reference_tracer.blender import commands
-from reference_tracer.blender import compare as compare_module
-from reference_tracer.blender.against import gather_against
-from reference_tracer.blender.compare import compared, gather_case
-from reference_tracer.compare import colors_file
-from reference_tracer.compare.palette import By
-from reference_tracer.compare.picture import Picture
+from reference_tracer.blender.jobs import compare as compare_module
+from reference_tracer.blender.jobs.against import gather_against
+from reference_tracer.blender.jobs.compare import compared, gather_case
+from reference_tracer.pictures import colors_file
+from reference_tracer.pictures.palette import By
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.scene import GREY, SceneError
 from reference_tracer.tracer.progress import result_of
 

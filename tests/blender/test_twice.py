@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.values import in_colors
-from reference_tracer.compare.palette import By
+from reference_tracer.pictures.palette import By
 
 from .test_unchanged import differences, state
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from reference_tracer.compare import causes
-from reference_tracer.compare.case import Case
-from reference_tracer.compare.picture import Picture, Source
+from reference_tracer.causes import explain as causes
+from reference_tracer.causes.case import Case
 from reference_tracer.manifest import Manifest
+from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.tracer.settings import Settings
 
 MANIFEST = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")

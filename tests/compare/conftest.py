@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.bounds import differing
-from reference_tracer.compare.causes import AGREE, DEPTH_TIE, EDGE, NOT_DECIDABLE, UNEXPLAINED
+from reference_tracer.causes.explain import AGREE, DEPTH_TIE, EDGE, NOT_DECIDABLE, UNEXPLAINED
+from reference_tracer.pictures.bounds import differing
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.tracer.camera import pixel_size

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 from reference_tracer.cli.main import main
-from reference_tracer.compare.animation import FrameRow, frames_named, worst_first
-from reference_tracer.compare.verdict import Verdict
+from reference_tracer.comparison.animation import FrameRow, frames_named, worst_first
+from reference_tracer.comparison.verdict import Verdict
 
 
 @pytest.mark.parametrize(

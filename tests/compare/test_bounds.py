@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare import bounds
-from reference_tracer.compare.bounds import (
+from reference_tracer.causes.explain import AGREE
+from reference_tracer.images import decoded, encoded
+from reference_tracer.pictures import bounds
+from reference_tracer.pictures.bounds import (
     HALF_UNITS,
     LEAST_STEP,
     SNAPPING,
@@ -17,9 +19,7 @@ from reference_tracer.compare.bounds import (
     pixel_error,
     view_error,
 )
-from reference_tracer.compare.causes import AGREE
-from reference_tracer.compare.renderers import RENDERERS
-from reference_tracer.images import decoded, encoded
+from reference_tracer.pictures.renderers import RENDERERS
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import FrozenInstanceError, replace
 
 import pytest
-from reference_tracer.compare.cause import COUNTED_APART
-from reference_tracer.compare.causes import AGREE, BY_NUMBER, CAUSES, CLIP_PLANE, EDGE, HIDDEN
+from reference_tracer.causes.cause import COUNTED_APART
+from reference_tracer.causes.explain import AGREE, BY_NUMBER, CAUSES, CLIP_PLANE, EDGE, HIDDEN
 
 
 def test_a_record_stays_as_it_is():

@@ -10,17 +10,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.bounds import differing
-from reference_tracer.compare.causes import (
+from reference_tracer.causes.checks.unmodelled import covered
+from reference_tracer.causes.explain import (
     AGREE,
     NOT_DECIDABLE,
     NOT_MODELLED,
     NOT_TRACED,
     UNEXPLAINED,
 )
-from reference_tracer.compare.checks.unmodelled import covered
-from reference_tracer.compare.renderers import sample_band
 from reference_tracer.manifest import Unmodelled
+from reference_tracer.pictures.bounds import differing
+from reference_tracer.pictures.renderers import sample_band
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer import render as rendering

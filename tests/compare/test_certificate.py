@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.certificate import POINTS, CameraMismatchError, certify, known_points
+from reference_tracer.pictures.certificate import POINTS, CameraMismatchError, certify, known_points
 from reference_tracer.scene import SceneError, ViewWindow
 from reference_tracer.tracer.camera import film_of, pixel_size
 

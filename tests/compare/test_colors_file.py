@@ -12,8 +12,8 @@ import pytest
 from reference_tracer import images
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR
-from reference_tracer.compare import colors_file
-from reference_tracer.compare.palette import By
+from reference_tracer.pictures import colors_file
+from reference_tracer.pictures.palette import By
 from reference_tracer.rendering import render
 from reference_tracer.report import page
 from reference_tracer.scene import SceneError

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import Causes
-from reference_tracer.compare.causes import (
+from reference_tracer.causes.cause import Causes
+from reference_tracer.causes.counts import count_pixels
+from reference_tracer.causes.explain import (
     AGREE,
     CAUSES,
     EDGE,
@@ -16,13 +17,12 @@ from reference_tracer.compare.causes import (
     NOT_TRACED,
     UNEXPLAINED,
 )
-from reference_tracer.compare.comparing import compare, trace_and_compare
-from reference_tracer.compare.comparison import SCHEMA
-from reference_tracer.compare.counts import count_pixels
-from reference_tracer.compare.metrics import boundary
-from reference_tracer.compare.picture import Picture, SizeError, Source
-from reference_tracer.compare.verdict import Verdict
+from reference_tracer.comparison.comparing import compare, trace_and_compare
+from reference_tracer.comparison.comparison import SCHEMA
+from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.manifest import ObjectEntry, Unmodelled
+from reference_tracer.pictures.metrics import boundary
+from reference_tracer.pictures.picture import Picture, SizeError, Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.coloring import Color

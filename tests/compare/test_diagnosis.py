@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.case import WHOLE, Variant
-from reference_tracer.compare.comparing import diagnosed, trace_and_compare
-from reference_tracer.compare.diagnosis import diagnose
-from reference_tracer.compare.faults import FAULTS
-from reference_tracer.compare.faults.fault import Guess
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes.case import WHOLE, Variant
+from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
+from reference_tracer.diagnosis.diagnosis import diagnose
+from reference_tracer.diagnosis.faults import FAULTS
+from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Region, ViewWindow
 from reference_tracer.tracer.progress import result_of

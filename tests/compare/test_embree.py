@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.embree import not_decidable
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes.embree import not_decidable
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh
 from reference_tracer.tracer.progress import result_of

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare import engines
-from reference_tracer.compare.comparing import compare
-from reference_tracer.compare.engines import EngineRow
-from reference_tracer.compare.faults import EXAMPLES
-from reference_tracer.compare.picture import Picture, Source, numbered
-from reference_tracer.compare.verdict import Verdict
+from reference_tracer.comparison import engines
+from reference_tracer.comparison.comparing import compare
+from reference_tracer.comparison.engines import EngineRow
+from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.pictures.picture import Picture, Source, numbered
 from reference_tracer.rendering import render
 from reference_tracer.report.engines import lines, write
 from reference_tracer.tracer.progress import result_of

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.comparing import trace_and_compare
+from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 

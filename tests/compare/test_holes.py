@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.case import Alternative, without
-from reference_tracer.compare.causes import UNEXPLAINED, explain
-from reference_tracer.compare.metrics import boundary
-from reference_tracer.compare.picture import Picture, numbered
+from reference_tracer.causes.case import Alternative, without
+from reference_tracer.causes.explain import UNEXPLAINED, explain
+from reference_tracer.pictures.metrics import boundary
+from reference_tracer.pictures.picture import Picture, numbered
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh
 from reference_tracer.tracer.progress import result_of

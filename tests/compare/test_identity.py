@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare.identity import (
+from reference_tracer.pictures.identity import (
     MOST_OBJECTS,
     NOTHING,
     UNKNOWN,

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from reference_tracer.certainty import Certainty
-from reference_tracer.compare.causes import AGREE, EDGE
-from reference_tracer.compare.maps import (
+from reference_tracer.causes.explain import AGREE, EDGE
+from reference_tracer.causes.maps import (
     DIM,
     MOST_RINGS,
     RING,
@@ -16,6 +15,7 @@ from reference_tracer.compare.maps import (
     ringed,
     wrong_map,
 )
+from reference_tracer.certainty import Certainty
 from reference_tracer.images import to_display
 
 RED = (*WRONG, 1)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.certainty import Certainty
-from reference_tracer.compare import methods
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.methods import list_methods
+from reference_tracer.comparison import methods
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.comparison.methods import list_methods
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings

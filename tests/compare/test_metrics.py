@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.metrics import largest_difference, psnr, rmse, ssim
+from reference_tracer.pictures.metrics import largest_difference, psnr, rmse, ssim
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings

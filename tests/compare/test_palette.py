@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.palette import (
+from reference_tracer.images import curve_undone
+from reference_tracer.pictures.palette import (
     APART,
     MOST,
     By,
@@ -15,7 +16,6 @@ from reference_tracer.compare.palette import (
     eight_bits,
     not_told_apart,
 )
-from reference_tracer.images import curve_undone
 from reference_tracer.scene import Plane, SceneError
 
 

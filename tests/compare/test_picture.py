@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.causes import (
+from reference_tracer.causes.explain import (
     AGREE,
     COLOR,
     EDGE,
@@ -15,10 +15,10 @@ from reference_tracer.compare.causes import (
     UNEXPLAINED,
     explain,
 )
-from reference_tracer.compare.identity import NOTHING, UNKNOWN
-from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.images import decoded, to_display
 from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.pictures.identity import NOTHING, UNKNOWN
+from reference_tracer.pictures.picture import Picture, numbered
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 

@@ -12,17 +12,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PIL import Image, ImageEnhance
-from reference_tracer.compare.cause import UNEXPLAINED
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.curves import CURVES
-from reference_tracer.compare.diagnosis import diagnose
-from reference_tracer.compare.faults import FAULTS
-from reference_tracer.compare.faults.colors import COLOR_FAULTS
-from reference_tracer.compare.faults.fault import Guess
-from reference_tracer.compare.faults.picture import PICTURE_FAULTS
-from reference_tracer.compare.faults.sizes import LINEAR, NEAREST, resized
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes.cause import UNEXPLAINED
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.diagnosis.diagnosis import diagnose
+from reference_tracer.diagnosis.faults import FAULTS
+from reference_tracer.diagnosis.faults.colors import COLOR_FAULTS
+from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.diagnosis.faults.picture import PICTURE_FAULTS
+from reference_tracer.diagnosis.faults.sizes import LINEAR, NEAREST, resized
 from reference_tracer.images import curve, curve_undone
+from reference_tracer.pictures.curves import CURVES
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance
 from reference_tracer.tracer.progress import result_of

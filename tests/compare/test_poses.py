@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.diagnosis import diagnose
-from reference_tracer.compare.evidence import Evidence
-from reference_tracer.compare.faults import FAULTS
-from reference_tracer.compare.faults.fault import Guess
-from reference_tracer.compare.faults.fitting import Traced
-from reference_tracer.compare.faults.stand import TURNED
-from reference_tracer.compare.guessing import ALL_EDGES
-from reference_tracer.compare.picture import Picture
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.diagnosis.diagnosis import diagnose
+from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.diagnosis.faults import FAULTS
+from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.diagnosis.faults.fitting import Traced
+from reference_tracer.diagnosis.faults.stand import TURNED
+from reference_tracer.diagnosis.guessing import ALL_EDGES
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Scene, ViewWindow

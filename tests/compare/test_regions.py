@@ -4,7 +4,7 @@ from collections import deque
 
 import numpy as np
 import pytest
-from reference_tracer.compare.regions import MOST, Region, regions
+from reference_tracer.diagnosis.regions import MOST, Region, regions
 
 
 def flooded(mask, reach):

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer import exr, images
-from reference_tracer.compare.causes import CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
-from reference_tracer.compare.picture import Picture, Source
-from reference_tracer.compare.renderers import RASTER, RAYS, renderer_of
+from reference_tracer.causes.explain import CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
+from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.renderers import RASTER, RAYS, renderer_of
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.camera import Rays

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare.faults.search import Search
+from reference_tracer.diagnosis.faults.search import Search
 from reference_tracer.tracer.progress import result_of
 
 SEED = 27

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
-from reference_tracer.explain import reproducer, writers
+from reference_tracer.derivation import reproducer, writers
 from reference_tracer.scene_files import save_scene
 
 SMALL = ["--width", "24", "--height", "16"]

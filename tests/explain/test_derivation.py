@@ -9,10 +9,10 @@ from itertools import product
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
-from reference_tracer.explain import document, html, writers
-from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.formulas import Rejection
-from reference_tracer.explain.textbook import FLOATS, Arithmetic
+from reference_tracer.derivation import document, html, writers
+from reference_tracer.derivation.derivation import derive
+from reference_tracer.derivation.formulas import Rejection
+from reference_tracer.derivation.textbook import FLOATS, Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from reference_tracer.explain.digits import (
+from reference_tracer.derivation.digits import (
     EXACT_DIGITS,
     digits_text,
     exact_text,

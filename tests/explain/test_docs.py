@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from reference_tracer.explain import reproducer
-from reference_tracer.explain.derivation import derive_pixel
-from reference_tracer.explain.textbook import Arithmetic
+from reference_tracer.derivation import reproducer
+from reference_tracer.derivation.derivation import derive_pixel
+from reference_tracer.derivation.textbook import Arithmetic
 
 PROJECT = Path(__file__).resolve().parents[2]
 

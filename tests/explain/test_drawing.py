@@ -7,10 +7,10 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from reference_tracer.explain import drawing, html
-from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.labels import Label, crosses, overlap, placed
-from reference_tracer.explain.textbook import Arithmetic
+from reference_tracer.derivation import drawing, html
+from reference_tracer.derivation.derivation import derive
+from reference_tracer.derivation.labels import Label, crosses, overlap, placed
+from reference_tracer.derivation.textbook import Arithmetic
 from reference_tracer.projections import PROJECTIONS
 
 from ..report.browser import chromium

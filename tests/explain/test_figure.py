@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.figure import shapes
+from reference_tracer.derivation.derivation import derive
+from reference_tracer.derivation.figure import shapes
 
 
 def area(points):

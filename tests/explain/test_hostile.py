@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
-from reference_tracer.explain import document, html, reproducer, writers
-from reference_tracer.explain.candidates import gather_pixel
-from reference_tracer.explain.derivation import derive, derive_pixel
-from reference_tracer.explain.textbook import FLOATS, Arithmetic
+from reference_tracer.derivation import document, html, reproducer, writers
+from reference_tracer.derivation.candidates import gather_pixel
+from reference_tracer.derivation.derivation import derive, derive_pixel
+from reference_tracer.derivation.textbook import FLOATS, Arithmetic
 from reference_tracer.rendering import trace
 from reference_tracer.tracer.hits import NOWHERE
 from reference_tracer.tracer.settings import PLAIN_SETTINGS, Precision, Settings

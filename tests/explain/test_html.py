@@ -7,11 +7,11 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
-from reference_tracer.explain import blocks, document, formulas, html
-from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.formulas import Formula
-from reference_tracer.explain.mathml import math
-from reference_tracer.explain.textbook import Arithmetic
+from reference_tracer.derivation import blocks, document, formulas, html
+from reference_tracer.derivation.derivation import derive
+from reference_tracer.derivation.formulas import Formula
+from reference_tracer.derivation.mathml import math
+from reference_tracer.derivation.textbook import Arithmetic
 
 from ..report.browser import chromium
 from .printed import tables

@@ -8,9 +8,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from reference_tracer.explain import document, writers
-from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.digits import EXACT_DIGITS, ulps
+from reference_tracer.derivation import document, writers
+from reference_tracer.derivation.derivation import derive
+from reference_tracer.derivation.digits import EXACT_DIGITS, ulps
 
 from . import printed
 from .printed import Printed, flat

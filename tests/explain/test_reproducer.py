@@ -7,9 +7,9 @@ from copy import deepcopy
 
 import numpy as np
 import pytest
-from reference_tracer.explain import document, html, reproducer, writers
-from reference_tracer.explain.candidates import gather_pixel
-from reference_tracer.explain.derivation import derive, derive_pixel
+from reference_tracer.derivation import document, html, reproducer, writers
+from reference_tracer.derivation.candidates import gather_pixel
+from reference_tracer.derivation.derivation import derive, derive_pixel
 from reference_tracer.scene import SceneError
 
 

@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from reference_tracer.explain.formulas import PLANE, TRIANGLE
-from reference_tracer.explain.textbook import (
+from reference_tracer.derivation.formulas import PLANE, TRIANGLE
+from reference_tracer.derivation.textbook import (
     FLOATS,
     Arithmetic,
     camera_steps,

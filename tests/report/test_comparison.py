@@ -7,13 +7,13 @@ import json
 import numpy as np
 import pytest
 from PIL import Image
-from reference_tracer.compare.case import Case
-from reference_tracer.compare.causes import AGREE, CAUSES
-from reference_tracer.compare.comparing import compare
-from reference_tracer.compare.comparison import SCHEMA
-from reference_tracer.compare.picture import Picture, Source
+from reference_tracer.causes.case import Case
+from reference_tracer.causes.explain import AGREE, CAUSES
+from reference_tracer.comparison.comparing import compare
+from reference_tracer.comparison.comparison import SCHEMA
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
+from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render
 from reference_tracer.report.comparison import difference_picture, failure_written, write
 from reference_tracer.scene import SceneError

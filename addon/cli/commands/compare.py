@@ -10,17 +10,18 @@ from typing import Any
 import numpy as np
 
 from ... import images
+from ...causes.case import Case
 from ...certified.rounding import check_rounding
-from ...compare import colors_file, engines
-from ...compare.case import Case
-from ...compare.colors_file import in_colors
-from ...compare.comparing import trace_and_compare
-from ...compare.comparison import Comparison
-from ...compare.palette import By, GivenColors
-from ...compare.picture import Picture, Source, check_size
-from ...compare.renderers import RENDERERS, renderer_of
-from ...compare.verdict import Verdict
+from ...comparison import engines
+from ...comparison.comparing import trace_and_compare
+from ...comparison.comparison import Comparison
+from ...comparison.verdict import Verdict
 from ...mesh_diagnosis import diagnosed
+from ...pictures import colors_file
+from ...pictures.colors_file import in_colors
+from ...pictures.palette import By, GivenColors
+from ...pictures.picture import Picture, Source, check_size
+from ...pictures.renderers import RENDERERS, renderer_of
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
@@ -29,7 +30,7 @@ from ...tracer.memory import ALWAYS, COMPARED, check_memory
 from ...tracer.progress import Work, result_of
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
-from ..opening import import_trimesh, open_blend, open_file
+from ..opening import open_blend, open_file
 from ..parser import EXIT_CODES_HELP, Parser
 from ..running import progress_bar
 
@@ -59,7 +60,6 @@ def compare(options: CompareOptions) -> int:
         written if options.frames is None else nullcontext(),
         options.place as place,
     ):
-        import_trimesh()  # which diagnoses the meshes
         if options.against is None:
             return _with_blender(options, place)
         return _with_picture(options, images.open_picture(options.against), place)
@@ -72,9 +72,9 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "with --against"
         )
     with open_blend(options.scene, options.choice) as blender, progress_bar() as progress:
-        from ...blender import animation
-        from ...blender.compare import compare_to_folder
-        from ...blender.compare_engines import compare_all
+        from ...blender.jobs import animation
+        from ...blender.jobs.compare import compare_to_folder
+        from ...blender.jobs.engines import compare_all
 
         stored = blender.context.scene.reference_tracer.settings()
         judge = options.judge.upper() if options.judge else None
@@ -152,8 +152,8 @@ def _blend(
     options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> Work[Comparison]:
     with open_blend(options.scene, options.choice) as blender:
-        from ...blender.against import gather_against
-        from ...blender.compare import compared
+        from ...blender.jobs.against import gather_against
+        from ...blender.jobs.compare import compared
         from ...blender.reading.camera import export_camera
         from ...blender.versions import DITHER
 

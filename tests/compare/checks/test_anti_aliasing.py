@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare.causes import AGREE, ANTI_ALIASING, UNEXPLAINED
-from reference_tracer.compare.checks.anti_aliasing import NEAR, is_mix
-from reference_tracer.compare.hull import distance_to_triangles
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes.checks.anti_aliasing import NEAR, is_mix
+from reference_tracer.causes.explain import AGREE, ANTI_ALIASING, UNEXPLAINED
+from reference_tracer.causes.hull import distance_to_triangles
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings

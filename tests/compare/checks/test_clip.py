@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.bounds import depth_step
-from reference_tracer.compare.causes import CLIP_PLANE, UNEXPLAINED
+from reference_tracer.causes.explain import CLIP_PLANE, UNEXPLAINED
+from reference_tracer.pictures.bounds import depth_step
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Mesh
 

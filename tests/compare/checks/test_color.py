@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.causes import AGREE, COLOR, UNEXPLAINED
-from reference_tracer.compare.metrics import boundary
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes.explain import AGREE, COLOR, UNEXPLAINED
 from reference_tracer.images import curve, curve_undone, decoded
+from reference_tracer.pictures.metrics import boundary
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare.checks.coverage import coverage, nearest_to_origin
-from reference_tracer.compare.checks.probe import Probe
+from reference_tracer.causes.checks.coverage import coverage, nearest_to_origin
+from reference_tracer.causes.checks.probe import Probe
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.nearest import plan
 from reference_tracer.tracer.progress import result_of

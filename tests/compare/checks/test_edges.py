@@ -10,11 +10,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.bounds import SNAPPING
-from reference_tracer.compare.causes import AGREE, DEPTH_TIE, EDGE, UNEXPLAINED
-from reference_tracer.compare.checks import probe as probing
-from reference_tracer.compare.checks.probe import may_be_seen
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes.checks import probe as probing
+from reference_tracer.causes.checks.probe import may_be_seen
+from reference_tracer.causes.explain import AGREE, DEPTH_TIE, EDGE, UNEXPLAINED
+from reference_tracer.pictures.bounds import SNAPPING
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.hits import NOTHING

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.case import Alternative, without
-from reference_tracer.compare.cause import Hidden
-from reference_tracer.compare.causes import HIDDEN, UNEXPLAINED
-from reference_tracer.compare.checks.hidden import with_object
-from reference_tracer.compare.picture import Picture, numbered
+from reference_tracer.causes.case import Alternative, without
+from reference_tracer.causes.cause import Hidden
+from reference_tracer.causes.checks.hidden import with_object
+from reference_tracer.causes.explain import HIDDEN, UNEXPLAINED
 from reference_tracer.manifest import ObjectEntry
+from reference_tracer.pictures.picture import Picture, numbered
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 

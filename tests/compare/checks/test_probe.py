@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.checks.probe import Probe
+from reference_tracer.causes.checks.probe import Probe
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
 from reference_tracer.tracer import candidates
 from reference_tracer.tracer.camera import camera_rays

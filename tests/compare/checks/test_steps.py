@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import pytest
 import trimesh
-from reference_tracer.compare import hull
-from reference_tracer.compare.causes import explain
-from reference_tracer.compare.checks import color as coloring
-from reference_tracer.compare.checks import coverage, probe
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes import hull
+from reference_tracer.causes.checks import color as coloring
+from reference_tracer.causes.checks import coverage, probe
+from reference_tracer.causes.explain import explain
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer import candidates, nearest
 from reference_tracer.tracer import render as rendering
