@@ -26,7 +26,7 @@ SCENE = "suzanne"
 @contextmanager
 def drawn_otherwise(owner, name, value):
     """Have the first drawing show another value than was exported, as a handler might set it."""
-    compare = module("blender.compare")
+    compare = module("blender.jobs.compare")
     real = compare.picture
 
     def picture(*args, **options):
