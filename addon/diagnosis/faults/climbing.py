@@ -3,8 +3,8 @@
 The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no slope to
 follow. Looked at are the places around the best ones, ever nearer.
 
-A pixel that is the same at all the places around one is the same between them, as far as edges are
-straight: with steps that are small, only the others are looked at from then on.
+A pixel that is the same at all the places around one is the same between them, as far as what it
+shows is convex: with steps that are small, only the others are looked at from then on.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ COARSE = 1 / 2  # of a unit: with smaller steps fewer places around are looked a
 ASKEW = 8  # directions besides those of the axes, where there are three numbers
 SMALL = 1 / 8  # of a unit: with larger steps pixels may be others between places where they are not
 ROUNDING = 1e-9  # of a step
+FINE = 0.97  # of the pixels: with as many right, each one counts
 FEWER = 1 / 2  # of the pixels that are looked at: with more left, all of these still are
 
 
@@ -40,7 +41,7 @@ class _Near:
     centre: Floats
     step: float
     known: Bools  # (n,) which pixels are right in the centre
-    changing: Places  # those that are not the same in all the places
+    changing: Places  # those that may be others between the places
     right: Right  # of these
 
     def holds(self, values: Values) -> bool:
@@ -78,6 +79,7 @@ class Climb:
         self._among = among
         self._known: dict[Values, Bools | None] = {}
         self._near: list[_Near] = []  # one in the other, the smallest last
+        self._most = 0  # right pixels anywhere so far
 
     def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
         """Return the best place that smaller and smaller steps reach, and how many are right."""
@@ -98,19 +100,27 @@ class Climb:
         if values not in self._known:
             self._known[values] = yield from self._found(values)
         found = self._known[values]
-        return -1 if found is None else int(np.count_nonzero(found))
+        count = -1 if found is None else int(np.count_nonzero(found))
+        self._most = max(self._most, count)
+        return count
 
     def _found(self, values: Values) -> Work[Bools | None]:
+        """Return which pixels are right, None if there can be no such numbers.
+
+        Beyond what is known, the pixels that change first say whether all others together can make
+        it a best place: if not, they are not looked at, and taken to be right.
+        """
         near = next((n for n in reversed(self._near) if n.holds(values)), None)
-        if near is None:
-            return (yield from self._right(values))
-        found = near.known.copy()
-        if len(near.changing):
-            some = yield from near.right(values)
-            if some is None:
-                return None
-            found[near.changing] = some
-        return found
+        for one in [near] if near else self._near[:1]:
+            found = one.known.copy() if near else np.ones_like(one.known)
+            if len(one.changing):
+                some = yield from one.right(values)
+                if some is None:
+                    return None
+                found[one.changing] = some
+            if near or np.count_nonzero(found) < self._most:
+                return found
+        return (yield from self._right(values))
 
     def _narrow(self, values: Values, step: float) -> None:
         """From now on, look only at pixels that change a step away from numbers, or nearer."""
@@ -118,7 +128,10 @@ class Climb:
         if self._among is None or step > SMALL or own is None:
             return
         others = [self._known[there] for there in self._places(values, step)]
-        changing = np.flatnonzero(np.any([own != v for v in others if v is not None], axis=0))
+        changes = np.any([own != v for v in others if v is not None], axis=0)
+        if own.mean() >= FINE:  # a thin surface between the places may make right what is wrong
+            changes |= ~own
+        changing = np.flatnonzero(changes)
         before = len(self._near[-1].changing if self._near else own)
         if len(changing) <= FEWER * before:
             units = np.linalg.pinv(self.axes)

@@ -211,12 +211,16 @@ class Traced:
         self.camera = camera
         self.reach = reach
         self.shown = shown or evidence
+        few = _few(evidence)
+        # Film positions, and what is seen there: how far it moves says whether triangles stay near.
+        self.guide = evidence.film[:, few], evidence.points[:, few]
         self.probes: list[Probe] = []  # the last one first
 
     def among(self, some: Places) -> Right:
         """Return what says so of some of the pixels, by their numbers."""
         evidence, shown = self.evidence.only(some), self.shown.only(some)
         traced = Traced(evidence, self.camera, self.reach, shown)
+        traced.guide = self.guide  # the few pixels may all show what is far away
         traced.probes = [probe.take(some) for probe in self.probes]
         return traced.right
 
@@ -237,8 +241,7 @@ class Traced:
 
     def _near(self, prepared: Camera, camera: Camera) -> bool:
         """Return whether a camera sees everything near where the prepared one does."""
-        points = self.evidence.points
-        film = self.evidence.film
+        film, points = self.guide
         with np.errstate(all="ignore"):
             before, now = (np.stack(film_of(c, points)[:2]) for c in (prepared, camera))
             beside = film_beside_camera(prepared, camera, *film) - film

@@ -21,11 +21,15 @@ ROUGH = 1 / 32  # of a unit: the last step where a finer fit follows
 FARTHEST = 256.0  # units to which a number is enclosed, at most
 ROUNDS = 5  # in which a region of several numbers is enclosed, at most
 GROWN = 1.2  # times as large after a round: then there is another one
+PUSHES = 8  # in which a region is enclosed farther along each number, at most
+PUSHED = 1.02  # times as large after one: then there is another one
+LED = 4  # differences that are followed
+INSIDE = 1 / 4  # of the way to the middle: where they begin
 CLOSE = 1 / 8  # of the region's half width: how finely its ends are looked for
 WIDER = 1.3  # times as wide as what was reached: the region's corners lie beyond
 ANEW = 4  # times that a region is left for a better place beside it, at most
 BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units: how far from it these are looked for
-LOTS = 12  # places at each of these distances
+LOTS = 24  # places at each of these distances
 DIGITS = range(-1, 5)  # that a number is told with, beside those of its interval
 
 
@@ -135,7 +139,32 @@ class Search(Climb):
             if (number or len(known) > 1) and _size(ends) < GROWN * size:
                 break
         self.own = axes
+        if not alone:
+            yield from self._push(ends, right)
         return np.array(ends)
+
+    def _push(self, ends: list[Floats], right: int) -> Work[None]:
+        """Add places of a region that lie farther along each number than those that are known.
+
+        It may be a needle, of which no axis is known well enough. So from a little inside what is
+        the farthest so far, the differences of known places lead on.
+        """
+        rng = np.random.default_rng(SEED)
+        for _ in range(PUSHES):
+            size, middle = _size(ends), np.mean(ends, axis=0)
+            for number in range(len(middle)):
+                for side in (-1.0, 1.0):
+                    farthest = max(ends, key=lambda v: side * v[number])
+                    start = farthest + INSIDE * (middle - farthest)
+                    others = [middle, *(ends[n] for n in rng.integers(len(ends), size=LED))]
+                    for other in others:
+                        if other[number] != farthest[number]:
+                            along = farthest - other
+                            ends.append(
+                                (yield from self._end(start, along, right, CLOSE, 4.0, CLOSE))
+                            )
+            if _size(ends) < PUSHED * size:
+                return
 
     def _beside(self, centre: Floats) -> Work[dict[Values, int]]:
         """Return how many are right at some places near a region, drawn by lot."""
