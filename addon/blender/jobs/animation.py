@@ -22,7 +22,7 @@ from ..values import values_restored
 from .compare import compare_to_folder, made_folder
 from .stepping import bake_bodies, visited
 
-_ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here
+_ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be imported here
 
 
 def compare_frames(
