@@ -13,29 +13,27 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..file_kinds import check_is_file
-from ..framing import ANGLE, SIZE, Choice
+from ..framing import Choice
 from ..manifest import Manifest
-from ..mesh_files.contents import Contents
-from ..mesh_files.load import READERS, load_meshes, scene_of_meshes
+from ..mesh_files.load import READERS
+from ..opened import open_scene
 from ..scene import Scene, SceneError
-from ..scene_files import load_scene
 from ..tracer.settings import Settings
 from . import running
 from .arguments import is_blend
 from .camera_options import check_kind
-from .file_manifest import file_manifest
 
 PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
 SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(READERS)})"
 
 
-class Opened(NamedTuple):
+class OpenedFile(NamedTuple):
     """What a file gives."""
 
     scene: Scene
-    settings: Settings  # that it stores
     manifest: Manifest
+    settings: Settings  # that it stores
 
 
 def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
@@ -51,7 +49,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     return opened.scene, opened.settings
 
 
-def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
+def open_file(path: Path, choice: Choice = _AS_SAVED) -> OpenedFile:
     """Open a .blend, a .npz or a mesh. Meshes are framed where no camera is chosen.
 
     Raises
@@ -64,24 +62,9 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
             from ..blender.jobs.compare import export_open_file
 
             scene, manifest, settings = export_open_file(blender.context)
-        return Opened(scene, settings, manifest)
+        return OpenedFile(scene, manifest, settings)
     check_kind(path)
-    contents = Contents(())
-    if path.suffix.lower() == ".npz":
-        scene = load_scene(path)
-    else:
-        contents = load_meshes(path, choice.up)
-        scene = _framed(path, contents, choice)
-    return Opened(scene, Settings(), file_manifest(path, scene, contents))
-
-
-def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
-    size = choice.size(SIZE)
-    camera = choice.placed(*size) if choice.eye else None
-    try:
-        return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)
-    except SceneError as error:
-        raise SceneError(f"'{path}': {error}") from error
+    return OpenedFile(*open_scene(path, choice), Settings())
 
 
 @contextmanager
