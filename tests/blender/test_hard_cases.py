@@ -67,6 +67,11 @@ def name_of(make) -> str:
     return make.__name__
 
 
+def id_of(value) -> str:
+    """Return the name of a scene's function, or of a judge."""
+    return getattr(value, "__name__", value)
+
+
 def shown_otherwise(comparison) -> np.ndarray:
     """Return which pixels (h, w) are of another colour than the traced ones, edges or not."""
     return (np.abs(comparison.frame.color - comparison.picture) > 0.02).any(axis=-1)
@@ -116,8 +121,18 @@ def evaluated_geometry() -> list:
     return sorted(out)
 
 
-@pytest.mark.parametrize("judge", JUDGES)
-@pytest.mark.parametrize("make", hard.ALL, ids=name_of)
+def judged(every: int) -> list:
+    """Return each scene with each judge: with Cycles, one of so many every day."""
+    of_every_day = (*hard.ALL[::every], *NOT_OF_CYCLES, *OF_CYCLES_ALONE, *TOO_MUCH)
+    return [
+        pytest.param(make, judge, marks=() if daily else pytest.mark.torture)
+        for make in hard.ALL
+        for judge in JUDGES
+        for daily in [judge == "WORKBENCH" or make in of_every_day]
+    ]
+
+
+@pytest.mark.parametrize(("make", "judge"), judged(3), ids=id_of)
 def test_no_false_alarm(make, judge, build, compare):
     make(build)
     found = compare(judge=judge)
@@ -140,7 +155,7 @@ def test_no_false_alarm(make, judge, build, compare):
 @pytest.mark.parametrize(
     ("make", "judge"),
     [(m, "WORKBENCH") for m in MAY_BE_UPSET] + [(m, "CYCLES") for m in hard.SIMULATIONS],
-    ids=lambda value: getattr(value, "__name__", value),
+    ids=id_of,
 )
 def test_leaves_the_users_data_and_simulation_alone(make, judge, build, compare):
     make(build)
