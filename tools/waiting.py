@@ -4,7 +4,7 @@
 
 OTHER is a checkout with a `.venv` of its own, as an older commit in a worktree. The commands run
 in turns there and here; each one's least CPU seconds (user and system) of N rounds count, so that
-ratios hold on a machine that others use, too. Prints a table, as `docs/commands.md` has it.
+ratios hold on a machine that others use, too. Prints a table.
 """
 
 from __future__ import annotations
@@ -43,7 +43,9 @@ def used(checkout: Path, command: list[str]) -> tuple[float, float]:
             stderr=subprocess.DEVNULL,
             env={k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"},
         )
-        _, _, usage = os.wait4(process.pid, 0)
+        _, status, usage = os.wait4(process.pid, 0)
+        if os.waitstatus_to_exitcode(status) not in (0, 1):  # 1: it agrees, with warnings
+            raise SystemExit(f"{checkout}: {' '.join(command)} fails")
     return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
