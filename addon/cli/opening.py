@@ -67,6 +67,18 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> OpenedFile:
     return OpenedFile(*open_scene(path, choice), Settings())
 
 
+def import_trimesh() -> None:
+    """Import trimesh without the libraries that it does not need here: they take half a second."""
+    hidden = [name for name in ("scipy", "networkx") if name not in sys.modules]
+    for name in hidden:
+        sys.modules[name] = None  # type: ignore[assignment]  # "it cannot be imported"
+    try:
+        import trimesh  # noqa: F401
+    finally:
+        for name in hidden:
+            del sys.modules[name]
+
+
 @contextmanager
 def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
     """Open a .blend in this process, with the add-on registered, at what is chosen; gives bpy.

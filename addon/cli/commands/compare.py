@@ -26,7 +26,7 @@ from ...scene import SceneError
 from ...tracer.progress import Work, result_of
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
-from ..opening import open_blend, open_file
+from ..opening import import_trimesh, open_blend, open_file
 from ..parser import EXIT_CODES_HELP, Parser
 from ..running import progress_bar
 
@@ -56,6 +56,7 @@ def compare(options: CompareOptions) -> int:
         written if options.frames is None else nullcontext(),
         options.place as place,
     ):
+        import_trimesh()  # which diagnoses the meshes
         if options.against is None:
             return _with_blender(options, place)
         return _with_picture(options, images.open_picture(options.against), place)
