@@ -12,7 +12,7 @@ SHARED = -n $(WORKERS) --no-loadscope-reorder
 # Bytecode is kept, also where the machine says no: else each of hundreds of processes compiles anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help demo check test test-matrix prove test-browser test-gui torture bench docs lint extension \
+.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui torture bench docs lint extension \
 	release clean
 
 help: ## list the commands
@@ -28,11 +28,15 @@ check: lint ## check the style, run the fast tests that need neither Blender nor
 
 # What the tests in a browser and in a window need, only root can install, and other Pythons have to
 # be there: where that is not possible they are skipped, the run says so and is still a success.
-test: lint extension ## run all tests, those in a browser and in a window too where that is possible
-	@for tool in browser whole_blender others; do \
+# A whole Blender is set up by the first tests that need it, while others run.
+test: .venv/.stamp ## run all tests, those in a browser and in a window too where that is possible
+	@$(MAKE) --no-print-directory --jobs 2 lint set-up-tests
+	$(PYTEST) $(SHARED) -rs -m "not torture"
+
+set-up-tests: extension
+	@for tool in browser others; do \
 		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
 	done
-	$(PYTEST) $(SHARED) -rs -m "not torture"
 
 prove: .venv/.stamp ## have Coq read the proofs: 3.5 minutes on two cores; root installs Coq if it is missing
 	tools/coq.sh setup

@@ -2,9 +2,51 @@
 
 As a Python package this folder is `reference_tracer`; inside Blender it is the add-on.
 Nothing here imports bpy: the tracer works wherever numpy does.
+
+What a script may use is named in `__all__`, and described in docs/python.md; all else may change.
+It is imported once it is asked for, so that Blender starts no later for it.
 """
 
+from typing import Any
+
 __version__ = "0.1.0"
+
+__all__ = [  # noqa: F822  # each is imported once it is asked for
+    "Camera",
+    "Comparison",
+    "Frame",
+    "Instance",
+    "Mesh",
+    "Plane",
+    "Rays",
+    "Region",
+    "Scene",
+    "SceneError",
+    "Settings",
+    "Verdict",
+    "ViewWindow",
+    "camera_rays",
+    "compare",
+    "explain",
+    "load_scene",
+    "render",
+    "save_scene",
+    "trace",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Return one of what is offered."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from . import api
+
+    return getattr(api, name)
+
+
+def __dir__() -> list[str]:
+    """Return what is offered, and what every module has."""
+    return sorted([*globals(), *__all__])
 
 
 def register() -> None:

@@ -6,8 +6,8 @@ import traceback
 from collections.abc import Callable
 
 from .certified.arithmetic import AssumptionError
-from .compare.picture import SizeError
 from .exr import MissingLibraryError
+from .pictures.picture import SizeError
 from .scene import SceneError
 from .tracer.memory import PictureTooLargeError
 

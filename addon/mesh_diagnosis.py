@@ -1,4 +1,4 @@
-"""Diagnoses meshes with trimesh: whether they are closed, how they are wound, what is double."""
+"""Diagnoses meshes: whether they are closed, how they are wound, what is double."""
 
 from __future__ import annotations
 
@@ -8,27 +8,45 @@ from typing import Any
 
 import numpy as np
 
+from .arrays import Bools, Floats
 from .manifest import Manifest
 from .scene import Mesh, Scene
+from .tracer.vector import cross, dot
+
+_HEIGHT = 1e-8  # metres: a triangle less high than this, as trimesh says, is degenerate
 
 
 def diagnose(mesh: Mesh) -> dict[str, Any]:
-    """Return trimesh's diagnosis of a mesh, for JSON.
+    """Return a diagnosis of a mesh, for JSON; trimesh has the same.
 
-    Vertices at equal positions count as one. A mesh is closed if every edge has two triangles.
+    Vertices at equal positions count as one. A mesh is closed if every edge has two triangles. Its
+    winding is consistent if these go along the edge in opposite directions.
     """
-    import trimesh
-
     positions, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
-    faces = index.reshape(-1)[mesh.triangles]
-    whole = trimesh.Trimesh(positions.astype(np.float64), faces, process=False)
-    with np.errstate(all="ignore"):  # faces may be huge, or have no area
-        return {
-            "closed": bool(whole.is_watertight),
-            "consistent_winding": bool(whole.is_winding_consistent),
-            "degenerate_faces": int((~whole.nondegenerate_faces()).sum()),
-            "duplicate_faces": len(faces) - len(np.unique(np.sort(faces), axis=0)),
-        }
+    faces = index.reshape(-1)[mesh.triangles].reshape(-1, 3)
+    start, end = faces[:, [0, 1, 2]].ravel(), faces[:, [1, 2, 0]].ravel()
+    names = np.minimum(start, end) * len(positions) + np.maximum(start, end)
+    edge, of, count = np.unique(names, return_inverse=True, return_counts=True)
+    along = np.bincount(of.ravel(), start < end, minlength=len(edge))
+    is_point = np.bincount(of.ravel(), start == end, minlength=len(edge)) > 0
+    is_empty = not len(positions)
+    return {
+        "closed": not is_empty and bool((count == 2).all()),
+        "consistent_winding": not is_empty and bool(((along == 1) | is_point)[count == 2].all()),
+        "degenerate_faces": int(_degenerate(positions.astype(np.float64)[faces]).sum()),
+        "duplicate_faces": len(faces) - len(np.unique(np.sort(faces), axis=0)),
+    }
+
+
+def _degenerate(corners: Floats) -> Bools:
+    """Return which triangles (n, 3, 3) are hardly higher than a line above one of two edges."""
+    p1, p2, p3 = corners.transpose(1, 2, 0)
+    with np.errstate(all="ignore"):  # they may be huge, or have no area
+        across = cross(p2 - p1, p3 - p2)
+        area = np.sqrt(dot(across, across)) / 2
+        lengths = [np.sqrt(dot(edge, edge)) for edge in (p2 - p1, p3 - p1)]
+        high = [(length > _HEIGHT) & (area * 2 / length > _HEIGHT) for length in lengths]
+    return ~(high[0] & high[1])
 
 
 def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manifest]:

@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer.compare.bounds import difference, differing
-from reference_tracer.compare.case import Alternative, Case
-from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.causes import (
+from reference_tracer.causes.case import Alternative, Case
+from reference_tracer.causes.cause import Cause
+from reference_tracer.causes.checks.unmodelled import covered
+from reference_tracer.causes.explain import (
     ANTI_ALIASING,
     CAUSES,
     CLIP_PLANE,
@@ -28,12 +28,12 @@ from reference_tracer.compare.causes import (
     NOT_DECIDABLE,
     NOT_MODELLED,
 )
-from reference_tracer.compare.checks.unmodelled import covered
-from reference_tracer.compare.identity import NOTHING, UNKNOWN
-from reference_tracer.compare.metrics import boundary
-from reference_tracer.compare.picture import Picture
 from reference_tracer.images import curve
 from reference_tracer.manifest import Unmodelled
+from reference_tracer.pictures.bounds import difference, differing
+from reference_tracer.pictures.identity import NOTHING, UNKNOWN
+from reference_tracer.pictures.metrics import boundary
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Scene, ViewWindow
 from reference_tracer.tracer.camera import pixel_size

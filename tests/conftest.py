@@ -54,15 +54,16 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 # The files whose tests take longest are begun with: a worker that comes to one last is waited for.
+# The whole Blender of the window may have to be set up first; the farms come when it is.
 LONGEST = (
     "tests/gui/",
-    "tests/farms/",
     "tests/cluster/",
     "tests/blender/test_attacks.py",
     "tests/blender/test_hard_cases.py",
     "tests/blender/test_digests.py",
     "tests/suites/test_exact.py",
     "tests/certified/sweep/test_sweep.py",
+    "tests/farms/",
     "tests/test_docs.py",
     "tests/suites/test_pbrt.py",
     "tests/blender/test_cli_blend.py",

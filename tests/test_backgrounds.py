@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer import images
-from reference_tracer.compare.case import Case
-from reference_tracer.compare.causes import UNEXPLAINED
-from reference_tracer.compare.comparing import compare, trace_and_compare
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes.case import Case
+from reference_tracer.causes.explain import UNEXPLAINED
+from reference_tracer.comparison.comparing import compare, trace_and_compare
 from reference_tracer.manifest import Manifest
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings

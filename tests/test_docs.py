@@ -27,11 +27,12 @@ def tools():
     sys.path.insert(0, TOOLS)
     try:
         import make_docs
-        from documents import derivations, figures, markers, pictures
+        from documents import derivations, figures, markers, pictures, python
 
         yield {
             **{"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures},
             "derivations": derivations,
+            "python": python,
         }
     finally:
         sys.path.remove(TOOLS)
@@ -40,7 +41,8 @@ def tools():
 @pytest.fixture(scope="module")
 def values(tools):
     """Every figure, computed once for all documents."""
-    return tools["figures"].values() | tools["derivations"].values()
+    page = {"python_api": tools["python"].page()}
+    return tools["figures"].values() | tools["derivations"].values() | page
 
 
 def texts():

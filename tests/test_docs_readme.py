@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.causes.explain import CAUSES
 from reference_tracer.cli.main import parser
-from reference_tracer.compare.causes import CAUSES
 from reference_tracer.rendering import render
 from reference_tracer.report.page.content import _hex
 from reference_tracer.scene_files import load_scene

@@ -51,7 +51,7 @@ except ValueError as error:
     assert "never" in str(error)
 else:
     raise AssertionError("'none' was taken")
-from reference_tracer.explain.derivation import derive
+from reference_tracer.derivation.derivation import derive
 assert "never" in {str(a.method) for a in derive(scene, 4, 4).answers}
 """
 SEES_METHOD_IN_BLENDER = """
@@ -92,8 +92,8 @@ assert np.isfinite(render(scene, Settings("certified")).t).any()
 """
 SEES_PANORAMA = """
 from dataclasses import replace
-from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.writers import to_dict
+from reference_tracer.derivation.derivation import derive
+from reference_tracer.derivation.writers import to_dict
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene_files import load_scene, save_scene
 new = replace(scene, camera=replace(scene.camera, projection=PROJECTIONS["equirectangular"]))
@@ -150,7 +150,7 @@ CAUSE = {
         "    pixels.give(pixels.open & white, COMET, 7.0, 9.0)\n"
         "    yield 1.0\n",
     ),
-    "compare/causes.py": (
+    "causes/explain.py": (
         "from .checks.edges import",
         "from .checks import comet\n",
         "    NOT_DECIDABLE,\n",
@@ -160,7 +160,7 @@ CAUSE = {
     ),
 }
 FAULT = {
-    "compare/faults/picture.py": (
+    "diagnosis/faults/picture.py": (
         '    Fault(\n        "row_off"',
         "    Fault('dark', 'there is no light', 'light it', recolored(lambda c: 0 * c), "
         "examples=(Example('dark', 'no light'),)),\n",
@@ -168,9 +168,9 @@ FAULT = {
 }
 COMPARED = """
 import json
-from reference_tracer.compare.case import Case
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.picture import Picture
+from reference_tracer.causes.case import Case
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.manifest import Manifest
 from reference_tracer.tracer.progress import result_of
 manifest = Manifest("a.blend", "Scene", "ViewLayer", 1, "FILE", "Camera")

@@ -14,12 +14,7 @@ import pytest
 from PIL import Image
 from reference_tracer import exr, images, png
 from reference_tracer.exr import MissingLibraryError
-from reference_tracer.images import (
-    open_picture,
-    read_picture,
-    save_png,
-    to_display,
-)
+from reference_tracer.images import open_picture, read_picture, save_png, to_display
 
 
 def opaque(values):
@@ -120,7 +115,7 @@ def test_missing_library_says_how_to_get_it(use, tmp_path, monkeypatch):
     (tmp_path / "given.exr").write_bytes(b"v/1\x01")
     monkeypatch.setitem(sys.modules, "OpenImageIO", None)
     with pytest.raises(
-        MissingLibraryError, match=r"OpenImageIO: pip install 'reference_tracer\[images\]'"
+        MissingLibraryError, match=r"OpenImageIO: pip install \"reference_tracer\[images\]\""
     ):
         use(tmp_path)
     assert len(list(tmp_path.iterdir())) == 1

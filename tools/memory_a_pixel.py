@@ -16,10 +16,10 @@ from pathlib import Path
 
 import numpy as np
 from reference_tracer import exr, images
-from reference_tracer.compare.case import Case
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.picture import Picture, Source
+from reference_tracer.causes.case import Case
+from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.manifest import Manifest
+from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
 from reference_tracer.tracer.progress import result_of

@@ -16,8 +16,8 @@ import bpy
 from .temporary import is_temporary
 
 if TYPE_CHECKING:
-    from ..compare.certificate import CameraCertificate
     from ..manifest import Manifest
+    from ..pictures.certificate import CameraCertificate
     from ..scene import Scene
     from ..tracer.frame import Frame, Pass
     from ..tracer.hits import Statistics

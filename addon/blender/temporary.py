@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 if TYPE_CHECKING:
-    from ..compare.palette import Palette
+    from ..pictures.palette import Palette
 
 # Custom properties. DRAWN marks what the add-on itself draws in a scene. The others mark a
 # temporary scene: the name of the user's, and the features that its judge does not show.
@@ -75,7 +75,7 @@ def _in_palette(scene: Any, palette: Palette | None) -> Iterator[None]:
     """Show a temporary scene, which is not evaluated yet, in other colours, for a while."""
     import numpy as np
 
-    from ..compare.palette import By
+    from ..pictures.palette import By
     from .values import untold
 
     if palette is None or palette.by == By.VIEWPORT:

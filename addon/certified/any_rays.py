@@ -9,16 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Bools, Floats
+from ..arrays import Bools, Floats, Index
 from ..scene import Scene
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics
 from ..tracer.nearest import every_pair
 from ..tracer.progress import Work
 from ..tracer.settings import Settings
-from . import exact
+from ..tracer.vector import occurring
 from .bounds import FromPoint
+from .exact import IntegerBatch
 from .ladder import Ladder, in_range, sides
+from .many import hits as hits_of
 from .surfaces import SURE
 
 
@@ -40,30 +42,41 @@ class Decision:
     exact: Bools  # integers decided
 
 
-def decide(rays: Rays, corners: Floats, start: float = 0.0, end: float = np.inf) -> Decision:
-    """Decide pairs of a ray and a triangle, each by itself.
+def decide(
+    rays: Rays,
+    corners: Floats,
+    start: float = 0.0,
+    end: float = np.inf,
+    row: Index | None = None,
+) -> Decision:
+    """Decide n pairs of a ray and a triangle, each by itself.
 
     Parameters
     ----------
     rays : Rays
         n rays, finite, float64.
-    corners : (3, 3, n) float64
+    corners : (3, 3, m) float64
         Corner, component, triangle; finite, in world space.
     start, end : float
         The clip range, as of a `Ladder`.
+    row : (n,) int, optional
+        The triangle of each pair; by default they come in the order of the rays.
     """
-    hit, edge, undecided = (np.zeros(corners.shape[2], bool) for _ in range(3))
-    every = np.arange(corners.shape[2])
+    every = np.arange(corners.shape[2] if row is None else len(row))
+    row = every if row is None else row
+    hit, edge, undecided = np.zeros((3, len(every)), bool)
     with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
-        prepared = FromPoint(rays.origins, np.abs(rays.directions), corners)
+        prepared = FromPoint(rays.origins, np.abs(rays.directions), corners.take(row, axis=2))
         sure, possible = sides(prepared, every, rays)
         fractions = prepared.fractions(possible, rays.take(possible))
         _, _, outside, doubt = in_range(fractions, sure, start, end)
     hit[possible] = ~outside & (doubt == SURE)
     undecided[possible] = ~outside & (doubt != SURE)
     for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
-        batch = exact.IntegerBatch(rays.take(part), corners.take(part, axis=2), (), start, end)
-        for k, pair in enumerate(part.tolist()):
-            if found := batch.hit(k, k):
-                hit[pair], edge[pair] = found.is_hit(), found.on_edge
+        used, number = occurring(row[part], corners.shape[2])
+        batch = IntegerBatch(rays.take(part), corners.take(used, axis=2), (), start, end)
+        found = hits_of(batch, np.arange(len(part)), number)
+        for pair, met in zip(part.tolist(), found, strict=True):
+            if met:
+                hit[pair], edge[pair] = met.is_hit(), met.on_edge
     return Decision(hit, edge, undecided)

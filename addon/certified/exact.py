@@ -114,10 +114,10 @@ class IntegerBatch:
         points = np.array([p for p, _ in planes]).reshape(-1, 3).T
         at = rays.origins.shape[1]
         lengths, exponent = integers(np.hstack((rays.origins, *corners, points)))
-        self._origins = lengths[:at]
-        self._corners = [lengths[at + k * count : at + (k + 1) * count] for k in range(3)]
-        self._directions, direction_exponent = integers(rays.directions)
-        self._planes = [
+        self.origins = lengths[:at]
+        self.corners = [lengths[at + k * count : at + (k + 1) * count] for k in range(3)]
+        self.directions, direction_exponent = integers(rays.directions)
+        self.planes = [
             (point, integers(np.asarray(normal, np.float64)[:, None])[0][0])
             for point, (_, normal) in zip(lengths[at + 3 * count :], planes, strict=True)
         ]
@@ -130,45 +130,46 @@ class IntegerBatch:
 
     def hit(self, ray: int, surface: int) -> Hit | None:
         """Return a ray's hit on a surface within the clip range, or None."""
-        d = self._directions[ray if len(self._directions) > 1 else 0]
-        o = self._origins[ray if len(self._origins) > 1 else 0]
-        if surface < len(self._planes):
+        d = self.directions[ray if len(self.directions) > 1 else 0]
+        o = self.origins[ray if len(self.origins) > 1 else 0]
+        if surface < len(self.planes):
             numerator, n = self._plane(o, surface)
             return self._clipped(Hit(numerator, dot(d, n), n, (), (), (), d))
         numerator, n, sides, spans = self._triangle(o, surface)
-        edges = tuple(dot(d, m) for m in sides)
+        ab, bc, ca = sides
+        edges = dot(d, ab), dot(d, bc), dot(d, ca)
         if min(edges) < 0 < max(edges):
             return None
         return self._clipped(Hit(numerator, sum(edges), n, edges, sides, spans, d))
 
     def of_first_ray(self, surface: int) -> tuple[int, int, Integers]:
         """Return T, D and n of a surface for the first ray, which may miss it."""
-        o = self._origins[0]
-        if surface < len(self._planes):
+        o = self.origins[0]
+        if surface < len(self.planes):
             numerator, n = self._plane(o, surface)
         else:
             numerator, n, _, _ = self._triangle(o, surface)
-        return numerator, dot(self._directions[0], n), n
+        return numerator, dot(self.directions[0], n), n
 
     def _triangle(self, o: Integers, surface: int) -> tuple[int, Integers, Triple, Triple]:
         """Return T, n, and m and span of each edge; computed once if all rays share o."""
         if known := self._known.get(surface):
             return known
-        k = surface - len(self._planes)
-        a, b, c = (sub(corners[k], o) for corners in self._corners)
+        k = surface - len(self.planes)
+        a, b, c = (sub(corners[k], o) for corners in self.corners)
         ab = cross(a, b)
         bc = cross(b, c)
         ca = cross(c, a)
         spans = sub(a, b), sub(b, c), sub(c, a)
         normal = ab[0] + bc[0] + ca[0], ab[1] + bc[1] + ca[1], ab[2] + bc[2] + ca[2]
         found = dot(a, bc), normal, (ab, bc, ca), spans
-        if len(self._origins) == 1:
+        if len(self.origins) == 1:
             self._known[surface] = found
         return found
 
     def _plane(self, o: Integers, surface: int) -> tuple[int, Integers]:
         """Return T and n."""
-        point, n = self._planes[surface]
+        point, n = self.planes[surface]
         return dot(sub(point, o), n), n
 
     def t(self, hit: Hit) -> float:

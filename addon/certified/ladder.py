@@ -31,6 +31,7 @@ from ..tracer.vector import occurring
 from ..tracer.world import Pairs, WorldTriangles
 from . import exact, order
 from .bounds import Fractions, FromPoint, Parallel, plane_fractions
+from .many import hits as hits_of
 from .measures import Prepared
 from .reasons import reasons
 from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
@@ -140,7 +141,7 @@ class Ladder:
                 with np.errstate(all="ignore"):
                     met, first = decisions.by_integers(some)
                     why = reasons(some, met, first, self._rays, surfaces)
-                statistics.reasons.update(why)
+                statistics.reasons += why
                 yield 1.0
         hits.ties = Ties.joined(decisions.ties)
         statistics.reasons += decisions.reasons
@@ -274,8 +275,7 @@ class Decisions:
     def _compare(self, found: Candidates) -> Compare:
         """Return what compares two candidates of one ray by their depths."""
         none = np.zeros_like(found.ray)
-        batch, _, numbers = self.surfaces.integers(self.around, none, found.surface)
-        surface = np.array(numbers)
+        batch, _, surface = self.surfaces.integers(self.around, none, found.surface)
 
         def compare(one: Index, other: Index) -> NDArray[np.int8]:
             rays = self.rays.take(found.ray[other])
@@ -289,7 +289,7 @@ class Decisions:
         Returns the exact hit on each candidate, and the hit that its ray sees.
         """
         batch, *pairs = self.surfaces.integers(self.rays, found.ray, found.surface, self.clip)
-        met = [batch.hit(*pair) for pair in zip(*pairs, strict=True)]
+        met = hits_of(batch, *pairs)
         instance, triangle = (v.tolist() for v in self.surfaces.names(found.surface))
         names = list(zip(instance, triangle, strict=True))
         starts = np.flatnonzero(np.diff(found.ray, prepend=-1)).tolist()

@@ -65,7 +65,7 @@ class Prepared:
             return
         at = at[which]
         batch, *pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface[which])
-        for ray, number, of in zip(at.tolist(), *pairs, strict=True):
+        for ray, number, of in zip(at.tolist(), *(p.tolist() for p in pairs), strict=True):
             hit = batch.hit(number, of)
             assert hit, "the ray certainly hits it"
             hits.t[ray] = batch.t(hit)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Floats, Index
 from ..certainty import Reason
 from ..tracer.camera import Rays
 from ..tracer.vector import Vectors, cross, largest
@@ -18,8 +19,13 @@ from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
 _ORDINARY = 1e3
 
 
-def of_doubts(rays: Rays, corners: Vectors) -> list[Reason]:
+_NUMBER = {reason: number for number, reason in enumerate(Reason)}
+
+
+def of_doubts(rays: Rays, corners: Vectors) -> Index:
     """Return why the bound did not decide n pairs: what is unusual about the ray and the triangle.
+
+    As numbers into `Reason`, (n,).
 
     Parameters
     ----------
@@ -43,10 +49,11 @@ def of_doubts(rays: Rays, corners: Vectors) -> list[Reason]:
         # The sizes of e, T and D: beyond these ends not digits are too few, but exponents.
         sizes = longest * np.stack((speed * distance, distance * longest, speed * longest))
         extreme = ~((sizes > SLACK / BOUND) & (sizes < np.inf)).all(axis=0)
-    found = np.array([Reason.FAR, Reason.THIN, Reason.EDGE_ON])[ratios.argmax(axis=0)]
-    found[ratios.max(axis=0) <= _ORDINARY] = Reason.NEAR_EDGE
-    found[extreme] = Reason.EXTREME
-    return found.tolist()
+    of_ratios = [_NUMBER[each] for each in (Reason.FAR, Reason.THIN, Reason.EDGE_ON)]
+    found = np.array(of_ratios)[ratios.argmax(axis=0)]
+    found[ratios.max(axis=0) <= _ORDINARY] = _NUMBER[Reason.NEAR_EDGE]
+    found[extreme] = _NUMBER[Reason.EXTREME]
+    return found
 
 
 def _length(v: Vectors) -> Floats:
@@ -60,8 +67,8 @@ def reasons(
     firsts: Sequence[Hit | None],
     rays: Rays,
     surfaces: Surfaces,
-) -> list[Reason]:
-    """Return why candidates were not decided by the error bound, one reason for each that was not.
+) -> Counter[Reason]:
+    """Count why candidates were not decided by the error bound, one reason for each that was not.
 
     Parameters
     ----------
@@ -70,23 +77,23 @@ def reasons(
     met, firsts : (c,) sequences
         The hit on each candidate, and the hit that its ray sees, in exact arithmetic.
     """
-    out, unusual = [], []
+    count = Counter[Reason]()
+    sure = found.doubt == SURE
+    for k in np.flatnonzero(sure).tolist():  # a hit, but is it the nearest?
+        hit, first = met[k], firsts[k]
+        if hit is not first:
+            same = hit and first and sign_of_difference(hit, first) == 0
+            count[Reason.COPLANAR if same else Reason.CLOSE] += 1
+    on_edge = np.array([hit is not None and hit.on_edge for hit in met], bool)
+    on_edge &= found.doubt == EDGE
+    rest = found.take(np.flatnonzero(~sure & ~on_edge))
     planes = len(surfaces.planes)
-    for k, (hit, first) in enumerate(zip(met, firsts, strict=True)):
-        doubt = found.doubt[k]
-        if doubt == SURE:  # a hit, but the bounds do not tell whether it is the nearest
-            if hit is not first:
-                same = hit and first and sign_of_difference(hit, first) == 0
-                out.append(Reason.COPLANAR if same else Reason.CLOSE)
-        elif doubt == EDGE and hit and hit.on_edge:
-            out.append(Reason.EDGE)
-        elif found.surface[k] < planes:
-            out.append(Reason.CLIP if doubt == CLIP else Reason.EDGE_ON)
-        else:
-            unusual.append(k)
-    which = np.array(unusual, np.intp)
-    corners = surfaces.triangles.corners.take(found.surface[which] - planes, axis=2)
-    properties = of_doubts(rays.take(found.ray[which]), corners)
-    for doubt, reason in zip(found.doubt[which], properties, strict=True):
-        out.append(Reason.CLIP if doubt == CLIP and reason != Reason.EXTREME else reason)
-    return out
+    number = np.full(len(rest), _NUMBER[Reason.EDGE_ON])
+    some = np.flatnonzero(rest.surface >= planes)
+    corners = surfaces.triangles.corners.take(rest.surface[some] - planes, axis=2)
+    number[some] = of_doubts(rays.take(rest.ray[some]), corners)
+    number[(rest.doubt == CLIP) & (number != _NUMBER[Reason.EXTREME])] = _NUMBER[Reason.CLIP]
+    times = np.bincount(number, minlength=len(_NUMBER))
+    times[_NUMBER[Reason.EDGE]] += int(on_edge.sum())
+    count.update({reason: int(times[k]) for reason, k in _NUMBER.items() if times[k]})
+    return count

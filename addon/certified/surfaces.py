@@ -87,10 +87,10 @@ class Surfaces:
 
     def integers(
         self, rays: Rays, ray: Index, surface: Index, clip: tuple[float, float] = (-np.inf, np.inf)
-    ) -> tuple[exact.IntegerBatch, list[int], list[int]]:
+    ) -> tuple[exact.IntegerBatch, Index, Index]:
         """Return rays and surfaces as integers, and where pairs of them, (c,) each, are there."""
         which, ray = np.unique(ray, return_inverse=True)
         some, surface = self.only(surface)
         corners = some.triangles.corners
         batch = exact.IntegerBatch(rays.take(which), corners, self.planes, *clip)
-        return batch, ray.tolist(), surface.tolist()
+        return batch, ray, surface

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..certified.rounding import check_is_proven
-from ..compare.animation import frames_named
-from ..compare.palette import By
-from ..compare.renderers import RENDERERS
+from ..comparison.animation import frames_named
 from ..framing import Choice
+from ..pictures.palette import By
+from ..pictures.renderers import RENDERERS
 from ..scene import SceneError
 from ..tracer.settings import Settings
 from .arguments import (
@@ -213,10 +213,10 @@ def _add_page(parser: Parser) -> None:
     group.add_argument(
         "--trade",
         action="store_true",
-        help="also measure what each method costs on this scene: half a minute",
+        help="also measure what each method costs on this scene: a quarter of a minute",
     )
     group.add_argument(
-        "--extremes", action="store_true", help="also find where every method breaks: two minutes"
+        "--extremes", action="store_true", help="also find where every method breaks: half a minute"
     )
 
 

@@ -13,29 +13,27 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..file_kinds import check_is_file
-from ..framing import ANGLE, SIZE, Choice
+from ..framing import Choice
 from ..manifest import Manifest
-from ..mesh_files.contents import Contents
-from ..mesh_files.load import READERS, load_meshes, scene_of_meshes
+from ..mesh_files.load import READERS
+from ..opened import open_scene
 from ..scene import Scene, SceneError
-from ..scene_files import load_scene
 from ..tracer.settings import Settings
 from . import running
 from .arguments import is_blend
 from .camera_options import check_kind
-from .file_manifest import file_manifest
 
 PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
 SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(READERS)})"
 
 
-class Opened(NamedTuple):
+class OpenedFile(NamedTuple):
     """What a file gives."""
 
     scene: Scene
-    settings: Settings  # that it stores
     manifest: Manifest
+    settings: Settings  # that it stores
 
 
 def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
@@ -51,7 +49,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     return opened.scene, opened.settings
 
 
-def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
+def open_file(path: Path, choice: Choice = _AS_SAVED) -> OpenedFile:
     """Open a .blend, a .npz or a mesh. Meshes are framed where no camera is chosen.
 
     Raises
@@ -61,41 +59,12 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
     """
     if is_blend(path):
         with open_blend(path, choice) as blender:
-            from ..blender.compare import export_open_file
+            from ..blender.jobs.compare import export_open_file
 
             scene, manifest, settings = export_open_file(blender.context)
-        return Opened(scene, settings, manifest)
+        return OpenedFile(scene, manifest, settings)
     check_kind(path)
-    contents = Contents(())
-    if path.suffix.lower() == ".npz":
-        scene = load_scene(path)
-    else:
-        if path.suffix.lower() == ".glb":
-            import_trimesh()
-        contents = load_meshes(path, choice.up)
-        scene = _framed(path, contents, choice)
-    return Opened(scene, Settings(), file_manifest(path, scene, contents))
-
-
-def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
-    size = choice.size(SIZE)
-    camera = choice.placed(*size) if choice.eye else None
-    try:
-        return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)
-    except SceneError as error:
-        raise SceneError(f"'{path}': {error}") from error
-
-
-def import_trimesh() -> None:
-    """Import trimesh without the libraries that it does not need here: they take half a second."""
-    hidden = [name for name in ("scipy", "networkx") if name not in sys.modules]
-    for name in hidden:
-        sys.modules[name] = None  # type: ignore[assignment]  # "it cannot be imported"
-    try:
-        import trimesh  # noqa: F401
-    finally:
-        for name in hidden:
-            del sys.modules[name]
+    return OpenedFile(*open_scene(path, choice), Settings())
 
 
 @contextmanager
@@ -118,7 +87,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
         except ImportError as error:
             raise SceneError(_without_blender(error)) from error
         from ..blender import registration
-        from ..blender.choice import chosen
+        from ..blender.jobs.choice import chosen
 
         if not choice.opened:
             registration.register()
@@ -146,7 +115,7 @@ def _without_blender(error: ImportError) -> str:
 
 def _open(bpy: Any, path: Path) -> None:
     with running.held():
-        from ..blender.opened import open_file
+        from ..blender.reading.opened import open_file
 
         try:
             open_file(path)

@@ -12,6 +12,7 @@ import io
 import os
 import signal
 import sys
+import time
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
@@ -21,6 +22,9 @@ from typing import TextIO
 _NAMED = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "hung up"}
 # What ends the work, and in what word: those that this system has.
 SIGNALS = {getattr(signal, name): word for name, word in _NAMED.items() if hasattr(signal, name)}
+
+LINE_EVERY = 10.0  # seconds between two lines that say how much is done
+LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
 
 
 @dataclass
@@ -63,8 +67,8 @@ def run(work: Callable[[], int], program: str) -> int:
 
 def _failed(error: Exception, program: str) -> int:
     """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
-    from ..compare.picture import SizeError
     from ..errors import EXPECTED, words
+    from ..pictures.picture import SizeError
     from .parser import INPUT_ERROR, SIZES_DIFFER
 
     said = words(error)
@@ -193,19 +197,45 @@ def printable(text: str) -> str:
 
 
 @contextmanager
-def progress_bar() -> Iterator[Callable[[float], None]]:
-    """Show a bar on standard error, if it is a terminal and tqdm is there."""
+def progress_bar(
+    clock: Callable[[], float] = time.monotonic,
+) -> Iterator[Callable[[float], None]]:
+    """Show on standard error how much is done, and what is being done.
+
+    That is a bar on a terminal, if tqdm is there; else a line every LINE_EVERY seconds.
+    """
+    from ..tracer.progress import doing
+
     check()
     try:
         from tqdm import tqdm
     except ImportError:
-        yield lambda share: check()
+        is_bar = False
+    else:
+        is_bar = sys.stderr.isatty()
+    if not is_bar:
+        began = clock()
+        lines = 1  # the number of the next one
+
+        def tell(share: float) -> None:
+            nonlocal lines
+            check()
+            past = clock() - began
+            if past >= lines * LINE_EVERY:
+                lines = int(past / LINE_EVERY) + 1
+                said = ", ".join(filter(None, (f"{100 * share:3.0f} %", doing(share))))
+                left = f", {past * (1 - share) / share:.0f} s left" if share > LEAST_SHARE else ""
+                with suppress(OSError):  # nobody reads it
+                    print(f"{said} ({past:.0f} s{left})", file=sys.stderr, flush=True)
+
+        yield tell
         return
-    layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"
-    with tqdm(total=1.0, bar_format=layout, disable=None, leave=False) as bar:
+    layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left{postfix}"
+    with tqdm(total=1.0, bar_format=layout, leave=False) as bar:
 
         def show(share: float) -> None:
             check()
+            bar.set_postfix_str(doing(share), refresh=False)
             bar.update(share - bar.n)
 
         yield show

@@ -17,17 +17,7 @@ import numpy as np
 
 from ..arrays import Array, Bytes
 from .said import remarks
-from .samples import (
-    CHANNELS,
-    GREY,
-    PALETTE,
-    RGB,
-    RGBA,
-    Header,
-    PngError,
-    in_channels,
-    unpacked,
-)
+from .samples import CHANNELS, GREY, PALETTE, RGB, RGBA, Header, PngError, in_channels, unpacked
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _LEVEL = 6  # of zlib's compression: 9 takes several times as long for a few per cent

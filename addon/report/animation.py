@@ -11,8 +11,8 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from ..compare.animation import FrameRow, worst_first
-from ..compare.verdict import Verdict
+from ..comparison.animation import FrameRow, worst_first
+from ..comparison.verdict import Verdict
 from ..wording import count_of
 from . import comparison, page, plots
 from .folders import replacing, write_json, write_text

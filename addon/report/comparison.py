@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
@@ -11,11 +11,12 @@ import numpy as np
 
 from .. import images
 from ..arrays import Array, Colors
-from ..compare.comparing import diagnosed
-from ..compare.comparison import SCHEMA, Comparison
-from ..compare.maps import cause_map
-from ..compare.verdict import Verdict
-from ..tracer.progress import Work, scaled
+from ..causes.maps import cause_map
+from ..comparison.comparing import diagnosed
+from ..comparison.comparison import SCHEMA, Comparison
+from ..comparison.verdict import Verdict
+from ..tracer.frame import PASSES
+from ..tracer.progress import Work, called, scaled
 from . import page
 from .folders import replacing, write_json
 
@@ -24,10 +25,13 @@ ARRAYS, JSON = "frame.npz", "comparison.json"
 NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 
 
-def write(directory: str | Path, comparison: Comparison, extras: page.Extras | None = None) -> None:
+def write(
+    directory: str | Path, comparison: Comparison, extras: page.Extras | None = None
+) -> Work[None]:
     """Write the pictures, `frame.npz`, `page.html` with the extras, and `comparison.json`.
 
-    All or none, in a folder that is made where it is not there: see :func:`folders.replacing`.
+    In small steps; all or none, in a folder that is made where it is not there: see
+    :func:`folders.replacing`.
 
     Raises
     ------
@@ -35,16 +39,11 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
         If the folder cannot be written.
     """
     colors = comparison.frame.color, comparison.picture, difference_picture(comparison)
-    causes, owners = comparison.causes, comparison.identity
-    # The object that each side shows, as a number among the JSON's names, where it is known.
-    names = {"owner_traced": owners.traced, "owner_shown": owners.shown} if owners else {}
     with replacing(Path(directory), NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
-        arrays = comparison.frame.passes() | names
-        arrays |= {"blender": comparison.picture, "cause": causes.cause, "blind": causes.blind}
-        arrays |= {"cause_figure": causes.figure, "cause_allowed": causes.allowed}
-        _write_arrays(new / ARRAYS, arrays)
+            yield 0.1
+        yield from scaled(_write_arrays(new / ARRAYS, _arrays(comparison)), 0.2, 0.4)
         page.write(new / page.NAME, comparison, extras)
         write_json(new / JSON, comparison.to_dict())
 
@@ -67,21 +66,36 @@ def written(
         comparison = yield from scaled(work, 0.0, rest)
         finding = page.extras(comparison, trade, extremes)
         extras = yield from scaled(finding, rest, end - rest)
-        write(folder, comparison, extras)
+        yield from scaled(called(write(folder, comparison, extras), "writing"), end, 0.0)
         if diagnose and comparison.counts.unexplained:
             told(comparison)
             comparison = yield from scaled(diagnosed(comparison), end, 1 - end)
-            write(folder, comparison, extras)
+            yield from scaled(called(write(folder, comparison, extras), "writing"), 1.0, 0.0)
     yield 1.0
     return comparison
 
 
-def _write_arrays(path: Path, arrays: Mapping[str, Array]) -> None:
+def _arrays(comparison: Comparison) -> Iterator[tuple[str, Array]]:
+    """Yield all arrays by name, one after the other: together they take much memory."""
+    for each in PASSES:
+        yield each.name, getattr(comparison.frame, each.name)
+    # The object that each side shows, as a number among the JSON's names, where it is known.
+    if owners := comparison.identity:
+        yield "owner_traced", owners.traced
+        yield "owner_shown", owners.shown
+    yield "blender", comparison.picture
+    for name in ("cause", "blind", "figure", "allowed"):
+        values: Array = getattr(comparison.causes, name)
+        yield f"cause_{name}" if name in ("figure", "allowed") else name, values
+
+
+def _write_arrays(path: Path, arrays: Iterable[tuple[str, Array]]) -> Work[None]:
     """Write what `numpy.savez_compressed` does, a few per cent larger in less time."""
     with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=1) as stored:
-        for name, values in arrays.items():
+        for name, values in arrays:
             with stored.open(f"{name}.npy", "w", force_zip64=True) as file:
                 np.lib.format.write_array(file, values, allow_pickle=False)
+            yield 0.0
 
 
 def difference_picture(comparison: Comparison) -> Colors:

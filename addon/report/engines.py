@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..compare.engines import EngineRow, to_dict
-from ..compare.identity import NOTHING
-from ..compare.self_check import table
+from ..comparison.engines import EngineRow, to_dict
+from ..diagnosis.self_check import table
+from ..pictures.identity import NOTHING
 from .folders import replacing, write_json
 from .tables import columns
 

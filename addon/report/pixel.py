@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..explain import reproducer
-from ..explain.derivation import derive_pixel
-from ..explain.document import answer_sentence
-from ..explain.pixel import Pixel
-from ..explain.writers import WRITERS
+from ..derivation import reproducer
+from ..derivation.derivation import derive_pixel
+from ..derivation.document import answer_sentence
+from ..derivation.pixel import Pixel
+from ..derivation.writers import WRITERS
 from . import folders
 
 

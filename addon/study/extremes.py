@@ -13,19 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Bools
 from ..certified.definition import definition
-from ..rendering import render
-from ..tracer.camera import Rays
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
-from ..tracer.nearest import within_clip
-from ..tracer.progress import Work, result_of, scaled
-from ..tracer.settings import PLAIN_SETTINGS, Settings
-from ..tracer.triangle import TESTS
-from ..tracer.world import Pairs
+from ..tracer.progress import Work, called, scaled
+from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .scenarios.sweeps import SCENARIOS, Scenario
-from .truth import CERTIFIED, Truth, crossings, largest_t_error, pixel_rays, sample, truth_of
+from .truth import CERTIFIED, Truth, largest_t_error, pixel_rays, plain_of, sample, truth_of
 
 JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
 
@@ -138,7 +132,8 @@ def measure(
         return (yield from every(scenes, rays, judged))
     rows: list[ExtremesRow] = []
     for done, (scenario, scale) in enumerate(scenes):
-        work = rows_of(scenario, scale, rays, judged)
+        words = f"{scenario.title}, {scenario.scale_name} {written(scale)}"
+        work = called(rows_of(scenario, scale, rays, judged), words)
         rows += yield from scaled(work, done / len(scenes), 1 / len(scenes))
     yield 1.0
     return rows
@@ -148,11 +143,15 @@ def rows_of(
     scenario: Scenario, scale: float, rays: int | None, judged: int
 ) -> Work[list[ExtremesRow]]:
     """Trace a scenario at a scale by every method; parameters are as of :func:`measure`."""
-    scene, step = scenario.build(scale, *_size(scenario, rays)), 1 / (len(PLAIN_SETTINGS) + 1)
-    truth, rows = (yield from scaled(truth_of(scene), 0.0, step)), []
-    for k, settings in enumerate(PLAIN_SETTINGS, start=1):
-        yield k * step
-        rows.append(_plain_row(scenario, scale, truth, settings))
+    scene, step = scenario.build(scale, *_size(scenario, rays)), 1 / (len(Precision) + 1)
+    truth = yield from scaled(truth_of(scene), 0.0, step)
+    found = {}
+    for k, precision in enumerate(Precision, start=1):
+        found[precision] = yield from scaled(plain_of(scene, precision), k * step, step)
+    rows = [
+        _plain_row(scenario, scale, truth, settings, found[settings.precision][settings.method])
+        for settings in PLAIN_SETTINGS
+    ]
     return [*rows, _certified_row(scenario, scale, truth, judged)]
 
 
@@ -163,21 +162,16 @@ def _size(scenario: Scenario, rays: int | None) -> tuple[int, int]:
     return max(1, round(rays / height)), height
 
 
-def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Settings) -> ExtremesRow:
-    scene, camera = truth.frame.scene, truth.frame.scene.camera
-    frame = render(scene, settings)
-
-    def test(rays: Rays, pairs: Pairs) -> Bools:
-        hit, t, _ = TESTS[settings.method](rays, *pairs.corners)
-        return hit & within_clip(camera, t)
-
-    count = result_of(crossings(scene, settings, test))
+def _plain_row(
+    scenario: Scenario, scale: float, truth: Truth, settings: Settings, plain: Truth
+) -> ExtremesRow:
+    frame = plain.frame
     off = frame.wrong_against(truth.frame).ravel()
     found = frame.triangle_index.ravel() != NOTHING
     return replace(
         _row(scenario, scale, truth, frame, settings),
         missed=int((off & ~found).sum()),
-        doubled=int((count > truth.count).sum()),
+        doubled=int((plain.count > truth.count).sum()),
         wrong=int((off & found).sum()),
         largest_t_error=largest_t_error(frame, truth.frame, in_ulp=True),
     )

@@ -20,12 +20,12 @@ from ..methods import Method
 from ..rendering import steps
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work, called, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .trade import Trade, TradeRow, advice, mark
 from .truth import largest_t_error
 
-WIDTH, SAMPLES = 160, 4  # by default: half a minute for a scene of 20,000 triangles
+WIDTH, SAMPLES = 160, 4  # by default: a quarter of a minute for a scene of 20,000 triangles
 SMALLER = (1, 2, 4)  # the widths measured: the largest, a half and a quarter of it
 
 # More samples are measured for these: the exercise's, the fastest, and the one with a proof.
@@ -123,15 +123,17 @@ def measure(
     k = max(2 * samples, min(CONVERGED, int((CONVERGED_RAYS / pixels) ** 0.5)))
     rays = k * k * pixels
     first = rays / (rays + 6 * each)
-    truth = yield from scaled(converged(choices[0].scene, k), 0.0, first)
+    converging = called(converged(choices[0].scene, k), f"tracing {k} × {k} rays a pixel")
+    truth = yield from scaled(converging, 0.0, first)
     rows = mark((yield from scaled((every or rows_of)(choices, truth), first, 1 - first)))
     return Trade(name, rows, advice(rows), k)
 
 
 def rows_of(choices: list[Choice], truth: Floats) -> Work[list[TradeRow]]:
     """Measure choices; of a width the certified ones are what the others are held against."""
-    yield from scaled(_look_at_all(choices, truth), 0.0, 1 / 3)
-    yield from scaled(_time_all(choices), 1 / 3, 2 / 3)
+    looking = called(_look_at_all(choices, truth), "looking at errors and memory")
+    yield from scaled(looking, 0.0, 1 / 3)
+    yield from scaled(called(_time_all(choices), "taking times"), 1 / 3, 2 / 3)
     return [choice.row() for choice in choices]
 
 
@@ -162,9 +164,12 @@ def levels(samples: int) -> list[int]:
 def converged(scene: Scene, samples: int) -> Work[Floats]:
     """Return the colour of a scene with `samples` x `samples` a pixel, (h, w, 4) linear RGBA.
 
-    That of a picture so many times as large, `watertight` in float64, averaged: the same rays as
-    with `Settings.samples`, in a fraction of the time.
+    That of a picture so many times as large, averaged: the same rays as with `Settings.samples`, in
+    a fraction of the time. It is certified; through a panorama, where that would take long,
+    `watertight` in float64.
     """
+    is_linear = scene.camera.projection.is_linear
+    settings = Settings(Method.CERTIFIED if is_linear else Method.WATERTIGHT)
     width, height = scene.camera.width, scene.camera.height
     out = np.empty((height, width, 4))
     rows = max(1, BAND // (samples * samples * width))
@@ -174,7 +179,7 @@ def converged(scene: Scene, samples: int) -> Work[Floats]:
         band = replace(scene.camera, width=samples * width, height=samples * height, region=region)
         part = replace(scene, camera=band)
         frame = Frame.empty(part)
-        for share in steps(part, Settings(Method.WATERTIGHT), frame):
+        for share in steps(part, settings, frame):
             yield (y + share * (end - y)) / height
         blocks = frame.color.reshape(end - y, samples, width, samples, 4)
         out[y:end] = blocks.mean(axis=(1, 3), dtype=np.float64)

@@ -1,16 +1,15 @@
-"""Finds a scene's certified picture, and how many triangles each certified ray crosses.
+"""Finds a scene's picture by a method, and how many triangles each of its rays crosses.
 
 A sample of the rays is held against the definition, in integers, with every surface.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Bools, Index, Places
+from ..arrays import Index, Places
 from ..certainty import Certainty
 from ..certified.any_rays import decide
 from ..methods import Method
@@ -19,20 +18,20 @@ from ..scene import Camera, Scene
 from ..tracer.camera import Rays, camera_rays, film_positions
 from ..tracer.candidates import candidates
 from ..tracer.frame import Frame
-from ..tracer.nearest import plan
+from ..tracer.hits import Hits
+from ..tracer.nearest import plan, test_pairs, test_planes
 from ..tracer.progress import Work, scaled
-from ..tracer.settings import Precision, Settings
-from ..tracer.world import Pairs
+from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 
 CERTIFIED = Settings(Method.CERTIFIED)
 
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """A scene's certified picture, and how many triangles each certified ray crosses."""
+    """A scene's picture by a method, and how many triangles each of its rays crosses."""
 
     frame: Frame
-    count: Index  # (n,) of each ray
+    count: Index  # (n,) of each ray, near or far within the clip range
 
 
 def truth_of(scene: Scene) -> Work[Truth]:
@@ -40,32 +39,45 @@ def truth_of(scene: Scene) -> Work[Truth]:
     frame = Frame.empty(scene)
     for share in steps(scene, CERTIFIED, frame):
         yield 0.5 * share
+    region, rays = scene.camera.region, pixel_rays(scene.camera, CERTIFIED.precision)
     clip = scene.camera.clip_start, scene.camera.clip_end
-    counting = crossings(
-        scene,
-        CERTIFIED,
-        lambda rays, p: decide(rays, p.corners.astype(float, copy=False), *clip).hit,
-    )
-    return Truth(frame, (yield from scaled(counting, 0.5, 0.5)))
+    count = np.zeros(rays.count, np.int64)
+    made = yield from scaled(plan(scene, CERTIFIED, reach=0.0), 0.5, 0.0)
+    for share, some in candidates(made, region):
+        yield 0.5 + 0.5 * share
+        if some is not None:
+            corners = some.triangles.corners
+            crossed = decide(rays.take(some.pixel), corners, *clip, row=some.row).hit
+            count += np.bincount(some.pixel[crossed], minlength=len(count))
+    return Truth(frame, count)
 
 
-def crossings(
-    scene: Scene, settings: Settings, test: Callable[[Rays, Pairs], Bools]
-) -> Work[Index]:
-    """Count the triangles that each of the camera's rays crosses, (n,), near or far.
+def plain_of(scene: Scene, precision: Precision) -> Work[dict[Method, Truth]]:
+    """Find what every plain method makes of a scene in a precision: they share what is tested.
 
-    `test` takes p rays and p pairs, and returns which are crossed within the clip range, (p,) bool.
+    Its frames have no colours. Infinite planes are seen, but not counted.
     """
-    region = scene.camera.region
-    rays = pixel_rays(scene.camera, settings.precision)
-    count = np.zeros(region.width * region.height, np.int64)
-    made = yield from plan(scene, settings, reach=0.0)
+    region, rays = scene.camera.region, pixel_rays(scene.camera, precision)
+    found = {s.method: s for s in PLAIN_SETTINGS if s.precision == precision}
+    hits = {method: Hits.none(rays.count) for method in found}
+    count = {method: np.zeros(rays.count, np.int64) for method in found}
+    for method in found:
+        test_planes(scene, rays, hits[method])
+    made = yield from plan(scene, next(iter(found.values())), reach=0.0)
     for share, some in candidates(made, region):
         yield share
-        if some is not None:
-            crossed = some.pixel[test(rays.take(some.pixel), some)]
-            count += np.bincount(crossed, minlength=len(count))
-    return count
+        if some is None:
+            continue
+        for method, settings in found.items():
+            crossed = some.pixel[test_pairs(scene, settings, rays, some, hits[method])]
+            count[method] += np.bincount(crossed, minlength=rays.count)
+    out = {}
+    for method in found:
+        frame = Frame.empty(scene)
+        frame.enter(slice(0, region.height), hits[method])
+        frame.statistics.refused = made.refused
+        out[method] = Truth(frame, count[method])
+    return out
 
 
 def pixel_rays(camera: Camera, precision: Precision) -> Rays:

@@ -35,7 +35,12 @@ MIN_DETERMINANT = 1 / 8  # of the camera's axes, relative to the product of thei
 LENGTHS = (0.5, 2.0)  # between which those of the camera's axes are
 _TINY = 2.0**-1000  # added to an error: far above what gradual underflow may lose
 PAIRS = 1 << 15  # pairs tested together: arrays of this length stay in a core's cache
+KEPT = 1 << 17  # triangles of a plan, with their boxes, that are kept from pass to pass: 12 MB
 _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
+
+
+# A batch's finite triangles, their boxes of pixels, and how many are not finite.
+_Bounded = tuple[WorldTriangles, Integers, int]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +59,7 @@ class Plan:
     rows: list[tuple[int, int]]  # first and end
     refused: int  # how many triangles are not finite in world space
     settings: Settings | None
+    kept: list[_Bounded]  # of the first batches
 
 
 def has_sound_axes(camera: Camera) -> bool:
@@ -149,22 +155,24 @@ def cull(
     """Find the batches that are in view, and their rows; yields 0, as nothing is traced yet."""
     found = []
     rows = []
-    refused = 0
+    kept: list[_Bounded] = []
+    refused = count = 0
     for batch in batches(scene):
-        _, (x0, x1, y0, y1), left_out = _bounds(scene, dtype, reach, batch)
+        bounded = _bounds(scene, dtype, reach, batch)
+        triangles, (x0, x1, y0, y1), left_out = bounded
         refused += left_out
         seen = (x0 < x1) & (y0 < y1)
         if seen.any():
+            count += len(triangles)
+            if count <= KEPT:
+                kept.append(bounded)
             found.append(batch)
             rows.append((int(y0[seen].min()), int(y1[seen].max())))
         yield 0.0
-    return Plan(scene, dtype, memory, reach, found, rows, refused, settings)
+    return Plan(scene, dtype, memory, reach, found, rows, refused, settings, kept)
 
 
-def _bounds(
-    scene: Scene, dtype: np.dtype[np.floating], reach: float, batch: Batch
-) -> tuple[WorldTriangles, Integers, int]:
-    """Return a batch's finite triangles, their boxes of pixels, and how many are not finite."""
+def _bounds(scene: Scene, dtype: np.dtype[np.floating], reach: float, batch: Batch) -> _Bounded:
     triangles = world_triangles(scene, batch, dtype)
     finite = triangles.finite
     refused = len(finite) - int(finite.sum())
@@ -183,13 +191,12 @@ def candidates(
     """
     limit = max(1, min(PAIRS, plan.memory // (4 * _BYTES_PER_PAIR)))
     before = None if wanted is None else np.append(0, np.cumsum(wanted, dtype=np.int32))
-    work = [
-        b
-        for b, (y0, y1) in zip(plan.batches, plan.rows, strict=True)
-        if y0 < tile.y1 and y1 > tile.y0
-    ]
-    for done, batch in enumerate(work):
-        triangles, bounds, _ = _bounds(plan.scene, plan.dtype, plan.reach, batch)
+    work = [number for number, (y0, y1) in enumerate(plan.rows) if y0 < tile.y1 and y1 > tile.y0]
+    for done, number in enumerate(work):
+        bounded = plan.kept[number] if number < len(plan.kept) else None
+        triangles, bounds, _ = bounded or _bounds(
+            plan.scene, plan.dtype, plan.reach, plan.batches[number]
+        )
         bounds = within(bounds, tile)
         inside = np.flatnonzero((bounds[0] < bounds[1]) & (bounds[2] < bounds[3]))
         triangles = triangles.take(inside)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index
+from ..arrays import Bools, Floats, Index, Places
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
@@ -98,15 +98,17 @@ def every_pair(scene: Scene, rays: Rays, statistics: Statistics) -> Iterator[Pai
 
 def test_pairs(
     scene: Scene, settings: Settings, rays: Rays, some: Pairs, hits: Hits, after: Hits | None = None
-) -> None:
+) -> Places:
     """Enter into `hits` what the rays meet of these pairs, where it is the nearest so far.
 
     With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
+    Returns the places of all pairs that meet within the clip range, near or far.
     """
     hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.corners)
     seen = np.flatnonzero(hit & within_clip(scene.camera, t))
     found = Hits.of(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
     _keep_nearest(hits, after, some.pixel[seen], found)
+    return seen
 
 
 def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None) -> None:

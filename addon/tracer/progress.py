@@ -1,6 +1,7 @@
 """Long work in small steps: generators that yield the share of the work that is done, 0 to 1.
 
-The caller decides what to show, and stops the work by not asking for the next step.
+The caller decides what to show, and stops the work by not asking for the next step. A share may
+say in words what is being done.
 """
 
 from __future__ import annotations
@@ -14,6 +15,28 @@ B = TypeVar("B")
 T = TypeVar("T")
 Work = Generator[float, None, T]
 Steps = Generator[str, None, T]  # each step yields the name of its stage of the work
+
+
+class Share(float):
+    """A share of work, with words for what is being done."""
+
+    doing: str
+
+    def __new__(cls, share: float, doing: str) -> Share:
+        """Make a share of a number and words."""
+        self = super().__new__(cls, share)
+        self.doing = doing
+        return self
+
+
+def doing(share: float) -> str:
+    """Return what is being done, in words; empty where nobody says so."""
+    return share.doing if isinstance(share, Share) else ""
+
+
+def called(work: Work[T], words: str) -> Work[T]:
+    """Run work whose steps say in these words what is being done, whatever its parts say."""
+    return mapped(work, lambda share: Share(share, words))
 
 
 def result_of(work: Work[T], progress: Callable[[float], None] | None = None) -> T:
@@ -39,7 +62,12 @@ def mapped(work: Generator[A, None, T], of: Callable[[A], B]) -> Generator[B, No
 
 def scaled(work: Work[T], start: float, size: float) -> Work[T]:
     """Run work as a part of larger work: the share `size` of it, from the share `start` on."""
-    return mapped(work, lambda share: start + size * share)
+
+    def of_whole(share: float) -> float:
+        whole = start + size * share
+        return Share(whole, share.doing) if isinstance(share, Share) else whole
+
+    return mapped(work, of_whole)
 
 
 def timed(steps: Steps[T], stages: MutableMapping[str, float], share: float = 0.0) -> Work[T]:

@@ -9,7 +9,7 @@ vertex differently in arrays of different length, which would tear shared vertic
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from typing import Self, TypeVar
@@ -50,10 +50,11 @@ class Arrays:
 
     def arrays(self) -> list[Array]:
         """Return the arrays in the order of the record's fields."""
-        return [getattr(self, field.name) for field in fields(self)]
+        return [getattr(self, name) for name in self.__dataclass_fields__]  # `fields` is slow
 
     def __len__(self) -> int:
-        return self.arrays()[0].shape[-1]
+        first: Array = getattr(self, next(iter(self.__dataclass_fields__)))
+        return first.shape[-1]
 
     def take(self, index: Index | slice) -> Self:
         """Return those at `index`."""

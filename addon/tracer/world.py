@@ -15,7 +15,7 @@ import numpy as np
 
 from ..arrays import Array, Bools, Floats, Index, Integers
 from .camera import project
-from .vector import Arrays, Vectors, rational, transform_points
+from .vector import Arrays, Vectors, gather, rational, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -66,7 +66,7 @@ class Pairs:
     @cached_property
     def corners(self) -> Vectors:
         """Corner, component, pair: (3, 3, p), world space."""
-        return np.stack([corner.take(self.row, axis=1) for corner in self.triangles.corners])
+        return gather(self.triangles.corners, self.row)
 
     @property
     def instance(self) -> Integers:

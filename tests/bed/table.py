@@ -20,8 +20,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from reference_tracer.compare.comparing import diagnosed, trace_and_compare
-from reference_tracer.compare.comparison import Comparison
+from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
+from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.tracer.progress import result_of
 
 from .bridge import case_of

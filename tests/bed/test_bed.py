@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
-from reference_tracer.compare.comparing import trace_and_compare
+from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.rendering import render as trace
 from reference_tracer.tracer.progress import result_of
 

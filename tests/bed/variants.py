@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from reference_tracer.compare.case import Case, Variant
+from reference_tracer.causes.case import Case, Variant
 from reference_tracer.scene import Scene, ViewWindow
 
 from .bridge import camera_of, scene_of

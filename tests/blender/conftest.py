@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 import reference_tracer
 from reference_tracer.blender import registration
-from reference_tracer.blender.compare import compared, gather_case
 from reference_tracer.blender.engine import export_for_render
+from reference_tracer.blender.jobs.compare import compared, gather_case
 from reference_tracer.blender.reading.export import export as export_depsgraph
 from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.cli.main import main

@@ -85,8 +85,8 @@ def test_anti_aliasing_alone_is_checked(name, smooth, opened, compare):
 
 def test_light_does_not_excuse_a_missing_object(build, compare, monkeypatch):
     """Blender draws one object less, in studio light: the other shades are no reason."""
-    from reference_tracer.blender import compare as compare_module
     from reference_tracer.blender.drawing import drawings
+    from reference_tracer.blender.jobs import compare as compare_module
 
     scene = build.scene()
     build.solids()

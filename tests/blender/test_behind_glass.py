@@ -7,10 +7,10 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import compare as compare_module
 from reference_tracer.blender.drawing import drawings
-from reference_tracer.compare.cause import UNEXPLAINED
-from reference_tracer.compare.palette import By
+from reference_tracer.blender.jobs import compare as compare_module
+from reference_tracer.causes.cause import UNEXPLAINED
+from reference_tracer.pictures.palette import By
 
 PANES = 5
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import bpy
 import pytest
-from reference_tracer.blender.compare import gather_case
+from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.blender.reading import export as export_module
-from reference_tracer.compare.certificate import CameraMismatchError
+from reference_tracer.pictures.certificate import CameraMismatchError
 
 from . import test_compare_scenes as settings
 

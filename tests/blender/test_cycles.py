@@ -12,12 +12,12 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import compare as compare_module
 from reference_tracer.blender.drawing.cycles import FARTHEST
 from reference_tracer.blender.drawing.judges import JUDGES
-from reference_tracer.compare.cause import NOT_DECIDABLE
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.embree import LARGEST
+from reference_tracer.blender.jobs import compare as compare_module
+from reference_tracer.causes.cause import NOT_DECIDABLE
+from reference_tracer.causes.embree import LARGEST
+from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.rendering import render
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.progress import result_of

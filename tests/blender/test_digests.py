@@ -18,7 +18,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.compare import export_open_file
+from reference_tracer.blender.jobs.compare import export_open_file
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.rounding import check_rounding
 from reference_tracer.rendering import render

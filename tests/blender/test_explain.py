@@ -8,12 +8,12 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.compare import export_open_file
+from reference_tracer.blender.jobs.compare import export_open_file
 from reference_tracer.blender.ui import ray_objects, results
 from reference_tracer.blender.ui.results import MARK, Kind
-from reference_tracer.explain import document, reproducer
-from reference_tracer.explain.candidates import gather_pixel
-from reference_tracer.explain.derivation import derive
+from reference_tracer.derivation import document, reproducer
+from reference_tracer.derivation.candidates import gather_pixel
+from reference_tracer.derivation.derivation import derive
 
 ops = bpy.ops.reference_tracer
 DOCS = Path(__file__).resolve().parents[2] / "docs"

@@ -7,13 +7,13 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import compare as compare_module
 from reference_tracer.blender.drawing.camera_object import copy_camera
+from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
-from reference_tracer.compare.faults import FAULTS
-from reference_tracer.compare.faults.fault import Guess
+from reference_tracer.diagnosis.faults import FAULTS
+from reference_tracer.diagnosis.faults.fault import Guess
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import camera_rays
 

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender import commands
-from reference_tracer.blender import compare as compare_module
+from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
 

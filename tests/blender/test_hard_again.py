@@ -5,9 +5,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.against import gather_against
-from reference_tracer.blender.compare import compared, gather_case
-from reference_tracer.compare.picture import Picture
+from reference_tracer.blender.jobs.against import gather_against
+from reference_tracer.blender.jobs.compare import compared, gather_case
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 

@@ -13,15 +13,15 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.against import gather_against
-from reference_tracer.blender.compare import gather_case
 from reference_tracer.blender.drawing.judges import judge_named
 from reference_tracer.blender.drawing.picture import picture, prepare_scene
+from reference_tracer.blender.jobs.against import gather_against
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.blender.jobs.stepping import bake_bodies
 from reference_tracer.blender.reading.camera import export_camera
-from reference_tracer.blender.stepping import bake_bodies
-from reference_tracer.compare.causes import NOT_MODELLED, UNEXPLAINED
-from reference_tracer.compare.comparing import trace_and_compare
-from reference_tracer.compare.palette import By
+from reference_tracer.causes.explain import NOT_MODELLED, UNEXPLAINED
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.pictures.palette import By
 from reference_tracer.tracer.progress import result_of
 
 from . import hard_cases as hard
@@ -65,6 +65,11 @@ def verdict_of(make, judge: str) -> str:
 
 def name_of(make) -> str:
     return make.__name__
+
+
+def id_of(value) -> str:
+    """Return the name of a scene's function, or of a judge."""
+    return getattr(value, "__name__", value)
 
 
 def shown_otherwise(comparison) -> np.ndarray:
@@ -116,8 +121,18 @@ def evaluated_geometry() -> list:
     return sorted(out)
 
 
-@pytest.mark.parametrize("judge", JUDGES)
-@pytest.mark.parametrize("make", hard.ALL, ids=name_of)
+def judged(every: int) -> list:
+    """Return each scene with each judge: with Cycles, one of so many every day."""
+    of_every_day = (*hard.ALL[::every], *NOT_OF_CYCLES, *OF_CYCLES_ALONE, *TOO_MUCH)
+    return [
+        pytest.param(make, judge, marks=() if daily else pytest.mark.torture)
+        for make in hard.ALL
+        for judge in JUDGES
+        for daily in [judge == "WORKBENCH" or make in of_every_day]
+    ]
+
+
+@pytest.mark.parametrize(("make", "judge"), judged(3), ids=id_of)
 def test_no_false_alarm(make, judge, build, compare):
     make(build)
     found = compare(judge=judge)
@@ -140,7 +155,7 @@ def test_no_false_alarm(make, judge, build, compare):
 @pytest.mark.parametrize(
     ("make", "judge"),
     [(m, "WORKBENCH") for m in MAY_BE_UPSET] + [(m, "CYCLES") for m in hard.SIMULATIONS],
-    ids=lambda value: getattr(value, "__name__", value),
+    ids=id_of,
 )
 def test_leaves_the_users_data_and_simulation_alone(make, judge, build, compare):
     make(build)
@@ -195,7 +210,7 @@ def test_rigid_bodies_that_are_not_baked(build, compare):
 # A Blender of its own: one that frees what it still uses ends at once, and all tests with it.
 PLAYED_ON = """
 import sys, bpy, reference_tracer
-from reference_tracer.blender.compare import gather_case
+from reference_tracer.blender.jobs.compare import gather_case
 reference_tracer.register()
 bpy.ops.wm.open_mainfile(filepath=sys.argv[1], load_ui=False)
 scene = bpy.context.scene

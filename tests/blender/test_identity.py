@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.compare.identity import NOTHING
-from reference_tracer.compare.palette import By
+from reference_tracer.pictures.identity import NOTHING
+from reference_tracer.pictures.palette import By
 
 from .test_unchanged import differences, state
 
@@ -17,8 +17,8 @@ def shown(comparison) -> set[str]:
     """Return the names of what Blender shows, all of it known."""
     identity = comparison.identity
     counts = identity.shows()
-    assert counts["not_known"] == 0
-    assert counts["other_object"] <= 0.01 * identity.shown.size  # edges
+    assert counts.not_known == 0
+    assert counts.other_object <= 0.01 * identity.shown.size  # edges
     assert comparison.counts.unexplained == 0
     return {identity.names[i] for i in np.unique(identity.shown) if i != NOTHING}
 
@@ -97,7 +97,7 @@ def test_what_is_linked_animated_and_modified_stays(build, compare):
 
 def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
     """Blender's picture with two colours swapped: the same objects in other colours."""
-    from reference_tracer.blender import compare as compare_module
+    from reference_tracer.blender.jobs import compare as compare_module
 
     build.scene()
     build.solids()
@@ -111,7 +111,7 @@ def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
     found = compare()
     shows = found.counts.unexplained_shows
     assert found.verdict == "differences"
-    assert shows["same_object"] > 100 and shows["other_object"] == 0
+    assert shows.same_object > 100 and shows.other_object == 0
     assert any("show the same object in another colour" in line for line in found.lines())
 
 
@@ -132,7 +132,7 @@ def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch)
     found = compare(colors=By.VIEWPORT)
     shows = found.counts.unexplained_shows
     assert found.verdict == "differences"
-    assert shows["other_object"] > 100 and shows["same_object"] == 0
+    assert shows.other_object > 100 and shows.same_object == 0
 
 
 def test_it_can_be_left_out(build, compare):

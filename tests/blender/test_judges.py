@@ -11,7 +11,7 @@ import pytest
 from reference_tracer.blender.drawing import rasteriser
 from reference_tracer.blender.drawing.judge import Judge
 from reference_tracer.blender.drawing.judges import JUDGES, judge_named
-from reference_tracer.compare.bounds import SNAPPING
+from reference_tracer.pictures.bounds import SNAPPING
 from reference_tracer.scene import SceneError
 
 # A Blender of its own, in which the records have one more before anything else reads them.

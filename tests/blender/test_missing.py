@@ -125,7 +125,7 @@ def test_what_is_not_seen_is_no_warning(build, saved, export):
 
 def test_a_warning_that_explains_nothing(build, saved, compare, monkeypatch):
     """The verdict is *warnings*; where the library's object was to be, a wrong pixel is wrong."""
-    from reference_tracer.blender import compare as compare_module
+    from reference_tracer.blender.jobs import compare as compare_module
 
     linked_scene(build, saved)
     comparison = compare()

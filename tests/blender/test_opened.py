@@ -10,7 +10,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from reference_tracer.blender import opened
+from reference_tracer.blender.reading import opened
 from reference_tracer.cli.opening import open_blend
 from reference_tracer.scene import SceneError
 

@@ -13,6 +13,8 @@ from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
 
+from ..scenarios import quick
+
 
 def held(folder):
     """Return the JSON in a folder's page."""
@@ -55,9 +57,9 @@ def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
     comparison = compare()
     results.keep_comparison(bpy.context, comparison)
     name = bpy.context.scene.name
-    trade = result_of(tradeoff.measure(comparison.scene, 24, 2, name))
+    trade = result_of(tradeoff.measure(comparison.scene, 12, 2, name))
     results.keep_trade(trade)
-    results.keep_extremes(result_of(extremes.measure(SCENARIOS[:1], 40)))
+    results.keep_extremes(result_of(extremes.measure(quick(SCENARIOS[:1]), 40)))
     assert open_page(tmp_path) == {"FINISHED"}
     found = held(tmp_path)
     assert found["trade"]["advice"] == trade.advice and "<svg" in found["trade"]["plot"]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.blender.live.shows import SHOWS, Picture
+from reference_tracer.causes.maps import WRONG
 from reference_tracer.certainty import Certainty
-from reference_tracer.compare.maps import WRONG
 from reference_tracer.rendering import render
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.hits import NOTHING

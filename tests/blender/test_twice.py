@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.values import in_colors
-from reference_tracer.compare.palette import By
+from reference_tracer.pictures.palette import By
 
 from .test_unchanged import differences, state
 
@@ -46,7 +46,7 @@ def test_a_linked_collection_and_its_override_are_told_apart(judge, editable, bu
     found = compare(judge=judge)
     assert found.verdict == "agree"
     counts = found.identity.shows()
-    assert counts["not_known"] == 0 and counts["other_object"] == 0
+    assert counts.not_known == 0 and counts.other_object == 0
     shown = {found.identity.names[n] for n in np.unique(found.identity.shown) if n >= 0}
     assert shown == {"Part", "Ball", "Kit"}
     assert colors == {o.name_full: o.color[:] for o in bpy.data.objects}

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 import reference_tracer
-from reference_tracer.blender import compare as compare_module
+from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.ui.results import BLENDER, DIFFERENCE, TRACED
 
 OURS = {TRACED, BLENDER, DIFFERENCE}

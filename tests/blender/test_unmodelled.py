@@ -125,7 +125,7 @@ def test_explains_the_pixels_that_it_changes(make, build, compare):
 
 def test_explains_nothing_elsewhere(build, compare, monkeypatch):
     """A pixel outside of the bounds stays unexplained."""
-    from reference_tracer.blender import compare as compare_module
+    from reference_tracer.blender.jobs import compare as compare_module
 
     build.scene()
     transparent_material(build)

@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from reference_tracer.blender.variants import variants
-from reference_tracer.compare.case import WHOLE
+from reference_tracer.blender.jobs.variants import variants
+from reference_tracer.causes.case import WHOLE
 
 
 @pytest.fixture

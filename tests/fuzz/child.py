@@ -28,9 +28,9 @@ FOLDER, SEED, FIRST, COUNT = sys.argv[1], *map(int, sys.argv[2:5])
 sys.path.insert(0, str(Path(__file__).parent))
 from mutations import mutated  # noqa: E402
 from reference_tracer.cli.opening import load  # noqa: E402
+from reference_tracer.derivation import document, reproducer  # noqa: E402
+from reference_tracer.derivation.derivation import derive_pixel  # noqa: E402
 from reference_tracer.errors import EXPECTED, words  # noqa: E402
-from reference_tracer.explain import document, reproducer  # noqa: E402
-from reference_tracer.explain.derivation import derive_pixel  # noqa: E402
 from reference_tracer.framing import Choice  # noqa: E402
 from reference_tracer.images import read_picture  # noqa: E402
 from reference_tracer.rendering import render  # noqa: E402

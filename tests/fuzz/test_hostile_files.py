@@ -19,8 +19,8 @@ import pytest
 import trimesh
 from PIL import Image
 from reference_tracer import exr, images
-from reference_tracer.explain import reproducer
-from reference_tracer.explain.candidates import gather_pixel
+from reference_tracer.derivation import reproducer
+from reference_tracer.derivation.candidates import gather_pixel
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.scene_files import save_scene
 

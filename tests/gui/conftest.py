@@ -68,6 +68,7 @@ def blender():
     check = subprocess.run([WHOLE_BLENDER, "check"], capture_output=True, text=True)
     if check.returncode:
         pytest.skip(check.stdout.strip())
+    subprocess.run([WHOLE_BLENDER, "setup"], check=True)  # minutes, once
     [package] = (PROJECT / "dist").glob("reference_tracer-*.zip")
     blender = Blender()
     done = blender.run(

@@ -26,7 +26,7 @@ SCENE = "suzanne"
 @contextmanager
 def drawn_otherwise(owner, name, value):
     """Have the first drawing show another value than was exported, as a handler might set it."""
-    compare = module("blender.compare")
+    compare = module("blender.jobs.compare")
     real = compare.picture
 
     def picture(*args, **options):
@@ -51,7 +51,7 @@ def ended():
 def diagnosis():
     """The panel, Esc in the midst, and the copy of the camera."""
     scene = window().scene
-    scene.render.resolution_percentage = 30
+    scene.render.resolution_percentage = 20
     scene.reference_tracer.identity = False
     yield 0.2
     lens = scene.camera.data.lens

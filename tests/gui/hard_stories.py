@@ -13,7 +13,7 @@ from scenes import Build
 
 
 def hard_scenes():
-    """Every second one of each kind: those of every day."""
+    """Some of each kind: those of every day."""
     yield from played(DAILY)
 
 
@@ -76,12 +76,9 @@ DAILY = (
     hard.particles,
     hard.cloth,
     hard.explode,
-    hard.simulation_zone,
-    hard.baked_rigid_body,
-    hard.wave,
-    *hard.EDIT_MODE[::2],
+    hard.edited,
+    hard.edited_shared,
     hard.particle_hair,
-    hard.hair_curves,
     hard.grease_pencil,
     hard.glass_pane,
     hard.in_front,

@@ -78,10 +78,10 @@ def house():
     yield 1
     for area in window().screen.areas:
         if area.type == "VIEW_3D":
-            area.spaces.active.shading.type = "MATERIAL"  # refused where there is none
-            noted["shading"] = area.spaces.active.shading.type
-    yield 1
-    screenshot("material_preview")
+            shading = area.spaces.active.shading
+            shading.type = "MATERIAL"  # refused where there is none
+            noted["shading"] = shading.type
+            shading.type = "SOLID"  # before it is drawn: EEVEE's shaders take a minute in software
     for kind, note in notes.items():
         getattr(bpy.types, kind).remove(note)
 

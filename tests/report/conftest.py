@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.case import Case
-from reference_tracer.compare.comparing import compare
-from reference_tracer.compare.picture import Picture, Source
+from reference_tracer.causes.case import Case
+from reference_tracer.comparison.comparing import compare
 from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
+from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance

@@ -8,8 +8,8 @@ import re
 
 import numpy as np
 import pytest
-from reference_tracer.compare.animation import FrameRow
-from reference_tracer.compare.verdict import Verdict
+from reference_tracer.comparison.animation import FrameRow
+from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.images import save_png
 from reference_tracer.report import animation as report
 

@@ -7,13 +7,13 @@ import json
 import numpy as np
 import pytest
 from PIL import Image
-from reference_tracer.compare.case import Case
-from reference_tracer.compare.causes import AGREE, CAUSES
-from reference_tracer.compare.comparing import compare
-from reference_tracer.compare.comparison import SCHEMA
-from reference_tracer.compare.picture import Picture, Source
+from reference_tracer.causes.case import Case
+from reference_tracer.causes.explain import AGREE, CAUSES
+from reference_tracer.comparison.comparing import compare
+from reference_tracer.comparison.comparison import SCHEMA
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
+from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render
 from reference_tracer.report.comparison import difference_picture, failure_written, write
 from reference_tracer.scene import SceneError
@@ -54,7 +54,7 @@ def comparison(compared):
 
 @pytest.fixture
 def folder(comparison, tmp_path):
-    write(tmp_path / "new" / "out", comparison)
+    result_of(write(tmp_path / "new" / "out", comparison))
     return tmp_path / "new" / "out"
 
 
@@ -110,7 +110,7 @@ def test_json_of_a_picture_that_is_not_finite(compared, tmp_path):
     def change(picture):
         picture[0, 0], picture[0, 1] = np.nan, np.inf
 
-    write(tmp_path, compared(change))
+    result_of(write(tmp_path, compared(change)))
     assert strict(tmp_path)["metrics"]["largest_difference"]["value"] > 0
     assert sorted(p.name for p in tmp_path.iterdir()) == NAMES
 
@@ -119,12 +119,12 @@ def test_what_json_cannot_hold_is_an_error(comparison, tmp_path):
     """Rather than a file that other readers refuse."""
     comparison.case.picture.source.settings["gamma"] = float("nan")
     with pytest.raises(ValueError, match="JSON"):
-        write(tmp_path, comparison)
+        result_of(write(tmp_path, comparison))
     assert not (tmp_path / "comparison.json").exists()
 
 
 def test_writing_again_replaces(folder, compared):
-    write(folder, compared(lambda picture: None))
+    result_of(write(folder, compared(lambda picture: None)))
     assert strict(folder)["verdict"] == "agree"
     assert np.array_equal(png(folder, "blender.png"), png(folder, "traced.png"))
     assert sorted(p.name for p in folder.iterdir()) == NAMES
@@ -162,7 +162,7 @@ def test_a_failure_leaves_what_is_no_result(tmp_path):
 def test_a_folder_that_cannot_be_written(comparison, tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(OSError, match="file"):
-        write(tmp_path / "file", comparison)
+        result_of(write(tmp_path / "file", comparison))
 
 
 def test_every_cause_has_a_colour_of_its_own(comparison):

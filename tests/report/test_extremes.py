@@ -8,12 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.report.extremes import (
-    breaking_table,
-    picture,
-    to_dict,
-    write,
-)
+from reference_tracer.report.extremes import breaking_table, picture, to_dict, write
 from reference_tracer.study.extremes import ExtremesRow, written
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 

@@ -147,7 +147,7 @@ def test_content_is_as_the_schema_says(differing, compared, room):
 
 def test_comparison_json_is_as_the_schema_says(differing, tmp_path):
 
-    write_folder(tmp_path, differing)
+    result_of(write_folder(tmp_path, differing))
     held = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
     own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
     own.validate(held)
@@ -161,7 +161,7 @@ def test_comparison_json_is_as_the_schema_says(differing, tmp_path):
 
 
 def test_every_result_of_the_self_check_is_in_the_schema(differing):
-    from reference_tracer.compare.self_check import FaultRow
+    from reference_tracer.diagnosis.self_check import FaultRow
 
     rows = [
         FaultRow("a", "text", 5, 5, 5, 1),
@@ -267,7 +267,7 @@ def test_extras_are_the_literal_picture_and_derivations(differing):
 
 
 def test_a_slow_textbook_is_not_traced_again(differing):
-    from reference_tracer.compare.methods import MethodRow
+    from reference_tracer.comparison.methods import MethodRow
 
     slow = replace(differing, methods=(MethodRow("textbook", "float64", 1, 99.0, 0, 0),))
     found = result_of(page.extras(slow))
@@ -330,7 +330,7 @@ def test_causes_are_told_apart_whatever_colours_one_sees(kind):
     """By CIE 1976's distance in L*a*b*; 10 is what one sees at a glance."""
     from itertools import combinations
 
-    from reference_tracer.compare.causes import CAUSES
+    from reference_tracer.causes.explain import CAUSES
     from skimage.color import rgb2lab
 
     linear = np.clip(

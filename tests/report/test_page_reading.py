@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.picture import Source
 from reference_tracer.manifest import ObjectEntry
+from reference_tracer.pictures.picture import Source
 from reference_tracer.report import page
 from reference_tracer.report.page.content import content
 from reference_tracer.study import extremes, tradeoff

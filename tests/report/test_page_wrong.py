@@ -8,11 +8,11 @@ from dataclasses import replace
 import jsonschema
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import UNEXPLAINED
-from reference_tracer.compare.comparing import diagnosed as find_diagnosis
-from reference_tracer.compare.diagnosis import Diagnosis, Told
-from reference_tracer.compare.faults.fault import Fault, Guess, of_camera
-from reference_tracer.compare.regions import regions
+from reference_tracer.causes.cause import UNEXPLAINED
+from reference_tracer.comparison.comparing import diagnosed as find_diagnosis
+from reference_tracer.diagnosis.diagnosis import Diagnosis, Told
+from reference_tracer.diagnosis.faults.fault import Fault, Guess, of_camera
+from reference_tracer.diagnosis.regions import regions
 from reference_tracer.images import to_display
 from reference_tracer.report import page
 from reference_tracer.report.page.content import content

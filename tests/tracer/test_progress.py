@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reference_tracer.tracer.progress import result_of, scaled
+from reference_tracer.tracer.progress import called, doing, result_of, scaled
 
 
 def work():
@@ -22,3 +22,11 @@ def test_a_part_of_a_larger_work():
     shares = []
     assert result_of(scaled(work(), 0.5, 0.2), shares.append) == "done"
     assert shares == [0.55, 0.6]
+
+
+def test_what_is_being_done_goes_through_larger_work():
+    shares = []
+    assert result_of(scaled(called(work(), "tracing"), 0.5, 0.2), shares.append) == "done"
+    assert shares == [0.55, 0.6] and [doing(s) for s in shares] == ["tracing"] * 2
+    assert doing(0.5) == ""
+    assert doing(next(called(scaled(called(work(), "part"), 0.5, 0.2), "whole"))) == "whole"

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
-from reference_tracer.explain import document, formulas, reproducer
-from reference_tracer.explain.derivation import derive, derive_pixel
+from reference_tracer.derivation import document, formulas, reproducer
+from reference_tracer.derivation.derivation import derive, derive_pixel
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 
 from .figures import scene

@@ -13,13 +13,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
+from reference_tracer.causes.case import Case
 from reference_tracer.cli.opening import load
-from reference_tracer.compare.case import Case
-from reference_tracer.compare.comparing import diagnosed, trace_and_compare
-from reference_tracer.compare.comparison import Comparison
-from reference_tracer.compare.picture import Picture, Source
+from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
+from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
+from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import Scene, ViewWindow
 from reference_tracer.tracer.progress import result_of

@@ -12,9 +12,9 @@ from typing import Any
 import bpy
 
 from ...arrays import Colors
-from ...compare.case import Behind, Case
-from ...compare.picture import Picture
+from ...causes.case import Behind, Case
 from ...manifest import Effect, Manifest, Unmodelled
+from ...pictures.picture import Picture
 from ...scene import SceneError
 from ..reading.colors import slot_materials
 from ..reading.unmodelled import TRANSPARENCY

@@ -16,11 +16,11 @@ import bpy
 import numpy as np
 
 from ...arrays import Colors, Integers
-from ...compare.checks.unmodelled import covered
-from ...compare.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
-from ...compare.palette import VIEWPORT, Palette
-from ...compare.picture import Picture, numbered
+from ...causes.checks.unmodelled import covered
 from ...manifest import Effect, Manifest, Unmodelled
+from ...pictures.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
+from ...pictures.palette import VIEWPORT, Palette
+from ...pictures.picture import Picture, numbered
 from ...scene import Scene, SceneError
 from ..engine import export_for_judge
 from ..reading.unmodelled import HAIR, is_hair

@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 
 from ...arrays import Colors
-from ...compare.picture import SizeError
+from ...pictures.picture import SizeError
 from ...scene import Camera, SceneError
 from ..values import values_restored
 from ..versions import set_format

@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 
 from ...arrays import Bools, Floats
-from ...compare.bounds import SNAPPING
+from ...pictures.bounds import SNAPPING
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, ViewWindow
 from .camera_object import add_camera

@@ -12,8 +12,8 @@ from typing import Any
 
 import bpy
 
-from ...compare.case import Case
-from ...compare.picture import Picture, Source
+from ...causes.case import Case
+from ...pictures.picture import Picture, Source
 from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
 from ..drawing.camera_object import add_camera

@@ -12,10 +12,10 @@ from functools import partial
 import numpy as np
 
 from ...arrays import Bools, Colors
+from ...causes.cause import AGREE, UNEXPLAINED, Causes
+from ...causes.explain import CAUSES, explain
+from ...causes.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
 from ...certainty import Certainty
-from ...compare.cause import AGREE, UNEXPLAINED, Causes
-from ...compare.causes import CAUSES, explain
-from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
 from ...methods import Method
 from ...rendering import steps
 from ...scene import Camera, Scene

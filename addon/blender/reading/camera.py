@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Floats
-from ...compare.certificate import CameraCertificate, certify, known_points
+from ...pictures.certificate import CameraCertificate, certify, known_points
 from ...projections import PROJECTIONS, Projection
 from ...projections.projection import Edges
 from ...scene import Camera, Region, SceneError, ViewWindow, check_size

@@ -18,12 +18,12 @@ import numpy as np
 from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
-from ..opened import notes
 from ..temporary import HIDDEN_FACES, ignored_features, is_whole, user_scene
 from .camera import export_camera
 from .colors import background
 from .meshes import Read, read_mesh
 from .missing import gone_objects, missing
+from .opened import notes
 from .unmodelled import of_scene
 from .view_volume import outside
 from .visible import Seen, Shown, visible

@@ -14,7 +14,7 @@ from .long_work import Answer, named, with_ending
 from .results import Kind
 
 if TYPE_CHECKING:
-    from ...explain.derivation import Derivation
+    from ...derivation.derivation import Derivation
 
 TEXT = "Reference Tracer Pixel"
 
@@ -35,8 +35,8 @@ def derive_here(context: Any, x: int, y: int, source: str) -> Derivation:
     SceneError
         If the scene cannot be traced, or has no such pixel.
     """
-    from ...explain.derivation import derive
-    from ..compare import export_open_file
+    from ...derivation.derivation import derive
+    from ..jobs.compare import export_open_file
 
     comparison = results.content(Kind.COMPARISON, context.scene)
     if source == "COMPARISON" and comparison:
@@ -72,7 +72,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
     )
 
     def execute(self, context: Any) -> Answer:
-        from ...explain import document
+        from ...derivation import document
         from . import ray_objects
 
         found = derive_here(context, self.x, self.y, self.source)
@@ -151,7 +151,7 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Any) -> Answer:
-        from ...explain import document, html, reproducer
+        from ...derivation import document, html, reproducer
         from ...report import folders
 
         found = results.content(Kind.PIXEL, context.scene)

@@ -18,8 +18,8 @@ from .long_work import Answer, named
 from .results import Kind
 
 if TYPE_CHECKING:
-    from ...compare.comparison import Comparison
-    from ...compare.diagnosis import Told
+    from ...comparison.comparison import Comparison
+    from ...diagnosis.diagnosis import Told
     from ...scene import Camera
 
 

@@ -16,7 +16,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from ...tracer.progress import Work, result_of
+from ...tracer.progress import Work, doing, result_of
 from ..versions import RELATIVE
 from .preferences import default_folder
 from .results import redraw
@@ -78,7 +78,7 @@ class LongWork(Mixin):
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""
-        from ..compare import made_folder
+        from ..jobs.compare import made_folder
 
         directory = self.directory or default_folder(self.bl_idname.rpartition("_OT_")[2])
         if directory and not self.directory:
@@ -152,8 +152,8 @@ class LongWork(Mixin):
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
         left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
-        doing = self.doing or rpt_(self.bl_label)
-        said = rpt_("{}: {} %{}  (Esc: cancel)").format(doing, int(100 * share), left)
+        words = ", ".join(filter(None, (self.doing or rpt_(self.bl_label), doing(share))))
+        said = rpt_("{}: {} %{}  (Esc: cancel)").format(words, int(100 * share), left)
         context.workspace.status_text_set(said)
 
     def cancel(self, context: Any) -> None:

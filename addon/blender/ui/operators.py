@@ -28,7 +28,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         """Have Blender draw the scene at once; return the work that is left."""
-        from ..compare import compare_here, compare_to_folder
+        from ..jobs.compare import compare_here, compare_to_folder
 
         def told(comparison: Any) -> None:
             """Show the comparison: Esc ends no more than the search for what is wrong with it."""
@@ -59,12 +59,12 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         """Have every engine draw the scene at once; return the work that is left."""
-        from ..compare_engines import compare_all
+        from ..jobs.engines import compare_all
 
         return compare_all(context, str(self.folder() or ""))
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        from ...compare import engines
+        from ...comparison import engines
         from ...report import engines as engines_report
 
         lines = engines_report.lines(result)
@@ -85,10 +85,10 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
     alone = True
 
     def begin(self, context: Any) -> Work[Any]:
-        from ...compare.animation import worst_first
+        from ...comparison.animation import worst_first
         from ...report import animation as frames_report
         from ...scene import SceneError
-        from .. import animation
+        from ..jobs import animation
 
         if context.screen and context.screen.is_animation_playing:
             raise SceneError("The animation is playing: stop it, then compare it.")
@@ -164,7 +164,7 @@ class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: Any) -> Answer:
-        from ..choice import frame_all
+        from ..jobs.choice import frame_all
 
         camera = frame_all(context.scene, context.view_layer)
         camera.name = "Camera"
@@ -197,7 +197,7 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
         """Export the scene as a render has it, and write it: it is whole, or not there."""
         from ...report import folders
         from ...scene_files import save_scene
-        from ..compare import export_open_file
+        from ..jobs.compare import export_open_file
 
         path = with_ending(self.filepath, self.filename_ext)
         scene, manifest, _ = export_open_file(context)

@@ -18,10 +18,10 @@ from .menus import REFERENCE_TRACER_PT_presets
 from .results import Kind
 
 if TYPE_CHECKING:
-    from ...compare.animation import FrameRow
-    from ...compare.comparison import Comparison
-    from ...compare.counts import PixelCounts
-    from ...compare.engines import EngineRow
+    from ...causes.counts import PixelCounts
+    from ...comparison.animation import FrameRow
+    from ...comparison.comparison import Comparison
+    from ...comparison.engines import EngineRow
 
 _WORST = 5  # frames of an animation that are listed
 
@@ -101,7 +101,7 @@ class _Result(Part):
 
     def draw(self, context: Any) -> None:
         """Draw the verdict, the counts by cause, and the table of methods."""
-        from ...compare import self_check
+        from ...diagnosis import self_check
 
         layout = self.layout
         comparison = results.content(Kind.COMPARISON, context.scene)
@@ -123,7 +123,7 @@ class _Result(Part):
 
 def _counts(pixels: PixelCounts) -> list[tuple[str, str]]:
     """Return how many pixels agree and differ: by cause, and in and around surfaces."""
-    from ...compare.causes import CAUSES
+    from ...causes.explain import CAUSES
 
     counts = {"Agree": pixels.agree, "Differ": pixels.differ}
     for cause in sorted(CAUSES):

@@ -12,8 +12,8 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...explain.derivation import Derivation
-from ...explain.figure import Shape, shapes
+from ...derivation.derivation import Derivation
+from ...derivation.figure import Shape, shapes
 from ..temporary import DRAWN
 
 NAME = "Reference Tracer Ray"

@@ -19,7 +19,7 @@ from ...methods import Method
 
 if TYPE_CHECKING:
     from ...arrays import Colors
-    from ...compare.comparison import Comparison
+    from ...comparison.comparison import Comparison
     from ...study.extremes import ExtremesRow
     from ...study.trade import Trade
 

@@ -45,8 +45,8 @@ class _Inspector(Part):
 
 
 def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
-    from ...explain.document import CERTAINTY_SENTENCES
-    from ...explain.textbook import Arithmetic
+    from ...derivation.document import CERTAINTY_SENTENCES
+    from ...derivation.textbook import Arithmetic
 
     pixel = derivation.pixel
     box = layout.box()
@@ -68,7 +68,7 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
 
 
 def _t(test: Any) -> str:
-    from ...explain.textbook import Arithmetic
+    from ...derivation.textbook import Arithmetic
 
     t = next((q.values[Arithmetic.EXACT] for q in test.quantities if q.key == "t"), ())
     return f", t = {float(t[0]):.6g}" if t else ""
@@ -76,8 +76,8 @@ def _t(test: Any) -> str:
 
 def _numbers(layout: Any, test: Any) -> None:
     """Draw the key numbers of what is seen; wrong digits are in brackets."""
-    from ...explain.digits import exact_text, marked, off_text, ulps
-    from ...explain.textbook import Arithmetic
+    from ...derivation.digits import exact_text, marked, off_text, ulps
+    from ...derivation.textbook import Arithmetic
 
     quantities = {q.key: q for q in test.quantities}
     for quantity in (quantities[key] for key in _KEYS if key in quantities):

@@ -7,29 +7,26 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ... import images
+from ...causes.case import Case
 from ...certified.rounding import check_rounding
-from ...compare import colors_file, engines
-from ...compare.case import Case
-from ...compare.colors_file import in_colors
-from ...compare.comparing import trace_and_compare
-from ...compare.comparison import Comparison
-from ...compare.palette import By, GivenColors
-from ...compare.picture import Picture, Source, check_size
-from ...compare.renderers import RENDERERS, renderer_of
-from ...compare.verdict import Verdict
+from ...comparison import engines
+from ...comparison.comparing import trace_and_compare
+from ...comparison.comparison import Comparison
+from ...comparison.verdict import Verdict
 from ...mesh_diagnosis import diagnosed
+from ...pictures import colors_file
+from ...pictures.colors_file import in_colors
+from ...pictures.given import Making, picture_of_file
+from ...pictures.palette import By, GivenColors
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
-from ...scene import Camera, SceneError
-from ...tracer.memory import ALWAYS, COMPARED, check_memory
+from ...scene import SceneError
 from ...tracer.progress import Work, result_of
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
-from ..opening import import_trimesh, open_blend, open_file
+from ..opening import open_blend, open_file
 from ..parser import EXIT_CODES_HELP, Parser
 from ..running import progress_bar
 
@@ -59,7 +56,6 @@ def compare(options: CompareOptions) -> int:
         written if options.frames is None else nullcontext(),
         options.place as place,
     ):
-        import_trimesh()  # which diagnoses the meshes
         if options.against is None:
             return _with_blender(options, place)
         return _with_picture(options, images.open_picture(options.against), place)
@@ -72,9 +68,9 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "with --against"
         )
     with open_blend(options.scene, options.choice) as blender, progress_bar() as progress:
-        from ...blender import animation
-        from ...blender.compare import compare_to_folder
-        from ...blender.compare_engines import compare_all
+        from ...blender.jobs import animation
+        from ...blender.jobs.compare import compare_to_folder
+        from ...blender.jobs.engines import compare_all
 
         stored = blender.context.scene.reference_tracer.settings()
         judge = options.judge.upper() if options.judge else None
@@ -152,15 +148,17 @@ def _blend(
     options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> Work[Comparison]:
     with open_blend(options.scene, options.choice) as blender:
-        from ...blender.against import gather_against
-        from ...blender.compare import compared
+        from ...blender.jobs.against import gather_against
+        from ...blender.jobs.compare import compared
         from ...blender.reading.camera import export_camera
         from ...blender.versions import DITHER
 
         context = blender.context
         dither = DITHER * context.scene.render.dither_intensity
-        engine = context.scene.render.engine
-        shown = _shown(options, picture, export_camera(context.scene), dither, engine)
+        making = replace(
+            _making(options), default_dither=dither, engine=context.scene.render.engine
+        )
+        shown = picture_of_file(picture, export_camera(context.scene), making)
         settings = options.settings_over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         case = gather_against(context, shown, settings, bool(options.self_check), colors)
@@ -170,14 +168,20 @@ def _blend(
 def _file(
     options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> Work[Comparison]:
-    scene, stored, manifest = open_file(options.scene, options.choice)
+    scene, manifest, stored = open_file(options.scene, options.choice)
     scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))
     manifest = yield from diagnosed(scene, manifest)
-    shown = _shown(options, picture, scene.camera)
+    shown = picture_of_file(picture, scene.camera, _making(options))
     settings, checked = options.settings_over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
     return (yield from _written(options, trace_and_compare(_remarked(case, place))))
+
+
+def _making(options: CompareOptions) -> Making:
+    """Return what the options say of how the picture was made."""
+    known = "as --renderer says"
+    return Making(options.renderer or "", options.filter or 0.0, options.dither, asked=known)
 
 
 def _remarked(case: Case, place: dict[str, Any]) -> Case:
@@ -189,47 +193,3 @@ def _remarked(case: Case, place: dict[str, Any]) -> Case:
 def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison]:
     diagnose = options.diagnosis is not False
     return comparison_report.written(options.out, work, diagnose, options.trade, options.extremes)
-
-
-def _shown(
-    options: CompareOptions,
-    file: images.PictureFile,
-    camera: Camera,
-    dither: float = 0.0,
-    engine: str = "",
-) -> Picture:
-    """Return what is compared of a picture: if it shows the whole view, the camera's border.
-
-    `engine` is Blender's name of the one that the scene is set to.
-
-    Raises
-    ------
-    SizeError, PictureTooLargeError
-        If it shows neither, or there is not enough memory; its pixels are not read then.
-    """
-    r, own = camera.region, (file.height, file.width)
-    whole = own == (camera.height, camera.width)
-    if not whole:
-        check_size(own, (r.height, r.width))
-    check_memory(r.width, r.height, COMPARED, ALWAYS)
-    picture = file.read()
-    color = picture.color
-    if whole:
-        color = np.ascontiguousarray(color[r.y0 : r.y1, r.x0 : r.x1])
-    if options.dither is not None:
-        dither = options.dither * picture.levels / 255
-    elif picture.levels > 255:  # Blender dithers only what has 8 bits
-        dither = 0.0
-    remarks = tuple(f"of the picture: {remark}" for remark in picture.remarks)
-    renderer, known = renderer_of(picture.engine, engine)
-    if options.renderer:
-        renderer, known = RENDERERS[options.renderer], "as --renderer says"
-    return Picture(
-        color,
-        Source(file=options.against.name if options.against else "", known=known, remarks=remarks),
-        filter_radius=options.filter or 0.0,
-        levels=picture.levels,
-        dither=dither,
-        opaque=picture.opaque,
-        renderer=renderer,
-    )

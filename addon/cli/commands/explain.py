@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ... import exr
-from ...explain import reproducer
-from ...explain.candidates import LIMIT, gather_pixel
-from ...explain.pixel import Pixel
-from ...explain.writers import WRITERS
+from ...derivation import reproducer
+from ...derivation.candidates import LIMIT, gather_pixel
+from ...derivation.pixel import Pixel
+from ...derivation.writers import WRITERS
 from ...framing import Choice
 from ...report import pixel
 from ...report.folders import place_of

@@ -19,14 +19,7 @@ from ...tracer.frame import Frame
 from ...tracer.progress import result_of
 from ...tracer.settings import Settings
 from ...wording import count_of
-from ..arguments import (
-    GivenSettings,
-    Place,
-    add_rounding,
-    add_settings,
-    place_from,
-    settings_from,
-)
+from ..arguments import GivenSettings, Place, add_rounding, add_settings, place_from, settings_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
 from ..parser import AGREE, INTEGER, Parser

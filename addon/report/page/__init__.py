@@ -16,8 +16,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ...compare.comparison import Comparison
-from ...explain import html as explained
+from ...comparison.comparison import Comparison
+from ...derivation import html as explained
 from ..folders import replacing_file
 from .content import content
 from .extras import Extras, extras

@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from ...causes.cause import AGREE, UNEXPLAINED
+from ...causes.explain import CAUSES
 from ...certainty import Certainty
-from ...compare.cause import AGREE, UNEXPLAINED
-from ...compare.causes import CAUSES
-from ...compare.comparison import Comparison
-from ...compare.regions import Region, regions, sides
-from ...explain import html
-from ...explain.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
+from ...comparison.comparison import Comparison
+from ...derivation import html
+from ...derivation.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
+from ...diagnosis.regions import Region, regions, sides
 from ...images import data_uri, to_display
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report

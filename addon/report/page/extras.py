@@ -11,17 +11,18 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...arrays import Colors
-from ...compare.comparison import Comparison
-from ...explain.derivation import Derivation, derive
+from ...comparison.comparison import Comparison
+from ...derivation.derivation import Derivation, derive
 from ...methods import Method
 from ...rendering import steps
 from ...study import extremes, tradeoff
 from ...study.trade import Trade
 from ...tracer.frame import Frame
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work, called, scaled
 from ...tracer.settings import Precision, Settings
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
+_DOING = {"literal": "tracing by the textbook, literally", "derivations": "deriving examples"}
 DERIVED = 3  # examples of each cause that are derived
 DERIVED_TRIANGLES = 3_000_000  # in the scene: each derivation looks at all of them
 
@@ -57,6 +58,8 @@ def extras(
     done = 0.0
     found: dict[str, Any] = {}
     for name, (work, share) in works.items():
+        if name in _DOING:
+            work = called(work, _DOING[name])
         found[name] = yield from scaled(work, done / total, share / total)
         done += share
     return Extras(**found, left_out=tuple(left_out))

@@ -1,7 +1,7 @@
 "use strict";
 // The textbook's formulas, which the page is sent as text: evaluated, and written for the reader.
 //
-// A formula is [left side, right side, remark]. It is evaluated as `explain/textbook.py` does it, one
+// A formula is [left side, right side, remark]. It is evaluated as `derivation/textbook.py` does it, one
 // operation after the other as it is printed, so that every number has the tracer's bits.
 
 const TOKEN = /‖n‖²|[A-Za-z]+[ₛ₁₂₃]*(?:_[a-z]+)?|\S/gu;

@@ -1,0 +1,182 @@
+"""The front door: what `import reference_tracer` offers to a script.
+
+Nothing here needs Blender, and all that it does the commands do by the same functions.
+"""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+from numpy.typing import ArrayLike
+
+from .causes.case import Case
+from .comparison.comparing import diagnosed, trace_and_compare
+from .comparison.comparison import Comparison
+from .comparison.verdict import Verdict as Verdict
+from .derivation.candidates import LIMIT
+from .derivation.derivation import derive
+from .derivation.document import document_markdown
+from .images import open_picture
+from .manifest import Manifest
+from .mesh_diagnosis import diagnosed as with_mesh_faults
+from .mesh_files.contents import Contents
+from .opened import file_manifest, open_scene
+from .pictures.given import Making, picture_of_array, picture_of_file
+from .rendering import render as render
+from .rendering import trace as trace
+from .scene import Camera as Camera
+from .scene import Instance as Instance
+from .scene import Mesh as Mesh
+from .scene import Plane as Plane
+from .scene import Region as Region
+from .scene import Scene
+from .scene import SceneError as SceneError
+from .scene import ViewWindow as ViewWindow
+from .scene_files import save_scene as save_scene
+from .tracer.camera import Rays as Rays
+from .tracer.camera import camera_rays as camera_rays
+from .tracer.frame import Frame as Frame
+from .tracer.progress import result_of
+from .tracer.settings import Settings
+
+
+def load_scene(path: str | Path) -> Scene:
+    r"""Read a scene from a .npz, or from a mesh (.obj, .ply, .stl, .off, .glb, .gltf).
+
+    A mesh has no camera: it is framed, at 960 x 540 pixels. A .blend is exported before, by
+    ``reftrace export scene.blend --out scene.npz``.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Scene
+        Camera, meshes, instances and colours; see ``docs/files.md`` for what they mean.
+
+    Warns
+    -----
+    UserWarning
+        For each thing that the file holds and the scene does not.
+
+    Raises
+    ------
+    SceneError, OSError
+        If there is no such scene, or it cannot be read; the message says what to do.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from reference_tracer import load_scene
+    >>> _ = Path("triangle.obj").write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n")
+    >>> scene = load_scene("triangle.obj")
+    >>> scene.camera.width, scene.triangle_count
+    (960, 1)
+    """
+    scene, manifest = open_scene(Path(path))
+    for remark in manifest.remarks():
+        warnings.warn(f"{path}: {remark.strip()}", stacklevel=2)
+    return scene
+
+
+def compare(
+    scene: Scene,
+    picture: str | Path | ArrayLike,
+    *,
+    manifest: Manifest | None = None,
+    settings: Settings | None = None,
+    renderer: str = "",
+    filter_radius: float = 0.0,
+    dither: float | None = None,
+    self_check: bool = False,
+    diagnose: bool = True,
+) -> Comparison:
+    """Trace a scene, compare it with a picture of it, and find what is wrong with that.
+
+    Parameters
+    ----------
+    scene : Scene
+    picture : str, Path or array
+        A PNG or an EXR; or (h, w, 3 or 4), linear RGB or RGBA with alpha multiplied in, row 0 at
+        the bottom. It shows the camera's whole view, or its region.
+    manifest : Manifest, optional
+        What is known of the scene besides: by default, what it holds.
+    settings : Settings, optional
+        How it is traced; by default with proof.
+    renderer : {'', 'rays', 'raster'}
+        Whose rounding excuses a pixel: a ray tracer's in float32, or a rasteriser's with a depth
+        buffer of 24 bits. By default what the file says, else rays.
+    filter_radius : float
+        How far the picture's filter reaches, in pixels; 0 for one sample at each pixel's centre.
+    dither : float, optional
+        Noise that was added on purpose, in levels of 8 bits.
+    self_check : bool
+        Whether known faults are made on purpose, to see that they are found.
+    diagnose : bool
+        Whether to look for what accounts for unexplained pixels.
+
+    Returns
+    -------
+    Comparison
+        ``verdict``, ``counts``, ``metrics``, ``causes`` of each pixel, ``diagnosis``; ``lines()``
+        is what the command prints, ``to_dict()`` what ``comparison.json`` holds.
+
+    Raises
+    ------
+    SizeError, SceneError, OSError, ValueError
+        If the picture has another size, or either side cannot be read or traced.
+
+    Examples
+    --------
+    A picture with one wrong pixel:
+
+    >>> from reference_tracer import compare, load_scene, render
+    >>> scene = load_scene("triangle.obj")  # as above
+    >>> color = render(scene).color.copy()
+    >>> color[270, 480] = 1
+    >>> result = compare(scene, color, diagnose=False)
+    >>> str(result.verdict), result.counts.unexplained
+    ('differences', 1)
+    """
+    making = Making(renderer, filter_radius, dither)
+    if isinstance(picture, (str, Path)):
+        shown = picture_of_file(open_picture(picture), scene.camera, making)
+    else:
+        shown = picture_of_array(picture, making)
+    manifest = manifest or file_manifest(Path("scene"), scene, Contents(()))
+    manifest = result_of(with_mesh_faults(scene, manifest))
+    case = Case(scene, manifest, settings or Settings(), shown, curves=(), self_check=self_check)
+    found = result_of(trace_and_compare(case))
+    return result_of(diagnosed(found)) if diagnose else found
+
+
+def explain(scene: Scene, x: int, y: int, limit: int = LIMIT) -> str:
+    """Derive what one pixel sees, step by step, in float32, float64 and exactly.
+
+    Parameters
+    ----------
+    scene : Scene
+    x, y : int
+        The pixel of the traced picture; (0, 0) is its lower left.
+    limit : int
+        How many triangles are shown.
+
+    Returns
+    -------
+    str
+        The derivation, as Markdown.
+
+    Raises
+    ------
+    SceneError
+        If there is no such pixel.
+
+    Examples
+    --------
+    >>> from reference_tracer import explain, load_scene
+    >>> print(explain(load_scene("triangle.obj"), 480, 270).splitlines()[0])
+    # The ray through pixel (480, 270)
+    """
+    return document_markdown(derive(scene, x, y, limit))

@@ -1,0 +1,203 @@
+"""Prepares the open scene for comparison with a picture that Blender need not have made.
+
+The scene may have been another then: a flag hides an object, or it was the frame before or after.
+And the picture may have gone through one of Blender's view transforms. To know what these do,
+Blender saves a picture of the colours that the traced scene can show. This needs constant colours:
+with colours that change between corners, no view transform is tried.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from ...arrays import Colors, Floats
+from ...causes.case import Alternative, Case, without
+from ...causes.checks.hidden import with_object
+from ...images import curve_undone
+from ...manifest import Manifest
+from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
+from ...pictures.picture import Curve, Picture
+from ...scene import Scene
+from ...tracer.settings import Settings
+from ..drawing.drawings import Drawing, drawn_by_others
+from ..drawing.judges import AUTO, judge_named
+from ..drawing.picture import read
+from ..engine import export_for_render
+from ..reading.export import export
+from ..reading.palettes import automatic, palette_by
+from ..temporary import go_to, temporary_scene
+from ..values import values_restored
+from ..versions import set_format
+from .compare import export_open_file
+from .variants import variants
+
+COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
+MOST = 16  # alternatives: each of them is traced where pixels have no cause
+MOST_COLORS = 4096
+
+
+def gather_against(
+    context: Any,
+    picture: Picture,
+    settings: Settings,
+    self_check: bool = False,
+    colors: By | GivenColors = By.VIEWPORT,
+) -> Case:
+    """Export the context's scene as a render has it, for a picture of unknown origin.
+
+    The picture was drawn in these colours.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    palette = palette_by(context.scene, colors)
+    scene, manifest, _ = export_open_file(context, palette=palette)
+    if colors == By.AUTOMATIC:
+        palette = automatic(context.scene, scene, manifest)
+        if palette.by != By.VIEWPORT:
+            scene, manifest, _ = export_open_file(context, palette=palette)
+    palette.check(scene, manifest.owners)
+    if palette.note:
+        manifest = replace(manifest, notes=(*manifest.notes, palette.note))
+    judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
+    layer = context.view_layer.name
+    drawing = Drawing(context.scene, layer, judge, True, None, scene, manifest, palette)
+    return Case(
+        scene,
+        manifest,
+        settings,
+        replace(picture, drawn=drawn_by_others(drawing)),
+        alternatives=alternatives(context, scene, manifest, palette),
+        curves=view_transforms(context.scene, scene),
+        self_check=self_check,
+        variants=partial(variants, context.scene.name_full, layer, judge.ignores, palette),
+    )
+
+
+def alternatives(
+    context: Any, scene: Scene, manifest: Manifest, palette: Palette = VIEWPORT
+) -> tuple[Alternative, ...]:
+    """Return scenes that differ in one flag or the frame from one exported as a render has it."""
+    layer = context.view_layer.name
+    with (
+        temporary_scene(context.scene, layer, palette=palette) as tmp,
+        context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]),
+    ):
+        other, viewport = export(bpy.context.evaluated_depsgraph_get())
+    drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))
+    out: list[_Hidden] = []
+    for name in sorted(seen.keys() & drawn.keys()):
+        if drawn[name].hidden and seen[name].exported:
+            shown = partial(with_object, other=other, name=name)
+            out.append(_Hidden(name, drawn[name].reason, shown))
+        elif seen[name].hidden and drawn[name].exported:
+            out.append(_Hidden(name, seen[name].reason, partial(without, names=[name])))
+    return (*_one_by_one_and_all(scene, out[:MOST]), *_frames(context, palette))
+
+
+class _Hidden(NamedTuple):
+    """An object that a flag hides for one side, and what the scene is without the flag."""
+
+    name: str
+    reason: str
+    shown_otherwise: Callable[[Scene], Scene]
+
+
+def _one_by_one_and_all(scene: Scene, hidden: Sequence[_Hidden]) -> Iterator[Alternative]:
+    """Yield the scene without each flag; then without all, as one object may lie before another."""
+    for name, reason, change in hidden:
+        yield Alternative(name, reason, change(scene))
+    if len(hidden) > 1:
+        for _, _, change in hidden:
+            scene = change(scene)
+        reasons = dict.fromkeys(one.reason for one in hidden)
+        yield Alternative("', '".join(h.name for h in hidden), ", ".join(reasons), scene)
+
+
+def _frames(context: Any, palette: Palette) -> list[Alternative]:
+    """Return the scene a frame before and a frame later, if something in the file is animated."""
+    if not len(bpy.data.actions):
+        return []
+    out = []
+    now = context.scene.frame_current
+    layer = context.view_layer.name
+    with values_restored(), temporary_scene(context.scene, layer, palette=palette) as tmp:
+        for frame in (now - 1, now + 1):
+            go_to(tmp, frame)
+            scene, _, _ = export_for_render(tmp)
+            reason = f"the picture is of frame {frame}, the scene is at {now}"
+            out.append(Alternative("what is animated", reason, scene))
+        go_to(tmp, now)
+    return out
+
+
+def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
+    """Return the view transform of the user's scene, then the common ones that this Blender has.
+
+    They hold for the colours of what was exported of it; the user's scene stays as it is.
+    """
+    rows = [scene.color_table, [scene.background], *([p.color] for p in scene.planes)]
+    table = np.unique(np.concatenate(rows)[:, :3], axis=0)
+    if len(table) > MOST_COLORS or any(m.corner_colors is not None for m in scene.meshes):
+        return ()
+    with temporary_scene(user) as tmp:
+        return tuple(
+            Curve(f"the view transform {name}", _looked_up(table, shown))
+            for name, shown in _shown(tmp, table)
+        )
+
+
+def _shown(tmp: Any, table: Colors) -> Iterator[tuple[str, Floats]]:
+    """Yield each view transform's name and what it makes of colours (n, 3), sRGB's curve undone."""
+    view = tmp.view_settings
+    own = view.view_transform
+    plain = (view.exposure, view.gamma, view.look) == (0.0, 1.0, "None")
+    more = f" with exposure {view.exposure:+.3g}, gamma {view.gamma:.3g}, look '{view.look}'"
+    yield f"'{own}'" + ("" if plain else more), _saved(tmp, table)
+    view.look = "None"
+    view.exposure = 0.0
+    view.gamma = 1.0
+    for name in COMMON:
+        with suppress(TypeError):  # this Blender does not have it
+            view.view_transform = name
+        if view.view_transform == name and not (plain and name == own):
+            yield f"'{name}'", _saved(tmp, table)
+
+
+def _saved(tmp: Any, table: Colors) -> Floats:
+    """Return colours (n, 3) as Blender writes them to a PNG of 16 bits, sRGB's curve undone."""
+    image: Any = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
+    try:
+        opaque = np.ones((len(table), 1), np.float32)
+        image.pixels.foreach_set(np.hstack((table, opaque)).ravel())
+        tmp.render.dither_intensity = 0.0
+        set_format(tmp.render, "PNG", "RGB", "16")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "colours.png"
+            image.save_render(str(path), scene=tmp)
+            return curve_undone(read(path, "Non-Color")[0, :, :3].astype(np.float64))
+    finally:
+        bpy.data.images.remove(image)
+
+
+def _looked_up(table: Colors, shown: Floats) -> Any:
+    """Return the function that maps each colour of a table (n, 3) to what is shown of it."""
+
+    def transform(color: Floats) -> Floats:
+        flat = color.reshape(-1, 3)
+        found, index = np.unique(flat, axis=0, return_inverse=True)
+        nearest = [int(np.abs(table - c).sum(axis=1).argmin()) for c in found]
+        return shown[nearest][index.reshape(-1)].reshape(color.shape)
+
+    return transform

@@ -1,0 +1,141 @@
+"""Compares the frames of an animation: the scene is stepped through them, in order.
+
+What is simulated and not baked depends on the frames before: these are visited, too.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ...comparison.animation import FrameRow, frames_named
+from ...errors import words
+from ...report import animation as report
+from ...scene import SceneError
+from ...tracer.progress import Work, called, result_of, scaled
+from ..reading.camera import export_camera
+from ..values import values_restored
+from .compare import compare_to_folder, made_folder
+from .stepping import bake_bodies, visited
+
+_ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be imported here
+
+
+def compare_frames(
+    directory: str,
+    frames: range,
+    told: Callable[[list[FrameRow]], None],
+    made_by: Any = None,
+    **choices: Any,
+) -> Work[list[FrameRow]]:
+    """Step the context's scene to each frame, compare it, and write the table of all so far.
+
+    A frame that cannot be compared is a row, too.
+
+    Parameters
+    ----------
+    directory : str
+        The folder for all that is written.
+    frames : range
+    told : callable
+        Called with all rows after each new one, which is the last.
+    made_by : dict, optional
+        What the comparisons depend on. Frames that are whole in the folder and were made by the
+        same are not compared again.
+    **choices
+        The fields of :class:`.compare.Choices`.
+
+    Raises
+    ------
+    SceneError, OSError
+        If there is no camera, or the folder cannot be written.
+    """
+    scene: Any = bpy.context.scene
+    folder = made_folder(directory)
+    if not (scene.camera or any(marker.camera for marker in scene.timeline_markers)):
+        export_camera(scene)  # says so once, not in each frame
+    title = f"{bpy.path.basename(bpy.data.filepath)}, {scene.name}"
+    rows = [r for f in frames if (r := report.row_of_whole(folder, f, made_by))]
+    todo = sorted(set(frames) - {row.frame for row in rows})
+    report.write(folder, title, frames, rows)
+    before = scene.frame_current, scene.frame_subframe
+    with values_restored():
+        try:
+            for frame in visited(scene, todo):
+                scene.frame_set(frame)
+                share = sum(f < frame for f in todo) / len(todo)
+                yield share
+                if frame in todo:
+                    work = _compared(folder, frame, made_by, choices)
+                    work = called(work, f"frame {frame}")
+                    rows.append((yield from scaled(work, share, 1 / len(todo))))
+                    report.write(folder, title, frames, rows)
+                    told(rows)
+        finally:
+            scene.frame_set(before[0], subframe=before[1])
+    return rows
+
+
+def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -> Work[FrameRow]:
+    own = report.folder_of(folder, frame)
+    try:
+        # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
+        work = compare_to_folder(bpy.context, str(own), diagnose=False, **choices)
+        comparison = yield from work
+    except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
+        return FrameRow(frame, error=words(error))
+    report.mark_whole(folder, frame, made_by)
+    return FrameRow.of(frame, comparison.to_dict())
+
+
+def frames_of(scene: Any) -> range:
+    """Return the frames of a scene's animation."""
+    return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+
+
+def compare_open_file(
+    named: str,
+    directory: str,
+    options: dict[str, str],
+    progress: Callable[[float], None],
+    **choices: Any,
+) -> int:
+    """Compare the frames that are named, print the table, return the worst's exit code.
+
+    The options are those of the command line that a frame's comparison depends on: a frame that was
+    compared with others, or of another file, is compared again.
+
+    Raises what :func:`compare_frames` does.
+    """
+    scene = bpy.context.scene
+    frames = frames_named(named) or frames_of(scene)
+    bake_bodies(scene, frames[-1])
+    begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
+
+    def told(rows: list[FrameRow]) -> None:
+        print(begin + report.line(rows[-1]), file=sys.stderr, flush=True)
+
+    work = compare_frames(directory, frames, told, _made_by(options), **choices)
+    try:
+        rows = result_of(work, progress)
+    except KeyboardInterrupt:
+        print("what is done is kept: the same command goes on from there", file=sys.stderr)
+        raise
+    print(*report.lines(frames, rows), f"written to {directory}", sep="\n")
+    print(f"open {Path(directory) / report.PAGE} in a browser")
+    return report.verdict(rows).exit_code
+
+
+def _made_by(options: dict[str, str]) -> dict[str, Any]:
+    """Return all that a frame's comparison depends on, but for the frame's number."""
+    used = {bpy.data.filepath, *bpy.utils.blend_paths(absolute=True)}  # libraries, Alembic, images
+    files = sorted(path for path in map(Path, used) if path.is_file())
+    return {
+        "versions": [sys.modules[_ADDON].__version__, bpy.app.version_string],
+        "files": {str(f): [f.stat().st_size, f.stat().st_mtime_ns] for f in files},
+        "options": options,
+    }

@@ -1,0 +1,63 @@
+"""Compare All Engines: has each engine of Blender's draw the scene, and compares each picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ...causes.case import Case
+from ...comparison.engines import EngineRow
+from ...comparison.verdict import Verdict
+from ...errors import words
+from ...report import comparison as comparison_report
+from ...report import engines as engines_report
+from ...scene import SceneError
+from ...tracer.progress import Work, scaled
+from ..drawing.judges import JUDGES
+from .compare import Choices, compared, gather_case, made_folder
+
+
+def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
+    """Have every engine draw the scene at once; return the work of comparing each.
+
+    Each comparison goes to a folder of its own in the directory, and the table into it; nothing is
+    written if it is empty. The choices are the fields of :class:`Choices`.
+
+    Raises
+    ------
+    SceneError
+        If no engine makes a picture.
+    OSError
+        If the folder cannot be written.
+    """
+    folder = made_folder(directory) if directory else None
+    here = [j.name for j in JUDGES.values() if not (j.needs_window and bpy.app.background)]
+    drawn: list[tuple[str, Case | str]] = []  # or why there is no picture
+    for name in here:
+        try:
+            drawn.append((name, gather_case(context, judge=name.upper(), **choices)))
+        except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
+            drawn.append((name, words(error)))
+    if all(isinstance(d, str) for _, d in drawn):
+        raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
+    return _all_compared(drawn, folder, Choices.of(context.scene, choices).diagnose)
+
+
+def _all_compared(
+    drawn: list[tuple[str, Case | str]], folder: Path | None, diagnose: bool
+) -> Work[tuple[EngineRow, ...]]:
+    rows = []
+    for number, (engine, gathered) in enumerate(drawn):
+        if isinstance(gathered, str):
+            rows.append(EngineRow(engine, Verdict.FAILED, error=gathered))
+            continue
+        work = compared(gathered)
+        if folder:
+            work = comparison_report.written(folder / engine, work, diagnose)
+        comparison = yield from scaled(work, number / len(drawn), 1 / len(drawn))
+        rows.append(EngineRow.of(comparison))
+    if folder:
+        engines_report.write(folder, rows)
+    return tuple(rows)

@@ -1,0 +1,117 @@
+"""Objects with other meshes: without modifiers, those of the viewport, other levels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ....causes.case import Variant
+from ....scene import Mesh, Scene
+from ...reading.export import export
+from ...reading.meshes import read_mesh
+from .origin import Origin
+
+MOST = 6  # objects that are looked at alone
+LEVELS = (-1, 1, -2, 2)  # of subdivision more, or less
+MOST_TRIANGLES = 300_000  # of the scene, where a level is added: each makes four of one
+DEFORMING = {"ARMATURE", "HOOK", "LATTICE", "CURVE", "MESH_DEFORM", "SURFACE_DEFORM"}
+
+
+def variants(origin: Origin) -> Iterator[Variant]:
+    """Yield the scene with other meshes."""
+    yield from _without_modifiers(origin)
+    yield from _as_in_the_viewport(origin)
+    yield from _subdivided(origin)
+
+
+def _without_modifiers(origin: Origin) -> Iterator[Variant]:
+    """Yield the scene with the meshes as they are edited; only deformed ones are at rest then."""
+    found: dict[str, Mesh] = {}
+    rest: dict[str, Mesh] = {}
+    for name, obj in origin.objects.items():
+        if obj.type != "MESH" or not (obj.modifiers or obj.data.shape_keys):
+            continue
+        read = read_mesh(obj, name, False)
+        if read is None:
+            continue
+        only_moved = {m.type for m in obj.modifiers} <= DEFORMING
+        (rest if only_moved else found)[name] = read[0]
+    for fault, meshes in (("no_modifiers", found), ("rest_pose", rest)):
+        for some in _all_and_each(meshes):
+            scene = _with_meshes(origin.exported, some)
+            alone = next(iter(some)) if len(some) == 1 else ""
+            yield Variant(fault, scene, _names(some), alone)
+
+
+def _all_and_each(meshes: dict[str, Mesh]) -> Iterator[dict[str, Mesh]]:
+    if meshes:
+        yield meshes
+    if len(meshes) > 1:
+        yield from ({name: meshes[name]} for name in list(meshes)[:MOST])
+
+
+def _names(some: dict[str, Any]) -> str:
+    return ", ".join(f"'{name}'" for name in list(some)[:3]) + (" ..." if len(some) > 3 else "")
+
+
+def _with_meshes(scene: Scene, others: dict[str, Mesh]) -> Scene:
+    """Return the scene with other meshes of some objects."""
+    meshes = [*scene.meshes]
+    number = {}
+    for name, mesh in others.items():
+        number[scene.objects.index(name)] = len(meshes)
+        meshes.append(mesh)
+    instances = tuple(replace(i, mesh=number.get(i.object, i.mesh)) for i in scene.instances)
+    return replace(scene, meshes=tuple(meshes), instances=instances)
+
+
+def _as_in_the_viewport(origin: Origin) -> Iterator[Variant]:
+    """Yield the scene with the meshes of the viewport's evaluation, where these are others."""
+    with bpy.context.temp_override(scene=origin.tmp, view_layer=origin.tmp.view_layers[0]):
+        other, _ = export(bpy.context.evaluated_depsgraph_get())
+    meshes = {other.objects[i.object]: other.meshes[i.mesh] for i in other.instances}
+    own = {
+        origin.exported.objects[i.object]: origin.exported.meshes[i.mesh]
+        for i in origin.exported.instances
+    }
+    changed = {n: m for n, m in meshes.items() if n in own and not _alike(m, own[n])}
+    for some in _all_and_each(changed):
+        alone = next(iter(some)) if len(some) == 1 else ""
+        scene = _with_meshes(origin.exported, some)
+        yield Variant("viewport_modifiers", scene, _names(some), alone)
+
+
+def _alike(one: Mesh, other: Mesh) -> bool:
+    same = np.array_equal(one.triangles, other.triangles)
+    return same and np.array_equal(one.vertices, other.vertices)
+
+
+def _subdivided(origin: Origin) -> Iterator[Variant]:
+    """Yield the scene with its subdivision modifiers at other levels."""
+    objects = [o for o in origin.objects.values() if o.type == "MESH" and not o.particle_systems]
+    modifiers = [m for o in objects for m in o.modifiers if m.type in ("SUBSURF", "MULTIRES")]
+    for change in LEVELS if modifiers else ():
+        many = change > 0 and 4**change * origin.exported.triangle_count > MOST_TRIANGLES
+        if many or all(m.render_levels + change < 0 for m in modifiers):
+            continue
+        with _levels(modifiers, change):
+            scene = origin.again()
+        yield Variant("subdivision", scene, f"{change:+d} of the render's levels")
+
+
+@contextmanager
+def _levels(modifiers: list[Any], change: int) -> Iterator[None]:
+    """Have modifiers render other levels, for a while."""
+    before = [m.render_levels for m in modifiers]
+    try:
+        for modifier, level in zip(modifiers, before, strict=True):
+            modifier.render_levels = max(level + change, 0)
+        yield
+    finally:
+        for modifier, level in zip(modifiers, before, strict=True):
+            modifier.render_levels = level

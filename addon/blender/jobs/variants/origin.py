@@ -1,0 +1,37 @@
+"""What the variants of a scene are made of: what was exported, and what it was exported from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+from ....pictures.palette import Palette
+from ....scene import Scene
+from ...engine import export_for_render
+
+
+@dataclass(frozen=True, eq=False)
+class Origin:
+    """A scene of Blender's, and what is exported of it."""
+
+    scene: Any  # bpy.types.Scene, the user's
+    layer: str
+    tmp: Any  # a temporary copy of it
+    exported: Scene  # with all that the view leaves out
+    palette: Palette  # its colours
+
+    @classmethod
+    def of(cls, scene: Any, layer: str, tmp: Any, palette: Palette) -> Self:
+        """Export a temporary scene, as a render has it."""
+        exported, _, _ = export_for_render(tmp)
+        return cls(scene, layer, tmp, exported, palette)
+
+    def again(self) -> Scene:
+        """Export the temporary scene as it is now."""
+        return export_for_render(self.tmp)[0]
+
+    @property
+    def objects(self) -> dict[str, Any]:
+        """The objects that are exported, by their names there."""
+        there = {obj.name_full: obj for obj in self.scene.objects}
+        return {name: there[name] for name in self.exported.objects if name in there}

@@ -1,0 +1,170 @@
+"""What to do where rounding excuses too much: the least change after which it no longer does.
+
+Each advice is tried on the pixels themselves, with the bounds that excused them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from ..arrays import Bools, Floats
+from ..pictures.bounds import SNAPPING
+from ..pictures.renderers import Renderer
+from ..scene import Camera, SceneError
+from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING
+from .case import Case
+from .cause import NOT_DECIDABLE, Cause, Causes
+from .checks.clip import CLIP_PLANE
+from .checks.edges import DEPTH_TIE, EDGE
+
+_ROUND = 1.0, 2.0, 5.0  # the first digits of what is advised
+_NEAR = 0.01  # of the way to what is seen nearest: where a clip start is best, if that is enough
+_ROOM = 0.5  # a clip plane stays this share of the way from what is seen nearest
+
+
+def advise(
+    case: Case, frame: Frame, causes: Causes, where: Mapping[Cause, Bools], most: float
+) -> Iterator[str]:
+    """Yield what would help, for pixels (h, w) of each cause.
+
+    `most` is the share of the picture that may rest on rounding.
+    """
+    deep = {cause: found for cause, found in where.items() if cause in (DEPTH_TIE, CLIP_PLANE)}
+    allowed = most * causes.cause.size / 2
+    if sum(int(found.sum()) for found in deep.values()) > allowed:
+        yield from _of_depths(case, frame, causes, deep, allowed)
+    if EDGE in where and where[EDGE].sum() > allowed:
+        yield _of_edges(causes, where[EDGE], allowed)
+    if NOT_DECIDABLE in where:
+        yield "move the scene to the origin, or apply the objects' scale"
+
+
+def _of_depths(
+    case: Case, frame: Frame, causes: Causes, where: Mapping[Cause, Bools], allowed: float
+) -> Iterator[str]:
+    """Yield the clip range in which depths can be told apart; else how far surfaces must be."""
+    camera, renderer = case.scene.camera, case.picture.renderer
+    depths = _Depths(camera, renderer, frame, causes, where)
+    for other in _cameras(camera, frame):
+        if depths.left(other) <= allowed:
+            yield _clip_range(camera, other, depths.told_apart(other))
+            return
+    if DEPTH_TIE in where:
+        gap, told = (v[where[DEPTH_TIE]] for v in (causes.figure, causes.allowed))
+        yield (
+            f"move surfaces that lie {np.median(gap):.2g} m behind one another at least "
+            f"{_up(2 * float(np.max(told))):.2g} m apart, or leave one of them out"
+        )
+
+
+class _Depths:
+    """The depths of surfaces that rounding did not tell apart, from each other or a clip plane."""
+
+    def __init__(
+        self,
+        camera: Camera,
+        renderer: Renderer,
+        frame: Frame,
+        causes: Causes,
+        where: Mapping[Cause, Bools],
+    ) -> None:
+        self._renderer = renderer
+        none = np.zeros(causes.cause.shape, bool)
+        tied, clipped = (where.get(cause, none) for cause in (DEPTH_TIE, CLIP_PLANE))
+        self._gap = causes.figure[tied]
+        bounds = causes.allowed[tied], causes.allowed[clipped]
+        places = frame.t[tied], _clipped_depth(camera, renderer, causes, clipped)
+        self._ties, self._clipped = places
+        # What rounding adds to the buffer's step is the same in any clip range.
+        self._rest = [
+            np.maximum(bound - renderer.step(camera, t), 0)
+            for bound, t in zip(bounds, places, strict=True)
+        ]
+
+    def left(self, camera: Camera) -> int:
+        """Return how many pixels another camera leaves undecided."""
+        step, (tie, clip) = self._renderer.step, self._rest
+        tied = self._gap <= step(camera, self._ties) + tie
+        ends = np.abs(self._clipped - np.array([[camera.clip_start], [camera.clip_end]]))
+        clipped = ends.min(axis=0) <= step(camera, self._clipped) + clip
+        return int(tied.sum() + clipped.sum())
+
+    def told_apart(self, camera: Camera) -> float:
+        """Return how far apart surfaces at these depths must be for another camera, metres."""
+        depths = self._ties, self._clipped
+        found = [
+            self._renderer.step(camera, t) + r for t, r in zip(depths, self._rest, strict=True)
+        ]
+        return float(np.median(np.concatenate(found)))
+
+
+def _clipped_depth(camera: Camera, renderer: Renderer, causes: Causes, where: Bools) -> Floats:
+    """Return how deep the surfaces lie that are a `figure` from a clip plane, (n,) metres.
+
+    Of the four places that do, it is the one whose bound is nearest to the pixel's.
+    """
+    off, bound = causes.figure[where], causes.allowed[where]
+    start, end = camera.clip_start, camera.clip_end
+    places = np.array([start + off, start - off, end - off, end + off])
+    apart = np.abs([renderer.step(camera, t) - bound for t in places])
+    return places[apart.argmin(axis=0), np.arange(len(off))]
+
+
+def _cameras(camera: Camera, frame: Frame) -> Iterator[Camera]:
+    """Yield cameras that see the same, with other clip ranges: the best change first."""
+    seen = frame.t[frame.instance_index != NOTHING]
+    if not len(seen):
+        return
+    nearest, farthest = float(np.min(seen)), float(np.max(seen))
+    ends = (camera.clip_end, *(e for e in [_up(farthest / _ROOM)] if 0 < e < camera.clip_end))
+    ends = (*ends, _up(2 * camera.clip_end), _up(20 * camera.clip_end))
+    starts = [camera.clip_start]
+    if camera.clip_start > 0:
+        low, high = np.floor(np.log10(camera.clip_start)), np.log10(max(nearest, 1e-30))
+        decades = 10.0 ** np.arange(low, high + 1)
+        raised = [float(digit * d) for d in decades for digit in _ROUND]
+        raised = [s for s in raised if camera.clip_start < s <= _ROOM * nearest]
+        starts += [s for s in raised if s <= _NEAR * nearest][-1:] + raised
+        starts += [float(f"{camera.clip_start * share:.1g}") for share in (0.5, 0.1)]
+    for end in ends:
+        for start in starts:
+            if (start, end) != (camera.clip_start, camera.clip_end):
+                try:
+                    yield replace(camera, clip_start=start, clip_end=end)
+                except SceneError:
+                    continue
+
+
+def _clip_range(camera: Camera, other: Camera, told: float) -> str:
+    """Return the advice to change one or both clip planes."""
+    changes = []
+    for name in ("start", "end"):
+        before, after = (getattr(c, f"clip_{name}") for c in (camera, other))
+        if before != after:
+            verb = "raise" if after > before else "lower"
+            changes.append(f"{verb} the clip {name} from {before:.6g} m to {after:.6g} m")
+    return f"{' and '.join(changes)}: surfaces {told:.2g} m apart are told apart there then"
+
+
+def _of_edges(causes: Causes, where: Bools, allowed: float) -> str:
+    """Return the advice for edges: nearer to the origin, or more pixels."""
+    band = float(np.median(causes.allowed[where]))
+    if band > 2 * SNAPPING:
+        return (
+            f"move the scene to the origin: float32 moves its edges by up to {band:.2g} px where "
+            "it is"
+        )
+    times = int(np.ceil(where.sum() / allowed))
+    return f"draw the picture {times} times as wide and high: edges pass fewer of its pixels then"
+
+
+def _up(value: float) -> float:
+    """Return the next larger number with one digit of `_ROUND`; 0 for none."""
+    if value <= 0:
+        return 0.0
+    decade = 10.0 ** np.floor(np.log10(value))
+    return float(next(d * decade for d in (*_ROUND, 10.0) if d * decade >= value))

@@ -1,0 +1,154 @@
+"""What a comparison takes: a scene, the other side's picture of it, and what is known of both."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from ..arrays import Bools, Colors, Integers
+from ..manifest import Effect, Manifest
+from ..pictures.certificate import CameraCertificate
+from ..pictures.picture import Curve, Picture
+from ..scene import Scene
+from ..tracer.coloring import Color
+from ..tracer.hits import NOTHING
+from ..tracer.render import Tracer
+from ..tracer.settings import Settings
+
+# The least share of the pixels that another scene changes in which it must be what the picture
+# shows: of an alternative, as of a fault.
+PRECISE = 0.97
+
+
+@dataclass(frozen=True, eq=False)
+class Alternative:
+    """The scene as the other side may have it: one object more or less, or another frame."""
+
+    object: str
+    reason: str
+    scene: Scene
+
+
+WHOLE = "whole"  # in place of a fault's name: the scene as it is, with all that no ray meets
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """The scene with a fault that only Blender can make, as it knows what the scene came from."""
+
+    fault: str  # the name of its record in `faults/`, or WHOLE
+    scene: Scene
+    words: str = ""  # which camera, frame, level...
+    object: str = ""  # whose fault it is, if it is one object's
+
+
+@dataclass(frozen=True, eq=False)
+class Behind:
+    """The case without the objects that are seen through, as glass: what is behind them."""
+
+    case: Case
+    left_out: frozenset[str]  # the objects
+
+
+def without(scene: Scene, names: Collection[str]) -> Scene:
+    """Return a scene without some objects."""
+    numbers = {n for n, name in enumerate(scene.objects) if name in names}
+    return replace(
+        scene,
+        instances=tuple(i for i in scene.instances if i.object not in numbers),
+        planes=tuple(p for p in scene.planes if p.object not in numbers),
+    )
+
+
+def no_variants() -> tuple[Variant, ...]:
+    """Return the variants of a scene of which nothing else is known."""
+    return ()
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """All that a comparison takes; the checks, the self-check and the faults take it, too."""
+
+    scene: Scene
+    manifest: Manifest
+    settings: Settings  # how the scene is traced; always in the objects' own colours
+    picture: Picture  # what it is compared with
+    certificate: CameraCertificate | None = None
+    alternatives: tuple[Alternative, ...] = ()  # the scene as the other side may have it
+    # What may have been done to the colours, besides what is always tried. None: nothing was.
+    curves: tuple[Curve, ...] | None = None
+    self_check: bool = False  # whether known faults are to be made, and found
+    next_frame: Scene | None = None  # the scene a frame later, for the self-check
+    behind: Behind | None = None  # if the other side was drawn without what is seen through, too
+    tracer: Tracer | None = None  # where whole pictures are traced, if not here
+    # Makes the scene with faults for which Blender is needed; asked only if pixels are unexplained.
+    variants: Callable[[], tuple[Variant, ...]] = no_variants
+
+    def __post_init__(self) -> None:
+        if self.settings.color != Color.OBJECT:
+            object.__setattr__(self, "settings", replace(self.settings, color=Color.OBJECT))
+
+    def feature_of(self, effect: Effect) -> Integers:
+        """Return which feature with an effect each instance has, then each plane, (k + 1,).
+
+        It is an index into the manifest's `unmodelled`; NOTHING for none, and at the end.
+        """
+        features = enumerate(self.manifest.unmodelled)
+        number = {u.object: n for n, u in features if u.effect is effect}
+        found = [number.get(name, NOTHING) for name in self.scene.objects]
+        return np.array([*found, NOTHING], np.int32)[self.scene.instance_objects]
+
+    @property
+    def colorless(self) -> Bools:
+        """Whether each instance, then each plane, has colours that the tracer does not know."""
+        return self.feature_of(Effect.COLOR) != NOTHING
+
+    def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
+        """Return the same with the scene and the alternatives changed alike."""
+        others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
+        scene = change(self.scene)
+        behind = self.behind
+        if behind:
+            behind = replace(behind, case=behind.case.with_scenes(change))
+        return replace(self.in_scene(scene), alternatives=others, behind=behind)
+
+    def in_scene(self, scene: Scene) -> Case:
+        """Return the same with another scene."""
+        behind = self.behind
+        if behind:
+            rest = without(scene, behind.left_out)
+            behind = replace(behind, case=behind.case.in_scene(rest))
+        picture = replace(self.picture, owners=self._owners_in(scene))
+        return replace(self, scene=scene, picture=picture, behind=behind)
+
+    def _owners_in(self, scene: Scene) -> Integers | None:
+        """Return the owners of another scene's instances and planes, by their objects' names.
+
+        None if an object of this name has several owners here: whose it is there is not known.
+        """
+        owners, own = self.picture.owners, self.scene
+        if owners is None or scene is own:
+            return owners
+        if (
+            np.array_equal(scene.instance_objects, own.instance_objects)
+            and scene.objects == own.objects
+        ):
+            return owners
+        of_name: dict[str, int] = {}
+        for number, owner in zip(own.instance_objects[:-1], owners, strict=False):
+            if of_name.setdefault(own.objects[number], int(owner)) != owner:
+                return None
+        names = self.picture.names
+        other = {name: names.index(name) if name in names else len(names) for name in scene.objects}
+        numbers = [(other | of_name)[scene.objects[n]] for n in scene.instance_objects[:-1]]
+        return np.array([*numbers, NOTHING], np.int32)
+
+    def before(self, background: Colors) -> Case:
+        """Return the same with all scenes, and the picture, before a background, linear RGBA."""
+        behind = partial(replace, background=background)
+        picture = replace(self.picture, background=background)
+        then = self.next_frame and behind(self.next_frame)
+        return replace(self.with_scenes(behind), picture=picture, next_frame=then)

@@ -1,0 +1,81 @@
+"""Clip planes: float32 decides on which side of them a surface lies.
+
+A pixel gets this cause if Blender shows what the tracer would see with, or without, a surface that
+lies nearer to a clip plane than Blender's arithmetic can tell.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...pictures.bounds import U32
+from ...pictures.renderers import Renderer
+from ...scene import Camera
+from ...tracer.hits import NOTHING, Hits
+from ...tracer.progress import Work
+from ..cause import Cause
+from .probe import LAYERS, OpenPixels, Part, near_surfaces
+
+CLIP_PLANE = Cause(
+    7,
+    "clip_plane",
+    "clip plane",
+    "a surface lies {figure:.3g} m from a clip plane, and float32 clips to within {allowed:.3g} m",
+    "m",
+    (1.0, 1.0, 0.4),
+    explains=True,
+    rounding=True,
+)
+
+
+# How much wider the clip range is made than what float32 may move a point right before the camera.
+WIDENED = 64
+
+
+def check(pixels: OpenPixels) -> Work[None]:
+    """Find open pixels at the clip planes, a part of the picture at a time."""
+    if pixels.open.any():
+        scene = pixels.case.scene
+        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.renderer))
+        yield from near_surfaces(pixels, wide, 0.0, _clipped)
+
+
+def _clipped(part: Part) -> Work[None]:
+    """Go from front to back through the surfaces that may be clipped."""
+    camera = part.scene.camera
+    after: Hits | None = None
+    near = np.zeros(len(part.probe.px), bool)
+    going = ~near
+    figure = allowed = np.zeros(len(near))
+    for _ in range(LAYERS):
+        after = hits = yield from part.probe.trace(after=after)
+        ends = np.abs(hits.t - camera.clip_start), np.abs(hits.t - camera.clip_end)
+        distance = np.minimum(*ends)
+        bound = part.resolution(hits)
+        at_clip = (hits.instance != NOTHING) & (distance <= bound)
+        inside = (hits.t >= camera.clip_start) & (hits.t <= camera.clip_end)
+        # A surface that is surely clipped is passed; one that is surely not ends the way.
+        seen = going & (inside | at_clip | (hits.instance == NOTHING))
+        may = seen & at_clip
+        figure = np.where(may, distance, figure)
+        allowed = np.where(may, bound, allowed)
+        near |= may
+        same = seen & near & ~part.picture.differ(part.scene, hits)
+        part.give(same, CLIP_PLANE, figure, allowed)
+        yield 0.0
+        going &= ~seen | at_clip
+        if not (going & (hits.instance != NOTHING)).any():
+            return
+
+
+def _widened(camera: Camera, renderer: Renderer) -> Camera:
+    """Return a camera that also sees what a renderer may take to be within its clip range."""
+    ends = np.array((camera.clip_start, camera.clip_end), np.float64)
+    view = U32 * WIDENED * (float(np.abs(camera.origin).sum()) + np.abs(ends))
+    before, behind = renderer.resolution(camera, ends, view)
+    start = camera.clip_start - before
+    if not camera.projection.sees_behind:
+        start = max(start, camera.clip_start / 2)
+    return replace(camera, clip_start=start, clip_end=camera.clip_end + behind)

@@ -1,0 +1,210 @@
+"""Edges and depth ties: the tracer is asked again around the centres, and behind their surface.
+
+A pixel gets its cause if the tracer sees what Blender shows so near to the centre, or so little
+behind, that Blender's float32 and its rasteriser may be off by as much.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import Bools, Floats
+from ...pictures.picture import Picture
+from ...scene import Scene
+from ...tracer.camera import film_of
+from ...tracer.hits import NOTHING, Hits
+from ...tracer.progress import Work
+from ...tracer.vector import transform_points
+from ..cause import Cause
+from .coverage import coverage
+from .probe import LAYERS, OpenPixels, Part, near_surfaces
+
+EDGE = Cause(
+    1,
+    "edge",
+    "edge",
+    "{figure:.3g} px from the centre the tracer sees what Blender shows "
+    "(float32 and its rasteriser may be off by {allowed:.3g} px)",
+    "px",
+    (1.0, 0.3, 0.0),
+    explains=True,
+    rounding=True,
+)
+DEPTH_TIE = Cause(
+    2,
+    "depth_tie",
+    "depth tie",
+    "what the picture shows lies {figure:.3g} m behind what the tracer sees "
+    "(what lies {allowed:.3g} m apart is told apart there)",
+    "m",
+    (0.0, 0.7, 1.0),
+    explains=True,
+    rounding=True,
+)
+
+
+# Where the tracer is asked again, in widths of the band: in eight directions on three rings, and in
+# eight between them on the rim.
+_EIGHT = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
+OFFSETS = (
+    *((ring * x, ring * y) for ring in (0.3, 0.6, 1.0) for x, y in _EIGHT),
+    *((a * x, b * y) for a, b in ((1, 0.5), (0.5, 1)) for x in (1, -1) for y in (1, -1)),
+)
+
+
+def check(pixels: OpenPixels) -> Work[None]:
+    """Find open pixels at edges and depth ties, a part of the picture at a time."""
+    if pixels.open.any():
+        reach = float(np.max(pixels.band[pixels.open]))
+        yield from near_surfaces(pixels, pixels.case.scene, reach, _look)
+
+
+class _Asked(NamedTuple):
+    """What is known of the n pixels of a part: more is found by each way to ask."""
+
+    centre: Hits
+    lost: Bools  # the picture's own method lost what the centre sees
+    found: Floats  # (2, n) px: how far away the picture's colour is seen, and its object
+    behind: list[tuple[Hits, Floats]]  # what may tie with the centre, and how far behind, (n,) m
+    beside: list[Hits]  # at the samples in the band
+
+
+def _look(part: Part) -> Work[None]:
+    """Ask behind, then at samples, then the triangles themselves, while pixels have no cause.
+
+    What is shown on the very same ray is a tie, even if an edge is near.
+    """
+    centre = yield from part.probe.trace()
+    lost = ~part.picture.differ(part.scene, centre)
+    asked = _Asked(centre, lost, _sides(part.scene, part.picture, centre, 0.0), [], [])
+    for look in (_behind, _beside, _mixed, _covering):
+        if not part.done:
+            yield from look(part, asked)
+
+
+def _sides(scene: Scene, picture: Picture, hits: Hits, distance: ArrayLike) -> Floats:
+    """Return the distance of n hits with the picture's colour, and with its object, (2, n) pixels.
+
+    It is infinite for the others. The two come from two drawings, in which an edge or a tie may go
+    either way, so each is looked for by itself.
+    """
+    same = picture.same_color(scene, hits), ~picture.other_object(hits.instance)
+    return np.where(same, distance, np.inf)
+
+
+def _beside(part: Part, asked: _Asked) -> Work[None]:
+    """Look for what Blender shows within the band around a pixel's centre.
+
+    If the centre itself sees it, the picture's method lost it. That is no fault if an edge lies
+    within the band, where rounding decides; elsewhere it is one, as of the literal textbook test.
+    """
+    centre, found = asked.centre, asked.found
+    for x, y in OFFSETS:
+        hits = yield from part.probe.trace(x * part.band, y * part.band)
+        asked.beside.append(hits)
+        distance = part.band * max(abs(x), abs(y))
+        other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
+        np.minimum(found, _sides(part.scene, part.picture, hits, distance), out=found)
+        off = np.where(asked.lost, np.where(other, distance, np.inf), found.max(axis=0))
+        part.give(off < np.inf, EDGE, off, part.band)
+        yield 0.0
+        if part.done:
+            return
+
+
+def _behind(part: Part, asked: _Asked) -> Work[None]:
+    """Look for what Blender shows in surfaces that tie with the first one.
+
+    That may be the centre itself: these rays are float64's, and of surfaces that are nearer than
+    its last place they may see another one than the frame, which is certified. Where what the frame
+    met is shown as well, its colour is another for another reason, as of a mean of several samples.
+    """
+    first, frame = asked.centre, part.pixels.frame
+    met = first  # where another scene is asked than the frame's
+    if part.scene.instances is frame.scene.instances:
+        met = frame.hits().take(np.ravel_multi_index(part.at, frame.shape))
+    may = (first.instance != NOTHING) & part.picture.differ(part.scene, met)
+    allowed = np.where(may, part.resolution(first), -1.0)
+    with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
+        moved = np.abs(first.t - met.t)
+    part.give(asked.lost & (moved <= allowed), DEPTH_TIE, moved, allowed)
+    hits = first
+    for _ in range(LAYERS):
+        hits = yield from part.probe.trace(after=hits)
+        with np.errstate(invalid="ignore"):
+            gap = hits.t - first.t
+        if not (gap <= allowed).any():
+            break
+        asked.behind.append((hits, np.where(gap <= allowed, gap, np.inf)))
+    yield from _mixed(part, asked)
+
+
+def _mixed(part: Part, asked: _Asked) -> Work[None]:
+    """Give a tie to pixels with the colour or the object behind, and the other where it was found.
+
+    An edge may have decided one of the two drawings, a tie the other.
+    """
+    scene, picture = part.scene, part.picture
+    color, owner = asked.found < np.inf
+    color = color & ~asked.lost
+    allowed = part.resolution(asked.centre)
+    for hits, gap in asked.behind:
+        tied = gap < np.inf
+        color |= tied & picture.same_color(scene, hits)
+        owner = owner | (tied & ~picture.other_object(hits.instance))
+        part.give(tied & color & owner, DEPTH_TIE, gap, allowed)
+        yield 0.0
+
+
+def _covering(part: Part, asked: _Asked) -> Work[None]:
+    """Look for triangles that no sample hits, but that come near before any surely covered one."""
+    scene, width = part.scene, part.band
+    found = asked.found
+    may = yield from coverage(part.probe, width)
+    farthest = may.behind + part.resolution(may.sure)[may.pixel]
+    of = _sides(scene, part.picture.at(may.pixel), may.hits, may.distance)
+    nothing = _sides(scene, part.picture, Hits.none(len(width)), width)
+    nothing[:, np.isfinite(may.sure.t)] = np.inf
+    asks = (nothing < np.inf).any(axis=0)
+    asks[may.pixel[(of < np.inf).any(axis=0) & (may.hits.t <= farthest)]] = True
+    closed = np.full(len(width), np.inf)
+    if part.picture.renderer.closed:
+        closed = _closed(scene, asked.beside, asks & ~asked.lost)
+    farthest = np.minimum(farthest, (closed + part.resolution(asked.centre))[may.pixel])
+    visible = may.hits.t <= farthest
+    for side, off in zip(found, of, strict=True):
+        np.minimum.at(side, may.pixel[visible], off[visible])
+    np.minimum(found, np.where(np.isinf(closed), nothing, np.inf), out=found)
+    off = found.max(axis=0)
+    part.give((off < np.inf) & ~asked.lost, EDGE, off, width)
+
+
+def _closed(scene: Scene, beside: list[Hits], asks: Bools) -> Floats:
+    """Return the depth at which n pixels surely see a closed surface of several triangles, (n,).
+
+    It is infinite where there is none. Triangles that share an edge, or a corner all around it,
+    leave no gap between them, as a rasteriser rounds what they share alike. But a clipped triangle
+    gets corners of its own. Only the pixels that ask are looked at.
+    """
+    instance = np.stack([h.instance for h in beside])
+    triangle = np.stack([h.triangle for h in beside])
+    out, camera = np.full(len(asks), np.inf), scene.camera
+    on_one = (instance == instance[0]).all(axis=0) & (instance[0] < len(scene.instances))
+    asked = np.flatnonzero(asks & on_one & (instance[0] != NOTHING))
+    for number in np.unique(instance[0, asked]):
+        pixels, of = asked[instance[0, asked] == number], scene.instances[number]
+        mesh = scene.meshes[of.mesh]
+        names = triangle[:, pixels]
+        corners = mesh.vertices[mesh.triangles[names]]  # (samples, pixels, 3, 3)
+        same = (corners[0][:, :, None] == corners[:, :, None]).all(axis=-1)
+        shared = same.any(axis=-1).all(axis=0).sum(axis=-1)
+        several = 1 + (np.diff(np.sort(names, axis=0), axis=0) > 0).sum(axis=0)
+        points = transform_points(of.world_from_object, corners.reshape(-1, 3).T)
+        depth = film_of(camera, points)[2].reshape(corners.shape[:-1])
+        whole = ((depth >= camera.clip_start) & (depth <= camera.clip_end)).all(axis=(0, 2))
+        closed = pixels[whole & (shared >= np.maximum(4 - several, 1))]
+        out[closed] = np.max([hits.t[closed] for hits in beside], axis=0)
+    return out

@@ -1,0 +1,160 @@
+"""Finds out why each pixel differs: the causes, and their checks in order.
+
+A check can fail. It gives its cause only if the tracer itself, asked again, sees what Blender
+shows, or if something that the tracer does not model is drawn in that very pixel. What may change a
+picture anywhere, as light does, excuses anything: the comparison then says that it cannot judge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import Bools, Places
+from ..pictures.bounds import DECIDABLE
+from ..pictures.renderers import sample_band
+from ..rendering import steps
+from ..tracer import shading
+from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING
+from ..tracer.progress import Work, scaled
+from .case import Case
+from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause, Causes
+from .checks import anti_aliasing, clip, color, edges, hidden, identity, unmodelled
+from .checks.anti_aliasing import ANTI_ALIASING
+from .checks.background import Background, find_background
+from .checks.behind import wrong_behind
+from .checks.clip import CLIP_PLANE
+from .checks.color import COLOR
+from .checks.edges import DEPTH_TIE, EDGE
+from .checks.hidden import HIDDEN
+from .checks.probe import OpenPixels, blocks, other_color
+from .checks.unmodelled import NOT_MODELLED
+from .embree import not_decidable
+
+# All causes, in the order of the legend.
+CAUSES: tuple[Cause, ...] = (
+    AGREE,
+    EDGE,
+    DEPTH_TIE,
+    CLIP_PLANE,
+    ANTI_ALIASING,
+    COLOR,
+    NOT_MODELLED,
+    HIDDEN,
+    NOT_DECIDABLE,
+    UNEXPLAINED,
+    NOT_TRACED,
+)
+BY_NUMBER = {cause.number: cause for cause in CAUSES}
+
+# The checks in the order in which a pixel is asked, and the share of each in the work, roughly. The
+# first check that accounts for a pixel gives it its cause; if none does, it is unexplained.
+CHECKS: list[tuple[Callable[[OpenPixels], Work[None]], float]] = [
+    (color.check, 0.02),
+    (anti_aliasing.check, 0.1),
+    (edges.check, 0.6),
+    (clip.check, 0.1),
+    (unmodelled.check_otherwise, 0.05),
+    (hidden.check, 0.1),
+    (unmodelled.check_everywhere, 0.01),
+]
+_OPENING = 0.1  # of the work, before the checks
+
+
+class Explained(NamedTuple):
+    """A comparison's pixels with their causes, before the picture's own background."""
+
+    case: Case
+    frame: Frame
+    background: Background | None  # where the picture's is not the scene's
+    causes: Causes
+
+
+def explain(case: Case, frame: Frame, at_most: int | None = None) -> Work[Explained]:
+    """Find out why the pixels of a traced frame differ, as a comparison and its self-check do.
+
+    With `at_most`, no more differing pixels are looked at: see :func:`find_causes`.
+    """
+    background = None
+    if case.curves is not None and not frame.cancelled:
+        finding = find_background(frame, case.picture, case.curves)
+        background = yield from scaled(finding, 0.0, 0.1)
+    if background:
+        case = case.before(np.array(background.picture, np.float32))
+        frame = yield from scaled(_before(case, frame), 0.1, 0.1)
+    case = yield from scaled(identity.without_contradictions(case, frame), 0.2, 0.05)
+    causes = yield from scaled(find_causes(case, frame, at_most), 0.25, 0.75)
+    return Explained(case, frame, background, causes)
+
+
+def _before(case: Case, frame: Frame) -> Work[Frame]:
+    """Return a traced frame before the case's background; traced again if its colours are mixed."""
+    color = frame.color.copy()
+    color[frame.instance_index == NOTHING] = case.scene.background
+    if case.settings.samples > 1:
+        again = Frame.empty(case.scene)
+        yield from steps(case.scene, case.settings, again)
+        color = again.color
+    return replace(frame, scene=case.scene, color=color)
+
+
+def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Causes]:
+    """Give every pixel of a traced frame its cause; yields the share of the work done.
+
+    With `at_most`, no more differing pixels are looked at, spread over the picture. The others keep
+    AGREE, and are in `Causes.passed_over`.
+    """
+    out = Causes.none(frame.shape)
+    out.blind = unmodelled.blind(case, frame)
+    picture = unmodelled.as_known(case)
+    none = np.zeros(frame.shape)
+    pixels = OpenPixels(case, frame, picture, out, none.astype(bool), none)
+    yield from scaled(_open(pixels), 0.0, _OPENING)
+    yield from scaled(unmodelled.check_in_place(pixels), _OPENING, 0.0)
+    if at_most is not None:
+        out.passed_over = _thin(pixels.open, at_most)
+    done, weights = _OPENING, sum(weight for _, weight in CHECKS)
+    for check, weight in CHECKS:
+        share = (1 - _OPENING) * weight / weights
+        yield from scaled(check(pixels), done, share)
+        done += share
+    pixels.give(pixels.open, UNEXPLAINED)
+    looking = wrong_behind(case, frame, find_causes)
+    behind, wrong = yield from scaled(looking, 1.0, 0.0)
+    out.behind = behind if behind.any() else None
+    wrong &= out.cause != NOT_TRACED
+    out.cause[wrong], out.figure[wrong], out.allowed[wrong] = UNEXPLAINED, np.nan, np.nan
+    yield from scaled(unmodelled.name_drawn(pixels), 1.0, 0.0)
+    yield from scaled(color.name_shades(pixels), 1.0, 0.0)
+    return out
+
+
+def _open(pixels: OpenPixels) -> Work[None]:
+    """Find the band, and open the pixels that differ and can be decided."""
+    scene = pixels.case.scene
+    frame = pixels.frame
+    seen = frame.instance_index
+    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape), pixels.picture.renderer)
+    pixels.band += pixels.picture.off_center
+    if pixels.picture.farthest < np.inf:
+        pixels.band[not_decidable(scene, frame, pixels.picture.farthest)] = np.inf
+    ramp = shading.interpolated(scene, seen)
+    finding = other_color(pixels.picture, frame.color, ramp)
+    differ = yield from scaled(finding, 1.0, 0.0)
+    pixels.open[:] = differ | pixels.picture.other_object(seen)
+    pixels.give(np.broadcast_to(~frame.rows_done[:, None], frame.shape), NOT_TRACED)
+    # Not only where the pictures differ: a pixel that agrees by accident proves nothing.
+    pixels.give(pixels.band > DECIDABLE, NOT_DECIDABLE, pixels.band, DECIDABLE)
+
+
+def _thin(open_: Bools, most: int) -> Places:
+    """Close open pixels until no more than `most` are left; return which were closed."""
+    found = np.flatnonzero(open_)
+    left = np.linspace(0, len(found) - 1, min(most, len(found))).astype(int)
+    closed = np.delete(found, left)
+    open_.flat[closed] = False
+    return closed

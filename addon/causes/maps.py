@@ -1,0 +1,75 @@
+"""Draws maps over a traced picture, which is dimmed and grey so that single pixels stand out.
+
+All take and return linear RGBA (h, w, 4), opaque, or some rows of it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Bools, Bytes, Colors
+from ..certainty import Certainty
+from ..images import curve_undone
+from ..runs import by_runs
+from .cause import Color
+from .explain import CAUSES
+
+WRONG: Color = (1.0, 0.0, 0.0)
+DIM = 0.25  # the share of its light that the picture keeps
+RING = 6  # pixels from the one that is marked to its ring
+MOST_RINGS = 500  # of more pixels none is marked: they are found without
+_LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
+
+
+def dimmed(color: Colors) -> Colors:
+    """Return a picture in dimmed greys."""
+    flat = color.reshape(-1, 4)
+    light = by_runs(lambda c: DIM * (np.nan_to_num(c[:, :3]) @ np.array(_LUMINANCE)), flat)
+    out = np.ones(color.shape, np.float32)
+    out[..., :3] = light.reshape(*color.shape[:-1], 1)
+    return out
+
+
+def wrong_map(color: Colors, wrong: Bools) -> Colors:
+    """Return a map of the pixels (h, w) that are wrong."""
+    out = dimmed(color)
+    out[wrong, :3] = WRONG
+    return out
+
+
+def cause_map(color: Colors, cause: Bytes) -> Colors:
+    """Return a map of the causes (h, w) of pixels that do not agree."""
+    out = dimmed(color)
+    for c in CAUSES:
+        if c.color is not None:
+            where = cause == c
+            share = 0.5 if c.see_through else 1.0
+            out[where, :3] = (1 - share) * out[where, :3] + share * np.array(c.color)
+    return out
+
+
+def certainty_map(color: Colors, certainty: Bytes) -> Colors:
+    """Return a map of the `Certainty` of each pixel (h, w).
+
+    Where whole surfaces are of one certainty, the picture stays visible.
+    """
+    table = np.array([bytearray.fromhex(c.color[1:]) for c in Certainty])
+    share = np.array([0.5 if c < Certainty.EXACT else 1.0 for c in Certainty])[certainty][..., None]
+    out = dimmed(color)
+    out[..., :3] += share * (curve_undone(table / 255)[certainty] - out[..., :3])
+    return out
+
+
+def ringed(color: Colors, where: Bools) -> Colors:
+    """Return a picture with a ring around each of a few pixels (h, w), in the pixel's colour."""
+    y, x = np.nonzero(where)
+    if not 0 < len(y) <= MOST_RINGS:
+        return color
+    out = color.copy()
+    dy, dx = np.mgrid[-RING : RING + 1, -RING : RING + 1]
+    ring = np.maximum(abs(dy), abs(dx)) >= RING - 1
+    rows = np.clip(y[:, None] + dy[ring], 0, where.shape[0] - 1)
+    columns = np.clip(x[:, None] + dx[ring], 0, where.shape[1] - 1)
+    out[rows, columns] = color[y, x][:, None]
+    out[y, x] = color[y, x]
+    return out

@@ -1,1 +1,0 @@
-"""Two pictures of one scene: how far they differ, and why."""

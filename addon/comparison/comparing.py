@@ -1,0 +1,112 @@
+"""Compares a traced scene with a picture, in small steps; then finds what is wrong with it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..causes.case import Case
+from ..causes.counts import count_pixels
+from ..causes.excused import excused
+from ..causes.explain import explain
+from ..diagnosis.diagnosis import diagnose
+from ..diagnosis.guessing import STEPS
+from ..diagnosis.self_check import FaultRow, self_check
+from ..pictures.identity import Identity
+from ..pictures.metrics import boundary, image_metrics
+from ..rendering import steps
+from ..tracer.frame import Frame
+from ..tracer.memory import ALWAYS, COMPARED, check_memory
+from ..tracer.progress import Work, called, scaled
+from .comparison import Comparison
+from .methods import list_methods
+
+# Shares of the work, roughly. A self-check takes the larger part of it.
+_TRACING, _METHODS = 0.4, 0.35
+_CHECKING = 0.8
+_CAUSES = 0.8  # of comparing: the rest is for metrics and counts
+
+
+def trace_and_compare(case: Case) -> Work[Comparison]:
+    """Trace a scene and compare it with the picture, in small steps.
+
+    Yields the share of the work done; the caller stops by not asking for more.
+
+    Raises
+    ------
+    SizeError
+        If the picture is not of the frame's size.
+    SceneError
+        If its samples lie too far from the pixels' centres.
+    PictureTooLargeError
+        If there is not enough memory to compare them.
+    """
+    region = case.scene.camera.region
+    check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # frames ask for theirs again
+    frame = Frame.empty(case.scene)
+    case.picture.check(frame.color.shape)
+    rest = 1 - _CHECKING if case.self_check else 1.0
+    tracing = called(steps(case.scene, case.settings, frame, case.tracer), "tracing")
+    yield from scaled(tracing, 0.0, rest * _TRACING)
+    listing = list_methods(case.scene, case.settings, frame, case.tracer)
+    listing = called(listing, "tracing by the textbook")
+    rows = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
+    done = rest * (_TRACING + _METHODS)
+    found = yield from scaled(compare(case, frame), done, 1 - done)
+    return replace(found, methods=rows)
+
+
+def diagnosed(comparison: Comparison, steps: float = STEPS) -> Work[Comparison]:
+    """Return a comparison with what accounts for its unexplained pixels, if it has any.
+
+    Yields the share of the work done. The verdict stays. No guess is begun after so many steps.
+    """
+    if not comparison.counts.unexplained:
+        return comparison
+    case, frame, causes = comparison.case, comparison.frame, comparison.causes
+    work = diagnose(case, frame, causes, steps=steps)
+    found = yield from called(work, "looking for what is wrong")
+    return replace(comparison, diagnosis=found)
+
+
+def compare(case: Case, frame: Frame) -> Work[Comparison]:
+    """Compare a traced frame with the picture; yields the share of the work done.
+
+    Raises
+    ------
+    SizeError
+        If the picture is not of the frame's size.
+    SceneError
+        If its samples lie too far from the pixels' centres.
+    """
+    case.picture.check(frame.color.shape)
+    rest = 1 - _CHECKING if case.self_check else 1.0
+    explaining = called(explain(case, frame), "looking for causes")
+    found = yield from scaled(explaining, 0.0, rest * _CAUSES)
+    traced, picture = found.frame, found.case.picture  # both before the picture's own background
+    measuring = called(image_metrics(traced.color, picture.color), "measuring differences")
+    measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
+    identity = None
+    if picture.owner is not None and picture.owners is not None:
+        own = picture.owners[traced.instance_index]
+        identity = Identity(picture.names, own, picture.owner)
+    yield rest
+    at_boundary = boundary(traced)
+    yield rest
+    features = [str(u) for u in case.manifest.unmodelled]
+    counts = count_pixels(found.causes, at_boundary, identity, features)
+    yield rest
+    checked: tuple[FaultRow, ...] = ()
+    if case.self_check:
+        checking = self_check(case, frame, found.causes)
+        checked = yield from scaled(checking, rest, _CHECKING)
+    return Comparison(
+        found.case,
+        traced,
+        found.causes,
+        counts,
+        measured,
+        excused(found.case, traced, found.causes),
+        identity=identity,
+        self_check=checked,
+        background=found.background,
+    )

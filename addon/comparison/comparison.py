@@ -1,0 +1,275 @@
+"""Compares a traced scene with a picture: the counts, the causes, the metrics, the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Colors
+from ..causes.case import Case
+from ..causes.cause import Causes
+from ..causes.checks.background import Background
+from ..causes.checks.color import COLOR
+from ..causes.checks.hidden import HIDDEN
+from ..causes.checks.unmodelled import NOT_MODELLED
+from ..causes.counts import PixelCounts
+from ..causes.excused import COMPARABLE, Excused
+from ..causes.explain import BY_NUMBER, CAUSES
+from ..certainty import Certainty
+from ..certified.rounding import rounding
+from ..diagnosis.diagnosis import Diagnosis
+from ..diagnosis.self_check import FaultRow, table
+from ..manifest import Effect, Manifest
+from ..pictures.identity import Identity
+from ..pictures.metrics import Metrics
+from ..scene import Scene
+from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING
+from ..wording import count_of
+from .methods import MethodRow
+from .verdict import Verdict
+
+SCHEMA = "reference_tracer.comparison/1"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """What was compared, and what came of it."""
+
+    case: Case  # with the scene before the picture's own background, if it has one
+    frame: Frame
+    causes: Causes
+    counts: PixelCounts
+    metrics: Metrics
+    excused: Excused  # what rests on rounding
+    methods: tuple[MethodRow, ...] = ()
+    identity: Identity | None = None  # which object each side shows
+    self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
+    background: Background | None = None  # where the picture's is not the scene's
+    diagnosis: Diagnosis | None = None  # what accounts for unexplained pixels, if it was looked for
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was traced."""
+        return self.case.scene
+
+    @property
+    def manifest(self) -> Manifest:
+        """What was exported, skipped, not modelled."""
+        return self.case.manifest
+
+    @property
+    def picture(self) -> Colors:
+        """What the scene is compared with, (h, w, 4) linear RGBA."""
+        return self.case.picture.color
+
+    @property
+    def verdict(self) -> Verdict:
+        """How it ended: differences are those that no cause explains."""
+        if self.frame.cancelled:
+            return Verdict.CANCELLED
+        certificate = self.case.certificate
+        if self.counts.unexplained or (certificate and not certificate.passed):
+            return Verdict.DIFFERENCES
+        if max(self.counts.not_judged.share, self.excused.share) > COMPARABLE:
+            return Verdict.NOT_COMPARABLE
+        return Verdict.WARNINGS if any(self._doubts()) else Verdict.AGREE
+
+    def _doubts(self) -> Iterator[str]:
+        """Yield why the verdict cannot be better than a warning, in a few words each."""
+        for feature in self.manifest.unmodelled:
+            if feature.effect in (Effect.UNPLACED, Effect.MISSING):
+                yield str(feature)
+        for entry in self.manifest.objects:
+            if entry.left_out:
+                yield f"triangles of '{entry.name}' are left out"
+        for cause in CAUSES:
+            if cause.warns and self.counts.by_cause[cause.key]:
+                yield (cause == COLOR and self.causes.transform) or cause.label
+        if self.counts.not_judged.pixels:
+            yield "a part cannot be judged"
+        if self.excused.too_much:
+            yield "much rests on rounding alone"
+        if unjudged := self.excused.objects:
+            more = f" and {len(unjudged) - 1:,} other objects" if len(unjudged) > 1 else ""
+            yield f"'{unjudged[0].object}'{more} rests on rounding alone"
+        if self.empty:
+            yield "the picture is empty"
+        if any(row.missed for row in self.self_check):
+            yield "the self-check missed a fault"
+        if self.background and not self.background.transparent:
+            yield self.background.unjudged()
+
+    def told(self, x: int, y: int) -> str:
+        """Return why a pixel has its cause, in a sentence with its numbers and names."""
+        cause = BY_NUMBER[self.causes.cause[y, x]]
+        figure = self.causes.figure[y, x]
+        name: object = ""
+        if cause == NOT_MODELLED:
+            name = self.manifest.unmodelled[int(figure)]
+        elif cause == HIDDEN:
+            name = self.causes.hidden[int(figure)]
+        return cause.told(figure, self.causes.allowed[y, x], name)
+
+    @property
+    def empty(self) -> bool:
+        """Whether no ray hits anything: then nothing in the picture could have been wrong."""
+        return bool((self.frame.instance_index == NOTHING).all())
+
+    @property
+    def required(self) -> list[str]:
+        """What it took to certify the picture, and what was left out, in words, a fact a line."""
+        return list(dict.fromkeys(line for row in self.methods for line in row.required))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the comparison as JSON can hold it."""
+        certificate = self.case.certificate
+        return {
+            "schema": SCHEMA,
+            "scene": self.manifest.to_dict(),
+            "blender": self.case.picture.to_dict(),
+            "tracer": self._tracer(),
+            "methods": [row.to_dict() for row in self.methods],
+            "pixels": self.counts.to_dict(),
+            "excused": self.excused.to_dict(),
+            "causes": {c.key: c.to_dict() for c in CAUSES},
+            "transform": self.causes.transform,
+            "shades": [shade._asdict() for shade in self.causes.shades],
+            "background": self.background and self.background.to_dict(),
+            "hidden": [h._asdict() for h in self.causes.hidden],
+            "identity": self.identity and self.identity.to_dict(),
+            "diagnosis": self.diagnosis and self.diagnosis.to_dict(),
+            "certificate": certificate and certificate.to_dict(),
+            "self_check": [row.to_dict() for row in self.self_check],
+            "metrics": self.metrics.to_dict(),
+            "verdict": self.verdict,
+        }
+
+    def _tracer(self) -> dict[str, Any]:
+        """Return how the scene was traced, as JSON can hold it."""
+        s, settings = self.frame.statistics, self.case.settings
+        certainty = self.frame.certainty
+        off = rounding(self.scene)._asdict()
+        return {
+            "method": s.method,
+            "precision": str(settings.precision),
+            "samples": settings.samples,
+            "seconds": round(s.seconds, 6),
+            "triangles": s.triangles,
+            "refused_triangles": s.refused,
+            "pairs_tested": s.pairs_tested,
+            "pairs_exact": s.pairs_exact,
+            "rounding": {k: v if v < np.inf else None for k, v in off.items()},
+            "exact_reasons": {reason.name.lower(): n for reason, n in s.reasons.items()},
+            "certainty": {c.name.lower(): int((certainty == c).sum()) for c in Certainty},
+            "cancelled": self.frame.cancelled,
+        }
+
+    def lines(self) -> list[str]:
+        """Return what a person wants to know first, a fact a line."""
+        counts = self.counts
+        settings, traced = self.case.settings, self.frame.statistics
+        return [
+            f"{counts.agree:,} of {counts.total:,} pixels agree with "
+            f"{self.case.picture.source}, {counts.differ:,} differ",
+            *self._of_causes(),
+            *self._evidence(),
+            *(self.diagnosis.lines() if self.diagnosis else ()),
+            self._measured(),
+            f"traced {count_of(traced.triangles, 'triangle')} in {traced.seconds:.2f} s "
+            f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
+            "a pixel)",
+            *(row.line() for row in self.methods),
+            *self.required,
+            *table(self.self_check),
+            f"verdict: {self.verdict}{self._but()}",
+        ]
+
+    def _but(self) -> str:
+        """Return why it is no better than a warning, or what it leaves out, for its own line."""
+        why: Iterable[str] = ()
+        if self.verdict in (Verdict.WARNINGS, Verdict.NOT_COMPARABLE):
+            why = dict.fromkeys(self._doubts())
+        elif self.background and not self.background.transparent:
+            why = (self.background.unjudged(),)
+        return f" ({'; '.join(why)})" if why else ""
+
+    def _of_causes(self) -> Iterator[str]:
+        """Say how many pixels have each cause, and where the first of them are."""
+        for cause in sorted(CAUSES):
+            if count := self.counts.by_cause.get(cause.key):
+                first = self.counts.examples.get(cause.key, ())[:3]
+                at = ", ".join(f"({x}, {y})" for x, y in first)
+                yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
+
+    def _measured(self) -> str:
+        m = self.metrics
+        psnr = f"{m.psnr:.1f} dB" if m.rmse else "infinite"
+        x, y = m.largest_difference.pixel
+        most = f"largest difference {m.largest_difference.value:.3g} at pixel ({x}, {y})"
+        if not m.rmse:
+            most = "no difference anywhere"
+        return f"RMSE {m.rmse:.3g}, PSNR {psnr}, SSIM {m.ssim:.6f}, {most}"
+
+    def _evidence(self) -> Iterator[str]:
+        """Say what else was found out about the pixels that differ."""
+        causes, certificate = self.causes, self.case.certificate
+        inside, rim = self.counts.interior, self.counts.boundary
+        yield (
+            f"{inside.differ:,} of {inside.total:,} interior and {rim.differ:,} of "
+            f"{rim.total:,} boundary pixels differ"
+        )
+        if self.case.picture.source.file:
+            words, known = self.case.picture.renderer.words, self.case.picture.source.known
+            why = f", {known}" if known else ""
+            yield f"a pixel may differ by the rounding of {words}{why} (--renderer)"
+        if self.background:
+            yield self.background.line()
+        if self.empty:
+            yield "the picture is empty: no ray meets anything"
+        yield from self.not_judged()
+        if causes.transform:
+            yield f"colours: {causes.transform}"
+        yield from (shade.line() for shade in causes.shades)
+        yield from (f"only one side shows {h}" for h in dict.fromkeys(causes.hidden))
+        shows = self.counts.unexplained_shows
+        if shows and self.counts.unexplained:
+            yield (
+                f"of the unexplained pixels {shows.same_object:,} show the same object in "
+                f"another colour, {shows.other_object:,} another object"
+            )
+        if certificate:
+            yield certificate.line()
+
+    def not_judged(self) -> Iterator[str]:
+        """Say what share of the picture cannot be judged, why, and what would help."""
+        told, total = self.counts.not_judged, self.counts.total
+        if lights := [str(u) for u in self.manifest.unmodelled if u.effect is Effect.LIGHT]:
+            known = "whose surfaces it shows can" if self.identity else "nor whose surfaces"
+            yield f"no colour of this picture can be judged, {known}: {', '.join(lights)}"
+        if told.pixels:
+            features = ", ".join(told.by_feature)
+            yield f"{_share(told.pixels, total)} of this picture cannot be judged: {features}"
+        if behind := self.counts.behind:
+            yield (
+                f"what is behind transparent surfaces was judged in {behind.pixels:,} px, by a "
+                f"picture without them: {behind.unexplained:,} px are unexplained"
+            )
+        if undecided := self.counts.not_decidable:
+            yield (
+                f"{_share(undecided, total)} of this picture is not decidable: so far from the "
+                "origin, or at such a scale, float32 moves Blender's surfaces by more than half a "
+                "pixel; move the scene to the origin, or apply the objects' scale"
+            )
+        yield from self.excused.lines()
+
+
+def _share(pixels: int, total: int) -> str:
+    """Return a share in per cent. What is not all of it is never said to be 100 %, or 0 %."""
+    share = 100 * pixels / total
+    if 1 <= share <= 99 or pixels == total:
+        return f"{share:.0f} %"
+    return f"{min(max(share, 0.1), 99.9):.1f} %"

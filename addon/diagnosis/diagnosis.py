@@ -1,0 +1,252 @@
+"""The diagnosis: what accounts for the unexplained pixels, with numbers that one can act on.
+
+Each known fault is put into the scene that is traced, or taken out of the picture. It is told only
+if the picture then agrees: `guessing.py` says under which conditions. It never changes the verdict.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..arrays import Colors
+from ..causes.case import Case
+from ..causes.cause import Causes
+from ..pictures.identity import Identity
+from ..tracer.frame import Frame
+from ..tracer.progress import Work, scaled
+from ..wording import count_of
+from .evidence import Evidence
+from .faults import FAULTS
+from .faults.fault import Fault, Guess
+from .guessing import LEAST, STEPS, Guessing, accounting
+from .regions import Region, regions, sides
+from .trial import Trial, counted
+from .variants import carried, with_variants
+
+ROUNDS = 3  # faults one after the other, at most
+FRAMED = 5  # regions that are named
+ALTERNATIVES = 3  # that are told at length
+NAMED = 6  # faults that are named where there is no room for more
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """A fault that accounts for unexplained pixels."""
+
+    fault: Fault
+    guess: Guess
+    unexplained: int  # pixels, before
+    settled: int  # of these, pixels that agree with this put right
+    agreed: int  # pixels that agreed or had a cause
+    broken: int  # of these, pixels that do not, with this put right
+    frame: Frame  # what is traced with it, and with those told before, in the picture's colours
+    picture: Colors  # what it is compared with, (h, w, 4) linear RGBA
+    alternative: bool = False  # it does as well as the one told before it
+    also: tuple[str, ...] = ()  # names of further faults that do as well
+
+    @property
+    def sentence(self) -> str:
+        """What is wrong, without a full stop."""
+        return self.fault.told(self.guess)
+
+    def effect(self) -> str:
+        """Say what putting it right does."""
+        lost = f"{self.broken:,}" if self.broken else "none"
+        return (
+            f"with this put right, {self.settled:,} of {self.unexplained:,} unexplained pixels "
+            f"agree, and {lost} that agreed {'are' if self.broken > 1 else 'is'} lost"
+        )
+
+    @property
+    def is_all(self) -> bool:
+        """Whether it settles all that was unexplained, and loses nothing."""
+        return self.settled == self.unexplained and not self.broken
+
+    def enclosed(self) -> str:
+        """Say between what its numbers lie; empty if none was fitted, or each is one number.
+
+        Where pixels are left, or lost, something else is wrong, too, or the fit ended beside the
+        best place: then nothing is said of how far the numbers may be off.
+        """
+        g = self.guess
+        if not self.is_all:
+            return ""
+        ends = zip(self.fault.numbers, g.low, g.high, strict=False)
+        wide = ((name, f"{low:.6g}", f"{high:.6g}") for name, low, high in ends)
+        return ", ".join(f"{name} from {low} to {high}" for name, low, high in wide if low != high)
+
+    def lines(self) -> Iterator[str]:
+        """Yield it as a person reads it."""
+        yield f"diagnosis: {'or, as likely, ' if self.alternative else ''}{self.sentence}"
+        yield f"           {self.effect()}"
+        if enclosed := self.enclosed():
+            yield f"           what agrees as well lies within: {enclosed}"
+        if self.also:
+            named = ", ".join(map(spoken, self.also))
+            how = "so it would be with" if self.fault.sums_up else "as likely"
+            yield f"           {how}: {named}"
+        yield f"           what to do: {self.fault.advised(self.guess)}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON can hold it."""
+        g = self.guess
+        numbers = {name: [v] for name, v in zip(self.fault.numbers, g.values, strict=False)}
+        if self.is_all:
+            for name, low, high in zip(self.fault.numbers, g.low, g.high, strict=False):
+                numbers[name] += [low, high]
+        return {
+            "fault": self.fault.name,
+            "sentence": self.sentence,
+            "advice": self.fault.advised(g),
+            "object": g.object,
+            "numbers": numbers,
+            "alternative": self.alternative,
+            "also": list(self.also),
+            "unexplained": self.unexplained,
+            "settled": self.settled,
+            "agreed": self.agreed,
+            "broken": self.broken,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """What accounts for the unexplained pixels of a comparison."""
+
+    told: tuple[Told, ...] = ()
+    guesses: int = 0  # that were tried on the sample
+    steps: int = 0  # of work
+    seconds: float = 0.0
+    untried: tuple[str, ...] = ()  # faults that were not looked for to the end: it took too many
+    left: int = 0  # pixels that nothing accounts for
+    regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
+
+    def lines(self) -> list[str]:
+        """Return what a person wants to know first."""
+        out = [line for told in self.told for line in told.lines()]
+        if not out:
+            which = "fault that was tried" if self.untried else "known fault"
+            out = [f"diagnosis: no {which} accounts for the unexplained pixels"]
+        if self.left:
+            places = count_of(len(self.regions), "region")
+            out.append(f"           {self.left:,} px are left, in {places}:")
+            out += [f"             {_framed(region)}" for region in self.regions[:FRAMED]]
+        if self.untried and not (self.told and self.told[-1].is_all):
+            out.append(f"           (a limit of work ended the search for: {self._untried})")
+        return out
+
+    @property
+    def _untried(self) -> str:
+        more = len(self.untried) - NAMED
+        named = ", ".join(map(spoken, self.untried[:NAMED]))
+        return f"{named} and {more} more" if more > 0 else named
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON can hold it."""
+        return {
+            "told": [told.to_dict() for told in self.told],
+            "guesses": self.guesses,
+            "steps": self.steps,
+            "seconds": round(self.seconds, 3),
+            "ended": bool(self.untried),
+            "untried": list(self.untried),
+            "left": self.left,
+            "regions": [region.to_dict() for region in self.regions],
+        }
+
+
+def _framed(region: Region) -> str:
+    """Say where a region is, and what is in it; the pixel counts from the picture's lower left."""
+    shows = ", ".join(f"'{name}'" for name in region.objects[:3]) or "nothing of the scene"
+    place = f"{region.width} x {region.height} px from ({region.left}, {region.bottom})"
+    return f"{region.pixels:,} px in {place}: {shows}"
+
+
+def diagnose(
+    case: Case,
+    frame: Frame,
+    causes: Causes,
+    faults: Sequence[Fault] = FAULTS,
+    steps: float = STEPS,
+) -> Work[Diagnosis]:
+    """Look for what accounts for the unexplained pixels; yields the share of the work done.
+
+    The frame was traced of the case, and the causes were found of it, all before the picture's own
+    background. If nothing is unexplained, nothing is done. No guess is begun after so many steps.
+    """
+    evidence = Evidence(case, frame, causes)
+    if not evidence.open.any() or frame.cancelled:
+        return Diagnosis()
+    began = time.monotonic()
+    guessing = Guessing(faults, steps)
+    evidence = yield from with_variants(evidence)
+    was_open = evidence.open
+    told: list[Told] = []
+    for number in range(ROUNDS):
+        finding = accounting(guessing, evidence)
+        chain = yield from scaled(finding, number / ROUNDS, 1 / ROUNDS)
+        if not chain:
+            break
+        for trials in chain:
+            told += _all_told(evidence, trials)
+            evidence = carried(evidence, trials[0])
+        remain = int((evidence.open & was_open).sum())
+        broken = int((evidence.open & ~was_open).sum())
+        if remain < max(
+            LEAST, broken
+        ):  # what was broken is no other fault's, nor is what is beside
+            break
+    left = int(evidence.open.sum())
+    framed = _regions(evidence) if left else ()
+    seconds = time.monotonic() - began
+    untried = tuple(sorted(guessing.untried))
+    work = guessing.guesses, guessing.steps, seconds, untried
+    return Diagnosis(tuple(told), *work, left, framed)
+
+
+def _regions(evidence: Evidence) -> tuple[Region, ...]:
+    """Return the regions of what is unexplained, with the objects in them."""
+    case, frame = evidence.case, evidence.frame
+    identity, picture = None, case.picture
+    if picture.owner is not None and picture.owners is not None:
+        own = picture.owners[frame.instance_index]
+        identity = Identity(picture.names, own, picture.owner)
+    return tuple(regions(evidence.open, sides(case.scene, frame, identity)))
+
+
+def spoken(name: str) -> str:
+    """Return a fault's name in words: its sentence, where that is the same for every guess."""
+    same = (f.sentence for f in FAULTS if f.name == name and "{" not in f.sentence)
+    return next(same, name.replace("_", " "))
+
+
+def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
+    """Return what is told of a fault and of those that do as well, few of them at length."""
+    first, *others = trials
+    many = 0 if first.fault.sums_up else ALTERNATIVES
+    also = tuple(t.fault.name for t in others[many:])
+    at_length = [_told(evidence, t, True) for t in others[:many]]
+    return [replace(_told(evidence, first, False), also=also), *at_length]
+
+
+def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
+    """Return what is told of a trial, in the pixels of the evidence before it."""
+    after = trial.evidence
+    settled, broken, _, _ = counted(evidence, after)
+    color = after.frame.color.copy()
+    made = after.case.picture.made_of(color)  # by a transform, if that is the fault
+    color[..., : made.shape[-1]] = made
+    return Told(
+        trial.fault,
+        trial.guess,
+        int(evidence.open.sum()),
+        settled,
+        int(evidence.judged.sum()),
+        broken,
+        replace(after.frame, color=color),
+        after.case.picture.color,
+        alternative,
+    )

@@ -1,0 +1,261 @@
+"""What a diagnosis has to go by: unexplained pixels, and what a guess makes of a sample of them.
+
+A guess is tried on a sample first: half of it unexplained pixels, half pixels that agree, most of
+these at edges, where a wrong camera shows first. A guess that is right makes the former agree, and
+leaves the latter as they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import Array, Bools, Floats, Integers, Places
+from ..causes.case import Case, Variant
+from ..causes.cause import NOT_DECIDABLE, UNEXPLAINED, Causes
+from ..causes.checks.probe import SOUND, Probe, blocks
+from ..causes.checks.unmodelled import as_known
+from ..pictures.metrics import beside_edges, boundary
+from ..pictures.picture import Picture
+from ..projections import ORTHOGRAPHIC
+from ..scene import Camera, Scene
+from ..tracer.camera import camera_rays, film_of
+from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING, Hits
+from ..tracer.nearest import plan
+from ..tracer.progress import Work
+from .seen import Trees
+
+SAMPLE = 512  # pixels of each kind that are looked at
+FEW = 128  # that are looked at first
+DENSE = 1 << 12  # pixels: for more, all triangles are looked at once
+SEED = 27
+WORTH = 0.2  # of unexplained pixels
+NOISE = 0.03  # of all, which may be wrong for another reason
+LEAST = 4  # unexplained pixels for which an object is suspected
+INVOLVED = 0.1  # of the pixels of the first suspect: others are suspected with as many
+MOST_SUSPECTS = 4
+MOST_COLORS = 512  # of a scene in which pixels are told by their colours
+BEYOND = 1e6  # times as far as the farthest surface: where the background is taken to be
+NEAR = 0.02  # of a channel: how far a color may lie from the one that is looked for
+
+
+class Score(NamedTuple):
+    """What a guess makes of the sampled pixels, scaled to the whole picture."""
+
+    settled: float  # unexplained pixels that agree with it
+    broken: float  # pixels that agreed and do not with it
+
+    @property
+    def gain(self) -> float:
+        """How many more pixels agree."""
+        return self.settled - self.broken
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """A comparison with unexplained pixels."""
+
+    case: Case
+    frame: Frame  # what was traced of it
+    causes: Causes
+    variants: tuple[Variant, ...] = ()
+    size: int = SAMPLE
+    fine: bool = False  # whether pixels beside the picture's edges alone are sampled
+    chosen: tuple[Places, Places] | None = None  # the sample, if it was chosen
+    of_object: bool = False  # whether a fault of a single object was put right in it
+    known: dict[str, Any] = field(default_factory=dict)  # what faults share that look for the same
+    trees: Trees = field(default_factory=Trees)
+
+    @cached_property
+    def open(self) -> Bools:
+        """Which pixels (h, w) are unexplained."""
+        return self.causes.cause == UNEXPLAINED
+
+    @cached_property
+    def judged(self) -> Bools:
+        """Which pixels (h, w) agree or have a cause, and can be judged."""
+        return ~self.open & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
+
+    @cached_property
+    def picture(self) -> Picture:
+        """The picture, as far as what is not modelled leaves it known."""
+        return as_known(self.case)
+
+    @cached_property
+    def few(self) -> Evidence:
+        """The same with a smaller sample."""
+        return replace(self, size=min(FEW, self.size))
+
+    @cached_property
+    def sample(self) -> tuple[Places, Places]:
+        """Rows and columns of the n sampled pixels, row by row from the lowest."""
+        rows, columns = np.nonzero(self._weights) if self.chosen is None else self.chosen
+        return rows, columns
+
+    def only(self, some: Places) -> Evidence:
+        """Return the same with some of the sampled pixels alone, by their numbers."""
+        rows, columns = self.sample
+        return replace(self, chosen=(rows[some], columns[some]))
+
+    @cached_property
+    def _weights(self) -> Floats:
+        """How many pixels each sampled pixel stands for, 0 for the others, (h, w)."""
+        out = np.zeros(self.open.shape)
+        if self.fine:
+            out.flat[spread(self.open & self.beside_edges, self.size)] = 1
+            out.flat[spread(self.judged & self.beside_edges, self.size)] = 1
+            return out
+        edge = self.judged & boundary(self.frame)
+        for some, most in (
+            (self.open, self.size),
+            (edge, 3 * self.size // 4),
+            (self.judged & ~edge, self.size // 4),
+        ):
+            chosen = spread(some, most)
+            out.flat[chosen] = int(some.sum()) / max(len(chosen), 1)
+        return out
+
+    @cached_property
+    def beside_edges(self) -> Bools:
+        """Which pixels (h, w) are beside an edge that is shown: small changes show nowhere else."""
+        out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
+        return out if (out & self.open).any() else np.ones_like(out)
+
+    def least_right(self, share: float = WORTH) -> float:
+        """Return how many of the sampled pixels are right if a share of the unexplained ones is.
+
+        With fewer a guess is not worth a closer look.
+        """
+        return float((~self.was_open).sum() + share * self.was_open.sum()) * (1 - NOISE)
+
+    @cached_property
+    def shown(self) -> Picture:
+        """What the n sampled pixels show."""
+        return self.picture.at(self.sample)
+
+    @cached_property
+    def was_open(self) -> Bools:
+        """Which of the n sampled pixels are unexplained, (n,)."""
+        return self.open[self.sample]
+
+    def probe(self, scene: Scene, reach: float = 0.0) -> Work[Probe]:
+        """Prepare to trace the sampled pixels in a scene."""
+        wanted = np.zeros(self.open.shape, bool)
+        wanted[self.sample] = True
+        made = yield from plan(scene, SOUND, reach)
+        return (yield from Probe.of(made, scene.camera.region, wanted.ravel()))
+
+    def trace(self, scene: Scene, at: tuple[Places, Places] | None = None) -> Work[Hits]:
+        """Return what pixels see of a scene: those in n rows and columns, or the sampled ones."""
+        rows, columns = self.sample if at is None else at
+        r = scene.camera.region
+        if len(rows) > DENSE:
+            wanted = np.zeros(self.open.shape, bool)
+            wanted[rows, columns] = True
+            made = yield from plan(scene, SOUND, 0.0)
+            probe = yield from Probe.of(made, r, wanted.ravel())
+            return (yield from probe.trace())
+        rays = camera_rays(scene.camera, columns + r.x0 + 0.5, rows + r.y0 + 0.5)
+        return (yield from self.trees.trace(scene, rays))
+
+    def score(self, case: Case) -> Work[Score]:
+        """Return what a case that differs in its scene, or its picture, makes of the sample."""
+        r = case.scene.camera.region
+        if (r.height, r.width) != self.open.shape:
+            return Score(0, 0)
+        hits = yield from self.trace(case.scene)
+        return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
+
+    def agrees(self, scene: Scene, hits: Hits) -> Bools:
+        """Return which of the n sampled pixels show the n hits of a scene like the case's."""
+        return ~self.shown.differ(scene, hits)
+
+    def scored(self, right: Bools) -> Score:
+        """Return the score of the n sampled pixels, (n,) of them right."""
+        was_open, weights = self.was_open, self._weights[self.sample]
+        settled, broken = right & was_open, ~right & ~was_open
+        return Score(float(weights[settled].sum()), float(weights[broken].sum()))
+
+    @cached_property
+    def film(self) -> Floats:
+        """The film positions of the n sampled pixels' centres, (2, n) pixels of the picture."""
+        rows, columns = self.sample
+        r = self.case.scene.camera.region
+        return np.stack((columns + r.x0 + 0.5, rows + r.y0 + 0.5))
+
+    @cached_property
+    def points(self) -> Floats:
+        """What is traced in the n sampled pixels, (3, n) world space; the background far away.
+
+        Parallel rays that are turned would lose it: of them it is as far as the farthest surface.
+        """
+        t, camera = self.frame.t, self.case.scene.camera
+        seen = np.isfinite(t)
+        beyond = 1.0 if camera.projection is ORTHOGRAPHIC else BEYOND
+        far = beyond * float(np.max(t[seen], initial=1.0))
+        rays = camera_rays(camera, *self.film)
+        return rays.at(np.where(seen, t, far)[self.sample])
+
+    @cached_property
+    def suspects(self) -> tuple[str, ...]:
+        """The objects that are seen in unexplained pixels, or shown in them, the most first.
+
+        All that a moved object makes wrong involves it; less of that involves what is around it.
+        """
+        scene = self.case.scene
+        rows, columns = (v[self.was_open] for v in self.sample)
+        seen = scene.instance_objects[self.frame.instance_index[rows, columns]]
+        shown = self._shown_objects()
+        both = np.concatenate((seen, shown[shown != seen]))
+        count = np.bincount(both[both >= 0], minlength=len(scene.objects))
+        order = np.argsort(-count, kind="stable")
+        least = max(LEAST, INVOLVED * int(np.max(count, initial=0)))
+        return tuple(scene.objects[n] for n in order if count[n] >= least)[:MOST_SUSPECTS]
+
+    def _shown_objects(self) -> Integers:
+        """Return the objects that unexplained pixels of the sample show, NOTHING if not known."""
+        scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.was_open))
+        objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
+        if shown.owner is not None and shown.owners is not None:
+            first = {int(o): n for n, o in reversed(list(enumerate(shown.owners[:-1])))}
+            return objects[[first.get(int(owner), nothing) for owner in shown.owner]]
+        table = scene.color_table[:-1]
+        first_rows = np.sort(np.unique(table, axis=0, return_index=True)[1])  # of each colour
+        table = table[first_rows]
+        if not 0 < len(table) <= MOST_COLORS:
+            return np.full(len(shown.color), NOTHING, np.int32)
+        made = shown.made_of(table)
+        apart = np.abs(shown.color[:, None, : made.shape[1]] - made).max(axis=-1)
+        known, nearest = apart.min(axis=1) <= NEAR, first_rows[apart.argmin(axis=1)]
+        row = np.where(known, nearest, len(scene.color_table) - 1)
+        return objects[np.minimum(np.searchsorted(scene.color_rows[1][:-1], row), nothing)]
+
+
+def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) -> Floats:
+    """Return where a camera sees what another one in its place sees at film positions, (2, n)."""
+    rays = camera_rays(other, px, py)
+    # A panorama's or perspective's rays pass one point: any point of them will do.
+    x, y, _ = film_of(camera, rays.at(np.ones(rays.count)))
+    return np.stack((x, y))
+
+
+def spread(where: Bools, most: int) -> Places:
+    """Return some of the pixels of a mask, by their index, chosen at random."""
+    found = np.flatnonzero(where)
+    if len(found) <= most:
+        return found
+    rng = np.random.default_rng(SEED)
+    return np.sort(rng.choice(found, most, replace=False))
+
+
+def shows_colors(picture: Picture, colors: Array) -> Bools:
+    """Return which pixels (h, w) of a picture show about one of some traced colours (m, 4)."""
+    out = np.zeros(picture.color.shape[:2], bool)
+    for made in picture.made_of(np.unique(colors, axis=0)):  # a thousand trees have one
+        for rows in blocks(out.shape):
+            out[rows] |= (np.abs(picture.color[rows, :, : len(made)] - made) <= NEAR).all(axis=-1)
+    return out

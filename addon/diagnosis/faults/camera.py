@@ -1,0 +1,209 @@
+"""Faults of the camera: where it stands, how it is turned, and where its rays pass."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ...arrays import Array
+from ...causes.case import Case
+from ...scene import Camera, ViewWindow
+from ...tracer.camera import pixel_size
+from ...tracer.frame import Frame
+from .fault import Effort, Example, Fault, Guess, of_camera, options, with_values
+from .film import FOCAL, FOCALS, OFFSET, ROLL
+from .fitting import fitting
+from .stand import MOVED, TURNED
+
+# World space with Y up, as many formats have it, from Blender's with Z up.
+_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+
+
+def _axes(change: Callable[[Array], Array], at_origin: bool = False) -> Callable[[Camera], Camera]:
+    """Return what changes the axes of the camera, the columns of a (3, 3) matrix."""
+
+    def changed(camera: Camera) -> Camera:
+        matrix = camera.world_from_camera.copy()
+        matrix[:3, :3] = change(matrix[:3, :3])
+        if at_origin:
+            matrix[:3, 3] = 0
+        return replace(camera, world_from_camera=matrix)
+
+    return changed
+
+
+def _matrix(change: Callable[[Array], Array]) -> Callable[[Camera], Camera]:
+    """Return what changes the whole matrix of the camera, (4, 4)."""
+    return lambda camera: replace(camera, world_from_camera=change(camera.world_from_camera))
+
+
+def _turned_world(rotation: Array, position: bool) -> Callable[[Camera], Camera]:
+    """Return what turns the camera as if the world had other axes; its position, too, or not."""
+
+    def change(matrix: Array) -> Array:
+        turned = rotation @ matrix
+        if not position:
+            turned[:3, 3] = matrix[:3, 3]
+        return turned
+
+    return _matrix(change)
+
+
+def flipped(camera: Camera, axis: int) -> Camera:
+    """Return the camera that sees the picture mirrored along an axis, 0 or 1."""
+    w = camera.window
+    signs = np.ones(3)
+    signs[axis] = -1
+    sides = (
+        (-w.right, -w.left, w.bottom, w.top) if axis == 0 else (w.left, w.right, -w.top, -w.bottom)
+    )
+    turned = _axes(lambda axes: axes * signs)(camera)
+    return replace(turned, window=ViewWindow(*sides))
+
+
+def _a_pixel_aside(case: Case, frame: Frame) -> Guess | None:
+    """Pick a move that moves what is seen halfway deep by a pixel."""
+    t = frame.t[np.isfinite(frame.t)]
+    if not len(t):
+        return None
+    camera = case.scene.camera
+    width = pixel_size(camera)[0] * camera.projection.scale(float(np.median(t)))
+    return Guess((float(width), 0.0, 0.0), words="")
+
+
+_OFFSET, _FOCAL, _FOCALS, _ROLL = map(fitting, (OFFSET, FOCAL, FOCALS, ROLL))
+_MOVED, _PANNED = fitting(MOVED), fitting(TURNED)
+_MIRRORED_X = options(_axes(lambda axes: axes * (-1, 1, 1)), lambda camera: flipped(camera, 0))
+_MIRRORED_Y = options(_axes(lambda axes: axes * (1, -1, 1)))
+_TRANSPOSED = options(_axes(np.transpose), _axes(np.transpose, at_origin=True))
+_INVERTED = options(_matrix(np.linalg.inv))
+_TURNED = options(
+    *(_turned_world(r, position) for r in (_Y_UP, _Y_UP.T) for position in (True, False))
+)
+_BACKWARDS = options(
+    _axes(lambda axes: axes * (1, 1, -1)),
+    _axes(lambda axes: axes * (-1, 1, -1)),
+    _axes(lambda axes: axes * (1, -1, -1)),
+)
+
+
+CAMERA_FAULTS = (
+    Fault(
+        "pixel_offset",
+        "{words}: ({dx:+.3f}, {dy:+.3f}) px",
+        "move the film position of every ray by that: pixel (i, j) has its centre at "
+        "(i + 1/2, j + 1/2), and the principal point is at half of the width and the height, plus "
+        "the shift",
+        of_camera(OFFSET.camera),
+        _OFFSET[0],
+        ("dx", "dy"),
+        refine=_OFFSET[1],
+        effort=Effort.FILM,
+        examples=(
+            Example("half_pixel", "rays through the pixels' corners", with_values(0.5, 0.5)),
+            Example("one_pixel", "the camera off by a pixel to the right", with_values(1.0, 0.0)),
+        ),
+    ),
+    Fault(
+        "mirrored_x",
+        "the picture is mirrored left to right",
+        "check the sign of the camera's right axis, or of x on the film",
+        *_MIRRORED_X,
+        examples=(Example("mirrored_x", "the camera mirrored left to right", with_values(0)),),
+    ),
+    Fault(
+        "mirrored_y",
+        "the camera is mirrored upside down",
+        "check the sign of the camera's up axis, or of y on the film",
+        *_MIRRORED_Y,
+        examples=(Example("mirrored_y", "the camera mirrored upside down", with_values(0)),),
+    ),
+    Fault(
+        "matrix_transposed",
+        "the camera's rotation is transposed",
+        "the axes right, up and backward are the columns of world_from_camera",
+        *_TRANSPOSED,
+        examples=(Example("camera_transposed", "the camera's rotation inverted", with_values(0)),),
+    ),
+    Fault(
+        "matrix_inverted",
+        "the camera's matrix is inverted: world from camera is taken for camera from world",
+        "invert the view matrix once, not twice or never",
+        *_INVERTED,
+    ),
+    Fault(
+        "focal_length",
+        "the focal length is {percent:+.4g} % off: {words}",
+        "check the lens' unit, the sensor's width, and whether an angle is the whole one or half, "
+        "of the width or of the height",
+        of_camera(FOCAL.camera),
+        _FOCAL[0],
+        ("percent",),
+        refine=_FOCAL[1],
+        effort=Effort.FILM,
+    ),
+    Fault(
+        "focal_lengths",
+        "the focal length is {across:+.4g} % off across, and {up:+.4g} % up",
+        "take one focal length for both, in pixels; a pixel is pixel aspect Y / X as high as it is "
+        "wide; remove the scale of the camera and its parents",
+        of_camera(FOCALS.camera),
+        _FOCALS[0],
+        ("across", "up"),
+        refine=_FOCALS[1],
+        effort=Effort.CAMERA,
+    ),
+    Fault(
+        "camera_moved",
+        "the camera is moved by {right:+.4g} m to its right, {up:+.4g} m upwards and "
+        "{forward:+.4g} m forward: by {words} in the world",
+        "compare its world matrix with the one that the scene has",
+        of_camera(MOVED.camera),
+        _MOVED[0],
+        ("right", "up", "forward"),
+        refine=_MOVED[1],
+        effort=Effort.CAMERA,
+        examples=(
+            Example("camera_moved", "the camera moved by a pixel to its right", _a_pixel_aside),
+        ),
+    ),
+    Fault(
+        "camera_turned",
+        "the camera is turned by {words}",
+        "compare its world matrix with the one that the scene has, and the order of its angles",
+        of_camera(TURNED.camera),
+        _PANNED[0],
+        ("right", "up", "roll"),
+        refine=_PANNED[1],
+        effort=Effort.CAMERA,
+        examples=(
+            Example(
+                "camera_turned", "the camera turned by half a degree", with_values(0.4, 0.3, 0)
+            ),
+        ),
+    ),
+    Fault(
+        "roll",
+        "the camera is rolled by {degrees:+.3f} degrees about its axis",
+        "turn it back; a positive angle turns the picture's content clockwise",
+        of_camera(ROLL.camera),
+        _ROLL[0],
+        ("degrees",),
+        refine=_ROLL[1],
+        effort=Effort.FILM,
+    ),
+    Fault(
+        "y_up",
+        "the camera is placed in a world with Y up, the meshes in one with Z up (or reversed)",
+        "convert both, or none",
+        *_TURNED,
+    ),
+    Fault(
+        "forward",
+        "the camera looks along +Z in place of -Z",
+        "Blender's cameras look along their own -Z, with +Y up",
+        *_BACKWARDS,
+    ),
+)

@@ -1,0 +1,253 @@
+"""Fits a camera in a few numbers: an offset on the film, a focal length, where it stands.
+
+First the traced picture itself is looked up where such a camera would have seen it, which needs no
+ray and finds the numbers to within about a pixel. Then rays are traced, in what is left of the
+sample, until the numbers with the most pixels that agree are enclosed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from ...arrays import Bools, Floats, Places
+from ...causes.checks.probe import Probe
+from ...projections import ORTHOGRAPHIC
+from ...scene import Camera, Scene
+from ...tracer.camera import film_of
+from ...tracer.hits import Hits
+from ...tracer.progress import Work
+from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
+from .climbing import Right, Values
+from .fault import Find, Guess, Refine
+from .search import Search
+
+REACH = 4.0  # pixels that rays may pass beside where they start; beyond, they start anew
+FINE_REACH = 1.0  # pixels, where a fit is made finer: fewer triangles are near
+PREPARED = 2  # cameras at most, so that none is prepared again where a search goes to and fro
+VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
+KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
+LOOKED_UP = 512  # pixels in which the traced picture is looked up
+FINER = 1 / 8  # pixels: the first step where a fit is made finer
+ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
+MOVES = 3  # by which a right start is left, with steps of one length: it is a pixel or two away
+BETTER = 0.03  # by how much larger the share of right pixels must be for a start
+
+
+class Shown(Protocol):
+    """What some sampled pixels show."""
+
+    def only(self, some: Places) -> Shown:
+        """Return the same of some of the pixels, by their numbers."""
+
+    def agrees(self, scene: Scene, hits: Hits) -> Bools:
+        """Return which of the pixels show the hits of a scene, (n,)."""
+
+
+LookUp = Callable[[Evidence, Camera], float]  # the share of some pixels that is right
+
+
+def looked_up(evidence: Evidence, camera: Camera) -> float:
+    """Return the share of the sample that is right if the traced picture is seen by a camera.
+
+    The camera stands where the case's does; what lies outside the traced picture is not known.
+    """
+    own = evidence.case.scene.camera
+    few = _few(evidence)
+    with np.errstate(invalid="ignore"):
+        film = film_beside_camera(own, camera, *evidence.film[:, few])
+        inside, where = _inside(camera, film)
+    if inside.mean() < VALID:
+        return 0.0
+    shown = evidence.shown.at(few).at(inside)
+    made = shown.made_of(evidence.frame.color[where])
+    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
+    if shown.owner is not None and shown.owners is not None:
+        right &= shown.owners[evidence.frame.instance_index[where]] == shown.owner
+    return float(right.mean())
+
+
+def projected(evidence: Evidence, camera: Camera) -> float:
+    """Return the share of what is traced in the sample that a camera anywhere sees as shown.
+
+    What another surface hides is taken to be seen.
+    """
+    few = _few(evidence)
+    at = tuple(v[few] for v in evidence.sample)
+    points = evidence.points[:, few]
+    with np.errstate(invalid="ignore"):
+        x, y, _ = film_of(camera, points)
+        inside, where = _inside(camera, np.stack((x, y)))
+    if inside.mean() < VALID:
+        return 0.0
+    seen = tuple(v[inside] for v in at)
+    shown = evidence.picture.at(where)
+    made = shown.made_of(evidence.frame.color[seen])
+    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
+    if shown.owner is not None and shown.owners is not None:
+        right &= shown.owners[evidence.frame.instance_index[seen]] == shown.owner
+    return float(right.mean())
+
+
+def _few(evidence: Evidence) -> slice:
+    return slice(None, None, -(-evidence.film.shape[1] // LOOKED_UP))
+
+
+def _inside(camera: Camera, film: Floats) -> tuple[Bools, tuple[Floats, Floats]]:
+    """Return which film positions (2, n) lie in the picture, and the rows and columns of these."""
+    r = camera.region
+    column, row = np.floor(film[0] - r.x0), np.floor(film[1] - r.y0)
+    inside = (column >= 0) & (column < r.width) & (row >= 0) & (row < r.height)
+    return inside, (row[inside].astype(int), column[inside].astype(int))
+
+
+@dataclass(frozen=True)
+class Family:
+    """Cameras that differ in a few numbers."""
+
+    camera: Callable[..., Camera | None]
+    # Changes of the numbers that move the film by about a pixel: (m, k) columns, or of each, (m,).
+    axes: Callable[[Evidence], Floats | Values]
+    starts: Callable[[Evidence], Iterator[Values]]
+    words: Callable[[Camera, Guess], str] = lambda camera, guess: ""
+    look_up: LookUp = looked_up
+    # Of the unexplained pixels: with fewer right, by steps of half a pixel, a fit is given up.
+    worth: float = WORTH
+    by_few: bool = False  # whether few pixels say how good numbers are, until they are made finer
+    # Changes of the numbers, (m, j) columns, that change nothing in some pictures.
+    unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
+
+
+def fitting(family: Family) -> tuple[Find, Refine]:
+    """Return what finds the numbers of a family in a picture, and what fits them finely."""
+
+    def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
+        fine = bool(guess.low)
+        traced = Traced(evidence, family.camera, FINE_REACH if fine else REACH)
+        search = Search(
+            traced.right,
+            family.axes(evidence),
+            least=evidence.least_right(family.worth),
+            unseen=family.unseen(evidence),
+            moves=np.inf if fine else MOVES,
+            among=traced.among,
+        )
+        step = FINER if fine else 1.0
+        found = yield from search.guess([guess.values], step, enclose=fine)
+        words = family.words(evidence.case.scene.camera, found) if found else ""
+        return found and replace(found, words=words)
+
+    def find(evidence: Evidence) -> Work[list[Guess]]:
+        if family.by_few:
+            evidence = evidence.few
+        out: list[Guess] = []
+        for start in (yield from _likely(evidence, family)):
+            guess = yield from refine(evidence, Guess(start))
+            if guess:
+                out.append(guess)
+                right = yield from Traced(evidence, family.camera).right(guess.values)
+                if right is not None and right.mean() >= ENOUGH:
+                    break
+        return out
+
+    return find, refine
+
+
+def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
+    """Return the numbers for which looking up gives the most right pixels, the best first."""
+    camera = evidence.case.scene.camera
+    axes = np.asarray(family.axes(evidence))
+    units = np.linalg.pinv(np.diag(axes) if axes.ndim == 1 else axes)
+    none = (0.0,) * len(axes)
+    if family.camera(camera, *none) is None:
+        return []
+    least = family.look_up(evidence, camera) + BETTER
+    scores: list[tuple[float, Values]] = [(least, none)]  # nearer than a pixel nothing can be seen
+    for number, values in enumerate(family.starts(evidence)):
+        other = family.camera(camera, *values)
+        if other is not None:
+            score = family.look_up(evidence, other)
+            if score > least:
+                scores.append((score, values))
+        if number % 32 == 0 or family.by_few:
+            yield 0.0
+    best: list[Values] = []
+    for _, values in sorted(scores, key=lambda pair: -pair[0]):
+        apart = [np.abs(units @ np.subtract(values, b)).max() > REACH for b in best]
+        if len(best) < KEPT and all(apart):
+            best.append(values)
+    return best
+
+
+class Traced:
+    """Says which pixels of a sample are right with a camera of some numbers.
+
+    Rays are tested with the triangles near those of a camera that was prepared, as long as what
+    they meet is seen near enough by it.
+
+    Parameters
+    ----------
+    evidence : Evidence
+        With the sample, and the scene that is traced.
+    camera : callable
+        The camera with some numbers, from the scene's own one.
+    reach : float
+        Pixels that rays may pass beside where they start.
+    shown : Evidence or Looked, optional
+        What says which of the sampled pixels show what is hit; by default the evidence.
+    """
+
+    def __init__(
+        self,
+        evidence: Evidence,
+        camera: Callable[..., Camera | None],
+        reach: float = REACH,
+        shown: Shown | None = None,
+    ) -> None:
+        self.evidence = evidence
+        self.camera = camera
+        self.reach = reach
+        self.shown = shown or evidence
+        few = _few(evidence)
+        # Film positions, and what is seen there: how far it moves says whether triangles stay near.
+        self.guide = evidence.film[:, few], evidence.points[:, few]
+        self.probes: list[Probe] = []  # the last one first
+
+    def among(self, some: Places) -> Right:
+        """Return what says so of some of the pixels, by their numbers."""
+        evidence, shown = self.evidence.only(some), self.shown.only(some)
+        traced = Traced(evidence, self.camera, self.reach, shown)
+        traced.guide = self.guide  # the few pixels may all show what is far away
+        traced.probes = [probe.take(some) for probe in self.probes]
+        return traced.right
+
+    def right(self, values: Values) -> Work[Bools | None]:
+        """Return which of the n pixels agree, (n,); None if there is no such camera."""
+        evidence = self.evidence
+        camera = self.camera(evidence.case.scene.camera, *values)
+        if camera is None:
+            return None
+        probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
+        if probe is None:
+            scene = evidence.case.scene.seen_by(camera)
+            probe = yield from evidence.probe(scene, self.reach)
+            self.probes = [probe, *self.probes[: PREPARED - 1]]
+        probe = replace(probe, scene=probe.scene.seen_by(camera))
+        hits = yield from probe.trace()
+        return self.shown.agrees(probe.scene, hits)
+
+    def _near(self, prepared: Camera, camera: Camera) -> bool:
+        """Return whether a camera sees everything near where the prepared one does."""
+        film, points = self.guide
+        with np.errstate(all="ignore"):
+            before, now = (np.stack(film_of(c, points)[:2]) for c in (prepared, camera))
+            beside = film_beside_camera(prepared, camera, *film) - film
+            moved = now - before
+        # Parallel rays that are turned move what is far away by more than what is near.
+        same_place = np.array_equal(prepared.origin, camera.origin)
+        same_place &= camera.projection is not ORTHOGRAPHIC
+        apart = np.abs(beside).max() if same_place else np.nanmax(np.abs(moved))
+        return bool(apart <= self.reach)

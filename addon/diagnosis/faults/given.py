@@ -1,0 +1,122 @@
+"""Faults that only Blender can make: it knows what the scene that was exported came from.
+
+The scenes with them come as the case's variants; see `blender/variants.py`.
+"""
+
+from __future__ import annotations
+
+from ...causes.case import Case
+from ...tracer.frame import Frame
+from ...tracer.progress import Work
+from ..evidence import Evidence
+from .fault import Example, Fault, Guess
+
+
+def _nothing(evidence: Evidence) -> Work[list[Guess]]:
+    """Return no guess but the case's variants, which are tried of every fault."""
+    return []
+    yield
+
+
+def _there(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    """Return the case with the scene that the guess has."""
+    return None if guess.scene is None else case.in_scene(guess.scene)
+
+
+def _a_frame_later(case: Case, frame: Frame) -> Guess | None:
+    return None if case.next_frame is None else Guess(scene=case.next_frame)
+
+
+def _given(name: str, sentence: str, advice: str, *examples: Example) -> Fault:
+    return Fault(name, sentence, advice, _there, _nothing, examples=examples)
+
+
+GIVEN_FAULTS = (
+    _given(
+        "other_frame",
+        "the picture is of another frame: {words}",
+        "render the frame that the scene is at, or compare with --frame",
+        Example("wrong_frame", "the scene a frame later", _a_frame_later),
+    ),
+    _given(
+        "other_camera",
+        "the picture is taken by another camera of the scene: {words}",
+        "make that camera active, or compare with --camera",
+    ),
+    _given(
+        "sensor_width_for_height",
+        "the sensor's width is taken for its height, or the height for the width",
+        "with sensor fit Vertical, the sensor's height spans the picture's height; else its width "
+        "is what the lens is fitted to",
+    ),
+    _given(
+        "sensor_fit_setting",
+        "the camera's sensor fit is another: {words}",
+        "take the sensor fit of the camera: it says which side of the sensor and the picture fit",
+    ),
+    _given(
+        "camera_scale",
+        "the scale of the camera, or of its parents, is not removed",
+        "divide each axis of the camera's matrix by its length: Blender's cameras have no scale",
+    ),
+    _given(
+        "parent_left_out",
+        "the parent's transform is left out: {words}",
+        "use matrix_world, which has the parent's transform and its inverse",
+    ),
+    _given(
+        "parent_scale",
+        "the parent's scale is left out: {words}",
+        "use matrix_world: the parent's scale moves and scales what is parented to it",
+    ),
+    _given(
+        "parent_inverse",
+        "the parent's inverse is left out: {words}",
+        "world = parent's world @ matrix_parent_inverse @ matrix_basis",
+    ),
+    _given(
+        "perspective_for_orthographic",
+        "a perspective camera is taken for an orthographic one",
+        "take the camera's type from the scene",
+    ),
+    _given(
+        "orthographic_for_perspective",
+        "an orthographic camera is taken for a perspective one",
+        "take the camera's type from the scene",
+    ),
+    _given(
+        "rest_pose",
+        "{words} at rest pose: the armature or the shape keys are left out",
+        "export the evaluated mesh",
+    ),
+    _given(
+        "viewport_modifiers",
+        "modifiers are as in the viewport, not as in a render: {words}",
+        "evaluate the depsgraph for a render",
+    ),
+    _given(
+        "no_modifiers",
+        "modifiers are left out: {words}",
+        "export the evaluated mesh, not the object's data",
+    ),
+    _given(
+        "subdivision",
+        "subdivision at another level: {words}",
+        "use the render levels of the modifier",
+    ),
+    _given(
+        "instance_transform",
+        "the transform of instances is left out: {words}",
+        "each instance has a world matrix of its own, beside its object's",
+    ),
+    _given(
+        "hidden_shown",
+        "'{object}' is shown, and the scene hides it: {words}",
+        "leave out what is hidden in renders",
+    ),
+    _given(
+        "other_layer",
+        "the picture is of another view layer: {words}",
+        "render the view layer that is compared",
+    ),
+)

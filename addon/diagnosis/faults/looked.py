@@ -1,0 +1,183 @@
+"""An object in a picture: where it is traced, where it is shown, and what is behind it.
+
+What is behind is traced once, without the object; then the object alone, for each guess.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ...arrays import Bools, Floats, Places
+from ...pictures.bounds import largest_within
+from ...pictures.picture import Picture
+from ...scene import Scene
+from ...tracer.camera import camera_rays, pixel_size
+from ...tracer.hits import NOTHING, Hits
+from ...tracer.progress import Work
+from ..evidence import WORTH, Evidence, shows_colors, spread
+from .fault import instances_named
+
+AROUND = 6  # pixels around the object, on both sides, in which it is looked at, too
+
+
+@dataclass(frozen=True, eq=False)
+class Looked:
+    """An object in a picture: the pixels in which it is looked for, and what is behind it."""
+
+    evidence: Evidence
+    name: str
+    at: tuple[Places, Places]  # rows and columns of the n pixels
+    picture: Picture  # of these
+    behind: Hits  # what is hit there without the object
+    rest: Scene  # without it
+    seen: Bools  # (h, w) where it is traced
+    shown: Bools  # (h, w) where the picture shows it, as far as is known
+    depth: float  # of the object, metres
+    kept: bool  # whether it stays at its place, too
+
+    @classmethod
+    def of(cls, evidence: Evidence, name: str, kept: bool = False) -> Work[Looked | None]:
+        """Look at an object; None if it is not seen or not shown, or can settle few pixels."""
+        scene, frame = evidence.case.scene, evidence.frame
+        own = instances_named(scene, name)
+        if not own:  # an infinite plane
+            return None
+        those = set(own)
+        seen = np.isin(frame.instance_index, own)
+        shown = _shown(evidence, own) & (evidence.open | seen)
+        if kept:
+            shown &= ~seen
+        if not seen.any() or not shown.any():
+            return None
+        around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
+        chosen = np.zeros_like(seen)
+        around &= evidence.beside_edges if evidence.fine else True
+        for some in (around & evidence.open, around & ~evidence.open):
+            chosen.flat[spread(some, evidence.size // 2)] = True
+        rows, columns = np.nonzero(chosen)
+        at = rows, columns
+        left = [i for n, i in enumerate(scene.instances) if kept or n not in those]
+        rest = replace(scene, instances=tuple(left))
+        depth = float(np.median(frame.t[seen]))
+        picture = evidence.picture.at(at)
+        out = cls(evidence, name, at, picture, Hits.none(0), rest, seen, shown, depth, kept)
+        behind = yield from out.traced(rest)
+        out = replace(out, behind=behind)
+        return out if out._may_settle >= WORTH * evidence.open.sum() else None
+
+    def traced(self, scene: Scene) -> Work[Hits]:
+        """Return what the n pixels see of a scene."""
+        return (yield from self.evidence.trace(scene, self.at))
+
+    @property
+    def alone(self) -> Scene:
+        """The scene with the object alone."""
+        scene = self.evidence.case.scene
+        own = instances_named(scene, self.name)
+        return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())
+
+    def only(self, some: Places) -> Looked:
+        """Return the same of some of the n pixels, by their numbers."""
+        rows, columns = self.at
+        at, behind = (rows[some], columns[some]), self.behind.take(some)
+        return replace(self, at=at, picture=self.picture.at(some), behind=behind)
+
+    def right(self, changed: Scene) -> Work[Bools]:
+        """Return which of the n pixels are right with the object as a scene has it alone, (n,)."""
+        return self.agrees(changed, (yield from self.traced(changed)))
+
+    def agrees(self, changed: Scene, hits: Hits) -> Bools:
+        """Return which of the n pixels show the hits of a scene with the object alone, (n,)."""
+        before = (hits.instance != NOTHING) & (hits.t < self.behind.t)
+        return (self._beneath & ~before) | self._agree(changed, hits, before)
+
+    @property
+    def alone_in_evidence(self) -> Evidence:
+        """The evidence of the n pixels, of the object alone."""
+        case = self.evidence.case.in_scene(self.alone)
+        return replace(self.evidence, chosen=self.at, case=case)
+
+    @property
+    def _may_settle(self) -> float:
+        """How many unexplained pixels can agree, wherever the object is: others show neither."""
+        open_, may = self.evidence.open[self.at], self._beneath | self.shown[self.at]
+        around = largest_within((self.seen | self.shown).astype(np.int8), AROUND) > 0
+        share = float(np.mean(may[open_])) if open_.any() else 0.0
+        return share * int((around & self.evidence.open).sum())
+
+    @cached_property
+    def _beneath(self) -> Bools:
+        """Which of the n pixels show what is seen without the object."""
+        return self._agree(self.rest, self.behind, np.ones(len(self.behind), bool))
+
+    def _agree(self, scene: Scene, hits: Hits, where: Bools) -> Bools:
+        """Return which of the n pixels, of those where it is seen, show the hits of a scene."""
+        out = np.zeros(len(where), bool)
+        here = np.flatnonzero(where)
+        case = self.evidence.case.in_scene(scene)
+        picture = replace(
+            self.picture.at(here), owners=case.picture.owners, colorless=case.colorless
+        )
+        out[here] = ~picture.differ(scene, hits.take(here))
+        return out
+
+    @property
+    def least_right(self) -> float:
+        """How many of the n pixels must be right for a guess to be worth a closer look."""
+        open_ = self.evidence.open[self.at]
+        return float((~open_).sum() + WORTH * open_.sum())
+
+    @property
+    def pixel(self) -> float:
+        """The width of a pixel at the object, in metres."""
+        camera = self.evidence.case.scene.camera
+        return pixel_size(camera)[0] * camera.projection.scale(self.depth)
+
+    @property
+    def growth(self) -> float:
+        """How many times as wide the object is shown as it is traced."""
+        return float(np.sqrt(int(self.shown.sum()) / int(self.seen.sum())))
+
+    def start(self) -> Floats:
+        """Return about where the object is shown: right, up, forward, in units of pixels."""
+        rows, columns = (np.mean(v) for v in np.nonzero(self.shown))
+        own_rows, own_columns = (np.mean(v) for v in np.nonzero(self.seen))
+        forward = (1 / self.growth - 1) * self._depth_units
+        return np.array((columns - own_columns, rows - own_rows, forward))
+
+    @property
+    def width(self) -> float:
+        """About how wide the object is seen, in pixels."""
+        return float(np.sqrt(self.seen.sum()))
+
+    @property
+    def _depth_units(self) -> float:
+        """The object's depth in units that change its size by about a pixel."""
+        return max(self.width / 2, 1.0)
+
+    def axes(self) -> Floats:
+        """Return what a unit of right, up and away is in world space, (3, 3) columns.
+
+        Away is along the ray through the object's middle, so that it changes the size alone.
+        """
+        camera = self.evidence.case.scene.camera
+        rows, columns = (float(np.mean(v)) + 0.5 for v in np.nonzero(self.seen))
+        r = camera.region
+        ray = camera_rays(camera, np.array([columns + r.x0]), np.array([rows + r.y0]))
+        away = self.depth / self._depth_units * ray.directions[:, 0]
+        return np.stack((self.pixel * camera.right, self.pixel * camera.up, away), axis=1)
+
+
+def _shown(evidence: Evidence, own: list[int]) -> Bools:
+    """Return where (h, w) a picture shows some instances, by their object or their colours."""
+    picture, scene = evidence.picture, evidence.case.scene
+    if picture.owner is not None and picture.owners is not None:
+        return np.isin(picture.owner, picture.owners[own])
+    first, last = scene.color_rows[:, own]
+    rows = np.unique(
+        np.concatenate([np.arange(a, b + 1) for a, b in zip(first, last, strict=True)])
+    )
+    return shows_colors(picture, scene.color_table[rows])

@@ -1,0 +1,166 @@
+"""Faults of what is drawn over what, and of the whole picture's orientation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ...arrays import Colors, Floats
+from ...causes.case import Case
+from ...causes.checks.probe import SOUND, Probe
+from ...scene import Scene
+from ...tracer.frame import Frame
+from ...tracer.hits import NOTHING
+from ...tracer.nearest import plan
+from ...tracer.progress import Work, result_of
+from ...tracer.shading import colors as colors_of
+from ..evidence import Evidence
+from .fault import Effort, Example, Fault, Guess, with_values
+
+LAYERS = 64  # surfaces behind one another that are looked at, at most
+MOST = 2  # orders that are tried on the whole picture
+BLOCK = 1 << 14  # pixels that are drawn together
+
+
+def _quarter_turned(case: Case, quarters: int) -> Case | None:
+    """Return the case with its picture turned anticlockwise; None if it is not the same size."""
+    height, width = case.picture.color.shape[:2]
+    if quarters % 2 and height != width:
+        return None
+    rows, columns = np.mgrid[:height, :width]
+    # The lowest row is the first: anticlockwise is clockwise in the array.
+    where = np.rot90(rows, -quarters), np.rot90(columns, -quarters)
+    return replace(case, picture=case.picture.at(where))
+
+
+def _turned(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    return _quarter_turned(case, int(guess.values[0]))
+
+
+def _turned_back(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    return _quarter_turned(case, -int(guess.values[0]))
+
+
+def _quarters(evidence: Evidence) -> Work[list[Guess]]:
+    words = {1: "90 degrees anticlockwise", 2: "180 degrees", 3: "90 degrees clockwise"}
+    return [Guess((float(n),), words=text) for n, text in words.items()]
+    yield
+
+
+def _same(case: Case, frame: Frame, guess: Guess) -> Case:
+    """Return the case: of its surfaces only others are seen."""
+    return replace(case)
+
+
+def _middles(scene: Scene) -> Floats:
+    """Return the middles of the instances' boxes, (k, 3)."""
+    out = []
+    for instance in scene.instances:
+        v = scene.meshes[instance.mesh].vertices
+        middle = (v.min(axis=0) + v.max(axis=0)) / 2 if len(v) else np.zeros(3)
+        out.append(instance.world_from_object[:3] @ (*middle, 1.0))
+    return np.array(out).reshape(-1, 3)
+
+
+def _nearness(scene: Scene) -> Floats:
+    """Return how near the instances' origins are, then their middles, their depths, (3, k)."""
+    origins = np.array([i.world_from_object[:3, 3] for i in scene.instances]).reshape(-1, 3)
+    eye = scene.camera.origin
+    origins, middles = origins - eye, _middles(scene) - eye
+    distances = (np.linalg.norm(v, axis=1) for v in (origins, middles))
+    return -np.array([*distances, origins @ scene.camera.forward])
+
+
+# How instances may be ordered, from which each is drawn over those before; the first has none.
+ORDERS = (
+    "the farthest surface is seen, not the nearest",
+    "objects are drawn one over the other, by the distances of their origins",
+    "objects are drawn one over the other, by the distances of their middles",
+    "objects are drawn one over the other, by the depths of their origins",
+    "objects are drawn one over the other, as they are listed",
+    "objects are drawn one over the other, the last that is listed first",
+)
+
+
+def _ranks(scene: Scene, order: int) -> Floats | None:
+    """Return the rank of each instance, then of planes and nothing, which are drawn first."""
+    if order == 0:
+        return None
+    listed = np.arange(len(scene.instances), dtype=np.float64)
+    of = (*_nearness(scene), listed, -listed)[order - 1]
+    return np.concatenate((of, np.full(len(scene.planes) + 1, -np.inf)))
+
+
+def _seen(probe: Probe, ranks: Sequence[Floats | None]) -> Work[list[Colors]]:
+    """Return the colours of n pixels for some orders; without ranks, the farthest surface's."""
+    scene = probe.scene
+    hits = yield from probe.trace()
+    colors = colors_of(scene, hits)
+    out = [colors.copy() for _ in ranks]
+    best = [None if of is None else of[hits.instance] for of in ranks]
+    for _ in range(LAYERS):
+        hits = yield from probe.trace(after=hits)
+        if not (hits.instance != NOTHING).any():
+            break
+        colors = colors_of(scene, hits)
+        for seen, rank, of in zip(out, best, ranks, strict=True):
+            over = hits.instance != NOTHING
+            if rank is not None and of is not None:
+                over &= of[hits.instance] > rank
+                rank[over] = of[hits.instance[over]]
+            seen[over] = colors[over]
+    return out
+
+
+def _orders(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the orders with which unexplained pixels of the sample have the right colours."""
+    scene = evidence.case.scene
+    probe = yield from evidence.probe(scene)
+    every = yield from _seen(probe, [_ranks(scene, n) for n in range(len(ORDERS))])
+    out = []
+    for number, colors in enumerate(every):
+        right = ~evidence.shown.other_color(colors)
+        if right.sum() >= evidence.least_right():
+            score = evidence.scored(right)
+            out.append((score.gain, Guess((float(number),), words=ORDERS[number])))
+    return [guess for _, guess in sorted(out, key=lambda pair: -pair[0])[:MOST]]
+
+
+def _drawn(traced: Colors, guess: Guess, evidence: Evidence) -> Colors:
+    """Return the whole picture in another order, (h, w, 4)."""
+    scene = evidence.case.scene
+    region, ranks = scene.camera.region, _ranks(scene, int(guess.values[0]))
+    made = result_of(plan(scene, SOUND, 0.0))
+    rows = max(1, BLOCK // region.width)
+    out = []
+    for y in range(region.y0, region.y1, rows):
+        tile = replace(region, y0=y, y1=min(y + rows, region.y1))
+        probe = result_of(Probe.of(made, tile, np.ones(tile.width * tile.height, bool)))
+        [colors] = result_of(_seen(probe, [ranks]))
+        out.append(colors.reshape(tile.height, tile.width, 4))
+    return np.concatenate(out)
+
+
+ORDER_FAULTS = (
+    Fault(
+        "picture_turned",
+        "the picture is turned by {words}",
+        "check the order of its rows and columns: both are reversed, or one is taken for the other",
+        _turned,
+        _quarters,
+        put_right=_turned_back,
+        examples=(Example("turned_picture", "the picture upside down", with_values(2.0)),),
+    ),
+    Fault(
+        "depth_order",
+        "{words}",
+        "keep the nearest depth of every pixel: what is nearer than that is drawn, nothing else",
+        _same,
+        _orders,
+        after=_drawn,
+        sampled=False,
+        effort=Effort.PIXELS,
+    ),
+)

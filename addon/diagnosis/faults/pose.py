@@ -1,0 +1,193 @@
+"""Fits an object to a picture: where it is, how large, or how far its surface is displaced."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from ...arrays import Bools, Floats, Places
+from ...causes.case import Case
+from ...projections import ORTHOGRAPHIC
+from ...scene import Camera, Instance, Mesh, Scene
+from ...tracer.frame import Frame
+from ...tracer.progress import Work
+from ...tracer.vector import cross
+from ..evidence import Evidence
+from .climbing import Among, Right, Values
+from .fault import Find, Guess, Refine, instances_named
+from .fitting import FINE_REACH, FINER, Traced
+from .looked import Looked
+from .search import Search
+
+FINEST = 1 / 128  # pixels
+FIRST = 1 / 4  # of the object's width: the first step
+SMALL = 6.0  # pixels
+TRIED = 2  # objects that are fitted
+
+
+def moved(instance: Instance, x: float, y: float, z: float) -> Instance:
+    """Return an instance at another place, (x, y, z) m away in world space."""
+    matrix = instance.world_from_object.copy()
+    matrix[:3, 3] += (x, y, z)
+    return replace(instance, world_from_object=matrix)
+
+
+def scaled(instance: Instance, factor: float) -> Instance:
+    """Return an instance as many times as large, about its object's origin."""
+    matrix = instance.world_from_object.copy()
+    matrix[:3, :3] *= factor
+    return replace(instance, world_from_object=matrix)
+
+
+def copied(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    """Return the case with an object's instances a second time, somewhere else."""
+
+    def twice(scene: Scene) -> Scene:
+        own = instances_named(scene, guess.object)
+        more = (moved(scene.instances[n], *guess.values) for n in own)
+        return replace(scene, instances=(*scene.instances, *more))
+
+    return case.with_scenes(twice)
+
+
+def inflated(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    """Return the case with an object's vertices displaced along their smooth normals."""
+
+    def displaced(scene: Scene) -> Scene:
+        own = {scene.instances[n].mesh for n in instances_named(scene, guess.object)}
+        meshes = [
+            _displaced(mesh, *guess.values) if n in own else mesh
+            for n, mesh in enumerate(scene.meshes)
+        ]
+        return replace(scene, meshes=tuple(meshes))
+
+    return case.with_scenes(displaced)
+
+
+def _displaced(mesh: Mesh, distance: float) -> Mesh:
+    """Displace vertices along the mean of their triangles' normals, each weighed by its area."""
+    vertices = mesh.vertices.astype(np.float64)
+    a, b, c = (vertices[mesh.triangles[:, k]].T for k in range(3))
+    normals = np.zeros_like(vertices)
+    for k in range(3):
+        np.add.at(normals, mesh.triangles[:, k], cross(b - a, c - a).T)
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    return replace(mesh, vertices=vertices + distance * normals / np.where(length > 0, length, 1))
+
+
+@dataclass(frozen=True)
+class Pose:
+    """What is fitted of an object: a change of it in a few numbers."""
+
+    change: Callable[[Scene, Values], Scene | None]  # of a scene with the object alone
+    axes: Floats  # the numbers that a unit, about a pixel, of each stands for, (m, k) columns
+    starts: list[Values]
+    unseen: Floats | None = None  # the same of what cannot be seen, (m, j) columns
+    # The camera that sees the object alone as it is seen after the change.
+    camera: Callable[..., Camera] | None = None
+
+
+def _placed(looked: Looked) -> Pose:
+    """Return the object at another place; its numbers are along the world's axes."""
+    axes, start, unseen = looked.axes(), looked.start(), None
+    if looked.evidence.case.scene.camera.projection is ORTHOGRAPHIC:  # nearer looks the same
+        axes, start, unseen = axes[:, :2], start[:2], axes[:, 2:]
+
+    def change(scene: Scene, values: Values) -> Scene:
+        return replace(scene, instances=tuple(moved(i, *values) for i in scene.instances))
+
+    beside = np.append(start[:2], 0)[: len(start)]
+    starts = [start, beside]
+    if np.abs(start).max() < SMALL:  # then its middle says little
+        starts.append(0 * start)
+    numbers = [tuple((axes @ v).tolist()) for v in starts]
+    return Pose(change, axes, numbers, unseen, _moved_against)
+
+
+def _moved_against(camera: Camera, *by: float) -> Camera:
+    """Return a camera that sees the world as if it were moved by (x, y, z) m."""
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, 3] -= by
+    return replace(camera, world_from_camera=matrix)
+
+
+def _sized(looked: Looked) -> Pose:
+    """Return the object as many times as large."""
+    unit = 2 / max(looked.width, 2.0)
+
+    def change(scene: Scene, values: Values) -> Scene | None:
+        if values[0] <= 0:
+            return None
+        return replace(scene, instances=tuple(scaled(i, *values) for i in scene.instances))
+
+    return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)])
+
+
+def _inflated(looked: Looked) -> Pose:
+    """Return the object with a displaced surface."""
+    scene = looked.evidence.case.scene
+    matrix = scene.instances[instances_named(scene, looked.name)[0]].world_from_object
+    size = float(np.cbrt(abs(np.linalg.det(matrix[:3, :3])))) or 1.0
+    unit = looked.pixel / size
+    start = (looked.growth - 1) * looked.width / 2 * unit
+
+    def change(scene: Scene, values: Values) -> Scene:
+        used = {i.mesh for i in scene.instances}
+        meshes = [_displaced(m, *values) if n in used else m for n, m in enumerate(scene.meshes)]
+        return replace(scene, meshes=tuple(meshes))
+
+    return Pose(change, np.array([[unit]]), [(start,), (0.0,)])
+
+
+def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refine]:
+    """Return what finds how objects that are suspected are shown, and what fits it finely.
+
+    `kept` says that each object stays at its place, too.
+    """
+
+    def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
+        looked = yield from Looked.of(evidence, guess.object, kept)
+        if looked is None:
+            return None
+        pose = of(looked)
+
+        alone = looked.alone
+
+        def other(some: Places) -> Right:
+            return partial(right, looked.only(some))
+
+        def right(looked: Looked, values: Values) -> Work[Bools | None]:
+            changed = pose.change(alone, values)
+            return None if changed is None else (yield from looked.right(changed))
+
+        starts, step = pose.starts, FIRST * looked.width
+        if pose.axes.shape[1] == 1:  # of which more are looked at on each side
+            step /= 4
+        fine = bool(guess.low)
+        if guess.values:
+            starts, step = [guess.values], FINER if fine else 1.0
+        least = 0.0 if guess.values else looked.least_right
+        known: Right = partial(right, looked)
+        among: Among = other
+        if fine and pose.camera:  # then the triangles near its rays stay
+            traced = Traced(looked.alone_in_evidence, pose.camera, FINE_REACH, looked)
+            known, among = traced.right, traced.among
+        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
+        return (yield from search.guess(starts, step, guess.object, enclose=fine))
+
+    def find(evidence: Evidence) -> Work[list[Guess]]:
+        out = []
+        for name in evidence.suspects[:TRIED]:
+            guess = yield from refine(evidence, Guess(object=name))
+            if guess:
+                out.append(guess)
+        return out
+
+    return find, refine
+
+
+MOVED, TWICE = posing(_placed), posing(_placed, kept=True)
+SCALED, DISPLACED = posing(_sized), posing(_inflated)

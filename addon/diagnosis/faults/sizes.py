@@ -1,0 +1,186 @@
+"""Faults of another size: a picture that was rendered smaller or larger, or shrunk and enlarged.
+
+What is traced goes through the same, and is held against the picture; of the ways to do so, those
+are tried that are right in most of the sampled pixels.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from ...arrays import Array, Colors, Floats, Places
+from ...causes.case import Case
+from ...scene import Region, ViewWindow
+from ...tracer import shading
+from ...tracer.progress import Work
+from ..evidence import Evidence
+from .fault import Effort, Fault, Guess
+
+# Of what may have been resampled, and how they are called. Larger ones are means of several
+# samples, or, by the nearest pixel, offsets of the camera.
+SIZES = {
+    1 / 2: "half",
+    0.9: "nine tenths of",
+    0.8: "four fifths of",
+    1 / 3: "a third of",
+    1 / 4: "a quarter of",
+    2 / 3: "two thirds of",
+    3 / 4: "three quarters of",
+}
+SHARES = {2: "half", 3: "a third of", 4: "a quarter of"}  # to which a picture may be shrunk
+NEAREST, LINEAR, MEAN = 0.0, 1.0, 2.0
+WAYS = {NEAREST: "by the nearest pixel", LINEAR: "linearly", MEAN: "by the mean of pixels"}
+RIGHT = 0.8  # of the sampled pixels that are unexplained, for a guess to be tried
+
+
+def sampled_right(evidence: Evidence, colors: Array) -> bool:
+    """Return whether most of the n sampled pixels that are unexplained show (n, 4) colours."""
+    right = ~evidence.shown.other_color(colors)
+    return bool(right[evidence.was_open].mean() > RIGHT and right.mean() > RIGHT)
+
+
+def at_size(case: Case, size: float) -> Case:
+    """Return the case with what the picture shows, be it a border's, traced at another size."""
+    camera = case.scene.camera
+    r, w = camera.region, camera.window
+    across, up = (w.right - w.left) / camera.width, (w.top - w.bottom) / camera.height
+    window = ViewWindow(
+        w.left + r.x0 * across, w.left + r.x1 * across, w.bottom + r.y0 * up, w.bottom + r.y1 * up
+    )
+    width, height = (max(1, round(size * n)) for n in (r.width, r.height))
+    whole = Region(0, 0, width, height)
+    camera = replace(camera, window=window, width=width, height=height, region=whole)
+    return case.with_scenes(lambda scene: scene.seen_by(camera))
+
+
+# ---- rendered at another size
+
+
+Mix = list[tuple[Places, Floats]]  # for each of n places, which pixels are taken, and their weights
+
+
+def _mix(have: int, size: int, way: float) -> Mix:
+    """Return, for each pixel of a row of `size`, the pixels of a row of `have` that make it."""
+    place = (np.arange(size) + 0.5) * have / size - 0.5
+    if way == NEAREST:
+        return [(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), np.ones(size))]
+    low = np.clip(np.floor(place), 0, have - 1).astype(int)
+    share = np.clip(place - low, 0, 1)
+    return [(low, 1 - share), (np.minimum(low + 1, have - 1), share)]
+
+
+def _resampled(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
+    """Return a picture (h', w', 4) at the size of the evidence's."""
+    return resized(colors, evidence.open.shape, guess.values[1])
+
+
+def resized(colors: Array, shape: tuple[int, ...], way: float) -> Colors:
+    """Return a picture (h', w', 4) at another size (h, w), in one of the ways."""
+    out: Array = np.asarray(colors, np.float64)
+    for axis, size in enumerate(shape):
+        shares = [-1 if n == axis else 1 for n in range(out.ndim)]
+        parts = _mix(out.shape[axis], size, way)
+        out = np.sum([out.take(at, axis=axis) * weight.reshape(shares) for at, weight in parts], 0)
+    return out.astype(np.float32)
+
+
+def _find_size(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the sizes and ways that are right in most sampled pixels, where rays are traced.
+
+    A pixel of the other size is a ray beside the centre of one of the sampled pixels.
+    """
+    scene, region = evidence.case.scene, evidence.case.scene.camera.region
+    rows, columns = evidence.sample
+    probe = yield from evidence.probe(scene, reach=np.sqrt(2) / min(SIZES))
+    out = []
+    for (size, name), way in product(SIZES.items(), (NEAREST, LINEAR)):
+        wide, high = (max(1, round(size * n)) for n in (region.width, region.height))
+        total = np.zeros((len(rows), 4))
+        for (y, up), (x, across) in product(
+            _mix(high, region.height, way), _mix(wide, region.width, way)
+        ):
+            dx = (x[columns] + 0.5) * region.width / wide - columns - 0.5
+            dy = (y[rows] + 0.5) * region.height / high - rows - 0.5
+            hits = yield from probe.trace(dx, dy)
+            weight = (up[rows] * across[columns])[:, None]
+            total += weight * shading.colors(scene, hits)
+        if sampled_right(evidence, total):
+            out.append(Guess((size, way), words=f"{name} its size, and resampled {WAYS[way]}"))
+    return out
+
+
+# ---- shrunk, and enlarged again
+
+
+def _shrunk(colors: Array, guess: Guess) -> Array:
+    """Return one pixel of each n x n of (h, w, 4), counted from above, or their mean."""
+    n, down, y, x = (int(v) for v in guess.values[:4])
+    out = np.asarray(colors, np.float64)[::-1]
+    if down == NEAREST:
+        rows, columns = (
+            np.minimum(np.arange(0, size, n) + at, size - 1)
+            for size, at in zip(out.shape[:2], (y, x), strict=True)
+        )
+        return out[rows][:, columns][::-1]
+    for axis in (0, 1):
+        starts = np.arange(0, out.shape[axis], n)
+        count = np.diff(np.append(starts, out.shape[axis]))
+        shares = [-1 if k == axis else 1 for k in range(out.ndim)]
+        out = np.add.reduceat(out, starts, axis=axis) / count.reshape(shares)
+    return out[::-1]
+
+
+def _enlarged(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
+    """Return a picture (h, w, 4) shrunk and enlarged again."""
+    small, n = _shrunk(colors, guess), int(guess.values[0])
+    height, width = colors.shape[:2]
+    if guess.values[4] == NEAREST:  # counted from above: a last block may be smaller
+        rows = small.shape[0] - 1 - np.arange(height)[::-1] // n
+        return small[rows][:, np.arange(width) // n].astype(np.float32)
+    return resized(small, (height, width), LINEAR)
+
+
+def _find_shrunk(evidence: Evidence) -> Work[list[Guess]]:
+    """Return to what size the picture was shrunk, and how, by the sampled pixels."""
+    at, out = evidence.sample, []
+    for n, name in SHARES.items():
+        corners = product(sorted({0, n // 2, n - 1}), repeat=2)
+        downs = [(NEAREST, float(y), float(x)) for y, x in corners] + [(MEAN, 0.0, 0.0)]
+        for down, up in product(downs, (NEAREST, LINEAR)):
+            words = f"{name} its size {WAYS[down[0]]}, and enlarged again {WAYS[up]}"
+            guess = Guess((float(n), *down, up), words=words)
+            if sampled_right(evidence, _enlarged(evidence.frame.color, guess, evidence)[at]):
+                out.append(guess)
+            yield 0.0
+    return out
+
+
+SIZE_FAULTS = (
+    Fault(
+        "resampled",
+        "the picture was rendered at {words}",
+        "render it at the size at which it is compared",
+        lambda case, frame, guess: at_size(case, guess.values[0]),
+        _find_size,
+        ("size",),
+        everywhere=True,
+        sampled=False,
+        after=_resampled,
+        effort=Effort.PIXELS,
+    ),
+    Fault(
+        "shrunk",
+        "the picture was shrunk to {words}",
+        "compare the picture as it was rendered",
+        lambda case, frame, guess: case,
+        _find_shrunk,
+        ("n",),
+        everywhere=True,
+        sampled=False,
+        after=_enlarged,
+        effort=Effort.PIXELS,
+    ),
+)

@@ -1,0 +1,74 @@
+"""The surfaces of a picture, each with one traced colour, away from edges.
+
+What is done to all colours is the same everywhere, so it is looked for in these.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ...arrays import Bools, Colors
+from ...causes.checks.color import groups, medians
+from ...images import EIGHT_BITS, encoded
+from ...pictures.metrics import boundary
+from ...pictures.picture import Picture, Transform
+from ...tracer.hits import NOTHING
+from ..evidence import Evidence, spread
+
+MOST = 1 << 14  # pixels of surfaces that are looked at
+FLAT = 0.3  # levels: the least deviation within a surface that noise has
+ENOUGH = 32  # pixels of a surface to measure it
+
+
+class Surfaces(NamedTuple):
+    """What k surfaces of one colour each are traced and shown in, away from edges."""
+
+    traced: Colors  # (k, 4)
+    shown: Colors  # (k, 4) the median of its pixels
+    wrong: Bools  # (k,) most of its pixels are unexplained
+    noisy: Bools  # (k,) its pixels differ from one another by more than rounding
+    measured: Bools  # (k,) enough pixels are seen of it to say so
+
+
+def inside(evidence: Evidence) -> Bools:
+    """Return the pixels (h, w) of surfaces that are away from edges and can be judged."""
+    inside = ~boundary(evidence.frame) & (evidence.causes.blind < 0)
+    inside &= evidence.open | evidence.judged
+    return inside & (evidence.frame.instance_index != NOTHING)
+
+
+def surfaces(evidence: Evidence) -> Surfaces | None:
+    """Return the surfaces, looked at once; None where colours say nothing, or none are wrong."""
+    if "surfaces" not in evidence.known:
+        evidence.known["surfaces"] = _looked_at(evidence)
+    found: Surfaces | None = evidence.known["surfaces"]
+    return found
+
+
+def _looked_at(evidence: Evidence) -> Surfaces | None:
+    picture, some = evidence.picture, spread(inside(evidence), MOST)
+    if picture.transform is not None or picture.lit or not len(some):
+        return None
+    traced, shown = (v.reshape(-1, 4)[some] for v in (evidence.frame.color, picture.color))
+    if not np.isfinite(shown).all():
+        return None
+    group = groups(np.column_stack((evidence.frame.instance_index.ravel()[some], traced)))
+    first, middle = medians(shown, group)
+    count = np.bincount(group)
+    wrong = np.bincount(group, evidence.open.ravel()[some]) > count / 2
+    if not wrong.any():
+        return None
+    levels = EIGHT_BITS * encoded(shown)[:, :3]
+    means = np.array([np.bincount(group, v) / count for v in levels.T])
+    apart = (levels.T - means[:, group]) ** 2
+    deviation = np.sqrt(np.max([np.bincount(group, v) / count for v in apart], axis=0))
+    return Surfaces(traced[first], middle, wrong, deviation > FLAT, count >= ENOUGH)
+
+
+def agree(picture: Picture, found: Surfaces, of: Transform | None) -> Bools:
+    """Return which of the k surfaces agree by a transform of the traced colours, (k,)."""
+    one = replace(picture, color=found.shown.astype(np.float32), owner=None)
+    return ~replace(one, transform=of).other_color(found.traced)

@@ -1,0 +1,105 @@
+"""Faults of all colours of a picture by a curve: gamma, exposure, channels, two roundings..."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...arrays import Array
+from ...causes.case import Case
+from ...causes.checks.color import find_transform
+from ...pictures.curves import FITTED_SHARE, KEYS, ROUNDED, ROUNDED_ONCE
+from ...pictures.picture import Curve
+from ...tracer.frame import Frame
+from ...tracer.progress import Work
+from ..evidence import Evidence
+from .fault import Example, Fault, Find, Guess, Make
+from .recolor import by_curve, of_straight, recolored
+from .surfaces import agree, inside, surfaces
+
+_BGRA = [2, 1, 0, 3]
+_TWICE = next(c for c in ROUNDED if c.key == "twice_rounded")
+
+
+def _gamma(color: Array) -> Array:
+    color = color.copy()
+    color[..., :3] = np.sign(color[..., :3]) * np.abs(color[..., :3]) ** np.float32(1 / 2.2)
+    return color
+
+
+def _curve_of(evidence: Evidence) -> Work[Curve | None]:
+    """Return the transform that makes most unexplained surfaces agree; it is looked for once."""
+    picture = evidence.picture
+    if "curve" not in evidence.known and picture.transform is None and not picture.lit:
+        more = evidence.case.curves or ()
+        found = yield from find_transform(evidence.frame, picture, inside(evidence), more)
+        evidence.known["curve"] = found
+    return evidence.known.get("curve")
+
+
+def _rounded(evidence: Evidence) -> Sequence[Curve]:
+    """Return the transforms with a rounding to 8 bits that say more than a plain one does.
+
+    Where all that is shown is what one rounding gives, it may not be said to be of two.
+    """
+    found = surfaces(evidence)
+    if found is None:
+        return ()
+    if "rounded" not in evidence.known:
+        once = (agree(evidence.picture, found, ROUNDED_ONCE.of) & found.wrong).sum()
+        evidence.known["rounded"] = [
+            c
+            for c in ROUNDED
+            if (same := agree(evidence.picture, found, c.of)).mean() > FITTED_SHARE
+            and (same & found.wrong).sum() > once
+        ]
+    rounded: Sequence[Curve] = evidence.known["rounded"]
+    return rounded
+
+
+def _find_curve(key: str) -> Find:
+    def find(evidence: Evidence) -> Work[list[Guess]]:
+        best = yield from _curve_of(evidence)
+        found = (*([best] if best else []), *_rounded(evidence))
+        return [Guess(words=c.name, curve=c) for c in found if c.key == key]
+
+    return find
+
+
+def _nothing(case: Case, frame: Frame, guess: Guess) -> None:
+    """Make nothing: what a curve does to a picture is found of pictures that have it."""
+
+
+def _colors(key: str, make: Make = _nothing, *examples: Example) -> Fault:
+    return Fault(
+        key,
+        "the picture's colours: {words}",
+        "check the colour space of each file, and what is applied when it is saved or loaded",
+        make,
+        _find_curve(key),
+        put_right=by_curve,
+        examples=examples,
+    )
+
+
+_OWN = {
+    "gamma": (recolored(_gamma), Example("gamma", "a gamma of 2.2 applied to the picture")),
+    "channels": (
+        recolored(lambda color: color[..., _BGRA]),
+        Example("channels", "red and blue swapped"),
+    ),
+}
+
+CURVE_FAULTS = (
+    *(_colors(key, *_OWN.get(key, ())) for key in KEYS),
+    Fault(
+        "twice_rounded",
+        "the picture's colours were rounded to 8 bits more than once: {words}",
+        "convert colours as floats, and round them once, when the file is written",
+        of_straight(_TWICE.of),
+        _find_curve("twice_rounded"),
+        put_right=by_curve,
+        examples=(Example("twice_rounded", "colours rounded to 8 bits twice"),),
+    ),
+)

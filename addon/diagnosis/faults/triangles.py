@@ -1,0 +1,213 @@
+"""Faults of objects' triangles: which are there, how quads are cut, which side is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ...arrays import Array, Bools
+from ...causes.case import Case
+from ...causes.checks.probe import SOUND
+from ...projections import ORTHOGRAPHIC
+from ...rendering import steps
+from ...scene import Camera, Instance, Mesh, Scene
+from ...tracer.frame import Frame
+from ...tracer.progress import Work
+from ..evidence import Evidence
+from .fault import Effort, Example, Fault, Guess, instances_named
+from .suspects import seen_instances
+
+
+def with_triangles(mesh: Mesh, left: Bools | slice, corners: slice = slice(None)) -> Mesh:
+    """Return the mesh of some of the triangles, with their corners in some order."""
+    colors = None if mesh.corner_colors is None else mesh.corner_colors[left][:, corners]
+    triangles = mesh.triangles[left][:, corners]
+    return replace(mesh, triangles=triangles, slots=mesh.slots[left], corner_colors=colors)
+
+
+def _meshes(change: Callable[[Mesh], Mesh]) -> Callable[[Case, Frame, Guess], Case | None]:
+    """Return what changes the meshes of an object, or of all objects where none is named."""
+
+    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
+        def changed(scene: Scene) -> Scene:
+            own = {scene.instances[n].mesh for n in instances_named(scene, guess.object)}
+            meshes = [
+                change(mesh) if n in own or not guess.object else mesh
+                for n, mesh in enumerate(scene.meshes)
+            ]
+            return replace(scene, meshes=tuple(meshes))
+
+        return case.with_scenes(changed)
+
+    return make
+
+
+def _flipped(mesh: Mesh) -> Mesh:
+    return with_triangles(mesh, slice(None), slice(None, None, -1))
+
+
+def _other_diagonal(mesh: Mesh) -> Mesh:
+    """Cut every quad along its other diagonal: (a, b, c) and (a, c, d), one after the other."""
+    triangles = mesh.triangles.copy()
+    k = 0
+    first, second = triangles[:-1], triangles[1:]
+    pairs = (first[:, 0] == second[:, 0]) & (first[:, 2] == second[:, 1])
+    while k < len(pairs):
+        if pairs[k]:
+            a, b, c = triangles[k]
+            d = triangles[k + 1, 2]
+            triangles[k], triangles[k + 1] = (a, b, d), (b, c, d)
+            k += 1
+        k += 1
+    return replace(mesh, triangles=triangles)
+
+
+def _culled(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    """Leave out the triangles whose backs the camera sees."""
+
+    def culled(scene: Scene) -> Scene:
+        meshes: list[Mesh] = []
+        instances: list[Instance] = []
+        for instance in scene.instances:
+            mesh = scene.meshes[instance.mesh]
+            matrix = instance.world_from_object
+            world = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
+            a, b, c = (world[mesh.triangles[:, k]] for k in range(3))
+            front = _towards(scene.camera, a, np.cross(b - a, c - a))
+            front *= np.sign(np.linalg.det(matrix[:3, :3]))  # Blender turns the normals back
+            instances.append(replace(instance, mesh=len(meshes)))
+            meshes.append(with_triangles(mesh, front >= 0))
+        return replace(scene, meshes=tuple(meshes), instances=tuple(instances))
+
+    return case.with_scenes(culled)
+
+
+def _towards(camera: Camera, points: Array, normals: Array) -> Array:
+    """Return a positive number where a normal (n, 3) points towards the camera."""
+    back = -camera.forward if camera.projection is ORTHOGRAPHIC else camera.origin - points
+    return (normals * back).sum(axis=1)
+
+
+def _largest_triangle(case: Case, frame: Frame) -> Guess | None:
+    if not seen_instances(case, frame):
+        return None
+    names = np.stack((frame.instance_index, frame.triangle_index), axis=-1)
+    found, count = np.unique(names[frame.triangle_index >= 0], axis=0, return_counts=True)
+    instance, triangle = (int(n) for n in found[np.argmax(count)])
+    name = case.scene.objects[case.scene.instances[instance].object]
+    rank = instances_named(case.scene, name).index(instance)
+    return Guess((1.0, float(rank), float(triangle)), object=name)
+
+
+def _without_triangles(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    """Drop triangles of an instance: the values are their count, its rank, and their numbers.
+
+    The rank is that among the object's instances: another scene may number them otherwise.
+    """
+    rank, *triangles = (int(v) for v in guess.values[1:])
+
+    def less(scene: Scene) -> Scene:
+        own = instances_named(scene, guess.object)
+        if rank >= len(own):
+            return scene
+        mesh = scene.meshes[scene.instances[own[rank]].mesh]
+        left = ~np.isin(np.arange(len(mesh.triangles)), triangles)
+        instances = list(scene.instances)
+        instances[own[rank]] = replace(instances[own[rank]], mesh=len(scene.meshes))
+        meshes = (*scene.meshes, with_triangles(mesh, left))
+        return replace(scene, meshes=meshes, instances=tuple(instances))
+
+    return case.with_scenes(less)
+
+
+LEAST_WRONG = 2  # pixels of a triangle that is missing
+MOST_LAYERS = 6  # of triangles one behind another
+MOST_INSTANCES = 4  # of an object, of which triangles may be missing
+MOST_TRIANGLES = 4096  # of an instance that may be missing
+PIXELS_PER_TRIANGLE = 4  # else any shape is a sum of triangles
+
+
+def _missing_triangles(evidence: Evidence) -> Work[list[Guess]]:
+    """Return, for each object, the triangles in which it is unexplained, one behind another.
+
+    Of its instances, those with the most unexplained pixels are looked at.
+    """
+    seen = evidence.frame.instance_index[evidence.open]
+    count = np.bincount(seen[seen >= 0], minlength=len(evidence.case.scene.instance_objects))
+    out = []
+    for name in evidence.suspects:
+        own = instances_named(evidence.case.scene, name)
+        ranks = sorted(range(len(own)), key=lambda rank: -count[own[rank]])
+        for rank in ranks[:MOST_INSTANCES]:
+            if count[own[rank]]:
+                guess = yield from _peeled(evidence, name, own[rank], rank)
+                out += [guess] if guess else []
+    return out
+
+
+def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Guess | None]:
+    """Drop an instance's triangles that are wrong, then those behind them that are, and so on."""
+    case, frame = evidence.case, evidence.frame
+    gone: set[int] = set()
+    wrong = evidence.open
+    mesh = case.scene.meshes[case.scene.instances[instance].mesh]
+    left = np.arange(len(mesh.triangles))  # their numbers in the scene as it is
+    for _ in range(MOST_LAYERS):
+        found = frame.triangle_index[wrong & (frame.instance_index == instance)]
+        # A triangle that is there is nowhere wrong, but for what another fault does at its rim.
+        number, count = np.unique(found, return_counts=True)
+        more = left[number[count >= LEAST_WRONG]]
+        if not len(more):
+            break
+        gone |= set(more.tolist())
+        left = np.setdiff1d(left, more)
+        values = (float(len(gone)), float(rank), *map(float, sorted(gone)))
+        guess = Guess(values, object=name)
+        if len(gone) * PIXELS_PER_TRIANGLE > evidence.open.sum() or len(gone) > MOST_TRIANGLES:
+            return None
+        other = _without_triangles(case, evidence.frame, guess)
+        if other is None or (yield from evidence.score(other)).gain < 0:
+            return None  # where they are missing, they break nothing that agrees
+        frame = Frame.empty(other.scene)
+        yield from steps(other.scene, SOUND, frame)
+        shown = evidence.picture.alike(other.scene, frame.instance_index, frame.color)
+        wrong = evidence.open & ~shown
+    if not (frame.instance_index == instance).any():
+        return None  # all that is seen of it is gone: the object is missing
+    return guess if gone else None
+
+
+TRIANGLE_FAULTS = (
+    Fault(
+        "culled",
+        "back faces are left out (culled)",
+        "Blender shows both sides of a face, unless its material says otherwise",
+        _culled,
+        effort=Effort.PIXELS,
+    ),
+    Fault(
+        "flipped_winding",
+        "all normals are turned over",
+        "keep the order of each triangle's corners",
+        _meshes(_flipped),
+        examples=(Example("flipped_winding", "all normals turned over"),),
+    ),
+    Fault(
+        "other_diagonal",
+        "quads are cut along their other diagonal",
+        "cut each quad as Blender's loop triangles do",
+        _meshes(_other_diagonal),
+    ),
+    Fault(
+        "triangles_missing",
+        "'{object}' lacks {count:.0f} of its triangles",
+        "check which faces are exported: hidden ones, large polygons, the end of the list",
+        _without_triangles,
+        _missing_triangles,
+        ("count",),
+        effort=Effort.PIXELS,  # any shape that is a part of another one has triangles missing
+        examples=(Example("dropped_triangle", "the largest triangle left out", _largest_triangle),),
+    ),
+)

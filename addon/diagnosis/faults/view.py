@@ -1,0 +1,128 @@
+"""Faults of what the camera lets be seen: its clip range, and how it projects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ...arrays import Bools
+from ...causes.case import Case
+from ...scene import Camera
+from ...tracer.frame import Frame
+from ...tracer.progress import Work
+from ..evidence import Evidence
+from .climbing import Values
+from .fault import Example, Fault, Guess, of_camera
+from .search import Search
+
+FEW = (0.0, 0.001, 0.01, 0.05)  # shares of unexplained pixels that may have another cause
+STEPS = 32  # of the depths that are seen: the first step of a fit
+BESIDE = 2.0**-40  # of a depth: before what is clipped
+LEFT_OUT = "left out: nothing is clipped"
+FAR = 1e6  # how many times farther is looked for what should have been clipped
+
+
+def _start(camera: Camera, start: float) -> Camera | None:
+    return replace(camera, clip_start=start) if start < camera.clip_end else None
+
+
+def _end(camera: Camera, end: float) -> Camera | None:
+    return replace(camera, clip_end=end) if end > camera.clip_start else None
+
+
+def _halfway(case: Case, frame: Frame) -> Guess | None:
+    """Pick a clip start halfway between the nearest and the farthest surface that is seen."""
+    t = frame.t[np.isfinite(frame.t)]
+    if not len(t) or np.ptp(t) == 0:
+        return None
+    return Guess((float(np.min(t) + np.max(t)) / 2,))
+
+
+def _find_start(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the clip start for which the most pixels are right, and none."""
+    camera = evidence.case.scene.camera
+    least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
+    fitted = yield from _fitted(evidence, _start, least, -1.0)
+    return [*fitted, Guess((least,), words=LEFT_OUT)]
+
+
+def _find_end(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the clip end for which the most pixels are right, and none."""
+    most = evidence.case.scene.camera.clip_end * FAR
+    fitted = yield from _fitted(evidence, _end, most, 1.0)
+    return [*fitted, Guess((most,), words=LEFT_OUT)]
+
+
+def _fitted(
+    evidence: Evidence, changed: Callable[[Camera, float], Camera | None], none: float, sign: float
+) -> Work[list[Guess]]:
+    """Return the best depth near those that part unexplained pixels from the others.
+
+    `none` is the depth with which nothing is clipped.
+    """
+    camera = evidence.case.scene.camera
+    widest = changed(camera, none)
+    t = evidence.frame.t[np.isfinite(evidence.frame.t)]
+    if widest is None or not len(t) or not np.ptp(t):
+        return []
+    # The pixels' rays are the same with each depth: what may be on them is looked for once.
+    probe = yield from evidence.probe(evidence.case.scene.seen_by(widest))
+
+    def right(values: Values) -> Work[Bools | None]:
+        other = changed(camera, *values) if values[0] > 0 else None
+        if other is None:
+            return None
+        clipped = replace(probe, scene=probe.scene.seen_by(other))
+        hits = yield from clipped.trace()
+        return evidence.agrees(clipped.scene, hits)
+
+    starts = []
+    for depth in _parting(evidence, sign):
+        # It parts the pixels already: if most are wrong with it, so they are beside it.
+        found = yield from right(depth)
+        if found is not None and found.sum() >= evidence.least_right():
+            starts.append(depth)
+    if not starts:
+        return []
+    search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right())
+    guess = yield from search.guess(starts)
+    if guess is None:
+        return []
+    beyond = "nearer" if sign < 0 else "farther"
+    words = f"at {guess.values[0]:.4g} m: what is {beyond} is not shown"
+    return [replace(guess, words=words)]
+
+
+def _parting(evidence: Evidence, sign: float) -> list[Values]:
+    """Return depths beyond which (sign 1), or before which (-1), the unexplained pixels lie.
+
+    All of them do, or nearly all: some may have another cause. Pixels that agree may lie there,
+    too, as they show what is behind in the same colour.
+    """
+    t = sign * evidence.frame.t
+    wrong = np.sort(t[np.isfinite(t) & evidence.open])
+    found = {float(wrong[int(share * len(wrong))]) for share in FEW if len(wrong)}
+    return [(abs(nearest) * (1 - sign * BESIDE),) for nearest in sorted(found)]
+
+
+VIEW_FAULTS = (
+    Fault(
+        "clip_start",
+        "the clip start is {words}",
+        "take the camera's own clip start; it is a depth along the view axis",
+        of_camera(_start),
+        _find_start,
+        ("start",),
+        examples=(Example("clip_start", "the clip start halfway into the scene", _halfway),),
+    ),
+    Fault(
+        "clip_end",
+        "the clip end is {words}",
+        "take the camera's own clip end; it is a depth along the view axis",
+        of_camera(_end),
+        _find_end,
+        ("end",),
+    ),
+)

@@ -1,0 +1,244 @@
+"""Makes guesses of what is wrong, tries them, and says which may be told.
+
+A guess is told under three conditions.
+
+- It is right in nearly all the pixels that it changes (`PRECISE`). A wrong guess has no reason to
+  be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
+  for a distorted lens, is right in some places alone.
+- It settles enough pixels. A guess that changes k pixels of two colours is right in all of them by
+  chance once in 2^k times, and some hundred guesses are tried: so `LEAST` are needed, and half
+  as many again for each number that was fitted.
+- It settles a share of what is unexplained (`SHARE`), or all that earlier ones left: a fault of a
+  few pixels beside another one of many is looked for once that one is put right. In a picture that
+  is wrong in a way that is not known, a small thing that is shown elsewhere looks like a missing
+  one: in the test bed it settled a tenth.
+
+Of guesses that are as good, those with the fewest fitted numbers are told, all of them. One that is
+`vague`, as it allows for more than one picture, is told if no exact one is as good.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TypeVar
+
+from ..causes.case import PRECISE
+from ..scene import SceneError
+from ..tracer.progress import Work
+from .evidence import FEW, Evidence, Score
+from .faults.fault import Fault, Guess
+from .trial import Trial, tried
+from .variants import carried
+
+T = TypeVar("T")
+
+COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
+FITTED = (
+    0.9  # that share for numbers that were fitted: the wrong kind is nearly right in small places
+)
+LEAST = 10  # the least pixels that a guess must settle, and half as many for each of its numbers
+SHARE = 0.2  # of the unexplained pixels
+ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
+PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
+UNLIKELY = 0.5  # of the least gain: guesses below, by few pixels, are not looked at any more
+NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
+ENOUGH = (
+    0.995  # of the unexplained pixels: after a guess that gains as many, none takes more effort
+)
+ALL_EDGES = 1 << 14  # pixels of each kind that are looked at then
+TRIED = 6  # guesses that are tried on the whole picture together, at most
+MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
+MAIN = 0.5  # of the unexplained pixels: a guess that gains as much may need a second one beside it
+STARTS = 2  # such guesses
+LOST = 0.1  # of the pixels that such a guess settles: it loses no more
+# Of work, after which no other guess is made, and one that is being made is given up. In a step, a
+# bounded number of rays, pairs or pixels is looked at: as many on each machine.
+STEPS = 60_000
+NONE = Score(0.0, 0.0)
+
+
+class Guessing:
+    """The guesses that are made in one diagnosis, and how many steps of work they took."""
+
+    def __init__(self, faults: Sequence[Fault], limit: float) -> None:
+        self.faults = faults
+        self.limit = limit
+        self.steps = 0
+        self.guesses = 0
+        self.untried: set[str] = set()  # names of faults that were not looked for to the end
+
+    @property
+    def ended(self) -> bool:
+        """Whether it took so many steps that no other guess is made."""
+        return self.steps >= self.limit
+
+    def _limited(self, work: Work[T], fault: Fault) -> Work[T | None]:
+        """Run work that looks for a fault; None if the steps come to an end before it does."""
+        while not self.ended:
+            try:
+                share = next(work)
+            except StopIteration as stop:
+                found: T = stop.value
+                return found
+            self.steps += 1
+            yield share
+        work.close()
+        self.untried.add(fault.name)
+        return None
+
+    def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
+        """Return guesses tried on the whole picture, the best first.
+
+        Faults without numbers to fit are looked at before the others: where one of them does it
+        all, a fit that does as well says no more.
+        """
+        open_ = float(evidence.open.sum())
+        faults = [f for f in self.faults if not (f.everywhere and evidence.of_object)]
+        pool: list[tuple[float, Fault, Guess]] = []
+        out: list[Trial] = []
+        for effort in sorted({fault.effort for fault in faults}):
+            some = [fault for fault in faults if fault.effort == effort]
+            scored = yield from self._scored(evidence, some)
+            pool += [one for one in scored if one[0] < NEARLY * open_]
+            sure = [one for one in scored if one[0] >= NEARLY * open_]
+            out += yield from self._tried(evidence, of, sure, MOST_SURE)
+            if any(t.gain >= ENOUGH * open_ for t in _good(of, out)):
+                break
+        else:
+            out += yield from self._tried(evidence, of, pool, TRIED)
+        return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
+
+    def _scored(
+        self, evidence: Evidence, faults: Sequence[Fault]
+    ) -> Work[list[tuple[float, Fault, Guess]]]:
+        """Return the guesses of some faults that gain on the sample, each with its gain."""
+        out = []
+        for fault in faults:
+            given = [
+                Guess(object=v.object, scene=v.scene, words=v.words)
+                for v in evidence.variants
+                if v.fault == fault.name
+            ]
+            found = yield from self._limited(fault.find(evidence), fault)
+            for guess in (*given, *(found or ())):
+                self.guesses += 1
+                score = (yield from self._limited(_score(evidence, fault, guess), fault)) or NONE
+                if _may_be_finer(evidence, score):
+                    guess = yield from self._finer(evidence, fault, guess)
+                    again = self._limited(_score(evidence, fault, guess), fault)
+                    score = (yield from again) or NONE
+                if score.gain >= _least(evidence):
+                    out.append((score.gain, fault, guess))
+        return out
+
+    def _finer(self, evidence: Evidence, fault: Fault, guess: Guess) -> Work[Guess]:
+        """Return a guess that was fitted roughly with its numbers fitted finely."""
+        if not (fault.refine and guess.low and guess.low == guess.high):
+            return guess
+        finer = replace(evidence, size=ALL_EDGES, fine=True)
+        return (yield from self._limited(fault.refine(finer, guess), fault)) or guess
+
+    def _tried(
+        self, evidence: Evidence, of: Evidence, scored: list[tuple[float, Fault, Guess]], most: int
+    ) -> Work[list[Trial]]:
+        """Return the trials of the guesses with the most gain; what was fitted is fitted finely.
+
+        Vague ones come last: their trials take long, and what is exact is told in their place.
+        """
+        promising = PROMISING * max((gain for gain, _, _ in scored), default=0.0)
+        scored = sorted((one for one in scored if one[0] >= promising), key=lambda one: -one[0])
+        exact = [one for one in scored if not one[1].vague]
+        vague = [one for one in scored if one[1].vague]
+        out: list[Trial] = []
+        done: set[str] = set()  # faults with a guess that does it all
+        for _, fault, guess in (*exact[:most], *vague[:most]):
+            if fault.name in done:
+                continue
+            guess = yield from self._finer(evidence, fault, guess)
+            trial = yield from self._limited(tried(evidence, fault, guess, of), fault)
+            if trial and trial.gain > 0:
+                out.append(trial)
+                if trial.perfect:
+                    done.add(fault.name)
+        return out
+
+
+def _least(evidence: Evidence) -> float:
+    """Return how many pixels a guess must settle at least."""
+    return float(max(LEAST, SHARE * evidence.open.sum()))
+
+
+def _may_be_finer(evidence: Evidence, score: Score) -> bool:
+    """Return whether a rough fit may break as much as it settles, as that is very little."""
+    open_ = int(evidence.open.sum())
+    return score.gain < _least(evidence) and MAIN * open_ <= score.settled <= open_ <= FEW
+
+
+def _score(evidence: Evidence, fault: Fault, guess: Guess) -> Work[Score]:
+    """Return what a guess makes of the sample; all is settled by one that cannot be sampled."""
+    if not fault.sampled:
+        return Score(float(evidence.open.sum()), 0.0)
+    try:
+        case = fault.tried(evidence.case, evidence.frame, guess)
+        if case is None:
+            return NONE
+        few = yield from evidence.few.score(case)
+        if few.gain < UNLIKELY * _least(evidence):
+            return few
+        return (yield from evidence.score(case))
+    except SceneError:
+        return NONE
+
+
+def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]]:
+    """Return the next fault, with those that do as well; or two that account for it together.
+
+    Of two, the first one alone must lose few pixels, and with the second one more must agree.
+    """
+    trials = yield from guessing.trials(evidence, evidence)
+    if best := _best(evidence, trials):
+        return [best]
+    for first in trials[:STARTS]:
+        if first.gain < MAIN * evidence.open.sum() or not first.evidence.open.any():
+            continue
+        if first.broken > LOST * first.settled or first.own < COMPLETE:
+            continue
+        seconds = yield from guessing.trials(carried(evidence, first), evidence)
+        if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
+            return [[first], best]
+    return []
+
+
+def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
+    """Return the trials that may be told."""
+    open_ = int(evidence.open.sum())
+    return [
+        t
+        for t in trials
+        if t.precision >= PRECISE
+        and t.settled >= LEAST * (1 + t.cost / 2)
+        and t.settled >= SHARE * open_
+        and min(t.recall, t.own) >= (FITTED if t.cost else COMPLETE)
+        and not t.unseen
+    ]
+
+
+def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
+    """Return those of the most gain with the fewest numbers, one of each fault.
+
+    What sums up the others comes first. An object's fault is not told where the picture or the view
+    as a whole may have one.
+    """
+    good = _good(evidence, trials)
+    most = max((t.gain for t in good), default=0)
+    alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
+    fewest = min(((t.fault.vague, t.cost) for t in alike), default=None)
+    alike = [t for t in alike if (t.fault.vague, t.cost) == fewest]
+    sums_up = any(t.fault.sums_up for t in alike)
+    if not sums_up and not all(t.guess.object for t in alike):
+        alike = [t for t in alike if not t.guess.object]
+    told: dict[str, Trial] = {}
+    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, -t.gain)):
+        told.setdefault(trial.fault.name, trial)
+    return list(told.values())

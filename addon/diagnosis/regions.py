@@ -1,0 +1,158 @@
+"""Groups the pixels of a picture into regions, and says which objects are in each.
+
+Pixels belong together if a chain of them links them in which no step is longer than a few pixels.
+None is left out: where there would be too many regions, longer steps link them.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array, Bools, Index, Places
+from ..pictures.identity import Identity
+from ..scene import Scene
+from ..tracer.frame import Frame
+
+NEAR = 4  # pixels that grow around each one: what is at most 2 NEAR + 1 away touches then
+MOST = 60  # regions of a picture: more frames than these would hide it
+
+Side = tuple[Sequence[str], Index]  # names, and which of them each pixel (h, w) shows; else < 0
+
+
+@dataclass(frozen=True)
+class Region:
+    """Pixels that lie near one another, and the smallest rectangle around them."""
+
+    left: int  # its first column
+    bottom: int  # its lowest row, from the lower left of the picture
+    width: int
+    height: int
+    pixels: int  # of the mask in it
+    objects: tuple[str, ...] = ()  # that either side shows in these pixels, the largest first
+
+    @property
+    def top(self) -> int:
+        """Its highest row."""
+        return self.bottom + self.height - 1
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON can hold it; (left, top) is the pixel at its upper left."""
+        return {
+            "left": self.left,
+            "top": self.top,
+            "width": self.width,
+            "height": self.height,
+            "pixels": self.pixels,
+            "objects": list(self.objects),
+        }
+
+
+def sides(scene: Scene, frame: Frame, identity: Identity | None) -> list[Side]:
+    """Return the objects that the traced side shows, and the other side's where they are known."""
+    found: list[Side] = [(scene.objects, scene.instance_objects[frame.instance_index])]
+    if identity is not None:
+        found.append((identity.names, identity.shown))
+    return found
+
+
+def regions(
+    mask: Bools, shown: Sequence[Side] = (), near: int = NEAR, most: int = MOST
+) -> list[Region]:
+    """Return the regions of the pixels that a mask holds, those with the most pixels first.
+
+    Parameters
+    ----------
+    mask : (h, w) bool
+    shown : sequence of Side
+        Which objects each side shows: see :func:`sides`.
+    near : int
+        Pixels that are at most 2 near + 1 columns and rows apart are in one region. It is doubled
+        for as long as there are more than `most`.
+    most : int
+        At least 1.
+
+    Returns
+    -------
+    list of Region
+        Each pixel of the mask is in exactly one.
+    """
+    y, x = np.nonzero(mask)
+    if not len(y):
+        return []
+    bottom, left = int(np.min(y)), int(np.min(x))
+    held = mask[bottom : int(np.max(y)) + 1, left : int(np.max(x)) + 1]
+    while True:
+        label = _labels(_grown(held, near))[y - bottom, x - left]
+        unique, number = np.unique(label, return_inverse=True)
+        if len(unique) <= most:
+            break
+        near = max(2 * near, 1)
+    order = np.argsort(number, kind="stable")
+    parts = np.split(order, np.flatnonzero(np.diff(number[order])) + 1)
+    parts.sort(key=lambda part: (-len(part), part[0]))
+    return [_region(y[part], x[part], shown) for part in parts]
+
+
+def _region(y: Places, x: Places, shown: Sequence[Side]) -> Region:
+    count: Counter[str] = Counter()
+    for names, number in shown:
+        found, many = np.unique(number[y, x], return_counts=True)
+        for n, pixels in zip(found.tolist(), many.tolist(), strict=True):
+            if 0 <= n < len(names):
+                count[names[n]] += pixels
+    left, bottom = int(np.min(x)), int(np.min(y))
+    size = int(np.max(x)) - left + 1, int(np.max(y)) - bottom + 1
+    return Region(left, bottom, *size, len(y), tuple(name for name, _ in count.most_common()))
+
+
+def _grown(mask: Bools, by: int) -> Bools:
+    """Return a mask with so many more pixels on all sides of each, within its shape."""
+    for _ in range(2):  # once along the rows, once along the columns
+        length = mask.shape[1]
+        total = np.zeros((mask.shape[0], length + 1), np.int32)
+        np.cumsum(mask, axis=1, out=total[:, 1:])
+        first = np.maximum(np.arange(length) - by, 0)
+        last = np.minimum(np.arange(length) + by + 1, length)
+        mask = (total[:, last] > total[:, first]).T
+    return mask
+
+
+def _labels(mask: Bools) -> Array:
+    """Return a number (h, w) for each pixel; those that touch, also at a corner, have the same.
+
+    What touches is found between runs of pixels in neighbouring rows. Pixels outside get any.
+    """
+    height, width = mask.shape
+    edges = np.zeros((height, width + 3), np.int8)
+    edges[:, 1 : width + 1] = mask
+    change = np.flatnonzero(np.diff(edges, axis=1).ravel())
+    start, end = change[::2], change[1::2]  # row * (width + 2) + column, the end exclusive
+    # Runs of the next row that begin no later than a run ends, and end no sooner than it begins.
+    first = np.searchsorted(end, start + (width + 2), "left")
+    last = np.searchsorted(start, end + (width + 2), "right")
+    many = np.maximum(last - first, 0)
+    above = np.repeat(np.arange(len(start)), many)
+    below = np.arange(many.sum()) + np.repeat(first - np.cumsum(many) + many, many)
+    label = _linked(len(start), above, below)
+    rows, columns = np.divmod(np.arange(height * width), width)
+    run = np.searchsorted(start, rows * (width + 2) + columns, "right") - 1
+    return label[np.maximum(run, 0)].reshape(height, width)
+
+
+def _linked(count: int, one: Places, other: Places) -> Places:
+    """Return the lowest of those that links connect each of so many items with, (count,)."""
+    lowest = np.arange(count)
+    while True:
+        a, b = lowest[one], lowest[other]
+        apart = a != b
+        if not apart.any():
+            return lowest
+        one, other, a, b = one[apart], other[apart], a[apart], b[apart]
+        np.minimum.at(lowest, np.maximum(a, b), np.minimum(a, b))
+        while not np.array_equal(lowest, lowest[lowest]):
+            lowest = lowest[lowest]

@@ -1,0 +1,153 @@
+"""Finds what single rays see of a scene: a diagnosis asks the same few about hundreds of scenes.
+
+Each mesh has a tree of its triangles' boxes in object space, which is kept for as long as the mesh
+is: scenes that share it, and its instances, share the tree. The triangles that are left are tested
+as by any plain method. Nothing here is proven: what is told was traced again, with proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from ..arrays import Bools, Floats, Places
+from ..causes.checks.probe import SOUND
+from ..scene import Mesh, Scene
+from ..tracer.camera import Rays
+from ..tracer.hits import Hits
+from ..tracer.nearest import test_pairs, test_planes
+from ..tracer.progress import Work
+from ..tracer.world import Pairs, WorldTriangles, world_corners
+from .boxes import Crossed, Nodes, crossed, inverted, together, tree
+
+RAYS = 1 << 12  # traced together
+PAIRS = 1 << 22  # of a ray and an instance that are listed together, at most
+NEAREST = 2  # instances on a ray that are looked at first; then those behind, four times as many
+
+
+@dataclass(eq=False)
+class Trees:
+    """The trees of some scenes: of their meshes, and of the instances of the last one."""
+
+    of_mesh: WeakKeyDictionary[Mesh, Nodes] = field(default_factory=WeakKeyDictionary)
+    _last: Scene | None = None
+    _meshes: Nodes = field(default_factory=lambda: together(()))
+    _instances: Nodes = field(default_factory=lambda: together(()))
+
+    def trace(self, scene: Scene, rays: Rays) -> Work[Hits]:
+        """Return the nearest hit of each of n rays, as :func:`..tracer.nearest.trace_rays`."""
+        hits = Hits.none(rays.count)
+        test_planes(scene, rays, hits)
+        yield 0.0
+        if scene.instances:
+            self._prepare(scene)
+            together = int(np.clip(PAIRS // len(scene.instances), 64, RAYS))
+            for start in range(0, rays.count, together):
+                some = np.arange(start, min(start + together, rays.count))
+                yield from _enter(scene, rays, some, self._meshes, self._instances, hits)
+        return hits
+
+    def _prepare(self, scene: Scene) -> None:
+        """Make the trees that the scene does not share with the last one."""
+        last = self._last
+        same = last is not None and _same(last.meshes, scene.meshes)
+        if not same:
+            for mesh in scene.meshes:
+                if mesh not in self.of_mesh:
+                    self.of_mesh[mesh] = _tree(mesh)
+            self._meshes = together([self.of_mesh[mesh] for mesh in scene.meshes])
+        if last is None or not same or not _same(last.instances, scene.instances):
+            self._instances = _instances(scene)
+        self._last = scene
+
+
+def _same(first: Sequence[object], second: Sequence[object]) -> bool:
+    """Return whether two sequences hold the same things."""
+    if first is second:
+        return True
+    return len(first) == len(second) and all(a is b for a, b in zip(first, second, strict=True))
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def _tree(mesh: Mesh) -> Nodes:
+    corners = mesh.vertices.astype(np.float64)[mesh.triangles]  # (m, 3, 3)
+    return tree(corners.min(axis=1).T, corners.max(axis=1).T)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def _instances(scene: Scene) -> Nodes:
+    """Return the tree of a scene's instances by their boxes in world space."""
+    bounds = np.array([mesh.bounds for mesh in scene.meshes])[scene.instance_meshes]  # (k, 2, 3)
+    middle, half = bounds.mean(axis=1).T, (bounds[:, 1] - bounds[:, 0]).T / 2
+    m = scene.instance_matrices[:3, :3]
+    middle = (m * middle).sum(axis=1) + scene.instance_matrices[:3, 3]
+    half = (np.abs(m) * half).sum(axis=1)
+    return tree(middle - half, middle + half)
+
+
+def _enter(
+    scene: Scene, rays: Rays, some: Places, nodes: Nodes, instances: Nodes, hits: Hits
+) -> Work[None]:
+    """Enter the nearest hits of some rays: the instances on each are looked at from near to far."""
+    o, d = (np.broadcast_to(v, (3, rays.count))[:, some] for v in (rays.origins, rays.directions))
+    root = np.zeros(len(some), np.intp)
+    found = list(crossed(instances, root, o, inverted(d)))
+    if not found:
+        return
+    ray, instance, near = (np.concatenate(v) for v in zip(*found, strict=True))
+    order = np.lexsort((near, ray))
+    ray, instance, near = ray[order], instance[order], near[order]
+    rank = np.arange(len(ray)) - np.searchsorted(ray, ray)
+    first, many = 0, NEAREST
+    while True:
+        now = np.flatnonzero((rank >= first) & (near <= hits.t[some[ray]]))
+        if not len(now):
+            return
+        now = now[rank[now] < first + many]
+        yield from _test(scene, rays, some[ray[now]], instance[now], nodes, hits)
+        first, many = first + many, 4 * many
+
+
+def _test(
+    scene: Scene, rays: Rays, ray: Places, instance: Places, nodes: Nodes, hits: Hits
+) -> Work[None]:
+    """Test rays (p,) with the triangles of an instance each whose boxes they pass through."""
+    own = rays.take(ray)
+    used, number = np.unique(instance, return_inverse=True)
+    inverse, regular = _object_from_world(scene.instance_matrices[:3, :, used])
+    m = inverse[:, :, number]
+    o = (m[:, :3] * own.origins).sum(axis=1) + m[:, 3]
+    d = (m[:, :3] * own.directions).sum(axis=1)
+    flat = ~regular[number]  # all its triangles are asked about
+    o[:, flat] = 0
+    through = inverted(d)
+    through[:, flat] = 0
+    for pairs in crossed(nodes, nodes.roots[scene.instance_meshes[instance]], o, through):
+        _test_triangles(scene, rays, ray, instance, pairs, hits)
+        yield 0.0
+
+
+def _test_triangles(
+    scene: Scene, rays: Rays, ray: Places, instance: Places, pairs: Crossed, hits: Hits
+) -> None:
+    of, triangle = instance[pairs.ray].astype(np.int32), pairs.item.astype(np.int32)
+    order = np.argsort(scene.instance_meshes[of], kind="stable")
+    of, triangle = of[order], triangle[order]
+    world = WorldTriangles(world_corners(scene, of, triangle), of, triangle)
+    some = Pairs(ray[pairs.ray[order]], np.arange(len(of)), world)
+    test_pairs(scene, SOUND, rays, some, hits)
+
+
+def _object_from_world(matrices: Floats) -> tuple[Floats, Bools]:
+    """Return the inverses of matrices (3, 4, k), and which have one, (k,)."""
+    m = np.moveaxis(matrices, -1, 0)
+    with np.errstate(all="ignore"):
+        regular = np.isfinite(m).all(axis=(1, 2))
+        regular[regular] = np.abs(np.linalg.det(m[regular, :, :3])) > 0
+        axes = np.where(regular[:, None, None], m[:, :, :3], np.eye(3))
+        inverse = np.linalg.inv(axes)
+        at = -(inverse * m[:, None, :, 3]).sum(axis=-1)
+    return np.moveaxis(np.concatenate((inverse, at[..., None]), axis=2), 0, -1), regular

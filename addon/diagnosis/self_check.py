@@ -1,0 +1,150 @@
+"""The self-check: whether this comparison would have found a fault in this very scene.
+
+Known faults are made, one at a time, and explained as the comparison itself was: by the same
+function, method, alternatives and curves. A fault is caught if it leaves pixels unexplained, or if
+the comparison then names a transform of the colours that it did not name before. Two kinds of
+faults are reported, but not counted: those that change no pixel here, as a mirrored camera before
+a symmetric scene, and those that change only pixels that cannot be judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import Bools
+from ..causes.case import Case
+from ..causes.cause import AGREE, UNEXPLAINED, Causes
+from ..causes.explain import CAUSES, explain
+from ..pictures.bounds import differing
+from ..rendering import steps
+from ..scene import SceneError
+from ..tracer.frame import Frame
+from ..tracer.progress import Work, called, scaled
+from .faults import EXAMPLES
+from .faults.fault import Example, Fault
+
+SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
+
+
+class FaultRow(NamedTuple):
+    """A fault, and what the comparison made of it."""
+
+    name: str
+    text: str
+    changed: int = 0  # pixels that the fault changes, in the traced picture or in Blender's
+    differ: int = 0  # of those, pixels that differ then
+    looked_at: int = 0  # of those, pixels whose cause was looked for
+    unexplained: int = 0  # of those, pixels that have none
+    within_rounding: bool = False  # Blender's own float32 accounts for every changed pixel
+    note: str = ""
+    named: bool = False  # only the faulty comparison names a transform of the colours
+    blind: bool = False  # no changed pixel can be judged
+
+    @property
+    def result(self) -> str:
+        """What became of it: 'caught', 'missed', or why it could not be caught."""
+        if not self.changed:
+            return "cannot be seen here"
+        if self.unexplained or self.named:
+            return "caught"
+        if self.blind:
+            return "cannot be judged here"
+        return "within rounding" if self.within_rounding else "missed"
+
+    @property
+    def missed(self) -> bool:
+        """Whether it changed the picture and was taken for something else."""
+        return self.result == "missed"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the row as JSON can hold it."""
+        held = {k: v for k, v in self._asdict().items() if k not in ("named", "blind")}
+        return held | {"result": self.result}
+
+
+def self_check(
+    case: Case,
+    frame: Frame,
+    causes: Causes,
+    examples: Sequence[tuple[Fault, Example]] = EXAMPLES,
+) -> Work[tuple[FaultRow, ...]]:
+    """Make every example of a fault and see what becomes of it; yields the share of the work done.
+
+    `case` is the right one, as it was given; `frame` was traced, and `causes` were found of it.
+    """
+    rows: list[FaultRow] = []
+    part = 1 / len(examples)
+    for fault, example in examples:
+        words = f"self-check: {example.name.replace('_', ' ')}"
+        checking = called(_checked(case, frame, causes, fault, example), words)
+        row = yield from scaled(checking, len(rows) * part, part)
+        rows.append(row)
+    return tuple(rows)
+
+
+def _checked(
+    case: Case, frame: Frame, causes: Causes, fault: Fault, example: Example
+) -> Work[FaultRow]:
+    row = FaultRow(example.name, example.text)
+    try:
+        guess = example.pick(case, frame)
+        wrong = None if guess is None else fault.make(case, frame, guess)
+    except SceneError as error:  # the scene cannot be traced then, which nobody would overlook
+        return row._replace(note=f"refused: {error}")
+    if wrong is None:
+        return row._replace(note="there is nothing to get wrong")
+    traced = frame
+    if wrong.scene is not case.scene:
+        traced = Frame.empty(wrong.scene)
+        yield from scaled(steps(wrong.scene, case.settings, traced), 0.0, 0.3)
+    changed = _changed(case, frame, wrong, traced)
+    if not changed.any():
+        return row
+    explained = yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)
+    found = explained.causes
+    of_fault = found.cause[changed]
+    looked_at = int((of_fault != AGREE).sum())
+    named = bool(found.transform) and found.transform != causes.transform
+    rounding = [c for c in CAUSES if c.rounding or c == AGREE]
+    return row._replace(
+        changed=int(changed.sum()),
+        differ=looked_at + len(found.passed_over),
+        looked_at=looked_at,
+        unexplained=int((of_fault == UNEXPLAINED).sum()),
+        within_rounding=bool(np.isin(of_fault, rounding).all()),
+        note=f"named: {found.transform}" if named else "",
+        named=named,
+        blind=not (changed & ~causes.unjudged & ~found.unjudged).any(),
+    )
+
+
+def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
+    """Return which pixels (h, w) the fault changes: their colour, or the object that they show."""
+    right, picture = case.picture, wrong.picture
+    if wrong.scene is case.scene:
+        changed = differing(right.color, picture.color)
+        return changed if right.owner is None else changed | (right.owner != picture.owner)
+    changed = differing(frame.color, traced.color)
+    if right.owners is None or picture.owners is None:
+        return changed
+    return changed | (right.owners[frame.instance_index] != picture.owners[traced.instance_index])
+
+
+def table(rows: Sequence[FaultRow]) -> list[str]:
+    """Return the self-check as a person reads it, a fault a line."""
+    if not rows:
+        return []
+    caught = sum(r.result == "caught" for r in rows)
+    seen = caught + sum(r.missed for r in rows)
+    out = [f"self-check: {caught} of {seen} faults that can be seen here are caught"]
+    if blind := sum(r.blind and r.result != "caught" for r in rows):
+        out[0] += f"; {blind} more change only what cannot be judged"
+    for r in rows:
+        pixels = f"{r.unexplained:,} of {r.looked_at:,} px unexplained" if r.changed else ""
+        notes = ", ".join(filter(None, (pixels, r.note)))
+        told = f" ({notes})" if notes else ""
+        out.append(f"  {r.name.replace('_', ' '):18} {r.result}{told}: {r.text}")
+    return out

@@ -1,0 +1,166 @@
+"""Tries a guess on the whole picture: traced with it, compared again with all the causes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..arrays import Bools
+from ..causes.case import Case
+from ..causes.checks.unmodelled import as_known
+from ..causes.explain import explain
+from ..pictures.bounds import differing, largest_within
+from ..rendering import steps
+from ..scene import SceneError
+from ..tracer.frame import Frame
+from ..tracer.progress import Work, scaled
+from .evidence import Evidence
+from .faults.fault import Fault, Guess
+
+HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
+LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """What a guess makes of the whole picture."""
+
+    fault: Fault
+    guess: Guess
+    evidence: Evidence  # with the fault put right
+    settled: int  # pixels that were unexplained, and are not now
+    broken: int  # pixels that agreed or had a cause, and are unexplained now
+    stubborn: int  # unexplained pixels that it changes, and that stay unexplained
+    touched: int  # unexplained pixels of the regions in which it settles any
+    own: float = 1.0  # the share it settles of those in which its object is seen, before or after
+
+    @property
+    def cost(self) -> int:
+        """How many numbers were fitted."""
+        return len(self.guess.low)
+
+    @property
+    def gain(self) -> int:
+        """How many more pixels are explained."""
+        return self.settled - self.broken
+
+    @property
+    def unseen(self) -> bool:
+        """Whether its object is not seen any more: then all that is known is that it is missing."""
+        names, name = self.evidence.case.scene.objects, self.guess.object
+        if name not in names or self.fault.name == "object_missing":
+            return False
+        return not (self.evidence.frame.object_index == names.index(name)).any()
+
+    @property
+    def perfect(self) -> bool:
+        """Whether it settles all that is unexplained, and breaks nothing."""
+        return not self.broken and not still_open(self.evidence).any()
+
+    @property
+    def recall(self) -> float:
+        """The share of the unexplained pixels that it settles, in the regions that it touches."""
+        return self.settled / max(self.touched, 1)
+
+    @property
+    def precision(self) -> float:
+        """The share of the pixels that it changes for which it is right."""
+        return self.settled / max(self.settled + self.broken + self.stubborn, 1)
+
+
+def tried(
+    evidence: Evidence, fault: Fault, guess: Guess, of: Evidence | None = None
+) -> Work[Trial | None]:
+    """Try a guess on the whole picture; yields the share of the work done.
+
+    `of` is the evidence before other faults were put right, if there are any: what the trial counts
+    is of that. None if the guess cannot be tried.
+    """
+    before = of or evidence
+    case, frame = evidence.case, evidence.frame
+    try:
+        other = fault.tried(case, frame, guess)
+        if other is None:
+            return None
+        traced = frame
+        if other.scene is not case.scene:
+            traced = Frame.empty(other.scene)  # here: steps of waiting for others are not work
+            yield from scaled(steps(other.scene, other.settings, traced), 0.0, 0.3)
+        if fault.after is not None:
+            color = fault.after(traced.color, guess, evidence)
+            traced = replace(frame, color=color.astype(np.float32))
+            other = replace(other, scene=case.scene, alternatives=case.alternatives)
+        if traced.shape != frame.shape or not _hopeful(before, other, traced):
+            return None
+    except (SceneError, MemoryError):  # no such camera or scene can be, or be traced here
+        return None
+    explained = yield from scaled(explain(other, traced, LOOKED_AT), 0.3, 0.7)
+    after = replace(
+        evidence, case=explained.case, frame=explained.frame, causes=explained.causes, known={}
+    )
+    own = _of_object(guess.object, before, after)
+    return Trial(fault, guess, after, *counted(before, after), own)
+
+
+def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
+    """Return whether most pixels that are to be settled have the right colour at once.
+
+    The others are left to the checks, which take long where whole pictures differ.
+    """
+    mixes = case.picture.filter_radius
+    if mixes > before.case.picture.filter_radius:
+        return True
+    picture = as_known(case)
+    right = picture.alike(case.scene, frame.instance_index, frame.color)
+    right &= ~picture.other_object(frame.instance_index)
+    settled = int((right & before.open).sum())
+    was = before.picture.alike(before.case.scene, before.frame.instance_index, before.frame.color)
+    broken = int((~right & (was | (not mixes)) & before.judged).sum())
+    # Where colours are mixed, it may be that only the checks can say so.
+    return settled > HOPE * broken or bool(mixes and settled == broken == 0)
+
+
+def counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
+    """Return how many pixels are settled, broken, stay wrong though changed, and are touched."""
+    open_ = still_open(after)
+    settled = before.open & ~open_ & ~after.causes.unjudged
+    stubborn = before.open & open_ & _changed(before, after)
+    counted = settled, open_ & before.judged, stubborn, _grown(settled, before.open)
+    settles, breaks, stays, touches = (int(some.sum()) for some in counted)
+    return settles, breaks, stays, touches
+
+
+def _of_object(name: str, before: Evidence, after: Evidence) -> float:
+    """Return the share of the unexplained pixels of an object that are settled; 1 without one."""
+    own = np.zeros(before.open.shape, bool)
+    for one in (before, after):
+        scene = one.case.scene
+        numbers = [n for n, o in enumerate(scene.objects) if o == name]
+        own |= np.isin(scene.instance_objects[one.frame.instance_index], numbers)
+    own &= before.open
+    return float((~still_open(after))[own].mean()) if own.any() else 1.0
+
+
+def _grown(seed: Bools, within: Bools) -> Bools:
+    """Return the regions of a picture (h, w) that have a pixel of the seed."""
+    out = seed & within
+    while True:
+        more = (largest_within(out.astype(np.int8), 1) > 0) & within
+        if (more == out).all():
+            return out
+        out = more
+
+
+def still_open(evidence: Evidence) -> Bools:
+    """Return which pixels (h, w) are unexplained, or were not looked at for their number."""
+    out = evidence.open.copy()
+    out.flat[evidence.causes.passed_over] = True
+    return out
+
+
+def _changed(before: Evidence, after: Evidence) -> Bools:
+    """Return where other colours are traced, or the picture was changed."""
+    if before.case.picture.color is not after.case.picture.color:
+        return np.ones(before.open.shape, bool)
+    return differing(before.frame.color, after.frame.color)

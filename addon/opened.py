@@ -1,0 +1,71 @@
+"""Opens a scene that never saw Blender, with the account of what its file holds and lacks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from .framing import ANGLE, SIZE, Choice
+from .manifest import Effect, Manifest, ObjectEntry, Unmodelled
+from .mesh_files.contents import Contents
+from .mesh_files.load import load_meshes, scene_of_meshes
+from .scene import Scene, SceneError
+from .scene_files import load_scene
+
+
+class Opened(NamedTuple):
+    """What a file gives."""
+
+    scene: Scene
+    manifest: Manifest
+
+
+def open_scene(path: Path, choice: Choice | None = None) -> Opened:
+    """Open a .npz or a mesh, which is framed where no camera is chosen.
+
+    Raises
+    ------
+    SceneError, OSError
+        If there is no such scene, or it cannot be read.
+    """
+    contents = Contents(())
+    if path.suffix.lower() == ".npz":
+        scene = load_scene(path)
+    else:
+        choice = choice or Choice()
+        contents = load_meshes(path, choice.up)
+        scene = _framed(path, contents, choice)
+    return Opened(scene, file_manifest(path, scene, contents))
+
+
+def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
+    size = choice.size(SIZE)
+    camera = choice.placed(*size) if choice.eye else None
+    try:
+        return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)
+    except SceneError as error:
+        raise SceneError(f"'{path}': {error}") from error
+
+
+def file_manifest(path: Path, scene: Scene, contents: Contents) -> Manifest:
+    """Return the account of a scene that never saw Blender."""
+    entries = tuple(_entry(scene, number, name) for number, name in enumerate(scene.objects))
+    missing = tuple(Unmodelled(path.name, m, effect=Effect.UNPLACED) for m in contents.missing)
+    camera, notes = scene.camera.name, contents.notes
+    return Manifest(path.name, path.stem, "", 0, "FILE", camera, entries, missing, notes)
+
+
+def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
+    used = [i.mesh for i in scene.instances if i.object == number]
+    planes = sum(p.object == number for p in scene.planes)
+    own = [scene.meshes[k] for k in set(used)]
+    return ObjectEntry(
+        name,
+        "INFINITE_PLANE" if planes else "MESH",
+        exported=bool(used or planes),
+        reason="" if used or planes else "nothing of it is in the file",
+        triangles=sum(len(m.triangles) for m in own),
+        vertices=sum(len(m.vertices) for m in own),
+        instances=len(used) + planes,
+        traced_triangles=sum(len(scene.meshes[k].triangles) for k in used),
+    )

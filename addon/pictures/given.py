@@ -1,0 +1,106 @@
+"""A picture of unknown make, from a file or an array, as the other side of a comparison."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..images import PictureFile
+from ..scene import Camera
+from ..tracer.memory import ALWAYS, COMPARED, check_memory
+from .picture import Picture, Source, check_size
+from .renderers import RENDERERS, Renderer, renderer_of
+
+
+@dataclass(frozen=True)
+class Making:
+    """What is known of how a picture was made.
+
+    Raises
+    ------
+    ValueError
+        If there is no such renderer, naming those that there are.
+    """
+
+    renderer: str = ""  # a name in RENDERERS, whose rounding excuses a pixel; '': what a file says
+    filter_radius: float = 0.0  # pixels: how far its filter reaches; 0 for one sample a pixel
+    dither: float | None = None  # noise, in levels of 8 bits; None: what Blender added by default
+    default_dither: float = 0.0
+    engine: str = ""  # Blender's name of the engine that its scene is set to
+    asked: str = "as was asked for"  # who chose the renderer
+
+    def __post_init__(self) -> None:
+        if self.renderer and self.renderer not in RENDERERS:
+            names = ", ".join(RENDERERS)
+            raise ValueError(f"renderer is {self.renderer!r}; it must be one of {names}")
+
+    def renderer_of(self, header: str) -> tuple[Renderer, str]:
+        """Return the renderer of a picture with a file's header, and how that is known."""
+        if self.renderer:
+            return RENDERERS[self.renderer], self.asked
+        return renderer_of(header, self.engine)
+
+
+def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Picture:
+    """Return what is compared of a file: if it shows the whole view, the camera's region.
+
+    Raises
+    ------
+    SizeError, PictureTooLargeError
+        If it shows neither the view nor the region, or there is not enough memory; its pixels are
+        not read then.
+    OSError
+        If they are damaged.
+    """
+    r, own = camera.region, (file.height, file.width)
+    whole = own == (camera.height, camera.width)
+    if not whole:
+        check_size(own, (r.height, r.width))
+    check_memory(r.width, r.height, COMPARED, ALWAYS)
+    stored = file.read()
+    color = stored.color
+    if whole:
+        color = np.ascontiguousarray(color[r.y0 : r.y1, r.x0 : r.x1])
+    dither = 0.0 if stored.levels > 255 else making.default_dither  # of what has 8 bits alone
+    if making.dither is not None:
+        dither = making.dither * stored.levels / 255
+    renderer, known = making.renderer_of(stored.engine)
+    remarks = tuple(f"of the picture: {remark}" for remark in stored.remarks)
+    return Picture(
+        color,
+        Source(file=file.path.name, known=known, remarks=remarks),
+        filter_radius=making.filter_radius,
+        levels=stored.levels,
+        dither=dither,
+        opaque=stored.opaque,
+        renderer=renderer,
+    )
+
+
+def picture_of_array(color: ArrayLike, making: Making) -> Picture:
+    """Return what is compared of an array (h, w, 3 or 4), linear, row 0 at the bottom.
+
+    RGBA has its alpha multiplied in. RGB says nothing of alpha, which is not compared then.
+
+    Raises
+    ------
+    ValueError
+        If it has another shape.
+    """
+    given = np.asarray(color, np.float32)
+    if given.ndim != 3 or given.shape[2] not in (3, 4):
+        raise ValueError(f"a picture has the shape (h, w, 3) or (h, w, 4), not {given.shape}")
+    opaque = given.shape[2] == 3
+    if opaque:
+        given = np.concatenate((given, np.ones_like(given[..., :1])), axis=2)
+    renderer, known = making.renderer_of("")
+    return Picture(
+        given,
+        Source(file="array", known=known),
+        filter_radius=making.filter_radius,
+        dither=making.dither or 0.0,
+        opaque=opaque,
+        renderer=renderer,
+    )

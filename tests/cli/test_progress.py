@@ -1,0 +1,78 @@
+"""Long commands say how much is done, and what is being done, also where there is no terminal."""
+
+from __future__ import annotations
+
+import os
+import struct
+import sys
+import time
+
+import pytest
+from reference_tracer.cli import running
+from reference_tracer.cli.commands import extremes as command
+from reference_tracer.cli.main import main
+from reference_tracer.study import extremes
+from reference_tracer.study.scenarios.sweeps import BY_NAME
+from reference_tracer.tracer.progress import Share
+
+
+class Clock:
+    """One that is moved on by hand."""
+
+    now = 100.0
+
+    def __call__(self):
+        return self.now
+
+
+def test_a_line_every_ten_seconds(capsys):
+    clock = Clock()
+    with running.progress_bar(clock) as show:
+        for second in range(36):
+            clock.now = 100.0 + second
+            show(Share(second / 40, f"stage {second // 20}"))
+            show(second / 40)
+    assert capsys.readouterr().err.splitlines() == [
+        " 25 %, stage 0 (10 s, 30 s left)",
+        " 50 %, stage 1 (20 s, 20 s left)",
+        " 75 %, stage 1 (30 s, 10 s left)",
+    ]
+
+
+def test_after_a_long_step_one_line_is_enough(capsys):
+    clock = Clock()
+    with running.progress_bar(clock) as show:
+        show(0.0)
+        clock.now += 47.0
+        show(0.0)
+        show(0.001)
+        clock.now += 4.0
+        show(0.5)
+    assert capsys.readouterr().err.splitlines() == ["  0 % (47 s)", " 50 % (51 s, 51 s left)"]
+
+
+def test_on_a_terminal_a_bar_says_what_is_done(monkeypatch):
+    pytest.importorskip("tqdm")
+    pty, fcntl, termios = map(pytest.importorskip, ("pty", "fcntl", "termios"))  # not on Windows
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
+    with open(theirs, "w", encoding="utf-8") as terminal:
+        monkeypatch.setattr(sys, "stderr", terminal)
+        with running.progress_bar() as show:
+            for number in range(5):
+                show(Share(number / 10, "tracing"))
+                time.sleep(0.1)
+        assert b"tracing" in os.read(ours, 1 << 16)
+
+
+def test_a_command_says_which_scene_it_is_at(tmp_path, capsys, monkeypatch):
+    scenarios = [BY_NAME["integer_cube"], BY_NAME["needles"]]
+    measure = extremes.measure
+    monkeypatch.setattr(
+        command.study, "measure", lambda **given: measure(scenarios, judged=1, **given)
+    )
+    monkeypatch.setattr(running, "LINE_EVERY", 0.05)
+    assert main(["extremes", "--rays", "20", "--out", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().err
+    assert "%, Integers, perspective, cells per side" in said
+    assert "%, Needles, " in said

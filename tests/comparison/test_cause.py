@@ -1,0 +1,47 @@
+"""The causes' records: none contradicts itself, none can be changed, all are told apart."""
+
+from __future__ import annotations
+
+from dataclasses import FrozenInstanceError, replace
+
+import pytest
+from reference_tracer.causes.cause import COUNTED_APART
+from reference_tracer.causes.explain import AGREE, BY_NUMBER, CAUSES, CLIP_PLANE, EDGE, HIDDEN
+
+
+def test_a_record_stays_as_it_is():
+    with pytest.raises(FrozenInstanceError):
+        EDGE.label = "oops"
+    assert EDGE.label == "edge"
+
+
+@pytest.mark.parametrize(
+    ("record", "changes"),
+    [
+        (EDGE, {"explains": False}),
+        (EDGE, {"explains": False, "rounding": False, "warns": True}),
+        (AGREE, {"explains": True}),
+        (AGREE, {"warns": True}),
+        (AGREE, {"rounding": True}),
+        (AGREE, {"color": (1.0, 0.0, 0.0)}),
+        (EDGE, {"color": None}),
+        (EDGE, {"unit": ""}),
+        (EDGE, {"unit": "index"}),
+        (HIDDEN, {"sentence": "only one side shows it"}),
+    ],
+)
+def test_a_record_that_contradicts_itself_is_refused(record, changes):
+    """A cause that warns without explaining would be missing in the counts, and on the page."""
+    assert replace(record) == record
+    with pytest.raises(ValueError, match=f"the cause '{record.key}' contradicts itself"):
+        replace(record, **changes)
+
+
+def test_records_are_told_apart():
+    for name in ("number", "key", "label", "sentence", "color"):
+        assert len({getattr(c, name) for c in CAUSES}) == len(CAUSES)
+    assert [c.key for c in sorted(CAUSES)][:3] == ["agree", "edge", "depth_tie"]  # in frame.npz
+    assert {c.key for c in CAUSES if not c.explains} == set(COUNTED_APART)
+    for cause in CAUSES:
+        assert cause.told(0.5, 1.0, "hair") and BY_NUMBER[cause.number] is cause
+    assert {c.key for c in CAUSES if c.rounding} == {EDGE.key, "depth_tie", CLIP_PLANE.key}

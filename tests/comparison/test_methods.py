@@ -1,0 +1,91 @@
+"""Textbook beside certified: what is listed, and what it is held against."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.certainty import Certainty
+from reference_tracer.comparison import methods
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.comparison.methods import list_methods
+from reference_tracer.rendering import render
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.settings import Settings
+
+from .cases import case_of
+
+
+@pytest.fixture
+def scene(make):
+    solid = trimesh.creation.icosphere(2)
+    matrix = trimesh.transformations.translation_matrix((0.1, 0.05, -3))
+    return make.scene(make.camera(64, 48), make.mesh(solid, matrix), make.quad(-9, 9, -9, 9, -5))
+
+
+def listed(scene, *settings):
+    settings = Settings(*settings)
+    frame = render(scene, settings)
+    shares = []
+    rows = result_of(list_methods(scene, settings, frame), shares.append)
+    assert shares == sorted(shares) and all(0 <= s <= 1 for s in shares)
+    return {(r.method, r.precision): r for r in rows}, frame
+
+
+BOTH = [("certified", "float64"), ("textbook", "float64")]
+
+
+@pytest.mark.parametrize(
+    "settings, names",
+    [
+        (("auto",), BOTH),
+        (("certified",), BOTH),
+        (("textbook",), BOTH),
+        (("textbook", "float32"), [*BOTH, ("textbook", "float32")]),
+        (("textbook_literal", "float64", 2), [*BOTH, ("textbook_literal", "float64")]),
+    ],
+)
+def test_certified_and_the_textbook_are_always_there(scene, settings, names):
+    rows, frame = listed(scene, *settings)
+    assert list(rows) == names
+    truth = render(scene, Settings("certified"))
+    ambiguous = int((truth.certainty == Certainty.AMBIGUOUS).sum())
+    for (method, precision), row in rows.items():
+        again = render(scene, Settings(method, precision))
+        assert row.wrong_pixels == int(again.wrong_against(truth).sum())
+        assert row.ambiguous == ambiguous and row.seconds > 0
+    assert rows[BOTH[0]].wrong_pixels == 0 and rows[BOTH[0]].required
+    own = rows[frame.statistics.method, settings[1] if len(settings) > 1 else "float64"]
+    assert own.seconds == frame.statistics.seconds
+    assert own.samples == (settings[2] if len(settings) > 2 else 1)
+    json.dumps([r.to_dict() for r in rows.values()], allow_nan=False)
+
+
+def test_what_the_literal_test_loses_is_counted(scene):
+    rows, frame = listed(scene, "textbook_literal")
+    wrong = rows["textbook_literal", "float64"].wrong_pixels
+    assert wrong > 0.2 * frame.t.size
+    assert f"{wrong:,} wrong pixels" in rows["textbook_literal", "float64"].line()
+
+
+def test_where_nothing_can_be_certified_no_pixel_is_called_wrong(scene, monkeypatch):
+    monkeypatch.setattr(methods, "broken_assumptions", lambda: ["rounding to nearest"])
+    rows, _ = listed(scene, "watertight")
+    assert list(rows) == [("textbook", "float64"), ("watertight", "float64")]
+    assert all(r.wrong_pixels is None and "wrong" not in r.line() for r in rows.values())
+
+
+def test_a_comparison_has_the_list_and_says_what_was_required(scene):
+    frame = render(scene, Settings("textbook"))
+    case = case_of(scene, frame.color.astype(np.float32), settings=Settings("textbook"))
+    found = result_of(trace_and_compare(case))
+    assert [(r.method, r.precision) for r in found.methods] == BOTH
+    held = found.to_dict()
+    assert [r["method"] for r in held["methods"]] == ["certified", "textbook"]
+    assert held["tracer"]["method"] == "textbook"
+    lines = "\n".join(found.lines())
+    for row in found.methods:
+        assert row.line() in lines
+    assert found.required and all(line in lines for line in found.required)

@@ -1,0 +1,99 @@
+"""The metrics against scikit-image."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.pictures.metrics import largest_difference, psnr, rmse, ssim
+from reference_tracer.rendering import render
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.settings import Settings
+
+
+@pytest.fixture(scope="module")
+def skimage():
+    """scikit-image's metrics, which bring scipy.stats: a second that not all processes need."""
+    from skimage import metrics
+
+    return metrics
+
+
+def pictures(kind, make, rng):
+    """Return two pictures that differ a little."""
+    if kind == "rendered":
+        camera = make.camera(48, 32, eye=(3, -3, 2), target=(0, 0, 0))
+        scene = make.scene(camera, make.mesh(trimesh.creation.icosphere(2)))
+        return render(scene).color, render(scene, Settings(samples=3)).color
+    first = rng.random((40, 30, 4), np.float32)
+    if kind == "smooth":
+        first = np.cumsum(np.cumsum(first, axis=0), axis=1) / first.size
+    noise = rng.normal(0, 0.05, first.shape).astype(np.float32)
+    return first, (np.zeros_like(first) if kind == "black" else first + noise)
+
+
+@pytest.mark.parametrize("kind", ["noise", "smooth", "black", "rendered"])
+def test_scikit_image_says_the_same(kind, make, rng, skimage):
+    first, second = pictures(kind, make, rng)
+    first, second = first.astype(float), second.astype(float)
+    options = {"win_size": 7, "gaussian_weights": False, "channel_axis": 2, "data_range": 1}
+    assert rmse(first, second) == pytest.approx(np.sqrt(skimage.mean_squared_error(first, second)))
+    assert psnr(rmse(first, second)) == pytest.approx(
+        skimage.peak_signal_noise_ratio(first, second, data_range=1)
+    )
+    assert result_of(ssim(first, second)) == pytest.approx(
+        skimage.structural_similarity(first, second, **options), abs=1e-10
+    )
+    assert psnr(rmse(first, second), 4) == pytest.approx(
+        skimage.peak_signal_noise_ratio(first, second, data_range=4)
+    )
+
+
+@pytest.mark.parametrize("size", [3, 4, 5, 6, 7, 8])
+def test_small_pictures_take_the_window_that_fits(size, rng, skimage):
+    first, second = rng.random((2, size, size + 5, 4))
+    window = min(7, size if size % 2 else size - 1)
+    expected = skimage.structural_similarity(
+        first, second, win_size=window, gaussian_weights=False, channel_axis=2, data_range=1
+    )
+    assert result_of(ssim(first, second)) == pytest.approx(expected, abs=1e-10)
+
+
+@pytest.mark.parametrize("shape", [(1, 1, 4), (1, 9, 4), (2, 2, 4), (9, 2, 1), (40, 50, 4)])
+def test_equal_pictures(shape, rng):
+    picture = rng.random(shape)
+    assert rmse(picture, picture) == 0
+    assert psnr(rmse(picture, picture)) == np.inf
+    assert result_of(ssim(picture, picture)) == pytest.approx(1, abs=1e-12)
+    assert largest_difference(picture, picture).value == 0
+
+
+@pytest.mark.parametrize("shape", [(1, 1, 4), (1, 9, 4), (2, 2, 4)])
+def test_tiny_pictures_that_differ(shape):
+    assert -1 <= result_of(ssim(np.zeros(shape), np.ones(shape))) < 0.01
+
+
+def test_bytes_do_not_wrap(rng):
+    first, second = rng.integers(0, 256, (2, 12, 9, 3), dtype=np.uint8)
+    exact = first.astype(float), second.astype(float)
+    assert rmse(first, second) == rmse(*exact) > 50
+    assert result_of(ssim(first, second, 255)) == result_of(ssim(*exact, 255))
+    assert largest_difference(first, second) == largest_difference(*exact)
+
+
+def test_the_largest_difference_is_where_it_is(rng):
+    first = rng.random((7, 11, 4))
+    second = first + rng.uniform(-0.1, 0.1, first.shape)
+    second[5, 8, 2] = first[5, 8, 2] - 0.7
+    found = largest_difference(first, second)
+    assert (found.pixel, found.channel) == ((8, 5), 2)
+    assert found.value == pytest.approx(0.7)
+
+
+@pytest.mark.parametrize("metric", [rmse, lambda a, b: result_of(ssim(a, b)), largest_difference])
+@pytest.mark.parametrize(
+    "shapes", [((3, 4, 4), (4, 3, 4)), ((3, 4, 4), (3, 4, 3)), ((3, 4), (3, 4))]
+)
+def test_shapes_must_fit(metric, shapes):
+    with pytest.raises(ValueError, match="size"):
+        metric(*(np.zeros(s) for s in shapes))

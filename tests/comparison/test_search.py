@@ -1,0 +1,78 @@
+"""The search among a fault's numbers: what is told lies in the interval that is told with it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reference_tracer.diagnosis.faults.search import Search
+from reference_tracer.tracer.progress import result_of
+
+SEED = 27
+
+
+@pytest.mark.parametrize("seed", range(80, 90))
+def test_what_is_told_lies_between_its_ends(seed):
+    """Of plateaus that lie anywhere: one is told, and both ends are as good, less the margin."""
+    rng = np.random.default_rng(seed)
+    count = rng.integers(5, 40)
+    middle = np.sort(rng.uniform(-3, 3, count))
+    half, height = rng.uniform(0.002, 0.05, count), rng.integers(1, 100, count)
+
+    def right(values):
+        return np.arange(100) < np.max(height[np.abs(values[0] - middle) < half], initial=0)
+        yield
+
+    search = Search(right, (1.0,))
+    guess = result_of(search.guess([(0.0,)]))
+    assert guess.low <= guess.values <= guess.high
+    most = result_of(search.right(guess.values))
+    assert most > 0
+    ends = guess.low[0] + search.finest, guess.high[0] - search.finest
+    assert all(result_of(search.right((end,))) >= most for end in ends)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_pixels_that_do_not_change_are_not_looked_at_again(count):
+    """Each pixel is right on one side of an edge: with fewer looked at, as much is told."""
+    rng = np.random.default_rng(SEED + count)
+    edges = rng.normal(size=(4000, count))
+    away = rng.uniform(-2, 2, 4000)  # units from the right numbers to each edge
+    right_numbers = rng.uniform(-0.2, 0.2, count)
+    looked_at = []
+
+    def right(values, some=slice(None)):
+        beside = edges[some] @ (np.array(values) - right_numbers)
+        looked_at.append(len(beside))
+        return (beside > away[some]) == (away[some] < 0)
+        yield
+
+    told = []
+    for among in (None, lambda some: lambda values: right(values, some)):
+        looked_at.clear()
+        search = Search(right, np.ones(count), among=among)
+        guess = result_of(search.guess([(0.0,) * count], 1 / 8))
+        told.append((guess.low, guess.values, guess.high, sum(looked_at)))
+    assert told[0][:3] == told[1][:3]
+    assert told[1][3] < told[0][3] / 3
+    assert np.all(np.less_equal(told[0][0], right_numbers))
+    assert np.all(np.less_equal(right_numbers, told[0][2]))
+
+
+@pytest.mark.parametrize("seed", [5, 10, 13, 33, 34])
+def test_a_needle_of_numbers_is_enclosed(seed):
+    """It lies askew, is a hundred times as long as thick, and the best place is at one end."""
+    rng = np.random.default_rng(seed)
+    own, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    sides = np.concatenate((own[:2], -own[:2], own[2:], -own[2:], rng.normal(size=(6, 3))))
+    away = np.array([0.004, 0.002, 0.003, 0.004, 0.6, 0.1, *np.full(6, 0.3)])
+    while not np.all(sides @ own[2] * 0.55 <= away):
+        away[6:] *= 2
+
+    def right(values):
+        return sides @ np.array(values) <= away
+        yield
+
+    guess = result_of(Search(right, np.ones(3)).guess([(0.0, 0.0, 0.0)], 1 / 8))
+    other_end = 0.55 * own[2]
+    assert np.all(np.less_equal(guess.low, other_end))
+    assert np.all(np.less_equal(other_end, guess.high))

@@ -1,0 +1,156 @@
+"""A pixel as a file: the same derivation again, and an error that names what is wrong in it."""
+
+from __future__ import annotations
+
+import json
+from copy import deepcopy
+
+import numpy as np
+import pytest
+from reference_tracer.derivation import document, html, reproducer, writers
+from reference_tracer.derivation.candidates import gather_pixel
+from reference_tracer.derivation.derivation import derive, derive_pixel
+from reference_tracer.scene import SceneError
+
+
+@pytest.fixture
+def saved(ball_scene, tmp_path):
+    """The file of a pixel of the ball, and what is in it."""
+    path = tmp_path / "pixel.json"
+    path.write_text(
+        reproducer.text(gather_pixel(ball_scene, 12, 9, source="ball")), encoding="utf-8"
+    )
+    return path, json.loads(path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("limit", [1, 3, 99])
+@pytest.mark.parametrize("pixel", [(12, 9), (0, 17), (16, 3)])
+def test_the_same_derivation_again(ball_scene, tmp_path, pixel, limit):
+    path = tmp_path / "pixel.json"
+    first = derive(ball_scene, *pixel, limit=limit, source="ball.npz")
+    path.write_text(reproducer.text(first.pixel), encoding="utf-8")
+    again = derive_pixel(reproducer.read(path))
+    assert document.document_markdown(again) == document.document_markdown(first)
+    assert html.page(again) == html.page(first)
+    assert writers.json_text(again) == writers.json_text(first)
+    assert reproducer.text(again.pixel) == path.read_text(encoding="utf-8")
+
+
+def test_of_any_float(ball_scene, saved, rng):
+    """Numbers at the ends of float64 come back to the bit."""
+    path, content = saved
+    bits = rng.integers(0, 2**64, 2000, dtype=np.uint64).view(np.float64)
+    values = [v for v in bits if np.isfinite(v)][:9]
+    content["candidates"][0]["points"] = np.reshape(values, (3, 3)).tolist()
+    path.write_text(json.dumps(content))
+    read = reproducer.read(path).candidates[0].points
+    assert read.tobytes() == np.array(values).reshape(3, 3).tobytes()
+
+
+def test_homework(saved):
+    """A corner moved by hand makes another answer."""
+    path, content = saved
+    for candidate in content["candidates"]:
+        if candidate["triangle"] >= 0:
+            candidate["points"] = [[x, y, z - 1e9] for x, y, z in candidate["points"]]
+    path.write_text(json.dumps(content))
+    before, after = derive_pixel(reproducer.read(path)), json.loads(path.read_text())
+    assert before.seen is None or before.seen.is_plane
+    assert after["schema"] == reproducer.SCHEMA
+
+
+def drop(*keys):
+    def change(content):
+        *path, last = keys
+        for key in path:
+            content = content[key]
+        del content[last]
+
+    return change
+
+
+def put(value, *keys):
+    def change(content):
+        *path, last = keys
+        for key in path:
+            content = content[key]
+        content[last] = value
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (put("other/1", "schema"), "its schema is 'other/1'"),
+        (drop("camera"), "camera is missing"),
+        (drop("x"), "x is missing"),
+        (put(1.5, "x"), "x must be an integer"),
+        (put(True, "y"), "y must be an integer"),
+        (put(-1, "y"), "y is -1; it must be between 0"),
+        (put(24, "x"), "no pixel \\(24, 9\\)"),
+        (put([], "camera"), "camera must be an object"),
+        (drop("camera", "window", "left"), "camera.window.left is missing"),
+        (put("wide", "camera", "window", "left"), "camera.window.left must be a finite number"),
+        (put(0, "camera", "width"), "has 0 x 18 pixels"),
+        (put(float("nan"), "camera", "clip_end"), "camera.clip_end must be a finite number"),
+        (put([[1]], "camera", "world_from_camera"), "camera.world_from_camera must be 4 x 4"),
+        (put("no", "camera", "orthographic"), "camera.orthographic must be true or false"),
+        (put([0, 0, 1], "ray", "direction"), "ray.direction is not that of the camera"),
+        (put({}, "candidates"), "candidates must be a list"),
+        (put(7, "candidates", 0), "candidates\\[0\\] must be an object"),
+        (drop("candidates", 1, "points"), "candidates\\[1\\].points is missing"),
+        (put([[0, 0, 1e999]] * 3, "candidates", 0, "points"), "points must be 3 x 3 finite"),
+        (put([[0, 0]], "candidates", 0, "points"), "points must be 3 x 3 finite"),
+        (put([1, 2], "candidates", 0, "colors"), "colors must be one RGBA"),
+        (put(-2, "candidates", 0, "triangle"), "triangle is -2"),
+        (put(2**31, "candidates", 0, "triangle"), "triangle is 2147483648"),
+        (put([[1e39, 0, 0, 1]], "candidates", 0, "colors"), "beyond what a float32 holds"),
+        (put([0, 0, -1e39, 1], "background"), "background is beyond what a float32 holds"),
+        (put([[0, 0, 0, 1]] * 3, "candidates", -1, "colors"), "one for each corner of a triangle"),
+        (put("50", "camera", "clip_end"), "clip_end must be a finite number"),
+        (put(True, "camera", "clip_end"), "clip_end must be a finite number"),
+        (put(10**30, "candidates", 0, "slot"), "slot is 1000"),
+        (put([[0, 0, 0], [0, 0, 0]], "candidates", -1, "points"), "normal, is zero"),
+        (put(99, "candidates", -1, "instance"), "planes are not numbered"),
+        (put(99, "candidates", 0, "instance"), "instance is not below first_plane"),
+        (put(5, "candidates", 0, "object"), "object must be text"),
+        (put([0, 0], "background"), "background must be 4 finite numbers"),
+    ],
+)
+def test_what_is_wrong_is_named(saved, change, says):
+    path, content = saved
+    change(content)
+    path.write_text(json.dumps(content))
+    with pytest.raises(SceneError, match=says) as error:
+        reproducer.read(path)
+    assert str(path) in str(error.value)
+
+
+def test_an_endless_clip_range(make, tmp_path):
+    scene = make.scene(make.camera(4, 4, clip_end=np.inf), make.quad(-1, 1, -1.1, 1, -3))
+    found, path = derive(scene, 1, 1), tmp_path / "pixel.json"
+    path.write_text(reproducer.text(found.pixel))
+    assert json.loads(path.read_text(), parse_constant=pytest.fail)["camera"]["clip_end"] == "inf"
+    again = derive_pixel(reproducer.read(path))
+    assert again.pixel.camera.clip_end == np.inf and again.certified.t == found.certified.t
+    assert json.loads(writers.json_text(again))["camera"]["clip_end"] == "inf"
+
+
+@pytest.mark.parametrize("text", ["{", "[" * 100_000, "\x80", "null", "[]", '"x"', "NaN"])
+def test_what_is_no_pixel(tmp_path, text):
+    path = tmp_path / "pixel.json"
+    path.write_bytes(text.encode("latin-1"))
+    with pytest.raises(SceneError, match=r"not JSON|its schema is"):
+        reproducer.read(path)
+
+
+def test_two_of_a_name_and_no_file(saved, tmp_path):
+    path, content = saved
+    content["candidates"].insert(0, deepcopy(content["candidates"][0]))
+    path.write_text(json.dumps(content))
+    with pytest.raises(SceneError, match="same instance and triangle"):
+        reproducer.read(path)
+    with pytest.raises(SceneError, match="there is no file"):
+        reproducer.read(tmp_path / "none.json")

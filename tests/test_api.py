@@ -1,0 +1,98 @@
+"""What `import reference_tracer` offers: its page is what the docstrings say, its examples run."""
+
+import doctest
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import reference_tracer
+from reference_tracer import compare, images, load_scene, render
+from reference_tracer.scene import SceneError
+
+PAGE = Path(__file__).parent.parent / "docs" / "python.md"
+TRIANGLE = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n"
+
+
+@pytest.fixture
+def triangle(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("triangle.obj").write_text(TRIANGLE, encoding="utf-8")
+    return load_scene("triangle.obj")
+
+
+def test_the_examples_of_the_page_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = doctest.testfile(str(PAGE), module_relative=False, encoding="utf-8")
+    assert found.attempted > 8 and not found.failed
+
+
+@pytest.mark.parametrize("name", reference_tracer.__all__)
+def test_all_that_is_offered_is_there_and_described(name):
+    offered = getattr(reference_tracer, name)
+    assert offered.__doc__ and name in dir(reference_tracer)
+    assert f"`{name}" in PAGE.read_text(encoding="utf-8")
+
+
+def test_nothing_is_imported_before_it_is_asked_for():
+    """So that Blender starts no later for it."""
+    code = "import sys, reference_tracer; print('numpy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
+    with pytest.raises(AttributeError, match="no attribute 'raytrace'"):
+        _ = reference_tracer.raytrace
+
+
+def test_a_file_and_an_array_give_the_same(triangle):
+    color = render(triangle).color.copy()
+    color[100:120, 300:330] = (0.2, 0.5, 0.1, 1)
+    images.save_png("picture.png", images.to_display(color))
+    of_file = compare(triangle, "picture.png", diagnose=False)
+    stored = images.read_picture("picture.png").color
+    of_array = compare(triangle, stored, diagnose=False)
+    assert of_file.verdict == of_array.verdict == "differences"
+    assert of_file.counts == of_array.counts and of_file.counts.unexplained == 600
+
+
+def test_rgb_alone_has_no_alpha_to_compare(triangle):
+    frame = render(triangle)
+    opaque = np.where(frame.instance_index[..., None] >= 0, frame.color[..., :3], 0)
+    assert compare(triangle, opaque).verdict == "agree"
+    assert compare(triangle, opaque[::-1]).verdict == "differences"
+
+
+def test_the_command_says_the_same(triangle, capsys, tmp_path):
+    """As one function does it."""
+    from reference_tracer.cli.main import main
+
+    color = render(triangle).color.copy()
+    color[200:230] = color[200:230][:, ::-1]
+    images.save_png("picture.png", images.to_display(color))
+    code = main(["compare", "triangle.obj", "--against", "picture.png", "--out", "out"])
+    found = compare(triangle, "picture.png")
+    assert code == found.verdict.exit_code
+    said = capsys.readouterr().out
+    assert f"verdict: {found.verdict}" in said
+    assert all(line in said for line in found.diagnosis.lines())
+    assert os.path.exists("out/comparison.json")
+
+
+def test_what_is_wrong_is_named(triangle, tmp_path):
+    with pytest.raises(ValueError, match="'fast'; it must be one of rays, raster"):
+        compare(triangle, np.zeros((540, 960, 4)), renderer="fast")
+    with pytest.raises(ValueError, match=r"\(h, w, 3\) or \(h, w, 4\), not \(540, 960\)"):
+        compare(triangle, np.zeros((540, 960)))
+    with pytest.raises(ValueError, match="3 x 2 pixels"):
+        compare(triangle, np.zeros((2, 3, 4)))
+    with pytest.raises(SceneError, match=r"there is no file 'none.npz'"):
+        load_scene("none.npz")
+
+
+def test_what_a_file_holds_and_the_scene_does_not_is_a_warning(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    bent = "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nf 1 2 3 4\n"
+    Path("bent.obj").write_text(bent, encoding="utf-8")
+    with pytest.warns(UserWarning, match="bent.obj: .*flat"):
+        load_scene("bent.obj")

@@ -1,0 +1,32 @@
+"""ARCHITECTURE.md is what the code is: its floors, and the walks through it."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+PROJECT = Path(__file__).parent.parent
+sys.path.insert(0, str(PROJECT / "tools"))
+from documents import architecture  # noqa: E402
+
+sys.path.pop(0)
+PAGE = (PROJECT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", architecture.WALKS)
+def test_a_walk_leads_from_function_to_function(name):
+    assert architecture.faults(architecture.WALKS[name]) == []
+
+
+def test_a_walk_that_leads_nowhere_is_found():
+    wrong = "cli/main.py main\n  cli/main.py parser\ncli/main.py walk\nnone.py main\n"
+    found = architecture.faults(wrong)
+    assert found == [
+        "main does not name parser",
+        "cli/main.py has no walk",
+        "none.py has no main",
+    ]
+
+
+def test_the_page_has_them():
+    assert architecture.refreshed(PAGE) == PAGE

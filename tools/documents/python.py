@@ -1,0 +1,51 @@
+"""The page of what `import reference_tracer` offers, from the docstrings."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import reference_tracer
+
+_SECTION = re.compile(r"^(?P<title>[A-Z]\w+)\n-+\n", re.M)
+_FIRST = "load_scene", "save_scene", "render", "trace", "compare", "explain"
+
+
+def page() -> str:
+    """Return the functions that a script begins with, whole, and then all else in a table."""
+    functions = [_function(name, getattr(reference_tracer, name)) for name in _FIRST]
+    rest = [name for name in reference_tracer.__all__ if name not in _FIRST]
+    rows = [f"| `{name}` | {_summary(getattr(reference_tracer, name))} |" for name in rest]
+    return "\n\n".join([*functions, "\n".join(["| name | what it is |", "|---|---|", *rows])])
+
+
+def _summary(offered: Any) -> str:
+    return (inspect.getdoc(offered) or "").split("\n\n")[0].replace("\n", " ")
+
+
+def _function(name: str, function: Any) -> str:
+    names = []
+    for p in inspect.signature(function).parameters.values():
+        if p.kind is p.KEYWORD_ONLY and "*" not in names:
+            names.append("*")
+        default = "" if p.default is p.empty else f"={p.default!r}"
+        names.append(f"{p.name}{default}")
+    text, *sections = _SECTION.split((inspect.getdoc(function) or "").replace("``", "`"))
+    parts = [f"### `{name}({', '.join(names)})`", text.strip()]
+    for title, body in zip(sections[::2], sections[1::2], strict=True):
+        parts += [f"**{title}**", "\n".join(_section(title, body.rstrip()))]
+    return "\n\n".join(parts)
+
+
+def _section(title: str, body: str) -> Iterator[str]:
+    """Yield a section's lines: a list of what it names, or code."""
+    if title == "Examples":
+        told, _, code = body.partition(">>> ")
+        yield from ([told.strip(), ""] if told.strip() else [])
+        yield from ("```python", f">>> {code}", "", "```")  # the line ends what is expected
+        return
+    for line in body.splitlines():
+        named = line and not line.startswith(" ")
+        yield f"- `{line}`" if named else f"  {line.strip()}"

@@ -1,0 +1,71 @@
+"""Measures what a user waits for: CPU seconds and memory of commands, beside another checkout.
+
+    .venv/bin/python tools/waiting.py OTHER [--rounds N] [--only WORD...]
+
+OTHER is a checkout with a `.venv` of its own, as an older commit in a worktree. The commands run
+in turns there and here; each one's least CPU seconds (user and system) of N rounds count, so that
+ratios hold on a machine that others use, too. Prints a table, as `docs/commands.md` has it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parents[1]
+SCENE = "sample_scenes/suzanne.blend"
+COMPARE = ["compare", SCENE]
+COMMANDS: dict[str, list[str]] = {
+    "Blender itself: `import bpy`": [],
+    "`compare`": COMPARE,
+    "`compare --width 1920`": [*COMPARE, "--width", "1920"],
+    "`compare --self-check`": [*COMPARE, "--self-check"],
+    "`compare --frames 1`": [*COMPARE, "--frames", "1"],
+    "`compare --frames 1-2`": [*COMPARE, "--frames", "1-2"],
+    "`trade`": ["trade", SCENE],
+    "`extremes`": ["extremes"],
+}
+
+
+def used(checkout: Path, command: list[str]) -> tuple[float, float]:
+    """Return a command's CPU seconds and its peak memory in MB."""
+    python = [str(checkout / ".venv/bin/python")]
+    with tempfile.TemporaryDirectory() as out:
+        run = [*python, "-m", "reference_tracer.cli", *command, "--out", out]
+        process = subprocess.Popen(
+            run if command else [*python, "-c", "import bpy"],
+            cwd=checkout,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            env={k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"},
+        )
+        _, _, usage = os.wait4(process.pid, 0)
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+
+
+def main() -> None:
+    """Measure, and print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("other", type=Path)
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--only", nargs="*", default=[""])
+    given = parser.parse_args()
+    checkouts = given.other.resolve(), HERE
+    print("| command | CPU s before | now | ratio | MB before | now |\n|---|---|---|---|---|---|")
+    for name, command in COMMANDS.items():
+        if not any(word in name for word in given.only):
+            continue
+        rounds = [[used(c, command) for c in checkouts] for _ in range(given.rounds)]
+        (old, old_mb), (new, new_mb) = (
+            [min(values) for values in zip(*of, strict=True)] for of in zip(*rounds, strict=True)
+        )
+        print(f"| {name} | {old:.1f} | {new:.1f} | {new / old:.2f} | {old_mb:.0f} | {new_mb:.0f} |")
+        sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()
