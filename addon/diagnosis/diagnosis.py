@@ -21,9 +21,10 @@ from ..wording import count_of
 from .evidence import Evidence
 from .faults import FAULTS
 from .faults.fault import Fault, Guess
-from .guessing import LEAST, STEPS, Guessing, accounting, carried, with_variants
+from .guessing import LEAST, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
 from .trial import Trial, counted
+from .variants import carried, with_variants
 
 ROUNDS = 3  # faults one after the other, at most
 FRAMED = 5  # regions that are named

@@ -23,17 +23,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-import numpy as np
-
-from ..causes.case import PRECISE, WHOLE
-from ..causes.explain import explain
-from ..rendering import steps
-from ..scene import Scene, SceneError
-from ..tracer.frame import Frame
+from ..causes.case import PRECISE
+from ..scene import SceneError
 from ..tracer.progress import Work
 from .evidence import FEW, Evidence, Score
 from .faults.fault import Fault, Guess
 from .trial import Trial, tried
+from .variants import carried
 
 T = TypeVar("T")
 
@@ -193,60 +189,6 @@ def _score(evidence: Evidence, fault: Fault, guess: Guess) -> Work[Score]:
         return (yield from evidence.score(case))
     except SceneError:
         return NONE
-
-
-def with_variants(evidence: Evidence) -> Work[Evidence]:
-    """Return the evidence with the case's variants, and with all that the view leaves out.
-
-    What no ray meets is not exported. A camera with a fault may have seen it.
-    """
-    case = evidence.case
-    variants = [replace(v, scene=_as_in(case.scene, v.scene)) for v in case.variants()]
-    others = tuple(v for v in variants if v.fault != WHOLE)
-    for whole in (v.scene for v in variants if v.fault == WHOLE):
-        if len(whole.instances) > len(case.scene.instances):
-            meshes, instances, objects = whole.meshes, whole.instances, whole.objects
-            scene = replace(case.scene, meshes=meshes, instances=instances, objects=objects)
-            case = case.in_scene(scene)
-            frame = Frame.empty(scene)
-            yield from steps(scene, case.settings, frame, case.tracer)
-            if _look_alike(frame, evidence.frame):  # then each pixel's cause is what it was
-                return Evidence(case, frame, evidence.causes, others)
-            found = yield from explain(case, frame)
-            return Evidence(found.case, found.frame, found.causes, others)
-    return replace(evidence, variants=others)
-
-
-def _look_alike(first: Frame, second: Frame) -> bool:
-    """Return whether the same is traced, however instances are numbered."""
-    return all(
-        np.array_equal(getattr(first, name), getattr(second, name))
-        for name in ("color", "t", "triangle_index")
-    )
-
-
-def carried(evidence: Evidence, trial: Trial) -> Evidence:
-    """Return the evidence with a fault put right, in the variants, too."""
-    variants = []
-    for variant in evidence.variants:
-        scene, given = variant.scene, trial.guess.scene
-        if given is not None:  # of two faults that only Blender can make, one may be the camera's
-            other = given.camera is not evidence.case.scene.camera
-            scene = scene.seen_by(given.camera) if other else scene
-        elif case := trial.fault.tried(evidence.case.in_scene(scene), evidence.frame, trial.guess):
-            scene = case.scene
-        variants.append(replace(variant, scene=scene))
-    of_object = evidence.of_object or bool(trial.guess.object)
-    return replace(trial.evidence, variants=tuple(variants), of_object=of_object)
-
-
-def _as_in(own: Scene, other: Scene) -> Scene:
-    """Return another scene before the background, and with the objects' colours, of one's own."""
-    colors = {own.objects[i.object]: i.colors for i in own.instances}
-    instances = [
-        replace(i, colors=colors.get(other.objects[i.object], i.colors)) for i in other.instances
-    ]
-    return replace(other, instances=tuple(instances), background=own.background)
 
 
 def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]]:

@@ -56,3 +56,23 @@ def test_pixels_that_do_not_change_are_not_looked_at_again(count):
     assert told[1][3] < told[0][3] / 3
     assert np.all(np.less_equal(told[0][0], right_numbers))
     assert np.all(np.less_equal(right_numbers, told[0][2]))
+
+
+@pytest.mark.parametrize("seed", [5, 10, 13, 33, 34])
+def test_a_needle_of_numbers_is_enclosed(seed):
+    """It lies askew, is a hundred times as long as thick, and the best place is at one end."""
+    rng = np.random.default_rng(seed)
+    own, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    sides = np.concatenate((own[:2], -own[:2], own[2:], -own[2:], rng.normal(size=(6, 3))))
+    away = np.array([0.004, 0.002, 0.003, 0.004, 0.6, 0.1, *np.full(6, 0.3)])
+    while not np.all(sides @ own[2] * 0.55 <= away):
+        away[6:] *= 2
+
+    def right(values):
+        return sides @ np.array(values) <= away
+        yield
+
+    guess = result_of(Search(right, np.ones(3)).guess([(0.0, 0.0, 0.0)], 1 / 8))
+    other_end = 0.55 * own[2]
+    assert np.all(np.less_equal(guess.low, other_end))
+    assert np.all(np.less_equal(other_end, guess.high))

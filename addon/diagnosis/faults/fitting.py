@@ -93,7 +93,7 @@ def projected(evidence: Evidence, camera: Camera) -> float:
 
 
 def _few(evidence: Evidence) -> slice:
-    return slice(None, None, -(-evidence.film.shape[1] // LOOKED_UP))
+    return slice(None, None, max(1, -(-evidence.film.shape[1] // LOOKED_UP)))
 
 
 def _inside(camera: Camera, film: Floats) -> tuple[Bools, tuple[Floats, Floats]]:
