@@ -1,4 +1,4 @@
-"""Writes elements of SVG: the plots of `report/`, and the drawings of `explain/`.
+"""Writes elements of SVG: the plots of `report/`, and the drawings of `derivation/`.
 
 No font is known here, so the widths of words are estimated.
 """
