@@ -44,7 +44,9 @@ def _section(title: str, body: str) -> Iterator[str]:
     if title == "Examples":
         told, _, code = body.partition(">>> ")
         yield from ([told.strip(), ""] if told.strip() else [])
-        yield from ("```python", f">>> {code}", "", "```")  # the line ends what is expected
+        # The empty line ends what is expected.
+        yield from ("<!-- not run: a test runs it -->", "```pycon", f">>> {code}", "", "```")
+        yield "<!-- /run -->"
         return
     for line in body.splitlines():
         named = line and not line.startswith(" ")
