@@ -138,7 +138,7 @@ assert " hits\\n" in trade.table(found) + "\\n" and said in trade.table(found)
 assert f"hits {said}" in trade.picture(found)
 """
 CAUSE = {
-    "compare/checks/comet.py": (
+    "causes/checks/comet.py": (
         "",
         "from ..cause import Cause\n\n"
         "COMET = Cause(\n"
