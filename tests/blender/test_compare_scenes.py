@@ -42,10 +42,10 @@ def test_sample_scene_has_no_unexplained_pixel(name, opened, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == FILES
     found = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
     pixels = found["pixels"]
-    assert pixels.unexplained == 0
-    assert pixels.by_cause["unexplained"] == 0
-    assert pixels.explained == sum(
-        pixels.by_cause[cause] for cause in ("edge", "depth_tie", "clip_plane")
+    assert pixels["unexplained"] == 0
+    assert pixels["by_cause"]["unexplained"] == 0
+    assert pixels["explained"] == sum(
+        pixels["by_cause"][cause] for cause in ("edge", "depth_tie", "clip_plane")
     )
     assert found["certificate"]["passed"]
     identity = found["identity"]["pixels"]
