@@ -62,10 +62,10 @@ def test_sample_scene_has_no_unexplained_pixel(name, opened, tmp_path):
     assert found["blender"]["source"] == "workbench"
     assert found["blender"]["version"] == bpy.app.version_string
     if name in NOT_DECIDABLE:
-        assert pixels.not_decidable > 0
+        assert pixels["not_decidable"] > 0
         assert found["verdict"] == "warnings"
     else:
-        assert pixels.not_decidable == 0
+        assert pixels["not_decidable"] == 0
         assert found["verdict"] == "agree"
 
 
