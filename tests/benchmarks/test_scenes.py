@@ -103,7 +103,7 @@ def test_peers_get_the_rays_that_are_traced(camera, every):
 
 
 def test_what_blender_makes_is_asked_for_by_name(tmp_path: Path):
-    with pytest.raises(meshes.MissingMeshError, match=r"pip install 'reference_tracer\[blender\]'"):
+    with pytest.raises(meshes.MissingMeshError, match=r'pip install "reference_tracer\[blender\]"'):
         scenes.mesh_of("suzanne", tmp_path)
     vertices, triangles = meshes.cube()
     np.savez(tmp_path / scenes.SUZANNE_FILE, vertices=vertices, triangles=triangles)
