@@ -95,7 +95,7 @@ def test_a_missing_library_is_named(library, monkeypatch, tmp_path):
     if library == "rtree":
         monkeypatch.setattr("trimesh.Trimesh.triangles_tree", property(_no_rtree))
     make = {"embreex": Embreex, "rtree": Rtree}[library]
-    with pytest.raises(MissingPeerError, match=rf"{library}.*'reference_tracer\[bench\]'"):
+    with pytest.raises(MissingPeerError, match=rf'{library}.*"reference_tracer\[bench\]"'):
         make(scenes.mesh_of("cube", tmp_path))
 
 
