@@ -1,1 +1,1 @@
-"""The checks that say why pixels differ, a cause or two each; `explain.py` beside them has their order."""
+"""The checks that say why pixels differ, a cause or two each; `explain.py` has their order."""
