@@ -58,12 +58,12 @@ def which(tmp_path: Path):
         ({"python": IS.format(3.13), "python3.11": IS.format(3.11)}, "python"),
         (
             {
-                "pyenv": "echo ${0%/*}/root",
-                "root/versions/3.1.0/bin/python": IS.format("3.1"),
-                "root/versions/3.13.7/bin/python": IS.format(3.13),
+                "pyenv": "echo ${0%/*}/kept",
+                "kept/versions/3.1.0/bin/python": IS.format("3.1"),
+                "kept/versions/3.13.7/bin/python": IS.format(3.13),
                 "python3.13": "false",
             },
-            "{path}/root/versions/3.13.7/bin/python",
+            "{path}/kept/versions/3.13.7/bin/python",
         ),
         ({"python3.12": IS.format(3.12), "uv": HAS}, "/uv/find/python3.13"),
         ({"python3.11": IS.format(3.11), "uv": HAS}, "python3.11"),
