@@ -85,16 +85,16 @@ class PixelCounts(Counts):
 
     def to_dict(self) -> dict[str, Any]:
         """Return them as JSON can hold them."""
-        shows, behind = self.unexplained_shows, self.behind
-        return {
-            **super().to_dict(),
-            "interior": self.interior.to_dict(),
-            "boundary": self.boundary.to_dict(),
-            "examples": dict(self.examples),
-            "not_judged": self.not_judged._asdict(),
-            **({"behind": behind._asdict()} if behind else {}),
-            **({"unexplained_shows": shows._asdict()} if shows else {}),
-        }
+        out = super().to_dict()
+        out["interior"] = self.interior.to_dict()
+        out["boundary"] = self.boundary.to_dict()
+        out["examples"] = dict(self.examples)
+        out["not_judged"] = self.not_judged._asdict()
+        if self.behind:
+            out["behind"] = self.behind._asdict()
+        if self.unexplained_shows:
+            out["unexplained_shows"] = self.unexplained_shows._asdict()
+        return out
 
 
 def count_pixels(

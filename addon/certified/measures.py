@@ -64,8 +64,10 @@ class Prepared:
         if not len(which):
             return
         at = at[which]
-        batch, *pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface[which])
-        for ray, number, of in zip(at.tolist(), *(p.tolist() for p in pairs), strict=True):
+        batch, numbers, surfaces = self._surfaces.integers(
+            rays_at(at), np.arange(len(at)), surface[which]
+        )
+        for ray, number, of in zip(at.tolist(), numbers.tolist(), surfaces.tolist(), strict=True):
             hit = batch.hit(number, of)
             assert hit, "the ray certainly hits it"
             hits.t[ray] = batch.t(hit)

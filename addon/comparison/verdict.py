@@ -31,7 +31,7 @@ class Verdict(StrEnum):
 
     @classmethod
     def gravest(cls, verdicts: Iterable[Verdict]) -> Verdict:
-        """Return the gravest of some, of which there is at least one."""
+        """Return the gravest of one or more."""
         return max(verdicts, key=lambda verdict: verdict.gravity)
 
 

@@ -83,7 +83,7 @@ def placed(labels: Sequence[Label], lines: Sequence[Segment], room: Box) -> list
         for place in tries:
             box = place.box
             cost = _cost(place, box, out, dots, room)
-            if cost < least:  # else the lines, of which there are many, cannot make it the best
+            if cost < least:  # else its crossing lines, slow to count, do not matter
                 cost += _ON_LINE * sum(crosses(line, box) for line in lines)
             if cost < least:
                 best, least = place, cost

@@ -29,8 +29,12 @@ def with_variants(evidence: Evidence) -> Work[Evidence]:
     others = tuple(v for v in variants if v.fault != WHOLE)
     for whole in (v.scene for v in variants if v.fault == WHOLE):
         if len(whole.instances) > len(case.scene.instances):
-            meshes, instances, objects = whole.meshes, whole.instances, whole.objects
-            scene = replace(case.scene, meshes=meshes, instances=instances, objects=objects)
+            scene = replace(
+                case.scene,
+                meshes=whole.meshes,
+                instances=whole.instances,
+                objects=whole.objects,
+            )
             case = case.in_scene(scene)
             frame = Frame.empty(scene)
             yield from steps(scene, case.settings, frame, case.tracer)

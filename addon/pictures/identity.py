@@ -41,8 +41,12 @@ class Identity(NamedTuple):
         """Count the pixels, or some, that show the same object, another, or one not known."""
         unknown = self.shown == UNKNOWN
         same = self.shown == self.traced
-        kinds = same, ~same & ~unknown, unknown
-        return Shows(*(int((kind & where).sum()) for kind in kinds))
+        other = ~same & ~unknown
+        return Shows(
+            same_object=int((same & where).sum()),
+            other_object=int((other & where).sum()),
+            not_known=int((unknown & where).sum()),
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Return the names and the counts; the pictures are arrays."""

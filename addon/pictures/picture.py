@@ -107,17 +107,20 @@ class Picture:
     def to_dict(self) -> dict[str, Any]:
         """Return who made it and how, as JSON can hold it."""
         source = self.source
-        return {
+        out = {
             "version": source.version,
             "source": source.name,
-            **({"picture": source.file} if source.file else {}),
             "sample_radius": self.sample_radius,
             "renderer": self.renderer.name,
-            **({"renderer_known": source.known} if source.known else {}),
             "snapping": self.snapping,
             "filter_radius": self.filter_radius,
             "settings": source.settings,
         }
+        if source.file:
+            out["picture"] = source.file
+        if source.known:
+            out["renderer_known"] = source.known
+        return out
 
     @property
     def off_center(self) -> float:

@@ -52,8 +52,9 @@ def test_after_a_long_step_one_line_is_enough(capsys):
 
 
 def test_on_a_terminal_a_bar_says_what_is_done(monkeypatch):
-    pytest.importorskip("tqdm")
-    pty, fcntl, termios = map(pytest.importorskip, ("pty", "fcntl", "termios"))  # not on Windows
+    pty = pytest.importorskip("pty", reason="Windows has no pseudo-terminals")
+    fcntl = pytest.importorskip("fcntl")
+    termios = pytest.importorskip("termios")
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
     with open(theirs, "w", encoding="utf-8") as terminal:

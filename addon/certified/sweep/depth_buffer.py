@@ -179,12 +179,14 @@ class DepthBuffer:
         first = low // FINE
         column, row = first
         out = self._least(1, column, row)  # enough for boxes of FINE pixels a side
-        larger = np.flatnonzero(np.maximum(*(high - low)) >= FINE)
+        width, height = high - low
+        larger = np.flatnonzero(np.maximum(width, height) >= FINE)
         if len(larger):
             column, row = gather(first, larger)
             last = gather(high, larger) // FINE
-            # Of the largest squares of which two reach over all of the longer side.
-            level = np.frexp(np.maximum(*(last - (column, row))) + 1.0)[1] - 1
+            # The largest squares that are no longer than the longer side: two of them cover it.
+            columns, rows = last - (column, row)
+            level = np.frexp(np.maximum(columns, rows) + 1.0)[1] - 1
             right, top = np.maximum(last + 1 - (1 << level), (column, row))
             least = self._least(level, column, row)
             for x, y in ((right, row), (column, top), (right, top)):

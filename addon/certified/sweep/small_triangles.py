@@ -2,9 +2,9 @@
 
 A dense instance has more triangles than pixels. A triangle is culled if its box on the film,
 widened by all errors, contains the centre of no pixel of the region; or if it contains one, which
-surely lies outside the triangle: of the edge functions there, some are surely positive and some
-surely negative. `small_boxes.py` and `edge_functions.py`, whose bounds are tighter, would leave it
-out, too, so that culling changes no result.
+surely lies outside the triangle: one edge function is surely positive there, another one surely
+negative. The tighter bounds of `small_boxes.py` and `edge_functions.py` would leave it out, too, so
+culling changes no result.
 
 The film position of a vertex v of an instance is (p / w, q / w), where (p, q, w) = A v, with a
 matrix A (3, 4) for each instance. In float32 they are off by at most 8 2^-24 S, S = |A| |v|: by the

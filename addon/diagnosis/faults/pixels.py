@@ -25,7 +25,7 @@ JPEG_LEVELS = 8.0  # by how much two writers' pixels may differ: each rounds its
 
 
 def _jpeg(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return what a JPEG file makes of a picture (h, w, 4), whose alpha is kept elsewhere."""
+    """Return a picture (h, w, 4) after it was stored as a JPEG, its alpha in another file."""
     from PIL import Image
 
     levels = np.rint(255 * encoded(colors)[::-1, :, :3]).astype(np.uint8)

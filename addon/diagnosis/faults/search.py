@@ -146,8 +146,8 @@ class Search(Climb):
     def _push(self, ends: list[Floats], right: int) -> Work[None]:
         """Add places of a region that lie farther along each number than those that are known.
 
-        It may be a needle, of which no axis is known well enough. So from a little inside what is
-        the farthest so far, the differences of known places lead on.
+        The region may be a needle askew to all axes. So the differences of known places lead on,
+        from a little inside the farthest one.
         """
         rng = np.random.default_rng(SEED)
         for _ in range(PUSHES):
@@ -156,7 +156,8 @@ class Search(Climb):
                 for side in (-1.0, 1.0):
                     farthest = max(ends, key=lambda v: side * v[number])
                     start = farthest + INSIDE * (middle - farthest)
-                    others = [middle, *(ends[n] for n in rng.integers(len(ends), size=LED))]
+                    drawn = rng.integers(len(ends), size=LED)
+                    others = [middle] + [ends[k] for k in drawn]
                     for other in others:
                         if other[number] != farthest[number]:
                             along = farthest - other
