@@ -31,9 +31,11 @@ from .bounds import SNAPPING, U32, corner_errors, depth_step, pixel_error, sprea
 _QUOTIENT = 18
 # The roundings of (d x e) . s, by which a ray is on one side of an edge or the other: of d (3), e
 # and s (1 each), the cross product (2) and the scalar product (3). The absolute values of its terms
-# sum up to 2/sqrt(3) of |d| |e| |s| at most. The third edge is where two such quotients add up to
-# 1: |e1| |e2| in their denominator is at most |s| (|e1| + |e2|), for s to the farthest corner. That
-# makes two products as large, and three roundings more.
+# sum up to 2/sqrt(3) of |d| |e| |s| at most: that makes 12. Moeller and Trumbore's third edge is
+# where two such quotients add up to 1, with three roundings more: 27 of |d| |s| (|e1| + |e2|) / 2.
+# Where that edge is far shorter than the others, at the tip of a needle, they are off by more along
+# the needle. That is not excused: a pixel's error has no direction here, and the needle's long
+# sides, which are most of its boundary, are known well.
 _EDGE = 27
 _LEAST_SINE = 2.0**-20  # of a surface seen edge-on: float32 knows no smaller one
 
@@ -79,9 +81,9 @@ def _moved(scene: Scene, hits: Hits, positions: Floats) -> Floats:
 def _of_rays(scene: Scene, hits: Hits, positions: Floats) -> Floats:
     """Return how far float32 may move the edges of what n rays hit, (n,) metres.
 
-    They are moved with their corners. And a product of the size |d| |s| (|e1| + |e2|) is rounded,
-    where s leads to a corner and the e from it, while a ray beside the edge e3 makes |d x e3| of
-    its distance: the more an edge leads along the ray, the less is it known where.
+    They are moved with their corners. And a product of the size |d| |s| |e| is rounded, where s
+    leads to a corner of the edge e, while a ray beside the edge makes |d x e| of its distance: the
+    more an edge leads along the ray, the less is it known where.
     """
     moved = _moved(scene, hits, positions)
     camera = scene.camera
@@ -112,11 +114,11 @@ class _Triangles(NamedTuple):
     def edge_errors(self, ways: Floats) -> Floats:
         """Return how far rounding moves the edges for rays (3, m), (m,) metres."""
         lengths = np.array([_length(e) for e in self.edges])
-        others = lengths.sum(axis=0) - lengths
-        across = np.array([_length(cross(ways, e)) for e in self.edges]) / _length(ways)
+        across = np.array([_length(cross(ways, e)) for e in self.edges])
         with np.errstate(divide="ignore", invalid="ignore"):
-            share = np.max(others / np.maximum(across, _LEAST_SINE * others), axis=0)
-        return np.asarray(_EDGE * U32 * self.reach * np.nan_to_num(share), np.float64)
+            sines = across / (_length(ways) * lengths)
+        least = np.min(np.maximum(np.nan_to_num(sines, nan=1.0), _LEAST_SINE), axis=0)
+        return np.asarray(_EDGE * U32 * self.reach / least, np.float64)
 
     def sines(self) -> Floats:
         """Return the sine of their first corner, (m,)."""

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer import exr, images
-from reference_tracer.causes.explain import CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
+from reference_tracer.causes.explain import AGREE, CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
 from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.pictures.renderers import RASTER, RAYS, renderer_of
 from reference_tracer.rendering import render
@@ -166,6 +166,29 @@ def test_a_wrong_edge_at_a_grazing_angle_is_found(make):
     changed = (shown != render(scene).color).any(axis=-1)
     causes = causes_of(scene, shown, RAYS)
     assert changed.sum() > 5 and (causes[changed] == UNEXPLAINED).mean() > 0.8
+
+
+def needles(make, count, above=-3.0):
+    """A pole of so many long sides, seen at 480 x 270, from a height on."""
+    camera = make.camera(480, 270, half=0.5, eye=(2.5, -3.0, 1.2), target=(0, 0, 0))
+    angle = 2 * np.pi * np.arange(count) / count
+    ring = np.stack((0.05 * np.cos(angle), 0.05 * np.sin(angle)), axis=1)
+    low, high = (np.column_stack((ring, np.full(count, z))) for z in (max(above, -1.0), 1.0))
+    k, n = np.arange(count), np.roll(np.arange(count), -1)
+    sides = [*zip(k, n, n + count, strict=True), *zip(k, n + count, k + count, strict=True)]
+    return make.scene(camera, Mesh(np.concatenate((low, high)), np.array(sides)))
+
+
+@pytest.mark.parametrize("count", [16, 128])
+def test_a_sound_picture_of_thin_triangles_agrees_and_half_of_them_differs(make, count):
+    """Their long edges are known as well as any: no band lies about them."""
+    scene = needles(make, count)
+    sound = causes_of(scene, render(scene).color, RAYS)
+    assert (sound == AGREE).all()
+    shown = render(needles(make, count, above=0.0)).color
+    changed = (shown != render(scene).color).any(axis=-1)
+    assert changed.sum() > 300
+    assert (causes_of(scene, shown, RAYS)[changed] == UNEXPLAINED).mean() > 0.95
 
 
 def triangles_before(rng, count, least_sine, least_cosine):
