@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -11,73 +10,16 @@ import pytest
 import trimesh
 from reference_tracer.causes.case import WHOLE, Variant
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
-from reference_tracer.diagnosis.diagnosis import diagnose
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import Guess
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Mesh, Region, ViewWindow
 from reference_tracer.tracer.progress import result_of
 
-from .cases import case_of
+from ..comparison.cases import case_of
+from .diagnosing import BY_NAME, diagnosis_of, names, pictured
 
-BY_NAME = {fault.name: fault for fault in FAULTS}
 SEED = 27
-
-
-@pytest.fixture
-def solids(make):
-    """Return solids of different colours over a floor, seen through a shifted window."""
-    rng = np.random.default_rng(SEED)
-    eye = (5, -6, 4)
-    camera = make.camera(160, 90, half=0.3, eye=eye, target=(0, 0, 0))
-    w = camera.window
-    camera = replace(camera, window=ViewWindow(w.left + 0.03, w.right + 0.03, w.bottom, w.top))
-    camera = replace(
-        camera, window=replace(camera.window, top=w.top + 0.02, bottom=w.bottom + 0.02)
-    )
-    shapes = {
-        "Floor": trimesh.creation.box((9, 9, 0.2)).apply_translation((0, 0, -1.2)),
-        "Box": trimesh.creation.box((1.1, 0.7, 1.3)),
-        "Ball": trimesh.creation.icosphere(3, radius=0.6),
-        "Ring": trimesh.creation.torus(0.6, 0.22),
-        "Drum": trimesh.creation.cylinder(0.45, 1.0),
-    }
-    places = ((0, 0, 0), (-1.2, -0.6, -0.3), (1.1, 0.6, 0.2), (0.2, 1.6, -0.2), (0.6, -1.4, -0.4))
-    instances, meshes = [], []
-    for n, (shape, place) in enumerate(zip(shapes.values(), places, strict=True)):
-        matrix = trimesh.transformations.euler_matrix(
-            *(rng.uniform(-0.4, 0.4, 3) if n else (0, 0, 0))
-        )
-        matrix[:3, 3] = place
-        color = [*rng.uniform(0.1, 0.9, 3), 1.0]
-        meshes.append(Mesh(shape.vertices, shape.faces))
-        instances.append(Instance(n, n, matrix, [color]))
-    scene = make.scene(camera, *meshes)
-    return replace(scene, instances=tuple(instances), objects=tuple(shapes))
-
-
-def diagnosis_of(scene, color, **known):
-    """Return the comparison of a scene with a picture of unknown make, diagnosed."""
-    case = case_of(scene, Picture(color), curves=(), **known)
-    before = result_of(trace_and_compare(case))
-    found = result_of(diagnosed(before, np.inf))  # however busy the machine is
-    assert found.verdict == before.verdict
-    return found
-
-
-def pictured(scene, name, guess):
-    """Return the picture that a fault makes of a scene."""
-    frame = render(scene)
-    wrong = BY_NAME[name].make(case_of(scene, frame.color), frame, guess)
-    if wrong.scene is scene:
-        return wrong.picture.color
-    return render(wrong.scene).color
-
-
-def names(found):
-    """Return what is told."""
-    return [told.fault.name for told in found.diagnosis.told] if found.diagnosis else []
 
 
 MADE = [
@@ -117,7 +59,11 @@ MADE = [
 
 
 QUICK = "pixel_offset", "sensor_fit", "object_missing", "rows"
+
+
 FIRST = [next(g for n, g in MADE if n == name) for name in QUICK]  # the others take minutes
+
+
 SOME = [
     pytest.param(n, g, id=f"{n}{g.values}", marks=() if g in FIRST else pytest.mark.torture)
     for n, g in MADE
@@ -212,6 +158,8 @@ def _salt(color, rng):
 
 
 TORTURE = _salt, _distorted, _rolling, _blurred, _shuffled
+
+
 LONG = [pytest.param(d, marks=pytest.mark.torture) for d in TORTURE]
 
 
@@ -253,86 +201,6 @@ ALIKE = [
 def test_a_fault_that_looks_like_another_does_not_get_its_name(solids, name, guess, others):
     found = diagnosis_of(solids, pictured(solids, name, guess))
     assert name in names(found) and not set(names(found)) & others
-
-
-@pytest.mark.torture
-@pytest.mark.parametrize("opacity", [0.4, 1.0])
-def test_something_laid_over_the_picture(solids, opacity):
-    """But a part of it that has the colour of an object may be that object."""
-    color = render(solids).color.copy()
-    part = color[30:60, 60:130]
-    part[:] = (1 - opacity) * part + opacity * np.array((0.02, 0.97, 0.95, 1))
-    found = diagnosis_of(solids, color)
-    assert names(found) == ["overlay"]
-    assert found.diagnosis.told[0].guess.values[0] == pytest.approx(opacity, abs=0.01)
-    like = render(solids).color.copy()
-    like[30:60, 60:130] = solids.instances[2].colors[0]
-    assert "overlay" not in names(diagnosis_of(solids, like))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("size", [0.5, 0.75])
-def test_what_a_border_shows_may_be_resampled(solids, size):
-    """Its pixels at another size are those of a picture with just its window."""
-    camera = replace(solids.camera, region=Region(24, 10, 144, 82))
-    scene = replace(solids, camera=camera)
-    c, w = camera, camera.window
-    x, y = (w.right - w.left) / c.width, (w.top - w.bottom) / c.height
-    part = ViewWindow(w.left + 24 * x, w.left + 144 * x, w.bottom + 10 * y, w.bottom + 82 * y)
-    wide, high = round(size * 120), round(size * 72)
-    small = replace(c, window=part, width=wide, height=high, region=Region(0, 0, wide, high))
-    rows = ((np.arange(72) + 0.5) * size).astype(int)
-    columns = ((np.arange(120) + 0.5) * size).astype(int)
-    found = diagnosis_of(scene, render(replace(scene, camera=small)).color[rows][:, columns])
-    assert names(found) == ["resampled"]
-    assert found.diagnosis.told[0].guess.values[0] == size
-
-
-INK = np.where(np.arange(40)[:, None] % 6 < 3, 0.95, 0.02)
-
-
-@pytest.mark.slow
-def test_stripes_in_a_box_over_one_surface_are_laid_over_it(solids):
-    """Their opacity lies between two."""
-    right = render(solids)
-    floor = right.object_index == right.object_index[5, 24]
-    assert floor[2:14, 4:44].all()
-    striped = right.color.copy()
-    striped[2:14, 4:44, :3] = 0.4 * striped[2:14, 4:44, :3] + 0.6 * INK
-    found = diagnosis_of(solids, striped)
-    assert names(found) == ["overlay"] and overlaid(solids, striped)
-    guess = found.diagnosis.told[0].guess
-    assert guess.low[0] <= 0.6 <= guess.high[0] == 1
-
-
-@pytest.mark.torture
-def test_one_colour_or_a_round_shape_may_be_an_unknown_object(solids):
-    striped, plain, round_ = (render(solids).color.copy() for _ in range(3))
-    striped[2:14, 4:44, :3] = 0.4 * striped[2:14, 4:44, :3] + 0.6 * INK
-    plain[2:14, 4:44, :3] = (0.02, 0.97, 0.95)
-    assert not overlaid(solids, plain)
-    y, x = np.mgrid[2:14, 4:44]
-    disc = np.hypot(y - 8, (x - 24) / 3) < 6
-    round_[2:14, 4:44][disc] = striped[2:14, 4:44][disc]
-    assert not overlaid(solids, round_)
-
-
-def overlaid(scene, color):
-    """Return what is told of a picture if nothing but an overlay is looked for."""
-    found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
-    assert found.counts.unexplained > 50
-    faults = [BY_NAME["overlay"]]
-    return result_of(diagnose(found.case, found.frame, found.causes, faults, np.inf)).told
-
-
-def test_nothing_is_done_where_nothing_is_unexplained(solids):
-    def never():
-        raise AssertionError("no variant is asked for")
-
-    case = case_of(solids, Picture(render(solids).color), variants=never)
-    found = result_of(trace_and_compare(case))
-    assert result_of(diagnosed(found)) is found and found.diagnosis is None
-    assert found.to_dict()["diagnosis"] is None
 
 
 @pytest.mark.slow
@@ -383,93 +251,3 @@ def test_colours_put_right_are_those_of_the_picture(solids):
     assert told.fault.name == "channels"
     assert not np.array_equal(frame.color, color)
     np.testing.assert_array_equal(told.frame.color, color)
-
-
-def _known_by(found):
-    """Return a diagnosis as JSON has it, but for the seconds, which are a measurement."""
-    out = found.diagnosis.to_dict()
-    assert out.pop("seconds") >= 0
-    return out
-
-
-@pytest.fixture
-def pair(make):
-    """Return two boxes, few pixels: a diagnosis of them takes a second."""
-    camera = make.camera(48, 27, half=0.3, eye=(5, -6, 4), target=(0, 0, 0))
-    shape = trimesh.creation.box((1.2, 0.8, 1.0))
-    scene = make.scene(camera, *(Mesh(shape.vertices, shape.faces) for _ in range(2)))
-    matrices = [trimesh.transformations.translation_matrix(v) for v in ((-0.8, 0, 0), (0.8, 0, 0))]
-    colors = ((0.9, 0.1, 0.1, 1.0), (0.1, 0.2, 0.9, 1.0))
-    instances = [
-        Instance(n, n, m, [c]) for n, (m, c) in enumerate(zip(matrices, colors, strict=True))
-    ]
-    return replace(scene, instances=tuple(instances), objects=("Left", "Right"))
-
-
-@pytest.mark.slow
-def test_the_clock_changes_nothing_but_the_seconds(pair, monkeypatch):
-    """It ends by steps of work: a machine a thousand times as slow gives the same answer."""
-    before = result_of(trace_and_compare(case_of(pair, Picture(_salted(pair)), curves=())))
-    calm = result_of(diagnosed(before, 600))
-    clock = time.monotonic
-    monkeypatch.setattr(time, "monotonic", lambda: 1000 * clock())
-    hurried = result_of(diagnosed(before, 600))
-    assert calm.diagnosis.untried and _known_by(calm) == _known_by(hurried)
-    whole = result_of(diagnosed(before))
-    assert whole.diagnosis.steps > 600 and not whole.diagnosis.untried
-    assert not whole.to_dict()["diagnosis"]["ended"]
-
-
-def _salted(scene):
-    color = render(scene).color.copy()
-    color[::3, ::5, :3] = (0.3, 0.9, 0.2)
-    return color
-
-
-@pytest.mark.parametrize("steps", [1, 20, 150])
-def test_it_ends_inside_a_guess_and_says_what_was_not_looked_for(pair, steps):
-    moved = pictured(pair, "pixel_offset", Guess((0.4, 0.2)))
-    before = result_of(trace_and_compare(case_of(pair, Picture(moved), curves=())))
-    found = result_of(diagnosed(before, steps)).diagnosis
-    assert found.steps == steps and "pixel_offset" in found.untried
-    said = [line for line in found.lines() if "a limit of work ended" in line]
-    assert len(said) == 1 and " more)" in said[0]
-    assert found.to_dict()["ended"] and found.to_dict()["untried"] == list(found.untried)
-
-
-@pytest.mark.slow
-def test_a_picture_without_the_scene_is_told_in_few_lines(pair):
-    """What makes it so follows in one line: nothing tells one from the other."""
-    color = np.broadcast_to(pair.background, (27, 48, 4)).copy()
-    found = diagnosis_of(pair, color)
-    first, *others = found.diagnosis.told
-    assert first.fault.name == "nothing_shown" and not others
-    assert len(first.also) >= 2
-    lines = found.diagnosis.lines()
-    assert lines[0] == "diagnosis: nothing of the scene is in the picture"
-    assert len(lines) == 4
-    one = replace(pair, instances=pair.instances[:1])
-    assert "nothing_shown" not in names(diagnosis_of(pair, render(one).color))
-
-
-@pytest.mark.torture
-def test_each_fault_that_is_told_makes_more_pixels_agree(solids):
-    """Two faults that only do together: of the first one, few pixels are lost."""
-    frame = render(solids)
-    first = BY_NAME["object_missing"].make(
-        case_of(solids, frame.color), frame, Guess(object="Ball")
-    )
-    both = BY_NAME["pixel_offset"].make(first, frame, Guess((0.5, 0.5)))
-    found = diagnosis_of(solids, render(both.scene).color).diagnosis
-    assert found.told
-    for told in found.told:
-        assert told.settled > told.broken and told.broken <= 0.1 * told.settled
-
-
-@pytest.mark.torture
-def test_no_resampling_is_told_beside_a_fault_of_an_object(solids):
-    """Each object has another colour, as in a picture that is more saturated."""
-    color = render(solids).color.copy()
-    gray = color[..., :3].mean(axis=-1, keepdims=True)
-    color[..., :3] = np.clip(gray + 1.25 * (color[..., :3] - gray), 0, 1)
-    assert not {"resampled", "jpeg", "filter_radius"} & set(names(diagnosis_of(solids, color)))

@@ -1,4 +1,4 @@
-"""Faults of where things are and what is drawn over what: their names, and what encloses them."""
+"""Faults of where things are and what is drawn over what: each gets its name alone."""
 
 from __future__ import annotations
 
@@ -6,155 +6,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import trimesh
 from reference_tracer.comparison.comparing import trace_and_compare
-from reference_tracer.diagnosis.diagnosis import diagnose
 from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import Guess
 from reference_tracer.diagnosis.faults.fitting import Traced
 from reference_tracer.diagnosis.faults.stand import TURNED
-from reference_tracer.diagnosis.guessing import ALL_EDGES
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Mesh, Scene, ViewWindow
+from reference_tracer.scene import ViewWindow
 from reference_tracer.tracer.progress import result_of
 
-from .cases import case_of
-
-BY_NAME = {fault.name: fault for fault in FAULTS}
-OBJECTS = "Box", "Ball", "Ring", "Drum"
-
-
-@pytest.fixture
-def few(make):
-    """Return what makes some solids over a floor, seen through a shifted window."""
-
-    def made(width=64, height=40, parallel=False, seed=27) -> Scene:
-        rng = np.random.default_rng(seed)
-        camera = make.camera(width, height, eye=(5, -6, 4), target=(0, 0, 0))
-        x = 2.3 if parallel else 0.32
-        y = x * height / width
-        window = ViewWindow(0.03 - x, 0.03 + x, 0.02 - y, 0.02 + y)
-        if parallel:
-            camera = replace(camera, projection=ORTHOGRAPHIC)
-        camera = replace(camera, window=window)
-        shapes = (
-            trimesh.creation.box((9, 9, 0.2)).apply_translation((0, 0, -1.2)),
-            trimesh.creation.box((1.1, 0.7, 1.3)),
-            trimesh.creation.icosphere(2, radius=0.6),
-            trimesh.creation.torus(0.6, 0.22, 16, 12),
-            trimesh.creation.cylinder(0.45, 1.0, 16),
-        )
-        places = (0, 0, 0), (-1.2, -0.6, -0.3), (1.1, 0.6, 0.2), (0.2, 1.6, -0.2), (0.6, -1.4, -0.4)
-        instances = []
-        for n, place in enumerate(places):
-            angles = rng.uniform(-0.4, 0.4, 3) if n else (0, 0, 0)
-            matrix = trimesh.transformations.euler_matrix(*angles)
-            matrix[:3, 3] = place
-            instances.append(Instance(n, n, matrix, [[*rng.uniform(0.1, 0.9, 3), 1.0]]))
-        meshes = tuple(Mesh(s.vertices, s.faces) for s in shapes)
-        return Scene(camera, meshes, tuple(instances), objects=("Floor", *OBJECTS))
-
-    return made
-
-
-def pictured(scene, name, guess):
-    """Return the picture that a fault makes of a scene."""
-    frame = render(scene)
-    wrong = BY_NAME[name].make(case_of(scene, Picture(frame.color)), frame, guess)
-    return wrong.picture.color if wrong.scene is scene else render(wrong.scene).color
-
-
-def told(scene, color, *names):
-    """Return what is told of a picture, if only some faults are looked for."""
-    found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
-    assert found.counts.unexplained > 10
-    faults = [BY_NAME[name] for name in names] or FAULTS
-    said = result_of(diagnose(found.case, found.frame, found.causes, faults, np.inf)).told
-    assert all(t.settled >= 0.97 * t.unexplained for t in said[:1])
-    return {t.fault.name: t for t in said}
-
-
-def fitted(scene, color, name):
-    """Return the numbers of a fault that fit a picture, with what encloses them."""
-    found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
-    evidence = Evidence(found.case, found.frame, found.causes)
-    if evidence.open.sum() < 25:
-        return None
-    fault = BY_NAME[name]
-    guesses = [g for g in result_of(fault.find(evidence)) if g.low]
-    gains = [
-        result_of(evidence.score(fault.tried(found.case, found.frame, g))).gain for g in guesses
-    ]
-    best = guesses[int(np.argmax(gains))]
-    return result_of(fault.refine(replace(evidence, size=ALL_EDGES), best))
-
-
-# ---- numbers are enclosed
-
-KINDS = {
-    "object_moved": lambda rng: rng.uniform(-0.25, 0.25, 3) * (rng.random(3) < 0.7),
-    "camera_moved": lambda rng: rng.uniform(-0.3, 0.3, 3),
-    "camera_turned": lambda rng: rng.uniform(-2, 2, 3),
-    "pixel_offset": lambda rng: rng.uniform(-4, 4, 2),
-    "focal_length": lambda rng: rng.uniform(-10, 10, 1),
-    "focal_lengths": lambda rng: rng.uniform(-8, 8, 2),
-    "object_scaled": lambda rng: rng.uniform(0.8, 1.3, 1),
-}
-
-
-def enclosed(few, seed, size):
-    """Return whether a random fault's numbers lie between what is told; None if hardly seen."""
-    rng = np.random.default_rng(seed)
-    name = list(KINDS)[seed % len(KINDS)]
-    scene = few(*size, parallel=rng.random() < 0.25, seed=seed)
-    values = tuple(float(v) for v in KINDS[name](rng))
-    guess = Guess(values, object=str(rng.choice(OBJECTS)) if "object" in name else "")
-    found = fitted(scene, pictured(scene, name, guess), name)
-    if found is None:
-        return None
-    assert all(a <= v <= b for a, v, b in zip(found.low, found.values, found.high, strict=True))
-    return all(a <= v <= b for a, v, b in zip(found.low, values, found.high, strict=True))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "seed", [*(pytest.param(n, marks=pytest.mark.torture) for n in range(3)), 3, 4, 5, 6]
-)
-def test_the_numbers_that_are_told_enclose_the_right_ones(few, seed):
-    assert enclosed(few, seed, (48, 30)) is not False
-
-
-@pytest.mark.torture
-@pytest.mark.parametrize("part", range(10))
-def test_the_right_numbers_are_enclosed_nearly_always(few, part):
-    """A fit may stop beside the best place: at most one in eleven."""
-    results = [enclosed(few, 100 + 11 * part + n, (112, 64)) for n in range(11)]
-    assert results.count(False) <= 1
-
-
-@pytest.mark.torture
-def test_an_object_that_sinks_is_told_as_it_is(few):
-    """Its distance is hardly seen: of all moves that fit, that with zeros is the right one."""
-    scene = few(96, 54)
-    color = pictured(scene, "object_moved", Guess((0, 0, -0.06), object="Box"))
-    found = fitted(scene, color, "object_moved")
-    assert found.values[:2] == (0, 0) and found.values[2] == pytest.approx(-0.06, abs=0.01)
-
-
-@pytest.mark.slow
-def test_what_an_orthographic_camera_cannot_see_is_left_open(few):
-    scene = few(parallel=True)
-    move = (0.2, 0.1, 0)
-    found = fitted(
-        scene, pictured(scene, "object_moved", Guess(move, object="Box")), "object_moved"
-    )
-    away = scene.camera.forward
-    assert np.all(np.subtract(found.high, found.low) > np.abs(away))  # metres
-    beside = np.subtract(found.values, move)
-    assert np.linalg.norm(beside - (beside @ away) * away) < 0.05
+from ..comparison.cases import case_of
+from .diagnosing import pictured, told
 
 
 def test_an_orthographic_camera_that_turns_leaves_what_was_near_its_rays(few):
@@ -168,9 +33,6 @@ def test_an_orthographic_camera_that_turns_leaves_what_was_near_its_rays(few):
     traced = Traced(Evidence(found.case, found.frame, found.causes), TURNED.camera)
     assert not result_of(traced.right((0.0, 0.0, 0.0))).all()
     assert result_of(traced.right(turn)).all()
-
-
-# ---- names
 
 
 @pytest.mark.slow
@@ -271,47 +133,6 @@ def test_a_shear_that_is_left_out(few):
     ]
     without = pictured(scene, "scale_left_out", Guess(object="Box"))
     assert list(told(scene, without, "shear_left_out", "scale_left_out")) == ["scale_left_out"]
-
-
-SHIFTS = "shift_length", "shift_left_out", "shift_sign", "shift_unit"
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("factor", [1 / 36, 64.0])
-def test_a_shift_in_another_length(few, factor):
-    scene = few()
-    w = scene.camera.window
-    small = 0.2 if factor > 1 else 2.0  # so that something is seen with either
-    x, y = small * (w.left + w.right) / 2, small * (w.bottom + w.top) / 2
-    right = replace(scene.camera, window=_about(w, x, y))
-    wrong = replace(scene.camera, window=_about(w, factor * x, factor * y))
-    scene = scene.seen_by(right)
-    color = render(scene.seen_by(wrong)).color
-    assert "shift_length" in told(scene, color, *SHIFTS)
-
-
-def test_a_shift_of_another_sign_is_in_no_other_length(few):
-    color = pictured(few(), "shift_sign", Guess((0.0,)))
-    assert "shift_length" not in told(few(), color, *SHIFTS)
-
-
-def _about(window, x, y):
-    half_x, half_y = (window.right - window.left) / 2, (window.top - window.bottom) / 2
-    return ViewWindow(x - half_x, x + half_x, y - half_y, y + half_y)
-
-
-def test_pixels_taken_for_squares_about_the_windows_own_centre(few):
-    scene = few()
-    w = scene.camera.window
-    tall = replace(w, bottom=0.02 + 1.4 * (w.bottom - 0.02), top=0.02 + 1.4 * (w.top - 0.02))
-    tall = scene.seen_by(replace(scene.camera, window=tall))
-    color = render(scene).color
-    assert list(told(tall, color, "pixel_aspect_left_out", "focal_lengths")) == [
-        "pixel_aspect_left_out"
-    ]
-
-
-# ---- what is drawn over what
 
 
 def drawn(scene, ranks):

@@ -1,0 +1,74 @@
+"""The numbers of a fault lie between those that are told."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reference_tracer.diagnosis.faults.fault import Guess
+
+from .diagnosing import fitted, pictured
+
+OBJECTS = "Box", "Ball", "Ring", "Drum"
+
+
+KINDS = {
+    "object_moved": lambda rng: rng.uniform(-0.25, 0.25, 3) * (rng.random(3) < 0.7),
+    "camera_moved": lambda rng: rng.uniform(-0.3, 0.3, 3),
+    "camera_turned": lambda rng: rng.uniform(-2, 2, 3),
+    "pixel_offset": lambda rng: rng.uniform(-4, 4, 2),
+    "focal_length": lambda rng: rng.uniform(-10, 10, 1),
+    "focal_lengths": lambda rng: rng.uniform(-8, 8, 2),
+    "object_scaled": lambda rng: rng.uniform(0.8, 1.3, 1),
+}
+
+
+def enclosed(few, seed, size):
+    """Return whether a random fault's numbers lie between what is told; None if hardly seen."""
+    rng = np.random.default_rng(seed)
+    name = list(KINDS)[seed % len(KINDS)]
+    scene = few(*size, parallel=rng.random() < 0.25, seed=seed)
+    values = tuple(float(v) for v in KINDS[name](rng))
+    guess = Guess(values, object=str(rng.choice(OBJECTS)) if "object" in name else "")
+    found = fitted(scene, pictured(scene, name, guess), name)
+    if found is None:
+        return None
+    assert all(a <= v <= b for a, v, b in zip(found.low, found.values, found.high, strict=True))
+    return all(a <= v <= b for a, v, b in zip(found.low, values, found.high, strict=True))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "seed", [*(pytest.param(n, marks=pytest.mark.torture) for n in range(3)), 3, 4, 5, 6]
+)
+def test_the_numbers_that_are_told_enclose_the_right_ones(few, seed):
+    assert enclosed(few, seed, (48, 30)) is not False
+
+
+@pytest.mark.torture
+@pytest.mark.parametrize("part", range(10))
+def test_the_right_numbers_are_enclosed_nearly_always(few, part):
+    """A fit may stop beside the best place: at most one in eleven."""
+    results = [enclosed(few, 100 + 11 * part + n, (112, 64)) for n in range(11)]
+    assert results.count(False) <= 1
+
+
+@pytest.mark.torture
+def test_an_object_that_sinks_is_told_as_it_is(few):
+    """Its distance is hardly seen: of all moves that fit, that with zeros is the right one."""
+    scene = few(96, 54)
+    color = pictured(scene, "object_moved", Guess((0, 0, -0.06), object="Box"))
+    found = fitted(scene, color, "object_moved")
+    assert found.values[:2] == (0, 0) and found.values[2] == pytest.approx(-0.06, abs=0.01)
+
+
+@pytest.mark.slow
+def test_what_an_orthographic_camera_cannot_see_is_left_open(few):
+    scene = few(parallel=True)
+    move = (0.2, 0.1, 0)
+    found = fitted(
+        scene, pictured(scene, "object_moved", Guess(move, object="Box")), "object_moved"
+    )
+    away = scene.camera.forward
+    assert np.all(np.subtract(found.high, found.low) > np.abs(away))  # metres
+    beside = np.subtract(found.values, move)
+    assert np.linalg.norm(beside - (beside @ away) * away) < 0.05
