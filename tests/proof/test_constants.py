@@ -46,7 +46,6 @@ TUNING = {
     ),
     "sweep.small_boxes": {"SIDE + 1": "a key for sorting boxes by their size, in integers"},
     "sweep.sweep": {
-        "_PER_PIXEL": "whether clusters are swept, or whole instances",
         "_PAIRS": _STEP,
         "_FRAGMENTS": _ROOM,
         "0.75": _ROOM,

@@ -33,7 +33,6 @@ from .small_triangles import SmallTriangles
 
 _TRIANGLES = 1 << 17  # triangles tested against the depth buffer together
 _SET_UP = 1 << 13  # large triangles set up together: they stay in a core's cache
-_PER_PIXEL = 8  # of an instance with more triangles per pixel clusters are swept
 _FRAGMENTS = 1 << 10  # fragments for which there is always room
 _PIXELS = 1 << 15  # pixels of a plane at a time
 _PAIRS = 1 << 15  # pairs entered into the depth buffer together
@@ -117,12 +116,11 @@ class Sweep:
         bounds, matrices = scene.instance_bounds, scene.instance_matrices
         small = SmallTriangles(film, region, bounds, matrices, counts, around.area)
         in_view = around.in_region(region)
-        density = counts / around.area
-        many = small.is_dense & (density > _PER_PIXEL)
-        some = in_view & (many | np.isinf(around.nearest))
+        some = in_view & (small.is_dense | np.isinf(around.nearest))
         found = {k: clusters_of(scene.meshes[k]) for k in np.unique(of[some]).tolist()}
         known = {k: clusters for k, clusters in found.items() if clusters}
         clustered = some & np.isin(of, list(known))
+        density = counts / around.area
         every = chunks(scene, in_view, around.depth, limit, small.is_dense, clustered)
         for number, chunk in enumerate(every):
             share = 0.6 * number / len(every)

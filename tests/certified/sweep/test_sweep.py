@@ -147,8 +147,7 @@ DIVISIONS = {
     "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
     "chunks of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
     "clusters by twos": [
-        (sweep, "clusters_of", clusters.Clusters.of), (sweep, "_PER_PIXEL", 0.0),
-        (small_triangles, "_PER_PIXEL", 0.0),
+        (sweep, "clusters_of", clusters.Clusters.of), (small_triangles, "_PER_PIXEL", 0.0),
         (clusters, "SIZE", 2), (clustered, "SIZE", 2), (clustered, "_TILE", 4),
     ],
     "all small": [
