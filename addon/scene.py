@@ -320,12 +320,6 @@ class Scene:
         return np.stack(matrices, axis=-1) if matrices else np.zeros((4, 4, 0))
 
     @cached_property
-    def instance_bounds(self) -> Floats:
-        """Lowest and highest coordinates of every instance's mesh, in object space, (2, 3, k)."""
-        of_meshes = np.array([m.bounds for m in self.meshes]).reshape(-1, 2, 3)
-        return of_meshes[self.instance_meshes].transpose(1, 2, 0)
-
-    @cached_property
     def color_table(self) -> Colors:
         """The colours of all instances below one another, of the planes, and the background.
 

@@ -28,17 +28,8 @@ TUNING = {
         **dict.fromkeys(("_FIRST", "BINS", "BINS - 1", "_GROWTH", "_GROWTH - 1"), _BINS),
         **dict.fromkeys(("2", "3"), _BINS + "; and the bytes of a kind of integer"),
     },
-    "sweep.chunks": {"2": "a kind of chunk"},
-    "sweep.clustered": {
-        **dict.fromkeys(("_FIRST * _TILE ** 2", "_GROWTH", "_GROWTH - 1"), _BINS),
-        "SIZE": "how many triangles a cluster has at most",
-    },
-    "sweep.clusters": dict.fromkeys(
-        ("SIZE", "LEAST", "_OWN", "_CELLS", "_CELLS - 1"),
-        "which triangles are a cluster: its box is that of its vertices, whichever they are",
-    ),
     "sweep.depth_buffer": dict.fromkeys(
-        ("FINE", "COARSE", "COARSE // FINE", "2"),
+        ("FINE", "COARSE", "COARSE // FINE", "2 * FINE"),
         "the size of a cell of pixels: integers; a cell has the least nearness of its pixels",
     ),
     "sweep.rasterise": dict.fromkeys(

@@ -72,35 +72,23 @@ LEFT_OUT = {
         SORTS: "InstanceBoxes.area by_depth by_depth.<locals>.depth",
     },
     "sweep/chunks.py": {
-        WHICH: "Names.of Numbering.__init__ Numbering.enter Numbering.names_of parts_of",
+        WHICH: "Names.of Numbering.__init__ Numbering.enter Numbering.names_of _parts",
         SORTS: "chunks",
-        CALLS: "Part.world expand",
+        CALLS: "_Part.world expand",
     },
     "sweep/depth_buffer.py": {
         WHICH: "DepthBuffer.__init__ DepthBuffer.winners DepthBuffer.pixels DepthBuffer.places _at",
         LEAST: "DepthBuffer.refresh DepthBuffer.farthest DepthBuffer.farthest_in "
-        "DepthBuffer._least",
-    },
-    "sweep/clustered.py": {
-        CALLS: "Clustered.of Clustered.parts Clustered._part Clustered._triangles",
-        WHICH: "Clustered.bins",
-        SORTS: "_by_layer",
-    },
-    "sweep/clusters.py": {
-        LEAST: "Clusters._in_order",
-        SORTS: "Clusters.of Clusters._size _along_curve",
-        WHICH: "Clusters.__len__ Clusters.triangles clusters_of",
+        "DepthBuffer.farthest_around",
     },
     "sweep/film.py": {CALLS: "Film.dual Film.is_sound"},
     "sweep/rasterise.py": {WHICH: "Boxes.size rasterised split cells"},
     "sweep/small_boxes.py": {CALLS: "small_pairs", WHICH: "_blocks _pixels"},
     "sweep/small_triangles.py": {
-        FLOAT32: "SmallTriangles.__init__ SmallTriangles.within SmallTriangles.among "
-        "SmallTriangles._inside _ends"
+        FLOAT32: "SmallTriangles.__init__ SmallTriangles.within SmallTriangles._ends"
     },
     "sweep/sweep.py": {
-        CALLS: "sweep Sweep.__init__ Sweep.steps Sweep._instances Sweep._hidden "
-        "Sweep._enter_parts Sweep._keep Sweep._make_room "
+        CALLS: "sweep Sweep.__init__ Sweep.steps Sweep._instances Sweep._keep Sweep._make_room "
         "Sweep.enter Sweep._enter_triangles Sweep._enter_large "
         "Sweep.pairs _FullError.__init__",
     },

@@ -31,11 +31,11 @@ _TOGETHER = 1 << 15  # triangles at a time
 
 @dataclass(frozen=True, eq=False)
 class InstanceBoxes:
-    """The boxes of n instances, or of clusters of their triangles, on the film.
+    """The boxes of n instances on the film.
 
-    `in_view` (n,) is False for one that no ray of the region hits. `depth` (n,) is the least of its
-    bounding box, in metres. It covers only pixels from `low` to `high`, (2, n) x and y, both
-    included. `nearest` (n,) bounds its nearness (`edge_functions.py`) from above.
+    `in_view` (n,) is False for an instance that no ray of the region hits. `depth` (n,) is the
+    least of its bounding box, in metres. It covers only pixels from `low` to `high`, (2, n) x and
+    y, both included. `nearest` (n,) bounds its nearness (`edge_functions.py`) from above.
     """
 
     in_view: Bools
@@ -46,9 +46,9 @@ class InstanceBoxes:
 
     @classmethod
     @np.errstate(all="ignore")
-    def of(cls, film: Film, bounds: Floats, matrices: Floats) -> InstanceBoxes:
-        """Project boxes of object space, `bounds` (2, 3, n), given each one's matrix, (4, 4, n)."""
-        corners, size = _corners(bounds, matrices)
+    def of(cls, scene: Scene, film: Film) -> InstanceBoxes:
+        """Project the bounding boxes of all instances."""
+        corners, size = _corners(scene)
         count = corners.shape[2]
         camera = film.camera
         region = camera.region
@@ -88,9 +88,9 @@ class InstanceBoxes:
 
     @property
     def area(self) -> Floats:
-        """The number of pixels of each box without its margin, (n,)."""
-        width, height = self.high - self.low.astype(np.float64) + 1 - 2 * int(_MARGIN)
-        return np.maximum(width, 1) * np.maximum(height, 1)
+        """The number of pixels of each box, (n,)."""
+        width, height = self.high - self.low.astype(np.float64) + 1
+        return width * height
 
     def in_region(self, region: Region) -> Bools:
         """Return which instances may cover pixels of a region, (n,)."""
@@ -101,23 +101,22 @@ class InstanceBoxes:
 
     def hidden(self, instances: Index, depths: DepthBuffer) -> Bools:
         """Return which of these instances a depth buffer hides wholly, (k,)."""
-        low, high = self.clipped(depths.region)
-        farthest = depths.farthest_in(low[:, instances], high[:, instances])
-        return self.nearest[instances] < farthest
-
-    def clipped(self, region: Region) -> tuple[Integers, Integers]:
-        """Return the ends of the boxes in a region, counted from its corner, (2, n) each."""
-        first = np.array([[region.x0], [region.y0]], np.int32)
-        last = np.array([[region.x1 - 1], [region.y1 - 1]], np.int32)
-        return np.clip(self.low, first, last) - first, np.clip(self.high, first, last) - first
+        region = depths.region
+        first = np.array([[region.x0], [region.y0]])
+        last = np.array([[region.x1 - 1], [region.y1 - 1]])
+        low = np.clip(self.low[:, instances], first, last) - first
+        high = np.clip(self.high[:, instances], first, last) - first
+        farthest = [depths.farthest_around(*box) for box in np.concatenate((low, high)).T.tolist()]
+        return self.nearest[instances] < np.array(farthest)
 
 
-def _corners(bounds: Floats, matrices: Floats) -> tuple[Vectors, Floats]:
+def _corners(scene: Scene) -> tuple[Vectors, Floats]:
     """Return the corners of bounding boxes in world space, (3, 8, n).
 
     And a bound on the numbers that they are computed from, (n,).
     """
-    low, high = bounds
+    low, high = np.array([m.bounds for m in scene.meshes])[scene.instance_meshes].transpose(1, 2, 0)
+    matrices = scene.instance_matrices
     ends = [
         np.stack([(low, high)[corner >> axis & 1][axis] for axis in range(3)])
         for corner in range(8)

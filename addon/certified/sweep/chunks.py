@@ -25,15 +25,13 @@ _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a c
 class Chunk:
     """The triangles first <= k < last of one instance, or all of several (`last` is None).
 
-    Of `dense` instances only those that may cover a pixel (`small_triangles.py`); of `clustered`
-    ones what `clusters.py` leaves of them.
+    Of `dense` instances only those that may cover a pixel (`small_triangles.py`).
     """
 
     instances: Integers
     first: int = 0
     last: int | None = None
     dense: bool = False
-    clustered: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,9 +94,7 @@ class Expanded:
     names: Names
 
 
-def chunks(
-    scene: Scene, in_view: Bools, depth: Floats, limit: int, dense: Bools, clustered: Bools
-) -> list[Chunk]:
+def chunks(scene: Scene, in_view: Bools, depth: Floats, limit: int, dense: Bools) -> list[Chunk]:
     """Return the chunks of the instances in view, from the front to the back.
 
     Parameters
@@ -112,8 +108,6 @@ def chunks(
         The most triangles of a chunk.
     dense : (n,) bool
         Whether each instance is dense (`small_triangles.py`).
-    clustered : (n,) bool
-        Whether each instance's mesh has clusters; a chunk of one instance is never too large then.
     """
     sizes = np.array([(len(m.triangles), len(m.vertices)) for m in scene.meshes], np.intp)
     counts, vertices = sizes.reshape(-1, 2)[scene.instance_meshes].T
@@ -121,24 +115,23 @@ def chunks(
     order = order[np.argsort(depth[order], kind="stable")].astype(np.int32)
     out = []
     size = np.maximum(counts, vertices // 3)  # there may be vertices that no triangle uses
-    large = (size > limit)[order] & ~clustered[order]
+    large = size[order] > limit
     for instance in order[large].tolist():
         count = int(counts[instance])
         for first in range(0, count, limit):
             out.append(Chunk(np.array([instance], np.int32), first, min(first + limit, count)))
-    kinds = np.where(clustered, 2, dense)[order]
-    for kind in range(3):
-        rest = order[~large & (kinds == kind)]
+    for is_dense in (False, True):
+        rest = order[~large & (dense[order] == is_dense)]
         for start, end in groups(size[rest], limit):
             group = rest[start:end]
             group = group[np.argsort(scene.instance_meshes[group], kind="stable")]
-            out.append(Chunk(group, dense=kind == 1, clustered=kind == 2))
+            out.append(Chunk(group, dense=is_dense))
     nearest = [np.min(depth[chunk.instances]) for chunk in out]
     return [out[k] for k in np.argsort(nearest, kind="stable")]
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class _Part:
     """Triangles of k instances of a mesh, `counts` (k,) of each.
 
     `corners` (3, m) index `used` (v,). A vertex there is its number in the mesh, plus the mesh's
@@ -163,16 +156,13 @@ class Part:
             yield part.start, transform_points(own, self.mesh.vertices.take(vertex, axis=0).T)
 
 
-def expand(
-    scene: Scene, film: Film, every: Iterator[Part | None], first: int = 0
-) -> Steps[Expanded]:
-    """Project the vertices of a chunk's parts to the film, in small steps.
+def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Steps[Expanded]:
+    """Project a chunk's vertices to the film, in small steps.
 
-    `first` is the number of the first triangle in its mesh, of parts that have no `own`. Vertices
-    that are not finite there make triangles that are dropped, or decided elsewhere.
+    Vertices that are not finite there make triangles that are dropped, or decided elsewhere.
     """
-    found: list[Part] = []
-    for part in every:
+    found: list[_Part] = []
+    for part in _parts(scene, chunk, small):
         if part:
             found.append(part)
         yield "project"
@@ -181,8 +171,8 @@ def expand(
     vertices = Vertices.empty(count, np.int16 if size < 1 << 14 else np.int32)
     at = 0
     for part in found:
-        for start, world in part.world(scene):
-            film.enter(vertices, at + start, world)
+        for first, world in part.world(scene):
+            film.enter(vertices, at + first, world)
             yield "project"
         part.corners[:] += at
         at += len(part.used)
@@ -191,18 +181,18 @@ def expand(
     # Contiguous rows: `take` of rows that are not would copy all of them each time.
     corners = np.ascontiguousarray(np.hstack([part.corners for part in found]))
     instances = np.concatenate([part.instances for part in found])
-    names = Names(instances, starts, first, np.concatenate(own) if own else None)
+    names = Names(instances, starts, chunk.first, np.concatenate(own) if chunk.dense else None)
     return Expanded(vertices, corners, names)
 
 
-def parts_of(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[Part | None]:
+def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part | None]:
     """Yield a chunk's triangles, mesh by mesh, and None after each step in between."""
     of = scene.instance_meshes[chunk.instances]
     for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
         mesh = scene.meshes[scene.instances[members[0]].mesh]
         if chunk.dense:
             for found in small.within(mesh, members):
-                yield Part(mesh, *found) if found else None
+                yield _Part(mesh, *found) if found else None
             continue
         corners = mesh.triangles[chunk.first : chunk.last].T
         count = len(mesh.vertices)
@@ -212,4 +202,4 @@ def parts_of(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[Part
         counts = np.full(len(members), corners.shape[1])
         starts = count * np.arange(len(members), dtype=np.int32)
         corners = (corners[:, None] + starts[:, None]).reshape(3, -1)
-        yield Part(mesh, members, counts, corners, used)
+        yield _Part(mesh, members, counts, corners, used)

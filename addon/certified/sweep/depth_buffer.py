@@ -11,7 +11,6 @@ The least nearness in a cell of pixels says what is hidden in all of the cell.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,10 +80,7 @@ class DepthBuffer:
         grid[:, region.width :] = np.inf
         self._fine = np.full((rows * COARSE // FINE, self.stride // FINE), -np.inf)
         self._coarse = np.full((rows, columns), -np.inf)
-        # The least of squares of 2 ** k cells a side, by the cell at the lower left; what of a
-        # square is beyond the region is left out.
-        levels = max(2, max(self._fine.shape).bit_length())
-        self._around = np.full((levels, *self._fine.shape), -np.inf)
+        self._around = self._fine.copy()  # the least of a cell, and those right of and above it
         self._stale = np.ones((rows * COARSE, columns), bool)  # pixels newer than their cell
 
     @property
@@ -160,12 +156,9 @@ class DepthBuffer:
             fine[row, :, some] = cells
             self._coarse[row, some] = cells.min(axis=(0, 2))
         self._stale[:] = False
-        self._around[0] = self._fine
-        for level, (half, whole) in enumerate(pairwise(self._around)):
-            side = 1 << level
-            whole[:] = half
-            np.minimum(whole[:-side], half[side:], out=whole[:-side])
-            np.minimum(whole[:, :-side], whole[:, side:], out=whole[:, :-side])
+        self._around[:] = self._fine
+        np.minimum(self._around[:-1], self._fine[1:], out=self._around[:-1])
+        np.minimum(self._around[:, :-1], self._around[:, 1:], out=self._around[:, :-1])
 
     def farthest(self, x: Index, y: Index, size: int) -> Floats:
         """Return the least nearness in cells (n,) of FINE or COARSE pixels, by column and row."""
@@ -174,30 +167,29 @@ class DepthBuffer:
     def farthest_in(self, low: Index, high: Index) -> Floats:
         """Bound the least nearness in boxes of pixels from below, (b,).
 
-        Boxes go from `low` to `high`, (2, b) each, both included.
+        Boxes go from `low` to `high`, (2, b) each, both included. The bound of a box that is larger
+        than two FINE cells is -inf.
         """
-        first = low // FINE
-        column, row = first
-        out = self._least(1, column, row)  # enough for boxes of FINE pixels a side
-        width, height = high - low
-        larger = np.flatnonzero(np.maximum(width, height) >= FINE)
+        around = self._around  # enough for boxes of FINE pixels a side that begin in the cell
+        column, row = low // FINE
+        out = _at(around, column, row)
+        size = np.maximum(*(high - low))
+        larger = np.flatnonzero(size >= FINE)
         if len(larger):
-            column, row = gather(first, larger)
-            last = gather(high, larger) // FINE
-            # The largest squares that are no longer than the longer side: two of them cover it.
-            columns, rows = last - (column, row)
-            level = np.frexp(np.maximum(columns, rows) + 1.0)[1] - 1
-            right, top = np.maximum(last + 1 - (1 << level), (column, row))
-            least = self._least(level, column, row)
-            for x, y in ((right, row), (column, top), (right, top)):
-                np.minimum(least, self._least(level, x, y), out=least)
-            out[larger] = least
+            size = gather(size, larger)
+            x, y = gather(low, larger)
+            farthest = gather(out, larger)
+            right, up = np.minimum((x + FINE, y + FINE), gather(high, larger))
+            for column, row in ((right, y), (x, up), (right, up)):
+                np.minimum(farthest, _at(around, column // FINE, row // FINE), out=farthest)
+            out[larger] = np.where(size < 2 * FINE, farthest, -np.inf)
         return out
 
-    def _least(self, level: Index | int, column: Index, row: Index) -> Floats:
-        """Return the least nearness in squares of 2 ** level cells a side, from these cells on."""
-        _, rows, columns = self._around.shape
-        return gather(self._around.ravel(), (level * rows + row.astype(np.intp)) * columns + column)
+    def farthest_around(self, x0: int, y0: int, x1: int, y1: int) -> float:
+        """Return the least nearness in all cells that a box of any size touches."""
+        rows = slice(y0 // FINE, y1 // FINE + 1)
+        columns = slice(x0 // FINE, x1 // FINE + 1)
+        return float(self._fine[rows, columns].min())
 
 
 def _at(cells: Floats, x: Index, y: Index) -> Floats:

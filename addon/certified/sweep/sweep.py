@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Index
+from ...arrays import Floats, Index
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
@@ -20,9 +20,7 @@ from ...tracer.progress import Steps, Work, quiet, scaled, timed
 from ...tracer.vector import gather, parts
 from ..bounds import plane_fractions
 from .boxes import Boxed, InstanceBoxes, boxes_of, by_depth
-from .chunks import Names, Numbering, Part, chunks, expand, parts_of
-from .clustered import Clustered
-from .clusters import clusters_of
+from .chunks import Chunk, Names, Numbering, chunks, expand
 from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
@@ -107,50 +105,19 @@ class Sweep:
 
     def _instances(self, limit: int, room: int) -> Work[None]:
         """Sweep the instances in chunks of `limit` triangles, with room for some fragments."""
-        scene = self._scene
-        film = self._film
-        around = InstanceBoxes.of(film, scene.instance_bounds, scene.instance_matrices)
+        around = InstanceBoxes.of(self._scene, self._film)
         region = self._depths.region
-        of = scene.instance_meshes
-        counts = np.array([len(m.triangles) for m in scene.meshes])[of]
-        bounds, matrices = scene.instance_bounds, scene.instance_matrices
-        small = SmallTriangles(film, region, bounds, matrices, counts, around.area)
+        small = SmallTriangles(self._scene, self._film, region, around.area)
         in_view = around.in_region(region)
-        some = in_view & (small.is_dense | np.isinf(around.nearest))
-        found = {k: clusters_of(scene.meshes[k]) for k in np.unique(of[some]).tolist()}
-        known = {k: clusters for k, clusters in found.items() if clusters}
-        clustered = some & np.isin(of, list(known))
-        density = counts / around.area
-        every = chunks(scene, in_view, around.depth, limit, small.is_dense, clustered)
+        every = chunks(self._scene, in_view, around.depth, limit, small.is_dense)
         for number, chunk in enumerate(every):
-            share = 0.6 * number / len(every)
-            instances = chunk.instances[~self._hidden(chunk.instances, around)]
-            if not len(instances):
-                continue
-            if not chunk.clustered:
-                own = parts_of(scene, replace(chunk, instances=instances), small)
-                yield from self._enter_parts(own, room, share, chunk.first)
-                continue
-            pieces = Clustered.of(scene, film, region, known, instances, density[instances])
-            for depth_bin in pieces.bins(region, limit):
-                depth_bin = depth_bin[~self._hidden(depth_bin, pieces.boxes)]
-                if len(depth_bin):
-                    yield from self._enter_parts(pieces.parts(depth_bin), room, share)
-
-    def _hidden(self, some: Index, boxes: InstanceBoxes) -> Bools:
-        """Return which of some boxes are hidden by what has been swept."""
-        if not self._fragments:
-            return np.zeros(len(some), bool)
-        self._depths.refresh()
-        return boxes.hidden(some, self._depths)
-
-    def _enter_parts(
-        self, every: Iterator[Part | None], room: int, share: float, first: int = 0
-    ) -> Work[None]:
-        """Sweep the parts of a chunk, with room for some fragments."""
-        for _ in timed(self.enter(every, first), self._statistics.stages):
-            yield share
-            self._make_room(room, share)
+            if self._fragments:
+                self._depths.refresh()
+                hidden = around.hidden(chunk.instances, self._depths)
+                chunk = replace(chunk, instances=chunk.instances[~hidden])
+            for _ in timed(self.enter(chunk, small), self._statistics.stages):
+                yield 0.6 * number / len(every)
+                self._make_room(room, 0.6 * number / len(every))
 
     def _keep(self, some: Fragments) -> None:
         self._fragments.append(some)
@@ -193,9 +160,11 @@ class Sweep:
                 self._keep(self.of_pairs(pairs, of))
                 yield "planes"
 
-    def enter(self, every: Iterator[Part | None], first: int = 0) -> Steps[None]:
-        """Sweep the parts of a chunk, in small steps that yield the stage of their work."""
-        expanded = yield from expand(self._scene, self._film, every, first)
+    def enter(self, chunk: Chunk, small: SmallTriangles) -> Steps[None]:
+        """Sweep the triangles of a chunk, in small steps that yield the stage of their work."""
+        if not len(chunk.instances):
+            return
+        expanded = yield from expand(self._scene, self._film, chunk, small)
         first = self._numbers.enter(expanded.names)
         yield "project"
         low, high, nearest = boxes_of(self._scene, self._film, expanded)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.certified.sweep import chunks as module
 from reference_tracer.certified.sweep.boxes import InstanceBoxes
-from reference_tracer.certified.sweep.chunks import Chunk, Expanded, chunks, expand, parts_of
+from reference_tracer.certified.sweep.chunks import Chunk, Expanded, chunks, expand
 from reference_tracer.certified.sweep.film import Film
 from reference_tracer.certified.sweep.small_triangles import SmallTriangles
 from reference_tracer.scene import Instance, Mesh, Scene
@@ -21,7 +21,6 @@ from ...tracer.exact_film import ExactFilm
 from ...tracer.hostile import hostile_camera, hostile_triangles
 from ...tracer.hostile_scenes import hostile_scene, offsets, scaled_camera
 from .test_film import project
-from .test_small_triangles import small_in
 
 FLOATS = ("p", "q", "w", "depth", "size", "nearest", "ahead", "finite")
 LIMITS = (1, 2, 5, 13, 10**9)
@@ -29,23 +28,21 @@ LIMITS = (1, 2, 5, 13, 10**9)
 
 def expanded_of(scene: Scene, film: Film, chunk: Chunk) -> Expanded:
     with np.errstate(all="ignore"):
-        parts = parts_of(scene, chunk, small_of(scene, film))
-        return result_of(expand(scene, film, parts, chunk.first))
+        return result_of(expand(scene, film, chunk, small_of(scene, film)))
 
 
 def all_chunks(scene: Scene, film: Film, limit: int) -> list[Chunk]:
     if not scene.instances:
         return []
-    around = InstanceBoxes.of(film, scene.instance_bounds, scene.instance_matrices)
+    around = InstanceBoxes.of(scene, film)
     in_view = around.in_region(film.camera.region)
-    none = np.zeros(len(in_view), bool)
-    return chunks(scene, in_view, around.depth, limit, none, none)
+    return chunks(scene, in_view, around.depth, limit, small_of(scene, film).is_dense)
 
 
 def small_of(scene: Scene, film: Film) -> SmallTriangles:
     """Here no instance is dense, so that every triangle is expanded."""
     with np.errstate(all="ignore"):
-        return small_in(scene, film, film.camera.region, np.inf)
+        return SmallTriangles(scene, film, film.camera.region, np.inf)
 
 
 def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:

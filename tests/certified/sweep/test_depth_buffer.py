@@ -151,17 +151,20 @@ def test_what_is_entered_is_refreshed_and_no_cell_is_too_near(region, rng):
 @every_region
 @pytest.mark.parametrize("dtype", [np.int16, np.int32])
 def test_farthest_in_boxes(region, dtype, rng):
-    """Never nearer than a pixel of the box; as near as the least in squares that reach over it."""
+    """Never nearer than a pixel of the box; as near as the least in the cells that it may touch."""
     depths = filled(region, rng)
     depths.refresh()
     inside = grid(depths)[: region.height, : region.width]
     ends = np.array([[region.width - 1], [region.height - 1]])
     low = np.stack([rng.integers(0, n, 500) for n in (region.width, region.height)])
-    size = rng.choice([2 * FINE + 2, 200, 5000], 500)
-    high = np.minimum(low + rng.integers(0, size, (2, 500)), ends)
+    high = np.minimum(low + rng.integers(0, 2 * FINE + 2, (2, 500)), ends)
     found = depths.farthest_in(low.astype(dtype), high.astype(dtype))
     for k, ((x0, x1), (y0, y1)) in enumerate(np.stack((low, high), axis=2).swapaxes(0, 1).tolist()):
+        size = max(x1 - x0, y1 - y0)
         assert found[k] <= inside[y0 : y1 + 1, x0 : x1 + 1].min()
-        cells = max(x1 // FINE - x0 // FINE, y1 // FINE - y0 // FINE, 1) + 1
-        rows, columns = (slice(v // FINE * FINE, (v // FINE + cells) * FINE) for v in (y0, x0))
-        assert found[k] >= inside[rows, columns].min()
+        if size >= 2 * FINE:
+            assert found[k] == -np.inf
+        else:
+            far = 2 if size < FINE else 3
+            rows, columns = (slice(v // FINE * FINE, (v // FINE + far) * FINE) for v in (y0, x0))
+            assert found[k] >= inside[rows, columns].min()

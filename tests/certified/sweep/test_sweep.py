@@ -12,13 +12,10 @@ from reference_tracer.certified import ladder, measures
 from reference_tracer.certified.sweep import (
     boxes,
     chunks,
-    clustered,
-    clusters,
     depth_buffer,
     rasterise,
     resolve,
     small_boxes,
-    small_triangles,
     sweep,
 )
 from reference_tracer.certified.sweep.edge_functions import set_up
@@ -146,10 +143,6 @@ DIVISIONS = {
     "fragments by threes": [(resolve, "_FRAGMENTS", 3), (sweep, "_PAIRS", 3)],
     "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
     "chunks of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
-    "clusters by twos": [
-        (sweep, "clusters_of", clusters.Clusters.of), (small_triangles, "_PER_PIXEL", 0.0),
-        (clusters, "SIZE", 2), (clustered, "SIZE", 2), (clustered, "_TILE", 4),
-    ],
     "all small": [
         (sweep, "_TRIANGLES", 2), (boxes, "BINS", 3), (resolve, "_PAIRS", 5),
         (rasterise, "_CELLS", 2),

@@ -40,10 +40,10 @@ def _instance(v: Inputs, prefix: str, projection: Projection) -> Kept:
     with (
         film.python(boxes),
         mock.patch.object(Film, "enter", enter),
-        mock.patch.object(boxes, "_corners", lambda *_: (np.zeros((3, 8, 1)), v.one("size"))),
+        mock.patch.object(boxes, "_corners", lambda _: (np.zeros((3, 8, 1)), v.one("size"))),
         numpy_with(boxes, nan_to_num=lambda depth: depth),  # it only sorts
     ):
-        found = InstanceBoxes.of(own, None, None)
+        found = InstanceBoxes.of(None, own)
     return {
         f"{prefix}_in_view": found.in_view,
         f"{prefix}_low_x": found.low[0],
@@ -63,7 +63,12 @@ def _corners(v: Inputs) -> Kept:
     """The corners of a mesh's box in world space, and the size of the numbers they are made of."""
     matrix = [v.stacked([v.one(f"m{i}{k}") for k in range(4)]) for i in range(3)]
     bounds = [v.vector(names).reshape(-1) for names in ("lx ly lz", "hx hy hz")]
-    corners, size = boxes._corners([end[:, None] for end in bounds], v.stacked(matrix))
+    scene = SimpleNamespace(
+        meshes=[SimpleNamespace(bounds=v.stacked(bounds))],
+        instance_meshes=FIRST,
+        instance_matrices=v.stacked(matrix),
+    )
+    corners, size = boxes._corners(scene)
     names = product("xyz", range(8))
     return {f"box_corner_{n}_{k}": corners["xyz".index(k), n] for k, n in names} | {
         "box_size": size

@@ -89,7 +89,7 @@ def _of_pairs(v: Inputs, prefix: str) -> Kept:
 def _hidden(v: Inputs) -> Kept:
     own = InstanceBoxes(None, None, np.zeros((2, 1)), np.zeros((2, 1)), v.one("nearest"))
     region = SimpleNamespace(x0=0, x1=1, y0=0, y1=1)
-    depths = SimpleNamespace(region=region, farthest_in=lambda *_: v.one("farthest"))
+    depths = SimpleNamespace(region=region, farthest_around=lambda *_: v.scalar("farthest"))
     return {"hidden_instance": own.hidden(FIRST, depths)}
 
 
