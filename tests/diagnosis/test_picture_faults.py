@@ -220,6 +220,8 @@ def test_what_is_stored_or_laid_over_keeps_its_alpha(quads):
     assert set(told(scene, through_a_jpeg(color), faults=quick, levels=255)) == {"jpeg"}
     white = marked(lambda c: 0.5 * c + 0.5 * np.concatenate((c[..., 3:],) * 4, axis=-1))(color)
     assert set(told(scene, white, faults=quick)) == {"overlay"}
+    over = marked(lambda c: 0.5 * c + 0.5 * np.ones(4))(color)  # and its alpha over the picture's
+    assert set(told(scene, over, faults=quick)) == {"overlay"}
     more = marked(lambda c: c * (1.2, 1.2, 1.2, 1))(color)  # each surface by its own amount
     assert not set(told(scene, more, faults=quick))
 

@@ -76,3 +76,53 @@ def test_a_needle_of_numbers_is_enclosed(seed):
     other_end = 0.55 * own[2]
     assert np.all(np.less_equal(guess.low, other_end))
     assert np.all(np.less_equal(other_end, guess.high))
+
+
+def test_pixels_are_the_same_only_between_the_places_along_the_axes():
+    """What nothing is seen of is no way in which they are: a step there is looked at anew."""
+    edges = np.random.default_rng(SEED).uniform(-1, 1, 2000)
+
+    def right(values, some=slice(None)):
+        found = (values[0] > edges[some]) == (0.1 > edges[some])
+        return found & ((abs(values[1]) < 3) | (abs(edges[some] - 0.1) < 0.2))
+        yield
+
+    for among in (None, lambda some: lambda values: right(values, some)):
+        search = Search(right, [[0.5], [0.0]], unseen=np.array([[0.0], [0.5]]), among=among)
+        guess = result_of(search.guess([(0.0, 0.0)], 1 / 8))
+        assert abs(guess.values[0] - 0.1) < 0.01
+        assert 3 <= guess.high[1] < 4 and -4 < guess.low[1] <= -3
+
+
+@pytest.mark.parametrize("seed", [242, 266, 290])
+def test_a_bound_is_not_taken_for_a_count(seed):
+    """Where fewer pixels are wanted than the best place has, all of them are looked at."""
+    rng = np.random.default_rng(seed)
+    edges = rng.normal(size=(600, 3))
+    edges /= np.linalg.norm(edges, axis=1, keepdims=True)
+    away = rng.uniform(-2, 2, 600)
+    truth = rng.uniform(-0.6, 0.6, 3)
+
+    def right(values, some=slice(None)):
+        beside = edges[some] @ (np.array(values) - truth)
+        return (beside > away[some]) == (away[some] < 0)
+        yield
+
+    guesses = []
+    for among in (None, lambda some: lambda values: right(values, some)):
+        search = Search(right, np.ones(3), among=among)
+        guesses.append(result_of(search.guess([(0.0,) * 3], 1 / 8)))
+    widths = [np.subtract(guess.high, guess.low).max() for guess in guesses]
+    assert widths[1] < 1.5 * widths[0]
+    assert result_of(right(guesses[1].values)).sum() >= result_of(right(guesses[0].values)).sum()
+
+
+def test_a_plateau_has_an_end():
+    """All numbers are as good: none is told that is farther away than is looked at."""
+
+    def right(values):
+        return np.ones(4, bool)
+        yield
+
+    guess = result_of(Search(right, np.ones(3)).guess([(0.0, 0.0, 0.0)]))
+    assert np.abs((guess.low, guess.high)).max() < 1e5

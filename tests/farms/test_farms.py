@@ -143,7 +143,7 @@ def test_slurm(farm):
         sys.executable,
         "-m",
         "reference_tracer.cli.main",
-    )  # other tests may have Blender here
+    )  # others have Blender here
     run(*reftrace, "export", OUT / "three.blend", "--out", OUT / "three.npz")
     run(*reftrace, "trace", OUT / "three.npz", "--out", OUT / "three.png")
     there = "/project/out/farms"

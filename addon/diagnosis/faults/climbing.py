@@ -37,6 +37,7 @@ FEWER = 1 / 2  # of the pixels that are looked at: with more left, all of these 
 class _Near:
     """What is known between the places around one."""
 
+    axes: Floats  # what a unit along each adds to the numbers, (m, k)
     units: Floats  # units of numbers, (k, m)
     centre: Floats
     step: float
@@ -46,8 +47,12 @@ class _Near:
 
     def holds(self, values: Values) -> bool:
         """Return whether numbers lie between the places: on the axes, and on two at once."""
-        away = np.abs(self.units @ (values - self.centre)) / self.step
-        return bool(np.max(away) <= 1 + ROUNDING and np.sum(away) <= 2 + ROUNDING)
+        offset = np.subtract(values, self.centre)
+        along = self.units @ offset
+        beside = np.abs(offset - self.axes @ along)  # where no axis leads
+        away = np.abs(along) / self.step
+        between = np.max(away) <= 1 + ROUNDING and np.sum(away) <= 2 + ROUNDING
+        return bool(between and np.all(beside <= ROUNDING * np.abs(offset).max()))
 
 
 class Climb:
@@ -80,6 +85,7 @@ class Climb:
         self._known: dict[Values, Bools | None] = {}
         self._near: list[_Near] = []  # one in the other, the smallest last
         self._most = 0  # right pixels anywhere so far
+        self._wanted = np.inf  # with as many, numbers are as good as the best: all are looked at
 
     def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
         """Return the best place that smaller and smaller steps reach, and how many are right."""
@@ -108,7 +114,7 @@ class Climb:
         """Return which pixels are right, None if there can be no such numbers.
 
         Beyond what is known, the pixels that change first say whether all others together can make
-        it a best place: if not, they are not looked at, and taken to be right.
+        it a place that is wanted: if not, they are not looked at, and taken to be right.
         """
         near = next((n for n in reversed(self._near) if n.holds(values)), None)
         for one in [near] if near else self._near[:1]:
@@ -118,7 +124,7 @@ class Climb:
                 if some is None:
                     return None
                 found[one.changing] = some
-            if near or np.count_nonzero(found) < self._most:
+            if near or np.count_nonzero(found) < min(self._most, self._wanted):
                 return found
         return (yield from self._right(values))
 
@@ -136,7 +142,8 @@ class Climb:
         if len(changing) <= FEWER * before:
             units = np.linalg.pinv(self.axes)
             right = self._among(changing)
-            self._near.append(_Near(units, np.array(values), step, own, changing, right))
+            centre = np.array(values)
+            self._near.append(_Near(self.axes, units, centre, step, own, changing, right))
 
     def _places(self, values: Values, step: float) -> list[Values]:
         """Return the places a step away in any direction."""

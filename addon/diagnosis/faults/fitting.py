@@ -198,6 +198,8 @@ class Traced:
         Pixels that rays may pass beside where they start.
     shown : Evidence or Looked, optional
         What says which of the sampled pixels show what is hit; by default the evidence.
+    surface : (3, k) float, optional
+        World-space points of an object, which may be nearer than what the pixels show.
     """
 
     def __init__(
@@ -206,6 +208,7 @@ class Traced:
         camera: Callable[..., Camera | None],
         reach: float = REACH,
         shown: Shown | None = None,
+        surface: Floats | None = None,
     ) -> None:
         self.evidence = evidence
         self.camera = camera
@@ -213,7 +216,9 @@ class Traced:
         self.shown = shown or evidence
         few = _few(evidence)
         # Film positions, and what is seen there: how far it moves says whether triangles stay near.
-        self.guide = evidence.film[:, few], evidence.points[:, few]
+        points = evidence.points[:, few]
+        points = points if surface is None else np.concatenate((points, surface), axis=1)
+        self.guide = evidence.film[:, few], points
         self.probes: list[Probe] = []  # the last one first
 
     def among(self, some: Places) -> Right:
@@ -249,5 +254,7 @@ class Traced:
         # Parallel rays that are turned move what is far away by more than what is near.
         same_place = np.array_equal(prepared.origin, camera.origin)
         same_place &= camera.projection is not ORTHOGRAPHIC
-        apart = np.abs(beside).max() if same_place else np.nanmax(np.abs(moved))
-        return bool(apart <= self.reach)
+        if same_place:
+            return bool(np.abs(beside).max() <= self.reach)
+        known = np.isfinite(moved)
+        return bool(known.any() and np.abs(moved[known]).max() <= self.reach)

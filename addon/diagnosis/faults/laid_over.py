@@ -14,8 +14,12 @@ from .recolor import alpha_divided, alpha_multiplied
 
 Values = tuple[float, ...]
 
-# In which values it is laid over: straight linear ones, or those of a file.
-VALUES = OF_MIXES | {0.0: (alpha_divided, alpha_multiplied, "")}
+# In which values it is laid over: those of a file, straight linear ones, or premultiplied ones,
+# with an alpha of its own (Porter and Duff's "over").
+VALUES = OF_MIXES | {
+    0.0: (alpha_divided, alpha_multiplied, ""),
+    2.0: (np.asarray, np.asarray, ", premultiplied"),
+}
 
 LEAST_SURFACES = 2  # that a colour laid over a picture must cover: else it may be an object's
 LEAST_COVERED = 0.02  # of what is covered, for a surface to count
@@ -59,11 +63,11 @@ def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
     """
     if not _hangs_together(evidence.open):
         return []
+    found = []
     for values in VALUES:
-        if found := _in_values(evidence, values):
-            return found
+        found += _in_values(evidence, values)
         yield 0.0
-    return []
+    return found
 
 
 def _in_values(evidence: Evidence, values: float) -> list[Guess]:

@@ -17,9 +17,11 @@ from ...scene import Scene
 from ...tracer.camera import camera_rays, pixel_size
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
+from ...tracer.vector import transform_points
 from ..evidence import WORTH, Evidence, shows_colors, spread
 from .fault import instances_named
 
+VERTICES = 64  # of an object, about, that say how far it moves
 AROUND = 6  # pixels around the object, on both sides, in which it is looked at, too
 
 
@@ -95,10 +97,21 @@ class Looked:
         return (self._beneath & ~before) | self._agree(changed, hits, before)
 
     @property
-    def alone_in_evidence(self) -> Evidence:
+    def of_it_alone(self) -> Evidence:
         """The evidence of the n pixels, of the object alone."""
         case = self.evidence.case.in_scene(self.alone)
         return replace(self.evidence, chosen=self.at, case=case)
+
+    @property
+    def surface(self) -> Floats:
+        """Some of the object's vertices, in world space, (3, k)."""
+        scene = self.alone
+        of_each = (
+            transform_points(i.world_from_object, scene.meshes[i.mesh].vertices.T)
+            for i in scene.instances
+        )
+        vertices = np.concatenate(list(of_each), axis=1)
+        return vertices[:, :: max(1, -(-vertices.shape[1] // VERTICES))]
 
     @property
     def _may_settle(self) -> float:

@@ -156,7 +156,7 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
 
         alone = looked.alone
 
-        def other(some: Places) -> Right:
+        def right_among(some: Places) -> Right:
             return partial(right, looked.only(some))
 
         def right(looked: Looked, values: Values) -> Work[Bools | None]:
@@ -171,9 +171,9 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
             starts, step = [guess.values], FINER if fine else 1.0
         least = 0.0 if guess.values else looked.least_right
         known: Right = partial(right, looked)
-        among: Among = other
+        among: Among = right_among
         if fine and pose.camera:  # then the triangles near its rays stay
-            traced = Traced(looked.alone_in_evidence, pose.camera, FINE_REACH, looked)
+            traced = Traced(looked.of_it_alone, pose.camera, FINE_REACH, looked, looked.surface)
             known, among = traced.right, traced.among
         search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))

@@ -63,6 +63,8 @@ class Search(Climb):
         self.finest = finest
         self.least = least
         self.own = self.all_axes  # half the region along each of its own axes, (m, k)
+        self._units = np.linalg.pinv(self.all_axes)
+        self._middle = np.zeros(len(self.all_axes))  # from where the farthest is counted
 
     def guess(
         self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
@@ -119,8 +121,8 @@ class Search(Climb):
         direction. So its ends are looked for along its own axes, which are found from the ends that
         are known so far.
         """
-        ends = [*known]
-        centre: Floats = known[0]
+        ends, self._wanted = [*known], right
+        self._middle = centre = known[0]
         axes: Floats = self.all_axes if len(known) == 1 else self._own_axes(np.array(ends))
         alone = axes.shape[1] == 1
         first, far = (self.finest, FARTHEST) if len(known) == 1 else (CLOSE, 4.0)
@@ -179,7 +181,7 @@ class Search(Climb):
 
     def _own_axes(self, ends: Floats) -> Floats:
         """Return half the region of some places (n, m) along each of its own axes, (m, k)."""
-        units = (ends - ends.mean(axis=0)) @ np.linalg.pinv(self.all_axes).T
+        units = (ends - ends.mean(axis=0)) @ self._units.T
         _, _, own = np.linalg.svd(units, full_matrices=False)
         reach = np.maximum(np.abs(units @ own.T).max(axis=0), self.finest / 4)
         return self.all_axes @ (own.T * reach)
@@ -188,7 +190,8 @@ class Search(Climb):
         self, centre: Floats, along: Floats, right: int, first: float, far: float, close: float
     ) -> Work[Floats]:
         """Return the last place along a direction (m,) before fewer pixels are right."""
-        good, bad = 0.0, first
+        far = min(far, self._farthest(centre, along))
+        good, bad = 0.0, min(first, far)
         while bad < far and (yield from self.right(values_of(centre + bad * along))) >= right:
             good, bad = bad, 2 * bad
         while bad - good > max(first / 4, close * good):
@@ -198,6 +201,12 @@ class Search(Climb):
             else:
                 bad = between
         return centre + good * along
+
+    def _farthest(self, centre: Floats, along: Floats) -> float:
+        """Return how often a direction (m,) can be gone until a number is as far as is looked."""
+        begun, step = self._units @ (centre - self._middle), self._units @ along
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return max(0.0, float(np.nanmin((FARTHEST - np.sign(step) * begun) / np.abs(step))))
 
     def _told(self, best: Values, ends: Floats, right: int) -> Work[Values]:
         """Return the numbers that are told: the simplest of those that are as good.
