@@ -64,7 +64,7 @@ class Search(Climb):
         self.least = least
         self.own = self.all_axes  # half the region along each of its own axes, (m, k)
         self._units = np.linalg.pinv(self.all_axes)
-        self._middle = np.zeros(len(self.all_axes))  # from where the farthest is counted
+        self._middle: Floats = np.zeros(len(self.all_axes))  # from where the farthest is counted
 
     def guess(
         self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
@@ -122,7 +122,8 @@ class Search(Climb):
         are known so far.
         """
         ends, self._wanted = [*known], right
-        self._middle = centre = known[0]
+        centre: Floats = known[0]
+        self._middle = centre
         axes: Floats = self.all_axes if len(known) == 1 else self._own_axes(np.array(ends))
         alone = axes.shape[1] == 1
         first, far = (self.finest, FARTHEST) if len(known) == 1 else (CLOSE, 4.0)
