@@ -18,9 +18,7 @@ from .derivation.candidates import LIMIT
 from .derivation.derivation import derive
 from .derivation.document import document_markdown
 from .images import open_picture
-from .manifest import Manifest
 from .mesh_diagnosis import diagnosed as with_mesh_faults
-from .mesh_files.contents import Contents
 from .opened import file_manifest, open_scene
 from .pictures.given import Making, picture_of_array, picture_of_file
 from .rendering import render as render
@@ -33,6 +31,7 @@ from .scene import Region as Region
 from .scene import Scene
 from .scene import SceneError as SceneError
 from .scene import ViewWindow as ViewWindow
+from .scene_files import Account
 from .scene_files import save_scene as save_scene
 from .tracer.camera import Rays as Rays
 from .tracer.camera import camera_rays as camera_rays
@@ -82,10 +81,9 @@ def load_scene(path: str | Path) -> Scene:
 
 
 def compare(
-    scene: Scene,
+    scene: str | Path | Scene,
     picture: str | Path | ArrayLike,
     *,
-    manifest: Manifest | None = None,
     settings: Settings | None = None,
     renderer: str = "",
     filter_radius: float = 0.0,
@@ -97,12 +95,12 @@ def compare(
 
     Parameters
     ----------
-    scene : Scene
+    scene : str, Path or Scene
+        A .npz or a mesh, as :func:`load_scene` reads it. What the file holds and the scene does not
+        counts in the verdict; of a Scene, nothing is known to be missing.
     picture : str, Path or array
         A PNG or an EXR; or (h, w, 3 or 4), linear RGB or RGBA with alpha multiplied in, row 0 at
         the bottom. It shows the camera's whole view, or its region.
-    manifest : Manifest, optional
-        What is known of the scene besides: by default, what it holds.
     settings : Settings, optional
         How it is traced; by default with proof.
     renderer : {'', 'rays', 'raster'}
@@ -133,19 +131,21 @@ def compare(
     A picture with one wrong pixel:
 
     >>> from reference_tracer import compare, load_scene, render
-    >>> scene = load_scene("triangle.obj")  # as above
-    >>> color = render(scene).color.copy()
+    >>> color = render(load_scene("triangle.obj")).color.copy()  # as above
     >>> color[270, 480] = 1
-    >>> result = compare(scene, color, diagnose=False)
+    >>> result = compare("triangle.obj", color, diagnose=False)
     >>> str(result.verdict), result.counts.unexplained
     ('differences', 1)
     """
     making = Making(renderer, filter_radius, dither)
+    if isinstance(scene, Scene):
+        manifest = file_manifest(Path("scene"), scene, Account())
+    else:
+        scene, manifest = open_scene(Path(scene))
     if isinstance(picture, (str, Path)):
         shown = picture_of_file(open_picture(picture), scene.camera, making)
     else:
-        shown = picture_of_array(picture, making)
-    manifest = manifest or file_manifest(Path("scene"), scene, Contents(()))
+        shown = picture_of_array(picture, scene.camera, making)
     manifest = result_of(with_mesh_faults(scene, manifest))
     case = Case(scene, manifest, settings or Settings(), shown, curves=(), self_check=self_check)
     found = result_of(trace_and_compare(case))

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from .scene import SceneError
 
-_READ = 64  # bytes, in which each kind shows
+_READ = 84  # bytes, in which each kind shows
 
 
 class _Kind(NamedTuple):
@@ -65,16 +65,24 @@ def mistaken(path: Path) -> str:
         If it cannot be read.
     """
     with path.open("rb") as file:
-        head = file.read(_READ).removeprefix(BOM_UTF8)
+        content = file.read(_READ)
+    head = content.removeprefix(BOM_UTF8)
     if not head:
         return "is empty: save, copy or download it again"
     suffix = path.suffix.lower()
+    if suffix == ".stl" and path.stat().st_size == binary_stl_length(content):
+        return ""  # it begins with any text
     for kind in _KINDS:
         if head.lstrip().startswith(kind.begins) and suffix not in kind.suffixes:
             return f"is {kind.name}: {kind.do}"
     if suffix in _MUST and not head.startswith(_MUST[suffix]):
         return f"is no {suffix}, as its first bytes say: save, copy or download it again"
     return ""
+
+
+def binary_stl_length(content: bytes) -> int:
+    """Return how long a binary STL is with a head of 84 bytes: any text, and a number of facets."""
+    return 84 + 50 * int.from_bytes(content[80:84], "little")
 
 
 def check_is_file(path: str | Path) -> None:

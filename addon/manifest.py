@@ -16,6 +16,7 @@ from .arrays import Floats
 from .wording import count_of
 
 OUTSIDE = "outside the view"
+NOT_FINITE = "triangles that are not finite"
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class ObjectEntry:
     type: str
     exported: bool
     reason: str = ""
-    triangles: int = 0  # of its meshes, each count_of once
+    triangles: int = 0  # of its meshes, each counted once
     vertices: int = 0
     instances: int = 0
     outside: int = 0  # instances that are not exported, as they are wholly outside the view
@@ -50,6 +51,11 @@ class Effect(Enum):
     HOLDOUT = "the object cuts a hole into the picture"
     LIGHT = "every colour may differ; which surface a pixel shows stays as it is"
     PICTURE = "every pixel may differ"
+
+    @property
+    def key(self) -> str:
+        """Its name in JSON."""
+        return self.name.lower()
 
     @property
     def everywhere(self) -> bool:
@@ -93,7 +99,7 @@ class Unmodelled:
         return vars(self) | {
             "bounds": None if self.bounds is None else np.asarray(self.bounds).tolist(),
             "by": list(self.by),
-            "effect": self.effect.name.lower(),
+            "effect": self.effect.key,
             "everywhere": self.effect.everywhere,
         }
 
@@ -122,6 +128,15 @@ class Manifest:
         out["objects"] = [asdict(entry) for entry in self.objects]
         out["unmodelled"] = [u.to_dict() for u in self.unmodelled]
         return out
+
+    @property
+    def lacks(self) -> tuple[Unmodelled, ...]:
+        """What the scene itself cannot show of its file, also the triangles that are left out."""
+        return self.unmodelled + tuple(
+            Unmodelled(e.name, NOT_FINITE, f"{e.left_out:,}", None, Effect.MISSING)
+            for e in self.objects
+            if e.left_out
+        )
 
     def lines(self) -> list[str]:
         """Return the manifest as a person reads it, a fact a line."""

@@ -10,7 +10,7 @@ from .manifest import Effect, Manifest, ObjectEntry, Unmodelled
 from .mesh_files.contents import Contents
 from .mesh_files.load import load_meshes, scene_of_meshes
 from .scene import Scene, SceneError
-from .scene_files import load_scene
+from .scene_files import Account, load_account, load_scene
 
 
 class Opened(NamedTuple):
@@ -28,14 +28,13 @@ def open_scene(path: Path, choice: Choice | None = None) -> Opened:
     SceneError, OSError
         If there is no such scene, or it cannot be read.
     """
-    contents = Contents(())
     if path.suffix.lower() == ".npz":
-        scene = load_scene(path)
-    else:
-        choice = choice or Choice()
-        contents = load_meshes(path, choice.up)
-        scene = _framed(path, contents, choice)
-    return Opened(scene, file_manifest(path, scene, contents))
+        return Opened(scene := load_scene(path), file_manifest(path, scene, load_account(path)))
+    choice = choice or Choice()
+    contents = load_meshes(path, choice.up)
+    missing = tuple(Unmodelled(path.name, m, effect=Effect.UNPLACED) for m in contents.missing)
+    scene = _framed(path, contents, choice)
+    return Opened(scene, file_manifest(path, scene, Account(missing, contents.notes)))
 
 
 def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
@@ -47,12 +46,11 @@ def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
         raise SceneError(f"'{path}': {error}") from error
 
 
-def file_manifest(path: Path, scene: Scene, contents: Contents) -> Manifest:
-    """Return the account of a scene that never saw Blender."""
+def file_manifest(path: Path, scene: Scene, said: Account) -> Manifest:
+    """Return the account of a scene that is opened without Blender."""
     entries = tuple(_entry(scene, number, name) for number, name in enumerate(scene.objects))
-    missing = tuple(Unmodelled(path.name, m, effect=Effect.UNPLACED) for m in contents.missing)
-    camera, notes = scene.camera.name, contents.notes
-    return Manifest(path.name, path.stem, "", 0, "FILE", camera, entries, missing, notes)
+    camera, about = scene.camera.name, (entries, said.lacks, said.notes)
+    return Manifest(path.name, path.stem, "", 0, "FILE", camera, *about)
 
 
 def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:

@@ -8,17 +8,22 @@ from __future__ import annotations
 import json
 import math
 import warnings
+from collections.abc import Callable
 from itertools import zip_longest
 from pathlib import Path
+from typing import NamedTuple, TypeVar
 from zipfile import ZipFile
 
 import numpy as np
 
 from .arrays import Array
-from .checked_json import camera_of, whole
+from .checked_json import Content, camera_of, numbers, part, whole
 from .file_kinds import check_is_file
+from .manifest import Effect, Manifest, Unmodelled
 from .scene import Instance, Mesh, Plane, Scene, SceneError
 from .tracer.memory import free_memory
+
+T = TypeVar("T")
 
 _SCHEMA = "reference_tracer.scene/1"
 _ARRAYS = {  # the arrays of a .npz and their shapes, by what has them
@@ -28,8 +33,23 @@ _ARRAYS = {  # the arrays of a .npz and their shapes, by what has them
 }
 
 
-def save_scene(path: str | Path, scene: Scene) -> None:
-    """Write a scene to a compressed .npz."""
+class Account(NamedTuple):
+    """What a scene's file said of where it came from."""
+
+    lacks: tuple[Unmodelled, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def save_scene(path: str | Path, scene: Scene, manifest: Manifest | None = None) -> None:
+    """Write a scene to a compressed .npz.
+
+    Parameters
+    ----------
+    path : str or Path
+    scene : Scene
+    manifest : Manifest, optional
+        What the scene's source holds and the scene lacks: a comparison of the file knows it, too.
+    """
     head = {
         "schema": _SCHEMA,
         "camera": scene.camera.to_dict(),
@@ -41,11 +61,14 @@ def save_scene(path: str | Path, scene: Scene) -> None:
         "instances": [{"mesh": i.mesh, "object": i.object} for i in scene.instances],
         "planes": [{"object": p.object} for p in scene.planes],
     }
+    if manifest:
+        lacks = [u.to_dict() for u in manifest.lacks]
+        head |= {"unmodelled": lacks, "notes": manifest.notes}
     arrays: dict[str, Array] = {"scene": np.array(json.dumps(head, default=np.generic.item))}
     parts = scene.meshes, scene.instances, scene.planes
-    for (part, names), things in zip(_ARRAYS.items(), parts, strict=True):
+    for (kind, names), things in zip(_ARRAYS.items(), parts, strict=True):
         for k, thing in enumerate(things):
-            held = {f"{part}{k}_{name}": getattr(thing, name) for name in names}
+            held = {f"{kind}{k}_{name}": getattr(thing, name) for name in names}
             arrays |= {name: array for name, array in held.items() if array is not None}
     with open(path, "wb") as file:  # given a name, numpy would add .npz to one in capitals
         np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # none is "allow_pickle"
@@ -59,11 +82,20 @@ def load_scene(path: str | Path) -> Scene:
     SceneError
         If there is no such file, it is not a scene, or its content is inconsistent.
     """
+    return _read(path, _scene)
+
+
+def load_account(path: str | Path) -> Account:
+    """Read what a scene's .npz says of its source; raises what :func:`load_scene` raises."""
+    return _read(path, _account)
+
+
+def _read(path: str | Path, of: Callable[[ZipFile], T]) -> T:
     check_is_file(path)
     try:
         with ZipFile(path) as stored, warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # of headers that an older numpy wrote
-            return _scene(stored)
+            return of(stored)
     except SceneError as error:
         raise SceneError(f"'{path}': {error}") from error
     except Exception as error:  # zip, zlib, numpy, JSON: each has its own ways to say no
@@ -71,10 +103,36 @@ def load_scene(path: str | Path) -> Scene:
         raise SceneError(say) from error
 
 
-def _scene(stored: ZipFile) -> Scene:
-    head = json.loads(str(_array(stored, "scene", "", "U")))
+def _head(stored: ZipFile) -> Content:
+    head: Content = json.loads(str(_array(stored, "scene", "", "U")))
     if head.get("schema") != _SCHEMA:
         raise SceneError(f"its schema is {head.get('schema')!r}, not {_SCHEMA!r}")
+    return head
+
+
+def _account(stored: ZipFile) -> Account:
+    head: Content = {"unmodelled": [], "notes": []} | _head(stored)
+    lacks = tuple(_unmodelled(u) for u in part(head, "unmodelled", "", list))
+    return Account(lacks, tuple(map(str, part(head, "notes", "", list))))
+
+
+def _unmodelled(u: Content) -> Unmodelled:
+    where, effects = "unmodelled.", {effect.key: effect for effect in Effect}
+    if (effect := part(u, "effect", where, str)) not in effects:
+        raise SceneError(f"unmodelled.effect is '{effect}'; it must be one of {', '.join(effects)}")
+    bounds = None if u.get("bounds") is None else numbers(u, "bounds", where, (2, 3))
+    return Unmodelled(
+        part(u, "object", where, str),
+        part(u, "feature", where, str),
+        part(u, "detail", where, str),
+        bounds,
+        effects[effect],
+        tuple(map(str, part(u, "by", where, list))),
+    )
+
+
+def _scene(stored: ZipFile) -> Scene:
+    head = _head(stored)
 
     def arrays(kind: str, k: int, without: str = "") -> dict[str, Array]:
         shapes = {name: shape for name, shape in _ARRAYS[kind].items() if name != without}

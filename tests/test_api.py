@@ -4,13 +4,17 @@ import doctest
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import reference_tracer
-from reference_tracer import compare, images, load_scene, render
+from reference_tracer import Region, compare, images, load_scene, render, save_scene
+from reference_tracer.opened import open_scene
 from reference_tracer.scene import SceneError
+
+from .png_files import chunk
 
 PAGE = Path(__file__).parent.parent / "docs" / "python.md"
 TRIANGLE = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n"
@@ -71,7 +75,7 @@ def test_the_command_says_the_same(triangle, capsys, tmp_path):
     color[200:230] = color[200:230][:, ::-1]
     images.save_png("picture.png", images.to_display(color))
     code = main(["compare", "triangle.obj", "--against", "picture.png", "--out", "out"])
-    found = compare(triangle, "picture.png")
+    found = compare("triangle.obj", "picture.png")
     assert code == found.verdict.exit_code
     said = capsys.readouterr().out
     assert f"verdict: {found.verdict}" in said
@@ -84,6 +88,13 @@ def test_what_is_wrong_is_named(triangle, tmp_path):
         compare(triangle, np.zeros((540, 960, 4)), renderer="fast")
     with pytest.raises(ValueError, match=r"\(h, w, 3\) or \(h, w, 4\), not \(540, 960\)"):
         compare(triangle, np.zeros((540, 960)))
+    for wrong in (-1.0, np.nan, np.inf):
+        with pytest.raises(ValueError, match=r"filter_radius is .*; it must be 0 or more"):
+            compare(triangle, np.zeros((540, 960, 4)), filter_radius=wrong)
+    with pytest.raises(ValueError, match="dither is -1; it must be 0 or more"):
+        compare(triangle, np.zeros((540, 960, 4)), dither=-1)
+    with pytest.raises(ValueError, match="floats from 0 to 1, not uint8"):
+        compare(triangle, np.zeros((540, 960, 4), np.uint8))
     with pytest.raises(ValueError, match="3 x 2 pixels"):
         compare(triangle, np.zeros((2, 3, 4)))
     with pytest.raises(SceneError, match=r"there is no file 'none.npz'"):
@@ -96,3 +107,37 @@ def test_what_a_file_holds_and_the_scene_does_not_is_a_warning(tmp_path, monkeyp
     Path("bent.obj").write_text(bent, encoding="utf-8")
     with pytest.warns(UserWarning, match="bent.obj: .*flat"):
         load_scene("bent.obj")
+
+
+def test_what_the_file_of_a_scene_lacks_counts_in_the_verdict(tmp_path, monkeypatch):
+    """Also once it is exported: what a .npz's source lacked, a comparison of it knows."""
+    monkeypatch.chdir(tmp_path)
+    Path("curve.obj").write_text(TRIANGLE + "curv 0 1 1 2\n", encoding="utf-8")
+    scene, manifest = open_scene(Path("curve.obj"))
+    assert manifest.lacks
+    color = render(scene).color
+    save_scene("kept.npz", scene, manifest)
+    save_scene("alone.npz", scene)
+    verdicts = [compare(of, color).verdict for of in ("curve.obj", "kept.npz", "alone.npz", scene)]
+    assert verdicts == ["warnings", "warnings", "agree", "agree"]
+    kept = open_scene(Path("kept.npz")).manifest
+    assert kept.lines()[1:] == manifest.lines()[1:]
+    assert [u.to_dict() for u in kept.lacks] == [u.to_dict() for u in manifest.lacks]
+
+
+def test_what_is_remarked_of_a_picture_is_said(triangle, monkeypatch):
+    images.save_png("own.png", images.to_display(render(triangle).color))
+    content = Path("own.png").read_bytes()
+    Path("own.png").write_bytes(content[:33] + chunk(b"gAMA", (100000).to_bytes(4)) + content[33:])
+    notes = compare(triangle, "own.png", diagnose=False).manifest.notes
+    assert any("of the picture" in note and "gAMA" in note for note in notes)
+
+
+def test_an_array_of_the_whole_view_is_compared_in_the_region(triangle):
+    color = render(triangle).color
+    part = replace(triangle.camera, region=Region(100, 200, 700, 400))
+    part = replace(triangle, camera=part)
+    assert compare(part, color).verdict == "agree"
+    assert compare(part, color[200:400, 100:700]).verdict == "agree"
+    with pytest.raises(ValueError, match="600 x 300 pixels"):
+        compare(part, color[200:500, 100:700])

@@ -42,7 +42,8 @@ def test_what_a_file_is_and_what_to_do(case, tmp_path):
     ("name", "content"),
     [
         ("a.obj", b"# v/1\nv 0 0 0\n"),
-        ("a.stl", b"PNG BLENDER glTF".ljust(84, b"\0")),  # 80 bytes of any text
+        ("a.stl", b"BLENDER-export".ljust(84, b"\0")),  # 80 bytes of any text
+        ("a.stl", b"BLENDER-export".ljust(80) + b"\1\0\0\0".ljust(54)),
         ("a.blend", b"\x28\xb5\x2f\xfd"),
         ("a.blend", b"\x1f\x8b"),
         ("a.BLEND", b"BLENDER17-01v0500"),

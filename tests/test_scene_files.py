@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import tracemalloc
 import warnings
 import zipfile
@@ -12,9 +13,10 @@ import zipfile
 import numpy as np
 import pytest
 from reference_tracer import scene_files
+from reference_tracer.manifest import Effect, Manifest, ObjectEntry, Unmodelled
 from reference_tracer.mesh_files.load import load_meshes
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
-from reference_tracer.scene_files import load_scene, save_scene
+from reference_tracer.scene_files import load_account, load_scene, save_scene
 
 
 @pytest.fixture
@@ -169,6 +171,38 @@ def test_content_is_checked(scene, tmp_path):
     np.savez(tmp_path / "scene.npz", **arrays | {"scene": np.array(json.dumps(head))})
     with pytest.raises(SceneError, match="resolution"):
         load_scene(tmp_path / "scene.npz")
+
+
+def test_what_the_source_lacked_is_kept(scene, tmp_path):
+    box = np.array([(-1.0, -2.0, -3.0), (1.0, 2.0, 3.0)])
+    lacks = Unmodelled("Text", "font", "old", box, Effect.DRAWN, ("Nodes",))
+    entry = ObjectEntry("Box", "MESH", exported=True, left_out=2)
+    manifest = Manifest("x", "x", "", 0, "FILE", "", (entry,), (lacks,), ("of it",))
+    save_scene(tmp_path / "scene.npz", scene, manifest)
+    kept = load_account(tmp_path / "scene.npz")
+    assert kept.notes == ("of it",) and kept.lacks[0].to_dict() == lacks.to_dict()
+    assert kept.lacks[1].line() == "triangles that are not finite: Box (2)"
+    save_scene(tmp_path / "scene.npz", scene)
+    assert load_account(tmp_path / "scene.npz") == ((), ())
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "says"),
+    [
+        ("effect", "all is well", "unmodelled.effect is 'all is well'; it must be one of none, "),
+        ("bounds", [1, 2], "unmodelled.bounds"),
+        ("by", "me", "unmodelled.by must be a list"),
+        ("object", None, "unmodelled.object must be text"),
+    ],
+)
+def test_what_the_source_lacked_is_checked(scene, tmp_path, key, value, says):
+    save_scene(tmp_path / "scene.npz", scene)
+    arrays = dict(np.load(tmp_path / "scene.npz"))
+    head = json.loads(str(arrays["scene"]))
+    head["unmodelled"] = [Unmodelled("A", "b").to_dict() | {key: value}]
+    np.savez(tmp_path / "scene.npz", **arrays | {"scene": np.array(json.dumps(head))})
+    with pytest.raises(SceneError, match=rf"scene\.npz.*{re.escape(says)}"):
+        load_account(tmp_path / "scene.npz")
 
 
 @pytest.fixture

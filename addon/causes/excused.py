@@ -27,9 +27,10 @@ from .explain import CAUSES
 # at a boundary, 0.21 %. Ten times the worst of these is no sound picture.
 SMALL = 0.02
 COMPARABLE = 0.5  # the largest share of a picture, or of an object, in which no fault can be found
-# The pixels of an object below which its share says nothing: half of n pixels rest on rounding by
-# chance with a probability of at most (4 p)^(n/2). In the forest p is 0.36 % at boundaries. Where
-# float32 moves edges by 0.1 px, which is far, it is a tenth there: 3e-10 for an object's pixels.
+# The pixels of an object below which its share says nothing. If each of n rests on rounding with a
+# probability p, half of them do with one of at most (4 p)^(n/2). In the forest p is 0.36 % at
+# boundaries; where float32 moves edges by 0.1 px, which is far, a tenth: 3e-10 for 48 pixels. It is
+# a guide and no bound, as the pixels along one edge do so together.
 LEAST = 48
 _TOLD = 3  # of such objects, those with most pixels; the others are counted
 

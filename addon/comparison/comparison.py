@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -58,8 +58,9 @@ class Comparison:
 
     @property
     def manifest(self) -> Manifest:
-        """What was exported, skipped, not modelled."""
-        return self.case.manifest
+        """What was exported, skipped, not modelled, and what is to be said of the picture."""
+        own = self.case.manifest
+        return replace(own, notes=(*own.notes, *self.case.picture.source.remarks))
 
     @property
     def picture(self) -> Colors:

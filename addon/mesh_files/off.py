@@ -32,7 +32,7 @@ def read_off(path: Path) -> Contents:
         If it is cut off, not an OFF file, or one of another number of dimensions, or binary.
     """
     lines = _lines(path.read_bytes().removeprefix(BOM_UTF8))
-    _, words = next(lines, (0, [b""]))
+    first, words = next(lines, (0, [b""]))
     if glued := _GLUED.fullmatch(words[0]):
         words = [*glued.groups(), *words[1:]]
     kind = _KIND.fullmatch(words[0])
@@ -42,7 +42,7 @@ def read_off(path: Path) -> Contents:
         raise SceneError(f"{words[0].decode()} has another number of dimensions: save it as OFF")
     if words[1:2] == [b"BINARY"]:
         raise SceneError("it is a binary OFF file: save it as text")
-    line, counts = (1, words[1:]) if words[1:] else next(lines, (0, []))
+    line, counts = (first, words[1:]) if words[1:] else next(lines, (0, []))
     vertex_count, face_count = _integers(line, counts[:2], 2)
     more_of_vertex = _more_of_vertex(*kind.groups()[:3])
     coordinates: list[bytes] = []

@@ -34,6 +34,7 @@ _TYPES = {  # numpy's names, by PLY's old and new ones
 }
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _CORNERS = "vertex_indices", "vertex_index"
+_READ = {*"xyz", *_CORNERS}  # properties that say where something is
 
 
 def read_ply(path: Path) -> Contents:
@@ -136,7 +137,7 @@ def _head(content: bytes) -> tuple[str, list[Element], int]:
             case ["property", *rest] if elements:
                 last = elements.pop()
                 new = _property(rest)
-                if any(new.name == known.name for known in last.properties):
+                if new.name in _READ and any(new.name == p.name for p in last.properties):
                     raise SceneError(f"its element '{last.name}' has '{new.name}' twice")
                 elements.append(Element(last.name, last.count, (*last.properties, new)))
             case ["end_header"] if order is not None:

@@ -125,7 +125,7 @@ class _Found:
 
 
 def _faces(which: Index, what: str) -> str:
-    """Say how many faces are something, and which is the first of them, count_of from 1."""
+    """Say how many faces are something, and which is the first of them, counted from 1."""
     return f"{count_of(len(which), 'face')} {what}, the first is face {which[0] + 1}"
 
 

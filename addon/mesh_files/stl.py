@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..file_kinds import binary_stl_length
 from ..scene import SceneError
 from ..wording import count_of
 from .contents import Contents
@@ -28,7 +29,7 @@ def read_stl(path: Path) -> Contents:
     """
     content = path.read_bytes()
     count = int.from_bytes(content[80:_HEAD], "little")
-    long = _HEAD + count * _FACET.itemsize
+    long = binary_stl_length(content)
     is_text = content.lstrip()[:5].lower() == b"solid"
     if len(content) == long or not is_text:
         return _binary(content, count, long, path.stem)

@@ -21,7 +21,7 @@ class Making:
     Raises
     ------
     ValueError
-        If there is no such renderer, naming those that there are.
+        If there is no such renderer, naming those that there are, or a number is negative.
     """
 
     renderer: str = ""  # a name in RENDERERS, whose rounding excuses a pixel; '': what a file says
@@ -35,6 +35,9 @@ class Making:
         if self.renderer and self.renderer not in RENDERERS:
             names = ", ".join(RENDERERS)
             raise ValueError(f"renderer is {self.renderer!r}; it must be one of {names}")
+        for name, number in (("filter_radius", self.filter_radius), ("dither", self.dither)):
+            if number is not None and not 0 <= number < np.inf:
+                raise ValueError(f"{name} is {number}; it must be 0 or more")
 
     def renderer_of(self, header: str) -> tuple[Renderer, str]:
         """Return the renderer of a picture with a file's header, and how that is known."""
@@ -54,15 +57,10 @@ def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Pictur
     OSError
         If they are damaged.
     """
-    r, own = camera.region, (file.height, file.width)
-    whole = own == (camera.height, camera.width)
-    if not whole:
-        check_size(own, (r.height, r.width))
-    check_memory(r.width, r.height, COMPARED, ALWAYS)
+    traced = _traced(camera, (file.height, file.width))
+    check_memory(camera.region.width, camera.region.height, COMPARED, ALWAYS)
     stored = file.read()
-    color = stored.color
-    if whole:
-        color = np.ascontiguousarray(color[r.y0 : r.y1, r.x0 : r.x1])
+    color = np.ascontiguousarray(stored.color[traced])
     dither = 0.0 if stored.levels > 255 else making.default_dither  # of what has 8 bits alone
     if making.dither is not None:
         dither = making.dither * stored.levels / 255
@@ -79,20 +77,40 @@ def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Pictur
     )
 
 
-def picture_of_array(color: ArrayLike, making: Making) -> Picture:
+def _traced(camera: Camera, size: tuple[int, int]) -> tuple[slice, slice]:
+    """Return the rows and columns of a picture (h, w) that are traced.
+
+    They are the camera's region of its whole view, or the whole of that region.
+    """
+    r = camera.region
+    if size == (camera.height, camera.width):
+        return slice(r.y0, r.y1), slice(r.x0, r.x1)
+    check_size(size, (r.height, r.width))
+    return slice(None), slice(None)
+
+
+def picture_of_array(color: ArrayLike, camera: Camera, making: Making) -> Picture:
     """Return what is compared of an array (h, w, 3 or 4), linear, row 0 at the bottom.
 
-    RGBA has its alpha multiplied in. RGB says nothing of alpha, which is not compared then.
+    RGBA has its alpha multiplied in. RGB says nothing of alpha, which is not compared then. If it
+    shows the whole view, that is the camera's region.
 
     Raises
     ------
+    SizeError
+        If it shows neither the view nor the region.
     ValueError
-        If it has another shape.
+        If it has another shape, or holds whole numbers.
     """
-    given = np.asarray(color, np.float32)
+    given = np.asarray(color)
     if given.ndim != 3 or given.shape[2] not in (3, 4):
         raise ValueError(f"a picture has the shape (h, w, 3) or (h, w, 4), not {given.shape}")
+    if given.dtype.kind != "f":
+        say = "a picture holds linear colours, floats from 0 to 1"
+        raise ValueError(f"{say}, not {given.dtype}: for what is encoded, name its file")
     opaque = given.shape[2] == 3
+    traced = _traced(camera, given.shape[:2])
+    given = np.ascontiguousarray(given[traced], np.float32)
     if opaque:
         given = np.concatenate((given, np.ones_like(given[..., :1])), axis=2)
     renderer, known = making.renderer_of("")

@@ -24,6 +24,7 @@ _LEVEL = 6  # of zlib's compression: 9 takes several times as long for a few per
 
 _DEPTHS = {GREY: (1, 2, 4, 8, 16), RGB: (8, 16), PALETTE: (1, 2, 4, 8)}
 _TEXTS = b"tEXt", b"zTXt", b"iTXt"  # each begins with a keyword (11.3.3)
+_SEVERAL = {b"IDAT", b"sPLT", *_TEXTS}  # chunks of which there may be more than one (5.6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,22 +84,26 @@ def decode(content: bytes) -> Samples:
     """
     header = header_of(content)
     parts: dict[bytes, list[bytes]] = {}
+    end = len(SIGNATURE)
     for kind, body in _chunks(content):
         parts.setdefault(kind, []).append(body)
+        end += 12 + len(body)
     texts = (text for kind in _TEXTS for text in parts.get(kind, ()))
     notes = frozenset(text.partition(b"\0")[0].decode("latin-1") for text in texts)
-    chunks = {kind: b"".join(bodies) for kind, bodies in parts.items()}
-    if b"IEND" not in chunks:
+    if b"IEND" not in parts:
         raise PngError("it is cut off")
+    chunks = {k: b"".join(bodies) if k in _SEVERAL else bodies[0] for k, bodies in parts.items()}
+    repeated = {kind for kind, bodies in parts.items() if len(bodies) > 1} - _SEVERAL
     stored = unpacked(header, chunks.get(b"IDAT", b""))
     values, levels, has_alpha = in_channels(header, chunks, stored)
-    return Samples(values, levels, has_alpha, notes, tuple(remarks(header, chunks)))
+    said = tuple(remarks(header, chunks, repeated, len(content) - end))
+    return Samples(values, levels, has_alpha, notes, said)
 
 
 def _chunks(content: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """Yield the name and the content of each chunk that is whole (5.3)."""
-    at = len(SIGNATURE)
-    while at + 12 <= len(content):
+    """Yield the name and the content of each chunk that is whole, to the last one (5.3)."""
+    at, kind = len(SIGNATURE), b""
+    while kind != b"IEND" and at + 12 <= len(content):
         (size,) = struct.unpack_from(">I", content, at)
         end = at + 12 + size
         if end > len(content):

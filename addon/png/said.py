@@ -11,8 +11,9 @@ on colour counts, 11.3 what they hold, 5.4 what a reader has to understand.
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 
+from ..wording import count_of
 from .samples import PALETTE, Header, PngError
 
 _CRITICAL = {b"IHDR", b"PLTE", b"IDAT", b"IEND"}
@@ -26,14 +27,33 @@ _SRGB_CHROMATICITIES = 31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000
 _ROUNDED = 10  # of these units: programs store them as they round them
 
 
-def remarks(header: Header, chunks: Mapping[bytes, bytes]) -> Iterator[str]:
+def remarks(
+    header: Header, chunks: Mapping[bytes, bytes], repeated: Set[bytes], more: int
+) -> Iterator[str]:
     """Yield what is not applied, a sentence without its full stop each.
+
+    Parameters
+    ----------
+    header : Header
+    chunks : mapping
+        The content of each kind, of several that of the first.
+    repeated : set of bytes
+        Kinds that are there more often than they may be.
+    more : int
+        Bytes behind the last chunk.
 
     Raises
     ------
     PngError
         If a chunk that a reader must understand is not known, or one of them is damaged.
     """
+    for kind in sorted(repeated - _IDLE):
+        if kind in _CRITICAL:
+            raise PngError(f"it has more than one chunk {_name(kind)}")
+        yield f"it has more than one chunk {_name(kind)}: the first one was looked at"
+    if more:
+        said = count_of(more, "byte behind its end is", "bytes behind its end are")
+        yield f"{said} not looked at"
     unknown = sorted(chunks.keys() - _CRITICAL - _KNOWN - _IDLE)
     for kind in unknown:
         if not kind[0] & 0x20:  # a capital: it is critical

@@ -10,6 +10,8 @@ import bpy
 import numpy as np
 import pytest
 from PIL import ImageFont
+from reference_tracer.opened import open_scene
+from reference_tracer.scene_files import save_scene
 
 from .missing import found
 
@@ -130,6 +132,10 @@ def test_a_missing_file(make, build, saved, export):
     (missing,) = found(export.render()[1]).items()
     assert missing[0] == f"missing {kind}" and missing[1][0].endswith(path.name)
     assert FILES[make] in missing[1][1]
+    scene, manifest = export.render()
+    save_scene(saved.folder / "scene.npz", scene, manifest)
+    kept = open_scene(saved.folder / "scene.npz").manifest
+    assert found(kept) == found(manifest)
 
 
 def test_a_path_as_windows_has_it(build, saved, export):

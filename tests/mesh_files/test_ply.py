@@ -176,3 +176,10 @@ def test_an_index_out_of_range_is_refused_with_its_face(tmp_path):
     (tmp_path / "a.ply").write_text(f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 3")
     with pytest.raises(ValueError, match="face 1 names vertex 3 of 3, counted from 0"):
         read_ply(tmp_path / "a.ply")
+
+
+def test_what_is_not_read_may_be_there_twice(tmp_path):
+    colors = "property uchar red\nproperty uchar red\n"
+    rows = "".join(f"{row} 1 2\n" for row in BODY.splitlines())
+    (tmp_path / "a.ply").write_text(f"{HEAD}{XYZ}{colors}{FACE}{rows}3 0 1 2")
+    assert len(read_ply(tmp_path / "a.ply").placed[0].mesh.triangles) == 1

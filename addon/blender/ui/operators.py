@@ -203,7 +203,7 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
         scene, manifest, _ = export_open_file(context)
         yield 0.5
         with folders.made_for_file(path), folders.replacing_file(path) as new:
-            save_scene(new, scene)
+            save_scene(new, scene, manifest)
         say(*manifest.lines())
         return scene
 

@@ -98,9 +98,8 @@ def check_in_place(pixels: OpenPixels) -> Work[None]:
         np.array([each is effect for each in effects])[number]
         for effect in (Effect.DRAWN, Effect.COLOR)
     )
-    drawn = is_drawn & (
-        drawn_over(pixels.case.picture) == NOTHING
-    )  # else what lies beneath is judged
+    # Where another object is drawn over it, what lies beneath is judged.
+    drawn = is_drawn & (drawn_over(pixels.case.picture) == NOTHING)
     own = pixels.case.feature_of(Effect.COLOR)[seen]
     number = np.where(drawn | (own == NOTHING), number, own)  # hair before glass: it is glass
     recolored = is_recolored | (own != NOTHING)

@@ -163,7 +163,7 @@ def _blend(
         settings = options.settings_over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         case = gather_against(context, shown, settings, bool(options.self_check), colors)
-        return (yield from _written(options, compared(_remarked(case, place))))
+        return (yield from _written(options, compared(replace(case, **place))))
 
 
 def _file(
@@ -176,19 +176,13 @@ def _file(
     shown = picture_of_file(picture, scene.camera, _making(options))
     settings, checked = options.settings_over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
-    return (yield from _written(options, trace_and_compare(_remarked(case, place))))
+    return (yield from _written(options, trace_and_compare(replace(case, **place))))
 
 
 def _making(options: CompareOptions) -> Making:
     """Return what the options say of how the picture was made."""
     known = "as --renderer says"
     return Making(options.renderer or "", options.filter or 0.0, options.dither, asked=known)
-
-
-def _remarked(case: Case, place: dict[str, Any]) -> Case:
-    """Return the case with what was remarked of the picture among its notes, traced at a place."""
-    notes = (*case.manifest.notes, *case.picture.source.remarks)
-    return replace(case, manifest=replace(case.manifest, notes=notes), **place)
 
 
 def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison]:

@@ -13,7 +13,7 @@ from ...scene_files import save_scene
 from ...wording import count_of
 from ..arguments import is_blend
 from ..camera_options import add_camera, choice_from
-from ..opening import load
+from ..opening import open_file
 from ..parser import AGREE, Parser
 
 
@@ -53,8 +53,9 @@ def add(parser: Parser) -> None:
 def export(options: ExportOptions) -> int:
     """Export, and write the scene."""
     with folders.made_for_file(options.out):
-        scene, _ = load(options.scene, options.choice)
+        opened = open_file(options.scene, options.choice)
+        print(*opened.manifest.lines(), sep="\n")
         with folders.replacing_file(options.out) as new:
-            save_scene(new, scene)
-    print(f"{count_of(scene.triangle_count, 'triangle')}: {options.out}")
+            save_scene(new, opened.scene, opened.manifest)
+    print(f"{count_of(opened.scene.triangle_count, 'triangle')}: {options.out}")
     return AGREE
