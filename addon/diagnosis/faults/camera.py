@@ -105,6 +105,7 @@ CAMERA_FAULTS = (
             Example("half_pixel", "rays through the pixels' corners", with_values(0.5, 0.5)),
             Example("one_pixel", "the camera off by a pixel to the right", with_values(1.0, 0.0)),
         ),
+        words="the camera's rays pass beside the pixels' centres",
     ),
     Fault(
         "mirrored_x",
@@ -143,6 +144,7 @@ CAMERA_FAULTS = (
         ("percent",),
         refine=_FOCAL[1],
         effort=Effort.FILM,
+        words="the picture shows less than it should, or more",
     ),
     Fault(
         "focal_lengths",
@@ -168,6 +170,7 @@ CAMERA_FAULTS = (
         examples=(
             Example("camera_moved", "the camera moved by a pixel to its right", _a_pixel_aside),
         ),
+        words="a vector",
     ),
     Fault(
         "camera_turned",
@@ -183,6 +186,7 @@ CAMERA_FAULTS = (
                 "camera_turned", "the camera turned by half a degree", with_values(0.4, 0.3, 0)
             ),
         ),
+        words="angles to the right, upwards and about its axis",
     ),
     Fault(
         "roll",

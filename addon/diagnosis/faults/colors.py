@@ -111,6 +111,7 @@ COLOR_FAULTS = (
         examples=(
             Example("swapped_colors", "two objects with one another's colours", _two_colors),
         ),
+        words="two objects",
     ),
     Fault(
         "recolored",

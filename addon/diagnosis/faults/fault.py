@@ -101,6 +101,7 @@ class Fault:
     everywhere: bool = False  # it is in all pixels: none is looked for beside a fault of an object
     vague: bool = False  # it allows for more than one picture: what is exact is told in its place
     examples: tuple[Example, ...] = ()
+    words: str = ""  # what a guess' words say, in general: for the documents
 
     def told(self, guess: Guess) -> str:
         """Return the sentence with a guess' numbers and names."""

@@ -204,6 +204,7 @@ OBJECT_FAULTS = (
         _exchanged,
         _pairs,
         examples=(Example("swapped_transforms", "two objects at each other's places", _two),),
+        words="two objects",
     ),
     Fault(
         "object_scaled",

@@ -152,6 +152,7 @@ ORDER_FAULTS = (
         _quarters,
         put_right=_turned_back,
         examples=(Example("turned_picture", "the picture upside down", with_values(2.0)),),
+        words="90 or 180 degrees",
     ),
     Fault(
         "depth_order",
@@ -162,5 +163,6 @@ ORDER_FAULTS = (
         after=_drawn,
         sampled=False,
         effort=Effort.PIXELS,
+        words="the farthest surface is seen, or objects are drawn one over the other in some order",
     ),
 )

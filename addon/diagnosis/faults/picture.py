@@ -76,6 +76,7 @@ PICTURE_FAULTS = (
         _find_rolled,
         put_right=_rolled(-1),
         examples=(Example("border", "the border off by one row", with_values(0.0, 1.0)),),
+        words="rows or columns are one off, and those at the end are at the other end",
     ),
     Fault(
         "rows",

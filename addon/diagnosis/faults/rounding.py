@@ -81,5 +81,6 @@ ROUNDING_FAULTS = (
         put_right=_of_levels,
         vague=True,
         examples=(Example("dithered", "noise of two levels, as of dithering", with_values(2.0)),),
+        words="s",
     ),
 )

@@ -170,6 +170,7 @@ SIZE_FAULTS = (
         sampled=False,
         after=_resampled,
         effort=Effort.PIXELS,
+        words="another size, and resampled",
     ),
     Fault(
         "shrunk",
@@ -182,5 +183,6 @@ SIZE_FAULTS = (
         sampled=False,
         after=_enlarged,
         effort=Effort.PIXELS,
+        words="a part of its size, and enlarged again",
     ),
 )

@@ -80,6 +80,7 @@ def _colors(key: str, make: Make = _nothing, *examples: Example) -> Fault:
         _find_curve(key),
         put_right=by_curve,
         examples=examples,
+        words=KEYS[key],
     )
 
 

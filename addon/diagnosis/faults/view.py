@@ -116,6 +116,7 @@ VIEW_FAULTS = (
         _find_start,
         ("start",),
         examples=(Example("clip_start", "the clip start halfway into the scene", _halfway),),
+        words="at another depth, or left out",
     ),
     Fault(
         "clip_end",
@@ -124,5 +125,6 @@ VIEW_FAULTS = (
         of_camera(_end),
         _find_end,
         ("end",),
+        words="at another depth, or left out",
     ),
 )
