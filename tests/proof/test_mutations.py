@@ -7,8 +7,7 @@ import os
 
 import pytest
 
-from ..copied import copied, run
-from .conftest import TOOLS
+from ..copied import TOOLS, copied, run
 
 pytestmark = pytest.mark.slow  # a Python of its own for each
 
