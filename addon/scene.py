@@ -176,7 +176,7 @@ class Camera:
             "window": vars(self.window),
             "width": self.width,
             "height": self.height,
-            "orthographic": self.projection.in_files,
+            "projection": self.projection.name,
             "clip_start": self.clip_start,
             "clip_end": self.clip_end,
             "region": vars(self.region),

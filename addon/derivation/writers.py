@@ -21,7 +21,7 @@ from .html import page
 from .pixel import Answer
 from .textbook import FLOATS, Number
 
-SCHEMA = "reference_tracer.derivation/1"
+SCHEMA = "reference_tracer.derivation/2"
 
 
 def json_text(derivation: Derivation) -> str:
@@ -38,7 +38,7 @@ def to_dict(derivation: Derivation) -> dict[str, Any]:
         "pixel": {"x": pixel.x, "y": pixel.y, "column": pixel.column, "row": pixel.row},
         "camera": {
             "name": camera.name,
-            "orthographic": camera.projection.in_files,
+            "projection": camera.projection.name,
             "width": camera.width,
             "height": camera.height,
             "clip_start": number(np.float64(camera.clip_start)),

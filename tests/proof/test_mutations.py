@@ -57,7 +57,7 @@ CHANGES = {
         ("set_up_perspective_nearness_error, edge_functions.set_up",),
     ),
     "a plane's nearness without slack": (
-        "projections/projection.py",
+        "certified/sweep/depth_buffer.py",
         ("(1 - room) / high, (1 + room)", "1 / high, 1"),
         ("plane_pixel_perspective_least, sweep.Sweep.enter_planes",),
     ),

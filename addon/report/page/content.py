@@ -27,7 +27,7 @@ from . import arrays
 from .arrays import packed
 from .extras import Extras
 
-SCHEMA = "reference_tracer.page/1"
+SCHEMA = "reference_tracer.page/2"
 MOST_CHARACTERS = 32 << 20  # characters of the packed arrays: what a browser still opens at once
 
 
