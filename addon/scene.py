@@ -169,7 +169,7 @@ class Camera:
         """World-space viewing direction, (3,) float64."""
         return -self.world_from_camera[:3, 2]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the camera as files hold it, for JSON."""
         return {
             "world_from_camera": self.world_from_camera.tolist(),

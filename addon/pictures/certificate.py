@@ -7,7 +7,7 @@ is drawn: pictures of different cameras are not compared.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -39,7 +39,7 @@ class CameraCertificate(NamedTuple):
         """Whether rounding accounts for the distance."""
         return self.largest <= self.allowed
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the certificate as JSON can hold it."""
         return self._asdict() | {"passed": self.passed}
 

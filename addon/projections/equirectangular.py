@@ -17,7 +17,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..arrays import Array, Floats
-from .projection import Edges, Formulas, Projection, Ray, Vectors
+from .projection import Edges, Formulas, Lengths, Projection, Ray, Vectors
 from .sine import sine
 
 # Radians: far above the rounding of an angle that is found here, where it is not near pi / 2.
@@ -54,7 +54,7 @@ class Equirectangular(Projection):
         """
         return (x + y + 2) * np.abs(frame[:3]).sum(axis=0)
 
-    def scale(self, depth: Any, y: Any = 0.0) -> Any:
+    def scale(self, depth: Lengths, y: Lengths = 0.0) -> Any:
         """Return how many metres a radian of longitude is at a distance and a latitude."""
         return depth * np.maximum(np.abs(np.cos(y)), _ANGLE)
 

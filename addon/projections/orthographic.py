@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from ..arrays import Array, Floats
-from .projection import Formulas, Projection, Ray
+from .projection import Formulas, Lengths, Projection, Ray
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Orthographic(Projection):
         right, up, _, eye = frame
         return np.abs([x * right, y * up, eye]).sum(axis=0)
 
-    def scale(self, depth: Any, y: Any = 0.0) -> float:
+    def scale(self, depth: Lengths, y: Lengths = 0.0) -> float:
         """Return 1: the window is in metres."""
         return 1.0
 

@@ -15,6 +15,7 @@ import numpy as np
 from ..arrays import Array, Floats
 
 Vectors = Floats  # (3, ...)
+Lengths = Floats | float
 Ray = tuple[Array, Array]  # origins and directions
 Formulas = dict[str, tuple[str, str]]  # of "o" and "d": the right side, and a remark
 Edges = tuple[float, float, float, float]  # of a view window: left, right, bottom, top
@@ -47,7 +48,7 @@ class Projection(ABC):
         right, up, forward, _ = frame
         return np.abs([x * right, y * up, forward]).sum(axis=0)
 
-    def scale(self, depth: Any, y: Any = 0.0) -> Any:
+    def scale(self, depth: Lengths, y: Lengths = 0.0) -> Any:
         """Return how many metres the window's unit is at a depth (t), at height y of the film."""
         return depth
 
