@@ -20,7 +20,7 @@ from ..tracer.progress import Work, scaled
 from ..wording import count_of
 from .evidence import Evidence
 from .faults import FAULTS
-from .faults.fault import Fault, Guess
+from .faults.fault import AnyFault, Guess
 from .guessing import LEAST, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
 from .trial import Trial, counted
@@ -36,7 +36,7 @@ NAMED = 6  # faults that are named where there is no room for more
 class Told:
     """A fault that accounts for unexplained pixels."""
 
-    fault: Fault
+    fault: AnyFault
     guess: Guess
     unexplained: int  # pixels, before
     settled: int  # of these, pixels that agree with this put right
@@ -50,7 +50,7 @@ class Told:
     @property
     def sentence(self) -> str:
         """What is wrong, without a full stop."""
-        return self.fault.told(self.guess)
+        return self.fault.sentence_of(self.guess)
 
     def effect(self) -> str:
         """Say what putting it right does."""
@@ -88,7 +88,7 @@ class Told:
             named = ", ".join(map(spoken, self.also))
             how = "so it would be with" if self.fault.sums_up else "as likely"
             yield f"           {how}: {named}"
-        yield f"           what to do: {self.fault.advised(self.guess)}"
+        yield f"           what to do: {self.fault.advice_of(self.guess)}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
@@ -100,7 +100,7 @@ class Told:
         return {
             "fault": self.fault.name,
             "sentence": self.sentence,
-            "advice": self.fault.advised(g),
+            "advice": self.fault.advice_of(g),
             "object": g.object,
             "numbers": numbers,
             "alternative": self.alternative,
@@ -169,7 +169,7 @@ def diagnose(
     case: Case,
     frame: Frame,
     causes: Causes,
-    faults: Sequence[Fault] = FAULTS,
+    faults: Sequence[AnyFault] = FAULTS,
     steps: float = STEPS,
 ) -> Work[Diagnosis]:
     """Look for what accounts for the unexplained pixels; yields the share of the work done.

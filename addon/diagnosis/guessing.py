@@ -27,7 +27,8 @@ from ..causes.case import PRECISE
 from ..scene import SceneError
 from ..tracer.progress import Work
 from .evidence import FEW, Evidence, Score
-from .faults.fault import Fault, Guess
+from .faults.fault import AnyFault, Guess
+from .faults.given import given
 from .trial import Trial, tried
 from .variants import carried
 
@@ -61,7 +62,7 @@ NONE = Score(0.0, 0.0)
 class Guessing:
     """The guesses that are made in one diagnosis, and how many steps of work they took."""
 
-    def __init__(self, faults: Sequence[Fault], limit: float) -> None:
+    def __init__(self, faults: Sequence[AnyFault], limit: float) -> None:
         self.faults = faults
         self.limit = limit
         self.steps = 0
@@ -73,7 +74,7 @@ class Guessing:
         """Whether it took so many steps that no other guess is made."""
         return self.steps >= self.limit
 
-    def _limited(self, work: Work[T], fault: Fault) -> Work[T | None]:
+    def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
         """Run work that looks for a fault; None if the steps come to an end before it does."""
         while not self.ended:
             try:
@@ -95,7 +96,7 @@ class Guessing:
         """
         open_ = float(evidence.open.sum())
         faults = [f for f in self.faults if not (f.everywhere and evidence.of_object)]
-        pool: list[tuple[float, Fault, Guess]] = []
+        pool: list[tuple[float, AnyFault, Guess]] = []
         out: list[Trial] = []
         for effort in sorted({fault.effort for fault in faults}):
             some = [fault for fault in faults if fault.effort == effort]
@@ -110,29 +111,24 @@ class Guessing:
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
     def _scored(
-        self, evidence: Evidence, faults: Sequence[Fault]
-    ) -> Work[list[tuple[float, Fault, Guess]]]:
+        self, evidence: Evidence, faults: Sequence[AnyFault]
+    ) -> Work[list[tuple[float, AnyFault, Guess]]]:
         """Return the guesses of some faults that gain on the sample, each with its gain."""
         out = []
         for fault in faults:
-            given = [
-                Guess(object=v.object, scene=v.scene, words=v.words)
-                for v in evidence.variants
-                if v.fault == fault.name
-            ]
             found = yield from self._limited(fault.find(evidence), fault)
-            for guess in (*given, *(found or ())):
+            for made, guess in (*given(evidence, fault), *((fault, g) for g in found or ())):
                 self.guesses += 1
-                score = (yield from self._limited(_score(evidence, fault, guess), fault)) or NONE
+                score = (yield from self._limited(_score(evidence, made, guess), made)) or NONE
                 if _may_be_finer(evidence, score):
-                    guess = yield from self._finer(evidence, fault, guess)
-                    again = self._limited(_score(evidence, fault, guess), fault)
+                    guess = yield from self._finer(evidence, made, guess)
+                    again = self._limited(_score(evidence, made, guess), made)
                     score = (yield from again) or NONE
                 if score.gain >= _least(evidence):
-                    out.append((score.gain, fault, guess))
+                    out.append((score.gain, made, guess))
         return out
 
-    def _finer(self, evidence: Evidence, fault: Fault, guess: Guess) -> Work[Guess]:
+    def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
         """Return a guess that was fitted roughly with its numbers fitted finely."""
         if not (fault.refine and guess.low and guess.low == guess.high):
             return guess
@@ -140,7 +136,11 @@ class Guessing:
         return (yield from self._limited(fault.refine(finer, guess), fault)) or guess
 
     def _tried(
-        self, evidence: Evidence, of: Evidence, scored: list[tuple[float, Fault, Guess]], most: int
+        self,
+        evidence: Evidence,
+        of: Evidence,
+        scored: list[tuple[float, AnyFault, Guess]],
+        most: int,
     ) -> Work[list[Trial]]:
         """Return the trials of the guesses with the most gain; what was fitted is fitted finely.
 
@@ -175,12 +175,12 @@ def _may_be_finer(evidence: Evidence, score: Score) -> bool:
     return score.gain < _least(evidence) and MAIN * open_ <= score.settled <= open_ <= FEW
 
 
-def _score(evidence: Evidence, fault: Fault, guess: Guess) -> Work[Score]:
+def _score(evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Score]:
     """Return what a guess makes of the sample; all is settled by one that cannot be sampled."""
     if not fault.sampled:
         return Score(float(evidence.open.sum()), 0.0)
     try:
-        case = fault.tried(evidence.case, evidence.frame, guess)
+        case = fault.assume(evidence.case, guess)
         if case is None:
             return NONE
         few = yield from evidence.few.score(case)

@@ -24,7 +24,7 @@ from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, called, scaled
 from .faults import EXAMPLES
-from .faults.fault import Example, Fault
+from .faults.fault import AnyFault, Example
 
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
 
@@ -69,7 +69,7 @@ def self_check(
     case: Case,
     frame: Frame,
     causes: Causes,
-    examples: Sequence[tuple[Fault, Example]] = EXAMPLES,
+    examples: Sequence[tuple[AnyFault, Example]] = EXAMPLES,
 ) -> Work[tuple[FaultRow, ...]]:
     """Make every example of a fault and see what becomes of it; yields the share of the work done.
 
@@ -86,12 +86,12 @@ def self_check(
 
 
 def _checked(
-    case: Case, frame: Frame, causes: Causes, fault: Fault, example: Example
+    case: Case, frame: Frame, causes: Causes, fault: AnyFault, example: Example
 ) -> Work[FaultRow]:
     row = FaultRow(example.name, example.text)
     try:
         guess = example.pick(case, frame)
-        wrong = None if guess is None else fault.make(case, frame, guess)
+        wrong = None if guess is None else (example.make or fault.assume)(case, guess)
     except SceneError as error:  # the scene cannot be traced then, which nobody would overlook
         return row._replace(note=f"refused: {error}")
     if wrong is None:

@@ -16,7 +16,7 @@ from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from .evidence import Evidence
-from .faults.fault import Fault, Guess
+from .faults.fault import AnyFault, Guess
 
 HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
 LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
@@ -26,7 +26,7 @@ LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
 class Trial:
     """What a guess makes of the whole picture."""
 
-    fault: Fault
+    fault: AnyFault
     guess: Guess
     evidence: Evidence  # with the fault put right
     settled: int  # pixels that were unexplained, and are not now
@@ -49,7 +49,7 @@ class Trial:
     def unseen(self) -> bool:
         """Whether its object is not seen any more: then all that is known is that it is missing."""
         names, name = self.evidence.case.scene.objects, self.guess.object
-        if name not in names or self.fault.name == "object_missing":
+        if name not in names or self.fault.removes:
             return False
         return not (self.evidence.frame.object_index == names.index(name)).any()
 
@@ -70,7 +70,7 @@ class Trial:
 
 
 def tried(
-    evidence: Evidence, fault: Fault, guess: Guess, of: Evidence | None = None
+    evidence: Evidence, fault: AnyFault, guess: Guess, of: Evidence | None = None
 ) -> Work[Trial | None]:
     """Try a guess on the whole picture; yields the share of the work done.
 
@@ -80,7 +80,7 @@ def tried(
     before = of or evidence
     case, frame = evidence.case, evidence.frame
     try:
-        other = fault.tried(case, frame, guess)
+        other = fault.assume(case, guess)
         if other is None:
             return None
         traced = frame

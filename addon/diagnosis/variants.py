@@ -16,6 +16,7 @@ from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.progress import Work
 from .evidence import Evidence
+from .faults.given import Given
 from .trial import Trial
 
 
@@ -57,11 +58,11 @@ def carried(evidence: Evidence, trial: Trial) -> Evidence:
     """Return the evidence with a fault put right, in the variants, too."""
     variants = []
     for variant in evidence.variants:
-        scene, given = variant.scene, trial.guess.scene
-        if given is not None:  # of two faults that only Blender can make, one may be the camera's
-            other = given.camera is not evidence.case.scene.camera
-            scene = scene.seen_by(given.camera) if other else scene
-        elif case := trial.fault.tried(evidence.case.in_scene(scene), evidence.frame, trial.guess):
+        scene, guess = variant.scene, trial.guess
+        if isinstance(guess, Given):  # of two such faults, one may be the camera's
+            other = guess.scene.camera is not evidence.case.scene.camera
+            scene = scene.seen_by(guess.scene.camera) if other else scene
+        elif case := trial.fault.assume(evidence.case.in_scene(scene), guess):
             scene = case.scene
         variants.append(replace(variant, scene=scene))
     of_object = evidence.of_object or bool(trial.guess.object)

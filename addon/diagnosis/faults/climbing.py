@@ -17,8 +17,8 @@ import numpy as np
 from ...arrays import Array, Bools, Floats, Places
 from ...tracer.progress import Work
 from ..evidence import SEED
+from .fault import Values
 
-Values = tuple[float, ...]
 Right = Callable[[Values], Work[Bools | None]]  # which pixels are right; None if no such can be
 Among = Callable[[Places], Right]  # the same of some of the pixels, by their numbers
 

@@ -10,40 +10,72 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import Any, Generic, ParamSpec, TypeVar
 
 from ...arrays import Colors
 from ...causes.case import Case
-from ...pictures.picture import Curve
-from ...scene import Camera, Instance, Scene
+from ...scene import Camera, Instance, Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
+from ..evidence import Evidence
 
-if TYPE_CHECKING:
-    from ..evidence import Evidence
+P = ParamSpec("P")
+T = TypeVar("T")
+G = TypeVar("G", bound="Guess")
+Values = tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Guess:
+    """Which fault it is exactly. This one has no more to say than whose it is."""
+
+    object: str = ""  # that has it; empty where it is the whole scene's, or the picture's
+    words: str = ""  # what else the sentence says
+
+    @property
+    def values(self) -> Values:
+        """The numbers that the sentence tells, as the fault's `numbers` name them."""
+        return ()
+
+    @property
+    def low(self) -> Values:
+        """The least of each with which as many pixels agree; empty if none was fitted."""
+        return ()
+
+    @property
+    def high(self) -> Values:
+        """The largest of each."""
+        return ()
 
 
 @dataclass(frozen=True, eq=False)
-class Guess:
-    """Which fault it is exactly: its numbers, the object that has it, or the scene with it."""
+class Numbers(Guess):
+    """A fault of some size, as its numbers say."""
 
-    values: tuple[float, ...] = ()  # as the fault's `numbers` name them; more are not told
-    # Between what they may lie, for all pixels to agree as well; empty if they were not fitted.
-    low: tuple[float, ...] = ()
-    high: tuple[float, ...] = ()
-    object: str = ""
-    scene: Scene | None = None  # with a fault that only Blender can make
-    words: str = ""  # what else the sentence says
-    curve: Curve | None = None  # what was done to the picture's colours
-    box: tuple[int, int, int, int] | None = None  # left, bottom, right, top: of some pixels
+    values: Values = ()
+    low: Values = ()
+    high: Values = ()
 
 
-# Return the case with the fault; None where there is nothing to get wrong. The frame is traced of
-# the case.
-Make = Callable[[Case, Frame, Guess], Case | None]
-Find = Callable[["Evidence"], Work[list[Guess]]]
-Refine = Callable[["Evidence", Guess], Work[Guess | None]]
-After = Callable[[Colors, Guess, "Evidence"], Colors]
+@dataclass(frozen=True, eq=False)
+class Option(Guess):
+    """One of the ways in which the fault is made, by its number."""
+
+    number: int
+
+
+@dataclass(frozen=True, eq=False)
+class Pair(Guess):
+    """Two objects that have something of each other's."""
+
+    first: str
+    second: str
+
+
+Make = Callable[[Case, G], Case | None]  # None where there is nothing to get wrong
+Find = Callable[[Evidence], Work[list[G]]]
+Refine = Callable[[Evidence, G], Work[G | None]]
+After = Callable[[Colors, G, Evidence], Colors]
 Pick = Callable[[Case, Frame], Guess | None]
 
 
@@ -53,18 +85,36 @@ class Example:
 
     name: str  # in JSON
     text: str  # what is wrong, in words
-    pick: Pick = lambda case, frame: Guess()
+    pick: Pick = lambda case, frame: Guess()  # the frame is traced of the case
+    make: Make[Any] | None = None  # puts the fault into the picture, not into the scene
 
 
 def with_values(*values: float) -> Pick:
     """Return what picks the same numbers in every scene."""
-    return lambda case, frame: Guess(values)
+    return lambda case, frame: Numbers(values)
 
 
-def once(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the one guess of a fault that has no numbers and is about no object."""
-    return [Guess()]
-    yield
+def with_option(number: int) -> Pick:
+    """Return what picks the same way in every scene."""
+    return lambda case, frame: Option(number)
+
+
+def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
+    """Return a function as work that is done in no step."""
+
+    def work(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
+        yield from ()
+        return function(*args, **kwargs)
+
+    return work
+
+
+def guessing(*guesses: G) -> Find[G]:
+    """Return what finds the same guesses in every picture."""
+    return at_once(lambda evidence: [*guesses])
+
+
+ONCE: Find[Any] = guessing(Guess())  # of a fault that has no numbers and is of no object
 
 
 class Effort(IntEnum):
@@ -80,33 +130,34 @@ class Effort(IntEnum):
 
 
 @dataclass(frozen=True)
-class Fault:
+class Fault(Generic[G]):
     """A fault: the comparison's own claim of what is wrong with a picture."""
 
     name: str  # in JSON
     sentence: str  # with the names of `numbers`, {object} and {words}
     advice: str  # what to do, with the same names
-    make: Make
-    find: Find = once  # the guesses that are tried
-    numbers: tuple[str, ...] = ()  # of the guess' values, those that are told
-    # The case with the fault taken out of its picture; by default, the fault is in the scene.
-    put_right: Make | None = None
+    # Return the case that agrees if the picture has the fault: the scene with it, or the picture
+    # without it.
+    assume: Make[G]
+    find: Find[G] = ONCE  # the guesses that are tried
+    numbers: tuple[str, ...] = ()  # names of the guess' values
     # What the picture's pixels are after that, from those that are traced in the case with the
     # fault, (h', w', 4); the shape is (h, w).
-    after: After | None = None
+    after: After[G] | None = None
     sampled: bool = True  # whether single pixels can say how good a guess is
-    refine: Refine | None = None  # fits a guess in a finer sample
+    refine: Refine[G] | None = None  # fits a guess in a finer sample
     effort: Effort = Effort.NOTHING
     sums_up: bool = False  # it says what is seen: faults that do as well are reasons for it
     everywhere: bool = False  # it is in all pixels: none is looked for beside a fault of an object
     vague: bool = False  # it allows for more than one picture: what is exact is told in its place
+    removes: bool = False  # it says that its object is not seen
     examples: tuple[Example, ...] = ()
 
-    def told(self, guess: Guess) -> str:
+    def sentence_of(self, guess: Guess) -> str:
         """Return the sentence with a guess' numbers and names."""
         return self._filled(self.sentence, guess)
 
-    def advised(self, guess: Guess) -> str:
+    def advice_of(self, guess: Guess) -> str:
         """Return the advice with a guess' numbers and names."""
         return self._filled(self.advice, guess)
 
@@ -114,59 +165,78 @@ class Fault:
         numbers = dict(zip(self.numbers, guess.values, strict=False))
         return text.format(object=guess.object, words=guess.words, **numbers)
 
-    def tried(self, case: Case, frame: Frame, guess: Guess) -> Case | None:
-        """Return the case that agrees if the picture has this fault."""
-        if guess.scene is not None:
-            return case.in_scene(guess.scene)
-        return (self.put_right or self.make)(case, frame, guess)
+
+def unchanged(case: Case, guess: Guess) -> Case:
+    """Return the case: the fault is made after it is traced."""
+    return case
 
 
-def of_camera(change: Callable[..., Camera | None]) -> Make:
+AnyFault = Fault[Any]  # with guesses of its own kind
+
+
+def of_camera(change: Callable[..., Camera | None]) -> Make[Guess]:
     """Return what changes the camera of all scenes, by a function of it and the numbers."""
 
-    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    def assume(case: Case, guess: Guess) -> Case | None:
         camera = change(case.scene.camera, *guess.values)
         return None if camera is None else case.with_scenes(lambda scene: scene.seen_by(camera))
 
-    return make
+    return assume
 
 
-def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Make, Find]:
-    """Return what makes a fault of the camera that has several forms, and what finds which."""
+def one_of(*makes: Make[Guess]) -> Make[Option]:
+    """Return what makes a fault in one of several ways."""
+    return lambda case, guess: makes[guess.number](case, guess)
 
-    def make(camera: Camera, number: float) -> Camera | None:
-        return changes[int(number)](camera)
 
-    def find(evidence: Evidence) -> Work[list[Guess]]:
-        return [Guess((float(number),)) for number in range(len(changes))]
-        yield
-
-    return of_camera(make), find
+def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Make[Option], Find[Option]]:
+    """Return what makes a fault of the camera in several ways, and what finds which."""
+    return one_of(*map(of_camera, changes)), guessing(*map(Option, range(len(changes))))
 
 
 def instances_named(scene: Scene, name: str) -> list[int]:
-    """Return the instances of the meshes of an object."""
-    return [n for n, i in enumerate(scene.instances) if scene.objects[i.object] == name]
+    """Return the instances of the meshes of an object, or of all objects without a name."""
+    return [n for n, i in enumerate(scene.instances) if name in ("", scene.objects[i.object])]
 
 
-def of_object(change: Callable[..., Instance | None]) -> Make:
+def of_object(change: Callable[..., Instance | None]) -> Make[Guess]:
     """Return what changes an object's instances in all scenes, by a function of each.
 
     It takes the instance and the guess' numbers; without a name, all objects are changed.
     """
 
-    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
-        if guess.object and not instances_named(case.scene, guess.object):
+    def assume(case: Case, guess: Guess) -> Case | None:
+        if not instances_named(case.scene, guess.object):
             return None
+        return case.with_scenes(
+            lambda scene: with_instances(
+                scene, guess.object, lambda instance: change(instance, *guess.values)
+            )
+        )
 
-        def changed(scene: Scene) -> Scene:
-            own = set(instances_named(scene, guess.object))
-            made = [
-                change(instance, *guess.values) if n in own or not guess.object else instance
-                for n, instance in enumerate(scene.instances)
-            ]
-            return replace(scene, instances=tuple(i for i in made if i is not None))
+    return assume
 
-        return case.with_scenes(changed)
 
-    return make
+def with_instances(scene: Scene, name: str, change: Callable[[Instance], Instance | None]) -> Scene:
+    """Return a scene with an object's instances changed; those that become None are left out."""
+    own = set(instances_named(scene, name))
+    made = (change(i) if n in own else i for n, i in enumerate(scene.instances))
+    return replace(scene, instances=tuple(i for i in made if i is not None))
+
+
+def of_meshes(change: Callable[..., Mesh]) -> Make[Guess]:
+    """Return what changes an object's meshes in all scenes, as :func:`of_object` its instances."""
+
+    def assume(case: Case, guess: Guess) -> Case:
+        return case.with_scenes(
+            lambda scene: with_meshes(scene, guess.object, lambda mesh: change(mesh, *guess.values))
+        )
+
+    return assume
+
+
+def with_meshes(scene: Scene, name: str, change: Callable[[Mesh], Mesh]) -> Scene:
+    """Return a scene with an object's meshes changed."""
+    own = {scene.instances[n].mesh for n in instances_named(scene, name)}
+    meshes = (change(mesh) if n in own else mesh for n, mesh in enumerate(scene.meshes))
+    return replace(scene, meshes=tuple(meshes))

@@ -12,8 +12,7 @@ from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, ViewWindow
 from ...tracer.camera import pixel_size
 from ..evidence import Evidence
-from .climbing import Values
-from .fault import Guess
+from .fault import Values
 from .fitting import KEPT, Family
 
 STEP = 4.0  # pixels that the picture's corners move from one start to the next
@@ -105,13 +104,13 @@ def _gray(colors: Array) -> Floats:
     return np.clip(gray - gray.mean(), -4, 4)
 
 
-def _beside(camera: Camera, guess: Guess) -> str:
+def _beside(camera: Camera, dx: float, dy: float) -> str:
     """Say where the rays pass; of an orthographic camera, also where it would stand."""
     words = "the camera's rays pass beside the pixels' centres"
-    if all(abs(v) == 0.5 for v in guess.values):
+    if abs(dx) == abs(dy) == 0.5:
         words = "the camera's rays pass the pixels' corners, not their centres"
     if camera.projection is ORTHOGRAPHIC:
-        right, up = np.multiply(pixel_size(camera), guess.values)
+        right, up = np.multiply(pixel_size(camera), (dx, dy))
         words += (
             f", or it is moved by {right:+.4g} m to its right and {up:+.4g} m upwards, which looks "
             "the same"
@@ -129,9 +128,7 @@ FOCAL = Family(
     _zoomed,
     lambda evidence: (100 / radius(evidence),),
     _zooms,
-    lambda camera, guess: (
-        f"the picture shows {'less' if guess.values[0] > 0 else 'more'} than it should"
-    ),
+    lambda camera, percent: f"the picture shows {'less' if percent > 0 else 'more'} than it should",
 )
 FOCALS = Family(
     _stretched,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -21,8 +21,8 @@ from ...tracer.camera import film_of
 from ...tracer.hits import Hits
 from ...tracer.progress import Work
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
-from .climbing import Right, Values
-from .fault import Find, Guess, Refine
+from .climbing import Right
+from .fault import Find, Numbers, Refine, Values
 from .search import Search
 
 REACH = 4.0  # pixels that rays may pass beside where they start; beyond, they start anew
@@ -112,7 +112,7 @@ class Family:
     # Changes of the numbers that move the film by about a pixel: (m, k) columns, or of each, (m,).
     axes: Callable[[Evidence], Floats | Values]
     starts: Callable[[Evidence], Iterator[Values]]
-    words: Callable[[Camera, Guess], str] = lambda camera, guess: ""
+    words: Callable[..., str] = lambda camera, *numbers: ""
     look_up: LookUp = looked_up
     # Of the unexplained pixels: with fewer right, by steps of half a pixel, a fit is given up.
     worth: float = WORTH
@@ -121,10 +121,17 @@ class Family:
     unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
 
 
-def fitting(family: Family) -> tuple[Find, Refine]:
-    """Return what finds the numbers of a family in a picture, and what fits them finely."""
+class Fit(NamedTuple):
+    """How the numbers of a fault are found in a picture."""
 
-    def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
+    find: Find[Numbers]
+    refine: Refine[Numbers]  # finely
+
+
+def fitting(family: Family) -> Fit:
+    """Return what finds the numbers of a family."""
+
+    def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         fine = bool(guess.low)
         traced = Traced(evidence, family.camera, FINE_REACH if fine else REACH)
         search = Search(
@@ -137,15 +144,17 @@ def fitting(family: Family) -> tuple[Find, Refine]:
         )
         step = FINER if fine else 1.0
         found = yield from search.guess([guess.values], step, enclose=fine)
-        words = family.words(evidence.case.scene.camera, found) if found else ""
-        return found and replace(found, words=words)
+        if found is None:
+            return None
+        words = family.words(evidence.case.scene.camera, *found.values)
+        return replace(found, words=words)
 
-    def find(evidence: Evidence) -> Work[list[Guess]]:
+    def find(evidence: Evidence) -> Work[list[Numbers]]:
         if family.by_few:
             evidence = evidence.few
-        out: list[Guess] = []
+        out: list[Numbers] = []
         for start in (yield from _likely(evidence, family)):
-            guess = yield from refine(evidence, Guess(start))
+            guess = yield from refine(evidence, Numbers(start))
             if guess:
                 out.append(guess)
                 right = yield from Traced(evidence, family.camera).right(guess.values)
@@ -153,7 +162,7 @@ def fitting(family: Family) -> tuple[Find, Refine]:
                     break
         return out
 
-    return find, refine
+    return Fit(find, refine)
 
 
 def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:

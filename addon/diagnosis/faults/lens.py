@@ -11,7 +11,7 @@ import numpy as np
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Region, ViewWindow
 from ...tracer.camera import pixel_size
-from .fault import Example, Fault, options, with_values
+from .fault import Example, Fault, Option, options, with_option
 
 Change = Callable[[Camera], Camera | None]
 
@@ -194,7 +194,7 @@ _SCALE = options(
 _BORDER = options(_whole_view, _other_border)
 
 
-LENS_FAULTS = (
+LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "sensor_fit",
         "the lens is fitted to the other side of the picture (sensor fit)",
@@ -202,7 +202,7 @@ LENS_FAULTS = (
         "aspect included",
         *_FIT,
         examples=(
-            Example("sensor_fit", "the lens fitted to the picture's other side", with_values(0)),
+            Example("sensor_fit", "the lens fitted to the picture's other side", with_option(0)),
         ),
     ),
     Fault("shift_left_out", "the camera's shift is left out", "add shift X and Y", *_LEFT_OUT),
@@ -233,7 +233,7 @@ LENS_FAULTS = (
         "the edge of the view is the edge of the outer pixels: u = (i + 1/2) / width",
         *_SPANNED,
         examples=(
-            Example("last_pixel", "width - 1 and height - 1 in place of both", with_values(0)),
+            Example("last_pixel", "width - 1 and height - 1 in place of both", with_option(0)),
         ),
     ),
     Fault(

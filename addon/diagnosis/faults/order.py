@@ -11,13 +11,12 @@ from ...arrays import Colors, Floats
 from ...causes.case import Case
 from ...causes.checks.probe import SOUND, Probe
 from ...scene import Scene
-from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
 from ...tracer.progress import Work, result_of
 from ...tracer.shading import colors as colors_of
 from ..evidence import Evidence
-from .fault import Effort, Example, Fault, Guess, with_values
+from .fault import AnyFault, Effort, Example, Fault, Option, guessing, unchanged, with_option
 
 LAYERS = 64  # surfaces behind one another that are looked at, at most
 MOST = 2  # orders that are tried on the whole picture
@@ -35,23 +34,8 @@ def _quarter_turned(case: Case, quarters: int) -> Case | None:
     return replace(case, picture=case.picture.at(where))
 
 
-def _turned(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    return _quarter_turned(case, int(guess.values[0]))
-
-
-def _turned_back(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    return _quarter_turned(case, -int(guess.values[0]))
-
-
-def _quarters(evidence: Evidence) -> Work[list[Guess]]:
-    words = {1: "90 degrees anticlockwise", 2: "180 degrees", 3: "90 degrees clockwise"}
-    return [Guess((float(n),), words=text) for n, text in words.items()]
-    yield
-
-
-def _same(case: Case, frame: Frame, guess: Guess) -> Case:
-    """Return the case: of its surfaces only others are seen."""
-    return replace(case)
+# Quarters of a turn anticlockwise.
+_QUARTERS = {1: "90 degrees anticlockwise", 2: "180 degrees", 3: "90 degrees clockwise"}
 
 
 def _middles(scene: Scene) -> Floats:
@@ -114,7 +98,7 @@ def _seen(probe: Probe, ranks: Sequence[Floats | None]) -> Work[list[Colors]]:
     return out
 
 
-def _orders(evidence: Evidence) -> Work[list[Guess]]:
+def _orders(evidence: Evidence) -> Work[list[Option]]:
     """Return the orders with which unexplained pixels of the sample have the right colours."""
     scene = evidence.case.scene
     probe = yield from evidence.probe(scene)
@@ -124,14 +108,14 @@ def _orders(evidence: Evidence) -> Work[list[Guess]]:
         right = ~evidence.shown.other_color(colors)
         if right.sum() >= evidence.least_right():
             score = evidence.scored(right)
-            out.append((score.gain, Guess((float(number),), words=ORDERS[number])))
+            out.append((score.gain, Option(number, words=ORDERS[number])))
     return [guess for _, guess in sorted(out, key=lambda pair: -pair[0])[:MOST]]
 
 
-def _drawn(traced: Colors, guess: Guess, evidence: Evidence) -> Colors:
+def _drawn(traced: Colors, guess: Option, evidence: Evidence) -> Colors:
     """Return the whole picture in another order, (h, w, 4)."""
     scene = evidence.case.scene
-    region, ranks = scene.camera.region, _ranks(scene, int(guess.values[0]))
+    region, ranks = scene.camera.region, _ranks(scene, guess.number)
     made = result_of(plan(scene, SOUND, 0.0))
     rows = max(1, BLOCK // region.width)
     out = []
@@ -143,21 +127,27 @@ def _drawn(traced: Colors, guess: Guess, evidence: Evidence) -> Colors:
     return np.concatenate(out)
 
 
-ORDER_FAULTS = (
+ORDER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "picture_turned",
         "the picture is turned by {words}",
         "check the order of its rows and columns: both are reversed, or one is taken for the other",
-        _turned,
-        _quarters,
-        put_right=_turned_back,
-        examples=(Example("turned_picture", "the picture upside down", with_values(2.0)),),
+        lambda case, guess: _quarter_turned(case, -guess.number),
+        guessing(*(Option(n, words=words) for n, words in _QUARTERS.items())),
+        examples=(
+            Example(
+                "turned_picture",
+                "the picture upside down",
+                with_option(2),
+                lambda case, guess: _quarter_turned(case, guess.number),
+            ),
+        ),
     ),
     Fault(
         "depth_order",
         "{words}",
         "keep the nearest depth of every pixel: what is nearer than that is drawn, nothing else",
-        _same,
+        unchanged,
         _orders,
         after=_drawn,
         sampled=False,

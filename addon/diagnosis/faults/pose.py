@@ -12,13 +12,12 @@ from ...arrays import Bools, Floats, Places
 from ...causes.case import Case
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Instance, Mesh, Scene
-from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ...tracer.vector import cross
 from ..evidence import Evidence
-from .climbing import Among, Right, Values
-from .fault import Find, Guess, Refine, instances_named
-from .fitting import FINE_REACH, FINER, Traced
+from .climbing import Among, Right
+from .fault import Numbers, Values, instances_named, with_instances, with_meshes
+from .fitting import FINE_REACH, FINER, Fit, Traced
 from .looked import Looked
 from .search import Search
 
@@ -42,7 +41,7 @@ def scaled(instance: Instance, factor: float) -> Instance:
     return replace(instance, world_from_object=matrix)
 
 
-def copied(case: Case, frame: Frame, guess: Guess) -> Case | None:
+def copied(case: Case, guess: Numbers) -> Case:
     """Return the case with an object's instances a second time, somewhere else."""
 
     def twice(scene: Scene) -> Scene:
@@ -53,21 +52,7 @@ def copied(case: Case, frame: Frame, guess: Guess) -> Case | None:
     return case.with_scenes(twice)
 
 
-def inflated(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Return the case with an object's vertices displaced along their smooth normals."""
-
-    def displaced(scene: Scene) -> Scene:
-        own = {scene.instances[n].mesh for n in instances_named(scene, guess.object)}
-        meshes = [
-            _displaced(mesh, *guess.values) if n in own else mesh
-            for n, mesh in enumerate(scene.meshes)
-        ]
-        return replace(scene, meshes=tuple(meshes))
-
-    return case.with_scenes(displaced)
-
-
-def _displaced(mesh: Mesh, distance: float) -> Mesh:
+def displaced(mesh: Mesh, distance: float) -> Mesh:
     """Displace vertices along the mean of their triangles' normals, each weighed by its area."""
     vertices = mesh.vertices.astype(np.float64)
     a, b, c = (vertices[mesh.triangles[:, k]].T for k in range(3))
@@ -97,7 +82,7 @@ def _placed(looked: Looked) -> Pose:
         axes, start, unseen = axes[:, :2], start[:2], axes[:, 2:]
 
     def change(scene: Scene, values: Values) -> Scene:
-        return replace(scene, instances=tuple(moved(i, *values) for i in scene.instances))
+        return with_instances(scene, "", lambda instance: moved(instance, *values))
 
     beside = np.append(start[:2], 0)[: len(start)]
     starts = [start, beside]
@@ -121,7 +106,7 @@ def _sized(looked: Looked) -> Pose:
     def change(scene: Scene, values: Values) -> Scene | None:
         if values[0] <= 0:
             return None
-        return replace(scene, instances=tuple(scaled(i, *values) for i in scene.instances))
+        return with_instances(scene, "", lambda instance: scaled(instance, *values))
 
     return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)])
 
@@ -135,25 +120,22 @@ def _inflated(looked: Looked) -> Pose:
     start = (looked.growth - 1) * looked.width / 2 * unit
 
     def change(scene: Scene, values: Values) -> Scene:
-        used = {i.mesh for i in scene.instances}
-        meshes = [_displaced(m, *values) if n in used else m for n, m in enumerate(scene.meshes)]
-        return replace(scene, meshes=tuple(meshes))
+        return with_meshes(scene, "", lambda mesh: displaced(mesh, *values))
 
     return Pose(change, np.array([[unit]]), [(start,), (0.0,)])
 
 
-def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refine]:
-    """Return what finds how objects that are suspected are shown, and what fits it finely.
+def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
+    """Return what finds how objects that are suspected are shown.
 
     `kept` says that each object stays at its place, too.
     """
 
-    def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
+    def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         looked = yield from Looked.of(evidence, guess.object, kept)
         if looked is None:
             return None
         pose = of(looked)
-
         alone = looked.alone
 
         def right_among(some: Places) -> Right:
@@ -178,15 +160,15 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
         search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
-    def find(evidence: Evidence) -> Work[list[Guess]]:
+    def find(evidence: Evidence) -> Work[list[Numbers]]:
         out = []
         for name in evidence.suspects[:TRIED]:
-            guess = yield from refine(evidence, Guess(object=name))
+            guess = yield from refine(evidence, Numbers(object=name))
             if guess:
                 out.append(guess)
         return out
 
-    return find, refine
+    return Fit(find, refine)
 
 
 MOVED, TWICE = posing(_placed), posing(_placed, kept=True)

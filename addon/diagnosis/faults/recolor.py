@@ -10,8 +10,7 @@ import numpy as np
 from ...arrays import Array, Colors
 from ...causes.case import Case
 from ...images import EIGHT_BITS
-from ...pictures.picture import Picture, straight
-from ...tracer.frame import Frame
+from ...pictures.picture import Picture, Transform, straight
 from .fault import Guess, Make
 
 
@@ -25,10 +24,10 @@ def alpha_divided(color: Array) -> Array:
     return np.concatenate((straight(color), color[..., 3:]), axis=-1)
 
 
-def recolored(change: Callable[[Array], Array]) -> Make:
+def recolored(change: Callable[[Array], Array]) -> Make[Guess]:
     """Return what changes the picture's colours, and its background, if it has one of its own."""
 
-    def make(case: Case, frame: Frame, guess: Guess) -> Case:
+    def make(case: Case, guess: Guess) -> Case:
         picture = case.picture
         beneath = None if picture.beneath is None else change(picture.beneath)
         changed = replace(picture, color=change(picture.color), beneath=beneath)
@@ -38,24 +37,22 @@ def recolored(change: Callable[[Array], Array]) -> Make:
     return make
 
 
-def of_straight(change: Callable[..., Array]) -> Make:
+def of_straight(change: Callable[..., Array]) -> Make[Guess]:
     """Return what changes straight RGB by a function of it and the guess' numbers."""
 
-    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    def make(case: Case, guess: Guess) -> Case | None:
         def changed(color: Array) -> Colors:
             rgb = change(straight(color), *guess.values) * color[..., 3:]
             return np.concatenate((rgb, color[..., 3:]), axis=-1, dtype=np.float32)
 
-        return recolored(changed)(case, frame, guess)
+        return recolored(changed)(case, guess)
 
     return make
 
 
-def by_curve(case: Case, frame: Frame, guess: Guess) -> Case | None:
+def by_curve(case: Case, of: Transform) -> Case:
     """Return the case whose traced colours go through what was done to the picture's."""
-    if guess.curve is None:
-        return None
-    return replace(case, picture=replace(case.picture, transform=guess.curve.of))
+    return replace(case, picture=replace(case.picture, transform=of))
 
 
 def with_slack(picture: Picture, slack: float) -> Picture:

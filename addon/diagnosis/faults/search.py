@@ -13,8 +13,8 @@ import numpy as np
 from ...arrays import Floats
 from ...tracer.progress import Work
 from ..evidence import SEED
-from .climbing import COARSE, Among, Climb, Right, Values, values_of
-from .fault import Guess
+from .climbing import COARSE, Among, Climb, Right, values_of
+from .fault import Numbers, Values
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
 ROUGH = 1 / 32  # of a unit: the last step where a finer fit follows
@@ -68,7 +68,7 @@ class Search(Climb):
 
     def guess(
         self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
-    ) -> Work[Guess | None]:
+    ) -> Work[Numbers | None]:
         """Return the best numbers near some starts, with what encloses them; steps are in units.
 
         What will be fitted more finely need not be enclosed yet.
@@ -85,7 +85,7 @@ class Search(Climb):
         last = self.finest if enclose else ROUGH
         best, right = yield from self.climbed(best, min(step, COARSE), last)
         if not enclose:
-            return Guess(best, best, best, object=name)
+            return Numbers(best, best, best, object=name)
         for number in range(ANEW + 1):
             places = yield from self._region([np.array(best)], right)
             beside = yield from self._beside(np.array(best))
@@ -101,7 +101,7 @@ class Search(Climb):
         if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
             places = yield from self._region([np.array(told), *places], right)
         low, high = self._box(np.array([told, *places]))  # its last digit may lie just outside
-        return Guess(told, values_of(low), values_of(high), object=name)
+        return Numbers(told, values_of(low), values_of(high), object=name)
 
     def _box(self, places: Floats) -> tuple[Floats, Floats]:
         """Return a box around places; what is nearer than the finest step is not told apart.

@@ -11,10 +11,10 @@ from ...arrays import Bools, Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
 from ...tracer.camera import pixel_size
-from ...tracer.progress import Work, result_of
+from ...tracer.progress import result_of
 from ..evidence import Evidence
-from .climbing import Climb, Values
-from .fault import Guess
+from .climbing import Climb
+from .fault import Values, at_once
 from .film import offsets, radius
 from .fitting import LOOKED_UP, Family, projected
 
@@ -109,10 +109,10 @@ def _climbed(
     """Yield where looking up leads from each start, in ever smaller steps."""
     own = evidence.case.scene.camera
 
-    def right(values: Values) -> Work[Bools | None]:
+    @at_once
+    def right(values: Values) -> Bools | None:
         share = projected(evidence, of(own, *values))
         return np.arange(LOOKED_UP) < round(LOOKED_UP * share)
-        yield
 
     climb = Climb(right, axes)
     units = np.linalg.pinv(np.diag(axes) if np.ndim(axes) == 1 else axes)
@@ -124,18 +124,18 @@ def _climbed(
             yield guess[0]
 
 
-def _in_the_world(camera: Camera, guess: Guess) -> str:
-    by = moved(camera, *guess.values).origin - camera.origin
+def _in_the_world(camera: Camera, *metres: float) -> str:
+    by = moved(camera, *metres).origin - camera.origin
     x, y, z = (0.0 if abs(v) < LEAST * np.abs(by).max() else v for v in by)
     return f"({x:+.4g}, {y:+.4g}, {z:+.4g}) m"
 
 
-def _in_degrees(camera: Camera, guess: Guess) -> str:
+def _in_degrees(camera: Camera, *degrees: float) -> str:
     """Return by how much it is turned, and to which side, without what it is not."""
-    least = LEAST * max(map(abs, guess.values))
+    least = LEAST * max(map(abs, degrees))
     return ", ".join(
         f"{abs(v):.4g} degrees {ahead if v > 0 else back}"
-        for v, (ahead, back) in zip(guess.values, _SIDES, strict=True)
+        for v, (ahead, back) in zip(degrees, _SIDES, strict=True)
         if abs(v) > least
     )
 

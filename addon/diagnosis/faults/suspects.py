@@ -6,20 +6,17 @@ import numpy as np
 
 from ...causes.case import Case
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
-from ..evidence import Evidence
-from .fault import Find, Guess
+from .fault import Find, Guess, Numbers, Values, at_once
 
 
-def suspects(*values: float) -> Find:
+def suspects(*values: float) -> Find[Numbers]:
     """Return what suspects each object that is seen in unexplained pixels, with some numbers."""
-
-    def find(evidence: Evidence) -> Work[list[Guess]]:
-        chosen: list[tuple[float, ...]] = [(value,) for value in values] or [()]
-        return [Guess(some, object=name) for name in evidence.suspects for some in chosen]
-        yield
-
-    return find
+    chosen: list[Values] = [(value,) for value in values] or [()]
+    return at_once(
+        lambda evidence: [
+            Numbers(some, object=name) for name in evidence.suspects for some in chosen
+        ]
+    )
 
 
 def largest(case: Case, frame: Frame) -> Guess | None:

@@ -13,8 +13,7 @@ from ...scene import Camera
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .climbing import Values
-from .fault import Example, Fault, Guess, of_camera
+from .fault import Example, Fault, Numbers, Values, of_camera
 from .search import Search
 
 FEW = (0.0, 0.001, 0.01, 0.05)  # shares of unexplained pixels that may have another cause
@@ -32,32 +31,32 @@ def _end(camera: Camera, end: float) -> Camera | None:
     return replace(camera, clip_end=end) if end > camera.clip_start else None
 
 
-def _halfway(case: Case, frame: Frame) -> Guess | None:
+def _halfway(case: Case, frame: Frame) -> Numbers | None:
     """Pick a clip start halfway between the nearest and the farthest surface that is seen."""
     t = frame.t[np.isfinite(frame.t)]
     if not len(t) or np.ptp(t) == 0:
         return None
-    return Guess((float(np.min(t) + np.max(t)) / 2,))
+    return Numbers((float(np.min(t) + np.max(t)) / 2,))
 
 
-def _find_start(evidence: Evidence) -> Work[list[Guess]]:
+def _find_start(evidence: Evidence) -> Work[list[Numbers]]:
     """Return the clip start for which the most pixels are right, and none."""
     camera = evidence.case.scene.camera
     least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
     fitted = yield from _fitted(evidence, _start, least, -1.0)
-    return [*fitted, Guess((least,), words=LEFT_OUT)]
+    return [*fitted, Numbers((least,), words=LEFT_OUT)]
 
 
-def _find_end(evidence: Evidence) -> Work[list[Guess]]:
+def _find_end(evidence: Evidence) -> Work[list[Numbers]]:
     """Return the clip end for which the most pixels are right, and none."""
     most = evidence.case.scene.camera.clip_end * FAR
     fitted = yield from _fitted(evidence, _end, most, 1.0)
-    return [*fitted, Guess((most,), words=LEFT_OUT)]
+    return [*fitted, Numbers((most,), words=LEFT_OUT)]
 
 
 def _fitted(
     evidence: Evidence, changed: Callable[[Camera, float], Camera | None], none: float, sign: float
-) -> Work[list[Guess]]:
+) -> Work[list[Numbers]]:
     """Return the best depth near those that part unexplained pixels from the others.
 
     `none` is the depth with which nothing is clipped.
