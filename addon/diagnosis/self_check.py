@@ -19,12 +19,12 @@ from ..causes.case import Case
 from ..causes.cause import AGREE, UNEXPLAINED, Causes
 from ..causes.explain import CAUSES, explain
 from ..pictures.bounds import differing
-from ..rendering import steps
 from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, called, scaled
 from .faults import EXAMPLES
 from .faults.fault import AnyFault, Example
+from .trial import traced_anew
 
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
 
@@ -96,10 +96,7 @@ def _checked(
         return row._replace(note=f"refused: {error}")
     if wrong is None:
         return row._replace(note="there is nothing to get wrong")
-    traced = frame
-    if wrong.scene is not case.scene:
-        traced = Frame.empty(wrong.scene)
-        yield from scaled(steps(wrong.scene, case.settings, traced), 0.0, 0.3)
+    traced = yield from scaled(traced_anew(wrong, case, frame), 0.0, 0.3)
     changed = _changed(case, frame, wrong, traced)
     if not changed.any():
         return row
@@ -124,7 +121,7 @@ def _checked(
 def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
     """Return which pixels (h, w) the fault changes: their colour, or the object that they show."""
     right, picture = case.picture, wrong.picture
-    if wrong.scene is case.scene:
+    if traced is frame:  # it is the picture's
         changed = differing(right.color, picture.color)
         return changed if right.owner is None else changed | (right.owner != picture.owner)
     changed = differing(frame.color, traced.color)

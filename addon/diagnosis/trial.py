@@ -83,10 +83,7 @@ def tried(
         other = fault.assume(case, guess)
         if other is None:
             return None
-        traced = frame
-        if other.scene is not case.scene:
-            traced = Frame.empty(other.scene)  # here: steps of waiting for others are not work
-            yield from scaled(steps(other.scene, other.settings, traced), 0.0, 0.3)
+        traced = yield from scaled(traced_anew(other, case, frame), 0.0, 0.3)
         if fault.after is not None:
             color = fault.after(traced.color, guess, evidence)
             traced = replace(frame, color=color.astype(np.float32))
@@ -101,6 +98,15 @@ def tried(
     )
     own = _of_object(guess.object, before, after)
     return Trial(fault, guess, after, *counted(before, after), own)
+
+
+def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
+    """Return what is traced of another case: of the same scene, the frame that there is."""
+    if other.scene is case.scene:
+        return frame
+    traced = Frame.empty(other.scene)
+    yield from steps(other.scene, case.settings, traced)  # here: waiting for others is no work
+    return traced
 
 
 def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:

@@ -109,12 +109,12 @@ def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
     return work
 
 
-def guessing(*guesses: G) -> Find[G]:
+def always(*guesses: G) -> Find[G]:
     """Return what finds the same guesses in every picture."""
     return at_once(lambda evidence: [*guesses])
 
 
-ONCE: Find[Any] = guessing(Guess())  # of a fault that has no numbers and is of no object
+ONCE: Find[Any] = always(Guess())  # of a fault that has no numbers and is of no object
 
 
 class Effort(IntEnum):
@@ -191,7 +191,7 @@ def one_of(*makes: Make[Guess]) -> Make[Option]:
 
 def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Make[Option], Find[Option]]:
     """Return what makes a fault of the camera in several ways, and what finds which."""
-    return one_of(*map(of_camera, changes)), guessing(*map(Option, range(len(changes))))
+    return one_of(*map(of_camera, changes)), always(*map(Option, range(len(changes))))
 
 
 def instances_named(scene: Scene, name: str) -> list[int]:

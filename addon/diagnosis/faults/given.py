@@ -11,7 +11,7 @@ from ...causes.case import Case
 from ...scene import Scene
 from ...tracer.frame import Frame
 from ..evidence import Evidence
-from .fault import AnyFault, Example, Fault, Guess, guessing
+from .fault import AnyFault, Example, Fault, Guess, always
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ def _a_frame_later(case: Case, frame: Frame) -> Given | None:
 
 
 def _given(name: str, sentence: str, advice: str, *examples: Example) -> Fault[Given]:
-    return Fault(name, sentence, advice, in_its_scene, guessing(), examples=examples)
+    return Fault(name, sentence, advice, in_its_scene, always(), examples=examples)
 
 
 GIVEN_FAULTS = (

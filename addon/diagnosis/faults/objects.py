@@ -26,8 +26,8 @@ from .fault import (
     Numbers,
     Option,
     Pair,
+    always,
     at_once,
-    guessing,
     instances_named,
     of_meshes,
     of_object,
@@ -226,7 +226,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "all objects are {factor:.4g} times as large, and the camera is not",
         "use the same unit for the meshes and the camera",
         of_object(_whole),
-        guessing(*(Numbers((factor,)) for factor in UNITS)),
+        always(*(Numbers((factor,)) for factor in UNITS)),
         ("factor",),
     ),
     Fault(

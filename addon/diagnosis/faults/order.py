@@ -16,7 +16,7 @@ from ...tracer.nearest import plan
 from ...tracer.progress import Work, result_of
 from ...tracer.shading import colors as colors_of
 from ..evidence import Evidence
-from .fault import AnyFault, Effort, Example, Fault, Option, guessing, unchanged, with_option
+from .fault import AnyFault, Effort, Example, Fault, Option, always, unchanged, with_option
 
 LAYERS = 64  # surfaces behind one another that are looked at, at most
 MOST = 2  # orders that are tried on the whole picture
@@ -133,7 +133,7 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
         "the picture is turned by {words}",
         "check the order of its rows and columns: both are reversed, or one is taken for the other",
         lambda case, guess: _quarter_turned(case, -guess.number),
-        guessing(*(Option(n, words=words) for n, words in _QUARTERS.items())),
+        always(*(Option(n, words=words) for n, words in _QUARTERS.items())),
         examples=(
             Example(
                 "turned_picture",

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...causes.case import Case
 from ..evidence import Evidence
-from .fault import AnyFault, Example, Fault, Guess, Make, at_once, guessing
+from .fault import AnyFault, Example, Fault, Guess, Make, always, at_once
 from .filters import FILTER_FAULTS
 from .grading import GRADING_FAULTS
 from .pixels import PIXEL_FAULTS
@@ -68,7 +68,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         "the picture's {words}",
         "check where the border begins, and from which row or column counting starts",
         _rolled(-1),
-        guessing(*(Rolled(x, y, words=words) for x, y, words in _ROLLS)),
+        always(*(Rolled(x, y, words=words) for x, y, words in _ROLLS)),
         examples=(
             Example(
                 "border", "the border off by one row", lambda case, frame: Rolled(0, 1), _rolled(1)
