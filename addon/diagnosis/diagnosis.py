@@ -21,7 +21,7 @@ from ..wording import count_of
 from .evidence import Evidence
 from .faults import FAULTS
 from .faults.fault import AnyFault, Guess
-from .guessing import LEAST, STEPS, Guessing, accounting
+from .guessing import LEAST_SETTLED, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
 from .trial import Trial, counted
 from .variants import carried, with_variants
@@ -178,12 +178,12 @@ def diagnose(
     background. If nothing is unexplained, nothing is done. No guess is begun after so many steps.
     """
     evidence = Evidence(case, frame, causes)
-    if not evidence.open.any() or frame.cancelled:
+    if not evidence.unexplained.any() or frame.cancelled:
         return Diagnosis()
     began = time.monotonic()
     guessing = Guessing(faults, steps)
     evidence = yield from with_variants(evidence)
-    was_open = evidence.open
+    at_first = evidence.unexplained
     told: list[Told] = []
     for number in range(ROUNDS):
         finding = accounting(guessing, evidence)
@@ -193,13 +193,12 @@ def diagnose(
         for trials in chain:
             told += _all_told(evidence, trials)
             evidence = carried(evidence, trials[0])
-        remain = int((evidence.open & was_open).sum())
-        broken = int((evidence.open & ~was_open).sum())
-        if remain < max(
-            LEAST, broken
-        ):  # what was broken is no other fault's, nor is what is beside
+        remain = int((evidence.unexplained & at_first).sum())
+        broken = int((evidence.unexplained & ~at_first).sum())
+        # What was broken is no other fault's, nor is what is beside.
+        if remain < max(LEAST_SETTLED, broken):
             break
-    left = int(evidence.open.sum())
+    left = int(evidence.unexplained.sum())
     framed = _regions(evidence) if left else ()
     seconds = time.monotonic() - began
     untried = tuple(sorted(guessing.untried))
@@ -214,7 +213,7 @@ def _regions(evidence: Evidence) -> tuple[Region, ...]:
     if picture.owner is not None and picture.owners is not None:
         own = picture.owners[frame.instance_index]
         identity = Identity(picture.names, own, picture.owner)
-    return tuple(regions(evidence.open, sides(case.scene, frame, identity)))
+    return tuple(regions(evidence.unexplained, sides(case.scene, frame, identity)))
 
 
 def spoken(name: str) -> str:
@@ -242,7 +241,7 @@ def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
     return Told(
         trial.fault,
         trial.guess,
-        int(evidence.open.sum()),
+        int(evidence.unexplained.sum()),
         settled,
         int(evidence.judged.sum()),
         broken,

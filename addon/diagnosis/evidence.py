@@ -35,7 +35,7 @@ DENSE = 1 << 12  # pixels: for more, all triangles are looked at once
 SEED = 27
 WORTH = 0.2  # of unexplained pixels
 NOISE = 0.03  # of all, which may be wrong for another reason
-LEAST = 4  # unexplained pixels for which an object is suspected
+LEAST_SEEN = 4  # unexplained pixels for which an object is suspected
 INVOLVED = 0.1  # of the pixels of the first suspect: others are suspected with as many
 MOST_SUSPECTS = 4
 MOST_COLORS = 512  # of a scene in which pixels are told by their colours
@@ -71,14 +71,14 @@ class Evidence:
     trees: Trees = field(default_factory=Trees)
 
     @cached_property
-    def open(self) -> Bools:
+    def unexplained(self) -> Bools:
         """Which pixels (h, w) are unexplained."""
         return self.causes.cause == UNEXPLAINED
 
     @cached_property
     def judged(self) -> Bools:
         """Which pixels (h, w) agree or have a cause, and can be judged."""
-        return ~self.open & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
+        return ~self.unexplained & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
 
     @cached_property
     def picture(self) -> Picture:
@@ -104,14 +104,14 @@ class Evidence:
     @cached_property
     def _weights(self) -> Floats:
         """How many pixels each sampled pixel stands for, 0 for the others, (h, w)."""
-        out = np.zeros(self.open.shape)
+        out = np.zeros(self.unexplained.shape)
         if self.fine:
-            out.flat[spread(self.open & self.beside_edges, self.size)] = 1
+            out.flat[spread(self.unexplained & self.beside_edges, self.size)] = 1
             out.flat[spread(self.judged & self.beside_edges, self.size)] = 1
             return out
         edge = self.judged & boundary(self.frame)
         for some, most in (
-            (self.open, self.size),
+            (self.unexplained, self.size),
             (edge, 3 * self.size // 4),
             (self.judged & ~edge, self.size // 4),
         ):
@@ -123,14 +123,15 @@ class Evidence:
     def beside_edges(self) -> Bools:
         """Which pixels (h, w) are beside an edge that is shown: small changes show nowhere else."""
         out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
-        return out if (out & self.open).any() else np.ones_like(out)
+        return out if (out & self.unexplained).any() else np.ones_like(out)
 
     def least_right(self, share: float = WORTH) -> float:
         """Return how many of the sampled pixels are right if a share of the unexplained ones is.
 
         With fewer a guess is not worth a closer look.
         """
-        return float((~self.was_open).sum() + share * self.was_open.sum()) * (1 - NOISE)
+        wrong = self.unexplained_sampled
+        return float((~wrong).sum() + share * wrong.sum()) * (1 - NOISE)
 
     @cached_property
     def shown(self) -> Picture:
@@ -138,13 +139,13 @@ class Evidence:
         return self.picture.at(self.sample)
 
     @cached_property
-    def was_open(self) -> Bools:
+    def unexplained_sampled(self) -> Bools:
         """Which of the n sampled pixels are unexplained, (n,)."""
-        return self.open[self.sample]
+        return self.unexplained[self.sample]
 
     def probe(self, scene: Scene, reach: float = 0.0) -> Work[Probe]:
         """Prepare to trace the sampled pixels in a scene."""
-        wanted = np.zeros(self.open.shape, bool)
+        wanted = np.zeros(self.unexplained.shape, bool)
         wanted[self.sample] = True
         made = yield from plan(scene, SOUND, reach)
         return (yield from Probe.of(made, scene.camera.region, wanted.ravel()))
@@ -154,7 +155,7 @@ class Evidence:
         rows, columns = self.sample if at is None else at
         r = scene.camera.region
         if len(rows) > DENSE:
-            wanted = np.zeros(self.open.shape, bool)
+            wanted = np.zeros(self.unexplained.shape, bool)
             wanted[rows, columns] = True
             made = yield from plan(scene, SOUND, 0.0)
             probe = yield from Probe.of(made, r, wanted.ravel())
@@ -165,7 +166,7 @@ class Evidence:
     def score(self, case: Case) -> Work[Score]:
         """Return what a case that differs in its scene, or its picture, makes of the sample."""
         r = case.scene.camera.region
-        if (r.height, r.width) != self.open.shape:
+        if (r.height, r.width) != self.unexplained.shape:
             return Score(0, 0)
         hits = yield from self.trace(case.scene)
         return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
@@ -176,8 +177,8 @@ class Evidence:
 
     def scored(self, right: Bools) -> Score:
         """Return the score of the n sampled pixels, (n,) of them right."""
-        was_open, weights = self.was_open, self._weights[self.sample]
-        settled, broken = right & was_open, ~right & ~was_open
+        wrong, weights = self.unexplained_sampled, self._weights[self.sample]
+        settled, broken = right & wrong, ~right & ~wrong
         return Score(float(weights[settled].sum()), float(weights[broken].sum()))
 
     @cached_property
@@ -207,18 +208,18 @@ class Evidence:
         All that a moved object makes wrong involves it; less of that involves what is around it.
         """
         scene = self.case.scene
-        rows, columns = (v[self.was_open] for v in self.sample)
+        rows, columns = (v[self.unexplained_sampled] for v in self.sample)
         seen = scene.instance_objects[self.frame.instance_index[rows, columns]]
         shown = self._shown_objects()
         both = np.concatenate((seen, shown[shown != seen]))
         count = np.bincount(both[both >= 0], minlength=len(scene.objects))
         order = np.argsort(-count, kind="stable")
-        least = max(LEAST, INVOLVED * int(np.max(count, initial=0)))
+        least = max(LEAST_SEEN, INVOLVED * int(np.max(count, initial=0)))
         return tuple(scene.objects[n] for n in order if count[n] >= least)[:MOST_SUSPECTS]
 
     def _shown_objects(self) -> Integers:
         """Return the objects that unexplained pixels of the sample show, NOTHING if not known."""
-        scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.was_open))
+        scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
         if shown.owner is not None and shown.owners is not None:
             first = {int(o): n for n, o in reversed(list(enumerate(shown.owners[:-1])))}

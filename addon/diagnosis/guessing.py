@@ -6,8 +6,8 @@ A guess is told under three conditions.
   be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
   for a distorted lens, is right in some places alone.
 - It settles enough pixels. A guess that changes k pixels of two colours is right in all of them by
-  chance once in 2^k times, and some hundred guesses are tried: so `LEAST` are needed, and half
-  as many again for each number that was fitted.
+  chance once in 2^k times, and some hundred guesses are tried: so `LEAST_SETTLED` are needed, and
+  half as many again for each number that was fitted.
 - It settles a share of what is unexplained (`SHARE`), or all that earlier ones left: a fault of a
   few pixels beside another one of many is looked for once that one is put right. In a picture that
   is wrong in a way that is not known, a small thing that is shown elsewhere looks like a missing
@@ -29,7 +29,7 @@ from ..tracer.progress import Work
 from .evidence import FEW, Evidence, Score
 from .faults.fault import AnyFault, Guess
 from .faults.given import given
-from .trial import Trial, tried
+from .trial import Trial, trial_of
 from .variants import carried
 
 T = TypeVar("T")
@@ -38,7 +38,7 @@ COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
 FITTED = (
     0.9  # that share for numbers that were fitted: the wrong kind is nearly right in small places
 )
-LEAST = 10  # the least pixels that a guess must settle, and half as many for each of its numbers
+LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 SHARE = 0.2  # of the unexplained pixels
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
 PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
@@ -94,20 +94,20 @@ class Guessing:
         Faults without numbers to fit are looked at before the others: where one of them does it
         all, a fit that does as well says no more.
         """
-        open_ = float(evidence.open.sum())
+        unexplained = float(evidence.unexplained.sum())
         faults = [f for f in self.faults if not (f.everywhere and evidence.of_object)]
         pool: list[tuple[float, AnyFault, Guess]] = []
         out: list[Trial] = []
         for effort in sorted({fault.effort for fault in faults}):
             some = [fault for fault in faults if fault.effort == effort]
             scored = yield from self._scored(evidence, some)
-            pool += [one for one in scored if one[0] < NEARLY * open_]
-            sure = [one for one in scored if one[0] >= NEARLY * open_]
-            out += yield from self._tried(evidence, of, sure, MOST_SURE)
-            if any(t.gain >= ENOUGH * open_ for t in _good(of, out)):
+            pool += [one for one in scored if one[0] < NEARLY * unexplained]
+            sure = [one for one in scored if one[0] >= NEARLY * unexplained]
+            out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
+            if any(t.gain >= ENOUGH * unexplained for t in _good(of, out)):
                 break
         else:
-            out += yield from self._tried(evidence, of, pool, TRIED)
+            out += yield from self._trials_of(evidence, of, pool, TRIED)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
     def _scored(
@@ -135,7 +135,7 @@ class Guessing:
         finer = replace(evidence, size=ALL_EDGES, fine=True)
         return (yield from self._limited(fault.refine(finer, guess), fault)) or guess
 
-    def _tried(
+    def _trials_of(
         self,
         evidence: Evidence,
         of: Evidence,
@@ -156,7 +156,7 @@ class Guessing:
             if fault.name in done:
                 continue
             guess = yield from self._finer(evidence, fault, guess)
-            trial = yield from self._limited(tried(evidence, fault, guess, of), fault)
+            trial = yield from self._limited(trial_of(evidence, fault, guess, of), fault)
             if trial and trial.gain > 0:
                 out.append(trial)
                 if trial.perfect:
@@ -166,19 +166,21 @@ class Guessing:
 
 def _least(evidence: Evidence) -> float:
     """Return how many pixels a guess must settle at least."""
-    return float(max(LEAST, SHARE * evidence.open.sum()))
+    return float(max(LEAST_SETTLED, SHARE * evidence.unexplained.sum()))
 
 
 def _may_be_finer(evidence: Evidence, score: Score) -> bool:
     """Return whether a rough fit may break as much as it settles, as that is very little."""
-    open_ = int(evidence.open.sum())
-    return score.gain < _least(evidence) and MAIN * open_ <= score.settled <= open_ <= FEW
+    unexplained = int(evidence.unexplained.sum())
+    return (
+        score.gain < _least(evidence) and MAIN * unexplained <= score.settled <= unexplained <= FEW
+    )
 
 
 def _score(evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Score]:
     """Return what a guess makes of the sample; all is settled by one that cannot be sampled."""
     if not fault.sampled:
-        return Score(float(evidence.open.sum()), 0.0)
+        return Score(float(evidence.unexplained.sum()), 0.0)
     try:
         case = fault.assume(evidence.case, guess)
         if case is None:
@@ -200,7 +202,7 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
     if best := _best(evidence, trials):
         return [best]
     for first in trials[:STARTS]:
-        if first.gain < MAIN * evidence.open.sum() or not first.evidence.open.any():
+        if first.gain < MAIN * evidence.unexplained.sum() or not first.evidence.unexplained.any():
             continue
         if first.broken > LOST * first.settled or first.own < COMPLETE:
             continue
@@ -212,13 +214,13 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
 def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     """Return the trials that may be told."""
-    open_ = int(evidence.open.sum())
+    unexplained = int(evidence.unexplained.sum())
     return [
         t
         for t in trials
         if t.precision >= PRECISE
-        and t.settled >= LEAST * (1 + t.cost / 2)
-        and t.settled >= SHARE * open_
+        and t.settled >= LEAST_SETTLED * (1 + t.cost / 2)
+        and t.settled >= SHARE * unexplained
         and min(t.recall, t.own) >= (FITTED if t.cost else COMPLETE)
         and not t.unseen
     ]

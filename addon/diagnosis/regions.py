@@ -87,7 +87,7 @@ def regions(
     bottom, left = int(np.min(y)), int(np.min(x))
     held = mask[bottom : int(np.max(y)) + 1, left : int(np.max(x)) + 1]
     while True:
-        label = _labels(_grown(held, near))[y - bottom, x - left]
+        label = _labels(_dilated(held, near))[y - bottom, x - left]
         unique, number = np.unique(label, return_inverse=True)
         if len(unique) <= most:
             break
@@ -110,7 +110,7 @@ def _region(y: Places, x: Places, shown: Sequence[Side]) -> Region:
     return Region(left, bottom, *size, len(y), tuple(name for name, _ in count.most_common()))
 
 
-def _grown(mask: Bools, by: int) -> Bools:
+def _dilated(mask: Bools, by: int) -> Bools:
     """Return a mask with so many more pixels on all sides of each, within its shape."""
     for _ in range(2):  # once along the rows, once along the columns
         length = mask.shape[1]

@@ -56,7 +56,7 @@ class Trial:
     @property
     def perfect(self) -> bool:
         """Whether it settles all that is unexplained, and breaks nothing."""
-        return not self.broken and not still_open(self.evidence).any()
+        return not self.broken and not left_unexplained(self.evidence).any()
 
     @property
     def recall(self) -> float:
@@ -69,7 +69,7 @@ class Trial:
         return self.settled / max(self.settled + self.broken + self.stubborn, 1)
 
 
-def tried(
+def trial_of(
     evidence: Evidence, fault: AnyFault, guess: Guess, of: Evidence | None = None
 ) -> Work[Trial | None]:
     """Try a guess on the whole picture; yields the share of the work done.
@@ -120,7 +120,7 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
     picture = as_known(case)
     right = picture.alike(case.scene, frame.instance_index, frame.color)
     right &= ~picture.other_object(frame.instance_index)
-    settled = int((right & before.open).sum())
+    settled = int((right & before.unexplained).sum())
     was = before.picture.alike(before.case.scene, before.frame.instance_index, before.frame.color)
     broken = int((~right & (was | (not mixes)) & before.judged).sum())
     # Where colours are mixed, it may be that only the checks can say so.
@@ -129,26 +129,26 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
 
 def counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
     """Return how many pixels are settled, broken, stay wrong though changed, and are touched."""
-    open_ = still_open(after)
-    settled = before.open & ~open_ & ~after.causes.unjudged
-    stubborn = before.open & open_ & _changed(before, after)
-    counted = settled, open_ & before.judged, stubborn, _grown(settled, before.open)
-    settles, breaks, stays, touches = (int(some.sum()) for some in counted)
-    return settles, breaks, stays, touches
+    unexplained = left_unexplained(after)
+    settled = before.unexplained & ~unexplained & ~after.causes.unjudged
+    stubborn = before.unexplained & unexplained & _changed(before, after)
+    broken = unexplained & before.judged
+    touched = _connected(settled, before.unexplained)
+    return int(settled.sum()), int(broken.sum()), int(stubborn.sum()), int(touched.sum())
 
 
 def _of_object(name: str, before: Evidence, after: Evidence) -> float:
     """Return the share of the unexplained pixels of an object that are settled; 1 without one."""
-    own = np.zeros(before.open.shape, bool)
+    own = np.zeros(before.unexplained.shape, bool)
     for one in (before, after):
         scene = one.case.scene
         numbers = [n for n, o in enumerate(scene.objects) if o == name]
         own |= np.isin(scene.instance_objects[one.frame.instance_index], numbers)
-    own &= before.open
-    return float((~still_open(after))[own].mean()) if own.any() else 1.0
+    own &= before.unexplained
+    return float((~left_unexplained(after))[own].mean()) if own.any() else 1.0
 
 
-def _grown(seed: Bools, within: Bools) -> Bools:
+def _connected(seed: Bools, within: Bools) -> Bools:
     """Return the regions of a picture (h, w) that have a pixel of the seed."""
     out = seed & within
     while True:
@@ -158,9 +158,9 @@ def _grown(seed: Bools, within: Bools) -> Bools:
         out = more
 
 
-def still_open(evidence: Evidence) -> Bools:
+def left_unexplained(evidence: Evidence) -> Bools:
     """Return which pixels (h, w) are unexplained, or were not looked at for their number."""
-    out = evidence.open.copy()
+    out = evidence.unexplained.copy()
     out.flat[evidence.causes.passed_over] = True
     return out
 
@@ -168,5 +168,5 @@ def still_open(evidence: Evidence) -> Bools:
 def _changed(before: Evidence, after: Evidence) -> Bools:
     """Return where other colours are traced, or the picture was changed."""
     if before.case.picture.color is not after.case.picture.color:
-        return np.ones(before.open.shape, bool)
+        return np.ones(before.unexplained.shape, bool)
     return differing(before.frame.color, after.frame.color)

@@ -59,7 +59,7 @@ def fitted(scene, color, name):
     """Return the numbers of a fault that fit a picture, with what encloses them."""
     found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
     evidence = Evidence(found.case, found.frame, found.causes)
-    if evidence.open.sum() < 25:
+    if evidence.unexplained.sum() < 25:
         return None
     fault = BY_NAME[name]
     guesses = [g for g in result_of(fault.find(evidence)) if g.low]

@@ -89,7 +89,7 @@ class Climb:
 
     def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
         """Return the best place that smaller and smaller steps reach, and how many are right."""
-        right = yield from self.right(values)
+        right = yield from self.count(values)
         moves = 0
         while step >= last and right >= 0:
             values, better = yield from self._around(values, step)
@@ -101,7 +101,7 @@ class Climb:
             right = better
         return values, right
 
-    def right(self, values: Values) -> Work[int]:
+    def count(self, values: Values) -> Work[int]:
         """Return how many pixels are right with these numbers, -1 if there can be no such."""
         if values not in self._known:
             self._known[values] = yield from self._found(values)
@@ -152,9 +152,9 @@ class Climb:
 
     def _around(self, values: Values, step: float) -> Work[tuple[Values, int]]:
         """Return the best place a step away in any direction, or this one."""
-        best, most = values, (yield from self.right(values))
+        best, most = values, (yield from self.count(values))
         for there in self._places(values, step):
-            found = yield from self.right(there)
+            found = yield from self.count(there)
             if found > most:
                 best, most = there, found
         return best, most

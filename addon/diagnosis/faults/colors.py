@@ -67,7 +67,7 @@ def _shown_color(evidence: Evidence) -> Work[list[Numbers]]:
     scene, picture = evidence.case.scene, evidence.picture
     for name in evidence.suspects:
         own = np.isin(evidence.frame.instance_index, instances_named(scene, name))
-        where = own & evidence.open
+        where = own & evidence.unexplained
         if 2 * where.sum() > own.sum() and picture.transform is None:
             color = np.median(picture.color[where], axis=0)
             if np.isfinite(color).all() and color[3] > 0:

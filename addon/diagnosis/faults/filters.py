@@ -47,7 +47,7 @@ CODINGS = (Coding(np.asarray, np.asarray, ""), SRGB)
 def _shows_mixes(evidence: Evidence) -> Work[bool]:
     """Return whether most unexplained pixels show no colour of the scene; looked at once."""
     if "mixes" not in evidence.known:
-        shown = evidence.shown.at(np.flatnonzero(evidence.was_open))
+        shown = evidence.shown.at(np.flatnonzero(evidence.unexplained_sampled))
         pure = np.zeros(len(shown.color), bool)
         colors = np.unique(evidence.case.scene.color_table, axis=0)
         for color in colors if len(colors) <= 64 else ():
@@ -81,7 +81,7 @@ def _supersampled(case: Case, guess: Mean) -> Case | None:
 
 def _mean_of_samples(colors: Colors, guess: Mean, evidence: Evidence) -> Colors:
     """Return the mean of n x n pixels, (h, w, 4), of a picture that is n times as large."""
-    n, (height, width) = guess.n, evidence.open.shape
+    n, (height, width) = guess.n, evidence.unexplained.shape
     total = np.zeros((height, width, 4))
     for y, x in product(range(n), repeat=2):
         total += guess.coding.into(colors[y::n, x::n])
@@ -96,7 +96,7 @@ def _find_samples(evidence: Evidence) -> Work[list[Mean]]:
     probe = yield from evidence.probe(scene, reach=0.75)
     for n in MEANS:
         places = [((i + 0.5) / n - 0.5) for i in range(n)]
-        totals = [np.zeros((len(evidence.was_open), 4)) for _ in CODINGS]
+        totals = [np.zeros((len(evidence.unexplained_sampled), 4)) for _ in CODINGS]
         for dx, dy in product(places, repeat=2):
             hits = yield from probe.trace(dx, dy)
             seen = shading.colors(scene, hits)
@@ -193,13 +193,13 @@ def _edges_mix(evidence: Evidence, radius: float) -> bool:
         return True  # most are mixed already
     made = evidence.picture.made_of(evidence.frame.color)
     edge = beside_edges(made, 2 * NEAR)
-    return bool(edge.any() and evidence.open[edge].mean() >= EDGES[radius >= 1])
+    return bool(edge.any() and evidence.unexplained[edge].mean() >= EDGES[radius >= 1])
 
 
 def _may_mix(evidence: Evidence, radius: float) -> bool:
     """Return whether most unexplained pixels lie between the colours that are traced around."""
     around = int(np.ceil(radius)) + 1
-    at = tuple(v[evidence.was_open] for v in evidence.sample)
+    at = tuple(v[evidence.unexplained_sampled] for v in evidence.sample)
     made = evidence.picture.made_of(evidence.frame.color)
     shown = evidence.picture.color[at][:, : made.shape[-1]]
     inside = np.ones(len(shown), bool)

@@ -62,7 +62,7 @@ def _find_overlay(evidence: Evidence) -> Work[list[Overlay]]:
     They lie over several surfaces, or two of them fill a box, as a stamp's do. They may be mixed in
     linear values, or in those of a file.
     """
-    if not _hangs_together(evidence.open):
+    if not _hangs_together(evidence.unexplained):
         return []
     found = []
     for coding in CODINGS:
@@ -72,7 +72,7 @@ def _find_overlay(evidence: Evidence) -> Work[list[Overlay]]:
 
 
 def _in_values(evidence: Evidence, coding: Coding) -> list[Overlay]:
-    rows, columns = np.nonzero(evidence.open)
+    rows, columns = np.nonzero(evidence.unexplained)
     (left, right), (bottom, top) = ((int(np.min(v)), int(np.max(v)) + 1) for v in (columns, rows))
     some = spread(np.ones(len(rows), bool), MOST_BLENDED)
     at = rows[some], columns[some]
@@ -98,7 +98,9 @@ def _in_values(evidence: Evidence, coding: Coding) -> list[Overlay]:
         return []
     numbers = (opacity, *inks[0].tolist())
     low, high = _as_likely(traced, shown, numbers)
-    made = Overlay(numbers, low, high, inks=inks, where=evidence.open, coding=coding, words=words)
+    made = Overlay(
+        numbers, low, high, inks=inks, where=evidence.unexplained, coding=coding, words=words
+    )
     return [made]
 
 

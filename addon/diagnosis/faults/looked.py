@@ -49,7 +49,7 @@ class Looked:
             return None
         those = set(own)
         seen = np.isin(frame.instance_index, own)
-        shown = _shown(evidence, own) & (evidence.open | seen)
+        shown = _shown(evidence, own) & (evidence.unexplained | seen)
         if kept:
             shown &= ~seen
         if not seen.any() or not shown.any():
@@ -57,7 +57,7 @@ class Looked:
         around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
         chosen = np.zeros_like(seen)
         around &= evidence.beside_edges if evidence.fine else True
-        for some in (around & evidence.open, around & ~evidence.open):
+        for some in (around & evidence.unexplained, around & ~evidence.unexplained):
             chosen.flat[spread(some, evidence.size // 2)] = True
         rows, columns = np.nonzero(chosen)
         at = rows, columns
@@ -68,7 +68,7 @@ class Looked:
         out = cls(evidence, name, at, picture, Hits.none(0), rest, seen, shown, depth, kept)
         behind = yield from out.traced(rest)
         out = replace(out, behind=behind)
-        return out if out._may_settle >= WORTH * evidence.open.sum() else None
+        return out if out._may_settle >= WORTH * evidence.unexplained.sum() else None
 
     def traced(self, scene: Scene) -> Work[Hits]:
         """Return what the n pixels see of a scene."""
@@ -116,10 +116,10 @@ class Looked:
     @property
     def _may_settle(self) -> float:
         """How many unexplained pixels can agree, wherever the object is: others show neither."""
-        open_, may = self.evidence.open[self.at], self._beneath | self.shown[self.at]
+        unexplained, may = self.evidence.unexplained[self.at], self._beneath | self.shown[self.at]
         around = largest_within((self.seen | self.shown).astype(np.int8), AROUND) > 0
-        share = float(np.mean(may[open_])) if open_.any() else 0.0
-        return share * int((around & self.evidence.open).sum())
+        share = float(np.mean(may[unexplained])) if unexplained.any() else 0.0
+        return share * int((around & self.evidence.unexplained).sum())
 
     @cached_property
     def _beneath(self) -> Bools:
@@ -140,8 +140,8 @@ class Looked:
     @property
     def least_right(self) -> float:
         """How many of the n pixels must be right for a guess to be worth a closer look."""
-        open_ = self.evidence.open[self.at]
-        return float((~open_).sum() + WORTH * open_.sum())
+        unexplained = self.evidence.unexplained[self.at]
+        return float((~unexplained).sum() + WORTH * unexplained.sum())
 
     @property
     def pixel(self) -> float:

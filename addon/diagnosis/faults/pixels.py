@@ -58,7 +58,7 @@ def _find_jpeg(evidence: Evidence) -> Work[list[Jpeg]]:
         return []
     shown = encoded(evidence.picture.color)[..., :3]
     traced = encoded(evidence.frame.color)[..., :3]
-    if np.median(np.abs(traced - shown).max(axis=-1)[evidence.open]) > FAINT:
+    if np.median(np.abs(traced - shown).max(axis=-1)[evidence.unexplained]) > FAINT:
         return []  # other surfaces are shown
 
     def off(quality: int, sampling: int) -> tuple[float, Jpeg]:

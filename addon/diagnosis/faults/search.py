@@ -97,11 +97,11 @@ class Search(Climb):
         # As many are right there, too, with fewer between.
         as_good = [place for place, found in beside.items() if found == right]
         places = np.array([*places, *as_good])
-        told = yield from self._told(best, places, right)
+        simple = yield from self._simple_numbers(best, places, right)
         if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
-            places = yield from self._region([np.array(told), *places], right)
-        low, high = self._box(np.array([told, *places]))  # its last digit may lie just outside
-        return Numbers(told, values_of(low), values_of(high), object=name)
+            places = yield from self._region([np.array(simple), *places], right)
+        low, high = self._box(np.array([simple, *places]))  # its last digit may lie just outside
+        return Numbers(simple, values_of(low), values_of(high), object=name)
 
     def _box(self, places: Floats) -> tuple[Floats, Floats]:
         """Return a box around places; what is nearer than the finest step is not told apart.
@@ -137,7 +137,7 @@ class Search(Climb):
             axes = self._own_axes(np.array(ends))
             first, far = CLOSE, 4.0
             mean: Floats = np.array(ends).mean(axis=0)
-            if (yield from self.right(values_of(mean))) >= right:
+            if (yield from self.count(values_of(mean))) >= right:
                 centre = mean
             if (number or len(known) > 1) and _size(ends) < GROWN * size:
                 break
@@ -177,7 +177,7 @@ class Search(Climb):
         for far in BESIDE:
             for direction in rng.normal(size=(LOTS, self.axes.shape[1])):
                 there = values_of(centre + far * self.axes @ direction)
-                out[there] = yield from self.right(there)
+                out[there] = yield from self.count(there)
         return out
 
     def _own_axes(self, ends: Floats) -> Floats:
@@ -193,11 +193,11 @@ class Search(Climb):
         """Return the last place along a direction (m,) before fewer pixels are right."""
         far = min(far, self._farthest(centre, along))
         good, bad = 0.0, min(first, far)
-        while bad < far and (yield from self.right(values_of(centre + bad * along))) >= right:
+        while bad < far and (yield from self.count(values_of(centre + bad * along))) >= right:
             good, bad = bad, 2 * bad
         while bad - good > max(first / 4, close * good):
             between = (good + bad) / 2
-            if (yield from self.right(values_of(centre + between * along))) >= right:
+            if (yield from self.count(values_of(centre + between * along))) >= right:
                 good = between
             else:
                 bad = between
@@ -209,7 +209,7 @@ class Search(Climb):
         with np.errstate(divide="ignore", invalid="ignore"):
             return max(0.0, float(np.nanmin((FARTHEST - np.sign(step) * begun) / np.abs(step))))
 
-    def _told(self, best: Values, ends: Floats, right: int) -> Work[Values]:
+    def _simple_numbers(self, best: Values, ends: Floats, right: int) -> Work[Values]:
         """Return the numbers that are told: the simplest of those that are as good.
 
         Along the widest axis of the region they may be anything: first those are tried with which
@@ -235,7 +235,7 @@ class Search(Climb):
             near = tuple(
                 round(float(v), int(d) + more) + 0.0 for v, d in zip(place, known, strict=True)
             )
-            if (yield from self.right(near)) >= right:
+            if (yield from self.count(near)) >= right:
                 return near
         return None
 

@@ -46,7 +46,7 @@ class Way(StrEnum):
 def sampled_right(evidence: Evidence, colors: Array) -> bool:
     """Return whether most of the n sampled pixels that are unexplained show (n, 4) colours."""
     right = ~evidence.shown.other_color(colors)
-    return bool(right[evidence.was_open].mean() > RIGHT and right.mean() > RIGHT)
+    return bool(right[evidence.unexplained_sampled].mean() > RIGHT and right.mean() > RIGHT)
 
 
 def at_size(case: Case, size: float) -> Case:
@@ -94,7 +94,7 @@ def _mix(have: int, size: int, way: Way) -> Mix:
 
 def _resampled(colors: Colors, guess: Resampled, evidence: Evidence) -> Colors:
     """Return a picture (h', w', 4) at the size of the evidence's."""
-    return resized(colors, evidence.open.shape, guess.way)
+    return resized(colors, evidence.unexplained.shape, guess.way)
 
 
 def resized(colors: Array, shape: tuple[int, ...], way: Way) -> Colors:

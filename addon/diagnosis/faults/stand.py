@@ -20,7 +20,7 @@ from .fitting import LOOKED_UP, Family, projected
 
 FIRST = 8.0  # pixels: the first step of looking up
 LAST = 1 / 4  # pixels: the last one
-LEAST = 1e-4  # of the largest number: what is less is told as 0
+NEGLIGIBLE = 1e-4  # of the largest number: what is less is told as 0
 # Of the unexplained pixels: three numbers settle a part of them by chance, and the right ones most.
 WORTH = 0.4
 _SIDES = ("to the right", "to the left"), ("upwards", "downwards"), ("anticlockwise", "clockwise")
@@ -126,13 +126,13 @@ def _climbed(
 
 def _in_the_world(camera: Camera, *metres: float) -> str:
     by = moved(camera, *metres).origin - camera.origin
-    x, y, z = (0.0 if abs(v) < LEAST * np.abs(by).max() else v for v in by)
+    x, y, z = (0.0 if abs(v) < NEGLIGIBLE * np.abs(by).max() else v for v in by)
     return f"({x:+.4g}, {y:+.4g}, {z:+.4g}) m"
 
 
 def _in_degrees(camera: Camera, *degrees: float) -> str:
     """Return by how much it is turned, and to which side, without what it is not."""
-    least = LEAST * max(map(abs, degrees))
+    least = NEGLIGIBLE * max(map(abs, degrees))
     return ", ".join(
         f"{abs(v):.4g} degrees {ahead if v > 0 else back}"
         for v, (ahead, back) in zip(degrees, _SIDES, strict=True)

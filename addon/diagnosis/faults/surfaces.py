@@ -36,7 +36,7 @@ class Surfaces(NamedTuple):
 def inside(evidence: Evidence) -> Bools:
     """Return the pixels (h, w) of surfaces that are away from edges and can be judged."""
     inside = ~boundary(evidence.frame) & (evidence.causes.blind < 0)
-    inside &= evidence.open | evidence.judged
+    inside &= evidence.unexplained | evidence.judged
     return inside & (evidence.frame.instance_index != NOTHING)
 
 
@@ -58,7 +58,7 @@ def _looked_at(evidence: Evidence) -> Surfaces | None:
     group = groups(np.column_stack((evidence.frame.instance_index.ravel()[some], traced)))
     first, middle = medians(shown, group)
     count = np.bincount(group)
-    wrong = np.bincount(group, evidence.open.ravel()[some]) > count / 2
+    wrong = np.bincount(group, evidence.unexplained.ravel()[some]) > count / 2
     if not wrong.any():
         return None
     levels = EIGHT_BITS * encoded(shown)[:, :3]

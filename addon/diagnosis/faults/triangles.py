@@ -126,7 +126,7 @@ def _missing_triangles(evidence: Evidence) -> Work[list[Triangles]]:
 
     Of its instances, those with the most unexplained pixels are looked at.
     """
-    seen = evidence.frame.instance_index[evidence.open]
+    seen = evidence.frame.instance_index[evidence.unexplained]
     count = np.bincount(seen[seen >= 0], minlength=len(evidence.case.scene.instance_objects))
     out = []
     for name in evidence.suspects:
@@ -142,7 +142,7 @@ def _missing_triangles(evidence: Evidence) -> Work[list[Triangles]]:
 def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Triangles | None]:
     """Drop an instance's triangles that are wrong, then those behind them that are, and so on."""
     case, frame = evidence.case, evidence.frame
-    wrong = evidence.open
+    wrong = evidence.unexplained
     mesh = case.scene.meshes[case.scene.instances[instance].mesh]
     every = np.arange(len(mesh.triangles))
     left, guess = every, None  # by their numbers in the scene as it is
@@ -156,7 +156,8 @@ def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Tri
         left = np.setdiff1d(left, more)
         gone = np.setdiff1d(every, left)
         guess = Triangles(rank, gone, object=name)
-        if len(gone) * PIXELS_PER_TRIANGLE > evidence.open.sum() or len(gone) > MOST_TRIANGLES:
+        most = min(MOST_TRIANGLES, int(evidence.unexplained.sum()) / PIXELS_PER_TRIANGLE)
+        if len(gone) > most:
             return None
         other = _without_triangles(case, guess)
         if (yield from evidence.score(other)).gain < 0:
@@ -164,7 +165,7 @@ def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Tri
         frame = Frame.empty(other.scene)
         yield from steps(other.scene, SOUND, frame)
         shown = evidence.picture.alike(other.scene, frame.instance_index, frame.color)
-        wrong = evidence.open & ~shown
+        wrong = evidence.unexplained & ~shown
     if not (frame.instance_index == instance).any():
         return None  # all that is seen of it is gone: the object is missing
     return guess

@@ -101,7 +101,7 @@ def _parting(evidence: Evidence, sign: float) -> list[Values]:
     too, as they show what is behind in the same colour.
     """
     t = sign * evidence.frame.t
-    wrong = np.sort(t[np.isfinite(t) & evidence.open])
+    wrong = np.sort(t[np.isfinite(t) & evidence.unexplained])
     found = {float(wrong[int(share * len(wrong))]) for share in FEW if len(wrong)}
     return [(abs(nearest) * (1 - sign * BESIDE),) for nearest in sorted(found)]
 
