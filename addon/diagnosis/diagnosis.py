@@ -1,4 +1,4 @@
-"""The diagnosis: what accounts for the unexplained pixels, with numbers that one can act on.
+"""The diagnosis: what accounts for the unexplained pixels, with numbers to act on.
 
 Each known fault is put into the scene that is traced, or taken out of the picture. It is told only
 if the picture then agrees: `guessing.py` says under which conditions. It never changes the verdict.
@@ -66,7 +66,7 @@ class Told:
         return self.settled == self.unexplained and not self.broken
 
     def enclosed(self) -> str:
-        """Say between what its numbers lie; empty if none was fitted, or each is one number.
+        """Say the ranges of its numbers; empty if none was fitted, or none has a range.
 
         Where pixels are left, or lost, something else is wrong, too, or the fit ended beside the
         best place: then nothing is said of how far the numbers may be off.
@@ -79,7 +79,7 @@ class Told:
         return ", ".join(f"{name} from {low} to {high}" for name, low, high in wide if low != high)
 
     def lines(self) -> Iterator[str]:
-        """Yield it as a person reads it."""
+        """Yield it as lines of text."""
         yield f"diagnosis: {'or, as likely, ' if self.alternative else ''}{self.sentence}"
         yield f"           {self.effect()}"
         if enclosed := self.enclosed():
@@ -125,7 +125,7 @@ class Diagnosis:
     regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
 
     def lines(self) -> list[str]:
-        """Return what a person wants to know first."""
+        """Return it as lines of text, the most important first."""
         out = [line for told in self.told for line in told.lines()]
         if not out:
             which = "fault that was tried" if self.untried else "known fault"
@@ -159,7 +159,7 @@ class Diagnosis:
 
 
 def _framed(region: Region) -> str:
-    """Say where a region is, and what is in it; the pixel counts from the picture's lower left."""
+    """Say where a region is, from the picture's lower left, and what is in it."""
     shows = ", ".join(f"'{name}'" for name in region.objects[:3]) or "nothing of the scene"
     place = f"{region.width} x {region.height} px from ({region.left}, {region.bottom})"
     return f"{region.pixels:,} px in {place}: {shows}"
@@ -217,13 +217,13 @@ def _regions(evidence: Evidence) -> tuple[Region, ...]:
 
 
 def spoken(name: str) -> str:
-    """Return a fault's name in words: its sentence, where that is the same for every guess."""
+    """Return a fault's name in words: its sentence, if that is the same for every guess."""
     same = (f.sentence for f in FAULTS if f.name == name and "{" not in f.sentence)
     return next(same, name.replace("_", " "))
 
 
 def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
-    """Return what is told of a fault and of those that do as well, few of them at length."""
+    """Return what is told of a fault and of its alternatives, few of them at length."""
     first, *others = trials
     many = 0 if first.fault.sums_up else ALTERNATIVES
     also = tuple(t.fault.name for t in others[many:])
@@ -232,7 +232,7 @@ def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
 
 
 def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
-    """Return what is told of a trial, in the pixels of the evidence before it."""
+    """Return what is told of a trial, counted in the evidence before it."""
     after = trial.evidence
     settled, broken, _, _ = counted(evidence, after)
     color = after.frame.color.copy()

@@ -1,4 +1,4 @@
-"""What a diagnosis has to go by: unexplained pixels, and what a guess makes of a sample of them.
+"""The evidence of a diagnosis: unexplained pixels, and the score of a guess on a sample of them.
 
 A guess is tried on a sample first: half of it unexplained pixels, half pixels that agree, most of
 these at edges, where a wrong camera shows first. A guess that is right makes the former agree, and
@@ -44,7 +44,7 @@ NEAR = 0.02  # of a channel: how far a color may lie from the one that is looked
 
 
 class Score(NamedTuple):
-    """What a guess makes of the sampled pixels, scaled to the whole picture."""
+    """How a guess does in the sampled pixels, scaled to the whole picture."""
 
     settled: float  # unexplained pixels that agree with it
     broken: float  # pixels that agreed and do not with it
@@ -87,7 +87,7 @@ class Evidence:
 
     @cached_property
     def few(self) -> Evidence:
-        """The same with a smaller sample."""
+        """The same evidence with a smaller sample."""
         return replace(self, size=min(FEW, self.size))
 
     @cached_property
@@ -97,13 +97,13 @@ class Evidence:
         return rows, columns
 
     def only(self, some: Places) -> Evidence:
-        """Return the same with some of the sampled pixels alone, by their numbers."""
+        """Return the evidence restricted to some of the sampled pixels, by index."""
         rows, columns = self.sample
         return replace(self, chosen=(rows[some], columns[some]))
 
     @cached_property
     def _weights(self) -> Floats:
-        """How many pixels each sampled pixel stands for, 0 for the others, (h, w)."""
+        """The weight of each sampled pixel, in pixels; 0 for all others, (h, w)."""
         out = np.zeros(self.unexplained.shape)
         if self.fine:
             out.flat[spread(self.unexplained & self.beside_edges, self.size)] = 1
@@ -121,14 +121,14 @@ class Evidence:
 
     @cached_property
     def beside_edges(self) -> Bools:
-        """Which pixels (h, w) are beside an edge that is shown: small changes show nowhere else."""
+        """Which pixels (h, w) lie beside an edge of the picture, where small changes show."""
         out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
         return out if (out & self.unexplained).any() else np.ones_like(out)
 
     def least_right(self, share: float = WORTH) -> float:
-        """Return how many of the sampled pixels are right if a share of the unexplained ones is.
+        """Return how many sampled pixels must agree for a guess to be worth a closer look.
 
-        With fewer a guess is not worth a closer look.
+        It is the count if a share of the unexplained ones agrees, and nearly all others.
         """
         wrong = self.unexplained_sampled
         return float((~wrong).sum() + share * wrong.sum()) * (1 - NOISE)
@@ -144,14 +144,14 @@ class Evidence:
         return self.unexplained[self.sample]
 
     def probe(self, scene: Scene, reach: float = 0.0) -> Work[Probe]:
-        """Prepare to trace the sampled pixels in a scene."""
+        """Return a probe that traces the sampled pixels in a scene."""
         wanted = np.zeros(self.unexplained.shape, bool)
         wanted[self.sample] = True
         made = yield from plan(scene, SOUND, reach)
         return (yield from Probe.of(made, scene.camera.region, wanted.ravel()))
 
     def trace(self, scene: Scene, at: tuple[Places, Places] | None = None) -> Work[Hits]:
-        """Return what pixels see of a scene: those in n rows and columns, or the sampled ones."""
+        """Trace a scene in n pixels, by row and column, or in the sampled ones."""
         rows, columns = self.sample if at is None else at
         r = scene.camera.region
         if len(rows) > DENSE:
@@ -164,7 +164,7 @@ class Evidence:
         return (yield from self.trees.trace(scene, rays))
 
     def score(self, case: Case) -> Work[Score]:
-        """Return what a case that differs in its scene, or its picture, makes of the sample."""
+        """Score a case, with another scene or picture, on the sample."""
         r = case.scene.camera.region
         if (r.height, r.width) != self.unexplained.shape:
             return Score(0, 0)
@@ -172,11 +172,11 @@ class Evidence:
         return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
-        """Return which of the n sampled pixels show the n hits of a scene like the case's."""
+        """Return which of the n sampled pixels agree with the n hits of a scene, (n,)."""
         return ~self.shown.differ(scene, hits)
 
     def scored(self, right: Bools) -> Score:
-        """Return the score of the n sampled pixels, (n,) of them right."""
+        """Score the sample, given which of its n pixels agree."""
         wrong, weights = self.unexplained_sampled, self._weights[self.sample]
         settled, broken = right & wrong, ~right & ~wrong
         return Score(float(weights[settled].sum()), float(weights[broken].sum()))
@@ -190,7 +190,7 @@ class Evidence:
 
     @cached_property
     def points(self) -> Floats:
-        """What is traced in the n sampled pixels, (3, n) world space; the background far away.
+        """The points traced in the n sampled pixels, (3, n) world space; the background far away.
 
         Parallel rays that are turned would lose it: of them it is as far as the farthest surface.
         """
@@ -218,7 +218,7 @@ class Evidence:
         return tuple(scene.objects[n] for n in order if count[n] >= least)[:MOST_SUSPECTS]
 
     def _shown_objects(self) -> Integers:
-        """Return the objects that unexplained pixels of the sample show, NOTHING if not known."""
+        """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
         scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
         if shown.owner is not None and shown.owners is not None:
@@ -237,7 +237,7 @@ class Evidence:
 
 
 def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) -> Floats:
-    """Return where a camera sees what another one in its place sees at film positions, (2, n)."""
+    """Map film positions of another camera in the same place to a camera's own film, (2, n)."""
     rays = camera_rays(other, px, py)
     # A panorama's or perspective's rays pass one point: any point of them will do.
     x, y, _ = film_of(camera, rays.at(np.ones(rays.count)))
@@ -245,7 +245,7 @@ def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) ->
 
 
 def spread(where: Bools, most: int) -> Places:
-    """Return some of the pixels of a mask, by their index, chosen at random."""
+    """Return at most so many pixels of a mask, by flat index, chosen at random."""
     found = np.flatnonzero(where)
     if len(found) <= most:
         return found
@@ -254,7 +254,7 @@ def spread(where: Bools, most: int) -> Places:
 
 
 def shows_colors(picture: Picture, colors: Array) -> Bools:
-    """Return which pixels (h, w) of a picture show about one of some traced colours (m, 4)."""
+    """Return which pixels (h, w) of a picture have nearly one of m traced colours, (m, 4)."""
     out = np.zeros(picture.color.shape[:2], bool)
     for made in picture.made_of(np.unique(colors, axis=0)):  # a thousand trees have one
         for rows in blocks(out.shape):

@@ -71,11 +71,11 @@ class Guessing:
 
     @property
     def ended(self) -> bool:
-        """Whether it took so many steps that no other guess is made."""
+        """Whether the limit of steps is reached."""
         return self.steps >= self.limit
 
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
-        """Run work that looks for a fault; None if the steps come to an end before it does."""
+        """Run work that looks for a fault; None if the limit of steps is reached first."""
         while not self.ended:
             try:
                 share = next(work)
@@ -113,7 +113,7 @@ class Guessing:
     def _scored(
         self, evidence: Evidence, faults: Sequence[AnyFault]
     ) -> Work[list[tuple[float, AnyFault, Guess]]]:
-        """Return the guesses of some faults that gain on the sample, each with its gain."""
+        """Score the guesses of some faults on the sample; return those that gain enough."""
         out = []
         for fault in faults:
             found = yield from self._limited(fault.find(evidence), fault)
@@ -129,7 +129,7 @@ class Guessing:
         return out
 
     def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
-        """Return a guess that was fitted roughly with its numbers fitted finely."""
+        """Refine the numbers of a roughly fitted guess."""
         if not (fault.refine and guess.low and guess.low == guess.high):
             return guess
         finer = replace(evidence, size=ALL_EDGES, fine=True)
@@ -142,7 +142,7 @@ class Guessing:
         scored: list[tuple[float, AnyFault, Guess]],
         most: int,
     ) -> Work[list[Trial]]:
-        """Return the trials of the guesses with the most gain; what was fitted is fitted finely.
+        """Try the guesses with the most gain, refining fitted ones.
 
         Vague ones come last: their trials take long, and what is exact is told in their place.
         """
@@ -165,12 +165,12 @@ class Guessing:
 
 
 def _least(evidence: Evidence) -> float:
-    """Return how many pixels a guess must settle at least."""
+    """Return how many pixels a guess must settle, at least."""
     return float(max(LEAST_SETTLED, SHARE * evidence.unexplained.sum()))
 
 
 def _may_be_finer(evidence: Evidence, score: Score) -> bool:
-    """Return whether a rough fit may break as much as it settles, as that is very little."""
+    """Return whether so few pixels are at stake that a rough fit may break as many."""
     unexplained = int(evidence.unexplained.sum())
     return (
         score.gain < _least(evidence) and MAIN * unexplained <= score.settled <= unexplained <= FEW
@@ -178,7 +178,7 @@ def _may_be_finer(evidence: Evidence, score: Score) -> bool:
 
 
 def _score(evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Score]:
-    """Return what a guess makes of the sample; all is settled by one that cannot be sampled."""
+    """Score a guess on the sample; one that cannot be sampled is taken to settle all."""
     if not fault.sampled:
         return Score(float(evidence.unexplained.sum()), 0.0)
     try:
@@ -194,7 +194,7 @@ def _score(evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Score]:
 
 
 def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]]:
-    """Return the next fault, with those that do as well; or two that account for it together.
+    """Return the next fault with its alternatives, or two faults that account for more together.
 
     Of two, the first one alone must lose few pixels, and with the second one more must agree.
     """
@@ -227,7 +227,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 
 
 def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
-    """Return those of the most gain with the fewest numbers, one of each fault.
+    """Return the trials with the most gain and the fewest numbers, one of each fault.
 
     What sums up the others comes first. An object's fault is not told where the picture or the view
     as a whole may have one.

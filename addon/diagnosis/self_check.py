@@ -1,4 +1,4 @@
-"""The self-check: whether this comparison would have found a fault in this very scene.
+"""The self-check: whether the comparison would have found a fault in this very scene.
 
 Known faults are made, one at a time, and explained as the comparison itself was: by the same
 function, method, alternatives and curves. A fault is caught if it leaves pixels unexplained, or if
@@ -119,7 +119,7 @@ def _checked(
 
 
 def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
-    """Return which pixels (h, w) the fault changes: their colour, or the object that they show."""
+    """Return which pixels (h, w) the fault changes, in colour or in the object shown."""
     right, picture = case.picture, wrong.picture
     if traced is frame:  # it is the picture's
         changed = differing(right.color, picture.color)
@@ -131,7 +131,7 @@ def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
 
 
 def table(rows: Sequence[FaultRow]) -> list[str]:
-    """Return the self-check as a person reads it, a fault a line."""
+    """Return the self-check as lines of text, a fault a line."""
     if not rows:
         return []
     caught = sum(r.result == "caught" for r in rows)

@@ -24,7 +24,7 @@ LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """What a guess makes of the whole picture."""
+    """How a guess does in the whole picture."""
 
     fault: AnyFault
     guess: Guess
@@ -101,7 +101,7 @@ def trial_of(
 
 
 def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
-    """Return what is traced of another case: of the same scene, the frame that there is."""
+    """Trace another case; if it has the same scene, return the frame there is."""
     if other.scene is case.scene:
         return frame
     traced = Frame.empty(other.scene)
@@ -110,7 +110,7 @@ def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
 
 
 def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
-    """Return whether most pixels that are to be settled have the right colour at once.
+    """Return whether a guess settles enough pixels by colour alone to be looked at further.
 
     The others are left to the checks, which take long where whole pictures differ.
     """
@@ -128,7 +128,7 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
 
 
 def counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
-    """Return how many pixels are settled, broken, stay wrong though changed, and are touched."""
+    """Count the pixels that are settled, broken, stubborn and touched: see :class:`Trial`."""
     unexplained = left_unexplained(after)
     settled = before.unexplained & ~unexplained & ~after.causes.unjudged
     stubborn = before.unexplained & unexplained & _changed(before, after)
@@ -138,7 +138,7 @@ def counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
 
 
 def _of_object(name: str, before: Evidence, after: Evidence) -> float:
-    """Return the share of the unexplained pixels of an object that are settled; 1 without one."""
+    """Return the settled share of an object's unexplained pixels; 1 without an object."""
     own = np.zeros(before.unexplained.shape, bool)
     for one in (before, after):
         scene = one.case.scene
@@ -149,7 +149,7 @@ def _of_object(name: str, before: Evidence, after: Evidence) -> float:
 
 
 def _connected(seed: Bools, within: Bools) -> Bools:
-    """Return the regions of a picture (h, w) that have a pixel of the seed."""
+    """Return the 8-connected components of a mask (h, w) that contain a seed (flood fill)."""
     out = seed & within
     while True:
         more = (largest_within(out.astype(np.int8), 1) > 0) & within
@@ -159,14 +159,14 @@ def _connected(seed: Bools, within: Bools) -> Bools:
 
 
 def left_unexplained(evidence: Evidence) -> Bools:
-    """Return which pixels (h, w) are unexplained, or were not looked at for their number."""
+    """Return which pixels (h, w) are unexplained, or passed over as there were too many."""
     out = evidence.unexplained.copy()
     out.flat[evidence.causes.passed_over] = True
     return out
 
 
 def _changed(before: Evidence, after: Evidence) -> Bools:
-    """Return where other colours are traced, or the picture was changed."""
+    """Return which pixels (h, w) are traced in other colours; all, if the picture changed."""
     if before.case.picture.color is not after.case.picture.color:
         return np.ones(before.unexplained.shape, bool)
     return differing(before.frame.color, after.frame.color)

@@ -1,4 +1,4 @@
-"""The faults that are known: the self-check makes them, and the diagnosis looks for them."""
+"""The known faults: the self-check makes them, and the diagnosis looks for them."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ _Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 
 
 def _axes(change: Callable[[Array], Array], at_origin: bool = False) -> Callable[[Camera], Camera]:
-    """Return what changes the axes of the camera, the columns of a (3, 3) matrix."""
+    """Return a function that changes the axes of a camera, the columns of a (3, 3) matrix."""
 
     def changed(camera: Camera) -> Camera:
         matrix = camera.world_from_camera.copy()
@@ -45,12 +45,12 @@ def _axes(change: Callable[[Array], Array], at_origin: bool = False) -> Callable
 
 
 def _matrix(change: Callable[[Array], Array]) -> Callable[[Camera], Camera]:
-    """Return what changes the whole matrix of the camera, (4, 4)."""
+    """Return a function that changes the matrix of a camera, (4, 4)."""
     return lambda camera: replace(camera, world_from_camera=change(camera.world_from_camera))
 
 
 def _turned_world(rotation: Array, position: bool) -> Callable[[Camera], Camera]:
-    """Return what turns the camera as if the world had other axes; its position, too, or not."""
+    """Return a function that rotates a camera about the world's origin, or in its place."""
 
     def change(matrix: Array) -> Array:
         turned = rotation @ matrix
@@ -62,7 +62,7 @@ def _turned_world(rotation: Array, position: bool) -> Callable[[Camera], Camera]
 
 
 def flipped(camera: Camera, axis: int) -> Camera:
-    """Return the camera that sees the picture mirrored along an axis, 0 or 1."""
+    """Mirror the view of a camera along axis 0 or 1 of the picture."""
     w = camera.window
     signs = np.ones(3)
     signs[axis] = -1
@@ -74,7 +74,7 @@ def flipped(camera: Camera, axis: int) -> Camera:
 
 
 def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:
-    """Pick a move that moves what is seen halfway deep by a pixel."""
+    """Pick a sideways move of one pixel at the median depth."""
     t = frame.t[np.isfinite(frame.t)]
     if not len(t):
         return None

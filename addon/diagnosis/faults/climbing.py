@@ -1,4 +1,4 @@
-"""Climbs to the numbers of a fault with which the most pixels are right.
+"""Hill climbing: the numbers of a fault with which the most pixels agree.
 
 The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no slope to
 follow. Looked at are the places around the best ones, ever nearer.
@@ -35,7 +35,7 @@ FEWER = 1 / 2  # of the pixels that are looked at: with more left, all of these 
 
 @dataclass(frozen=True, eq=False)
 class _Near:
-    """What is known between the places around one."""
+    """Pixels known to stay as they are in the neighbourhood of a place."""
 
     axes: Floats  # what a unit along each adds to the numbers, (m, k)
     units: Floats  # units of numbers, (k, m)
@@ -46,7 +46,7 @@ class _Near:
     right: Right  # of these
 
     def holds(self, values: Values) -> bool:
-        """Return whether numbers lie between the places: on the axes, and on two at once."""
+        """Return whether numbers lie within a step of the centre, along two axes at most."""
         offset = np.subtract(values, self.centre)
         along = self.units @ offset
         beside = np.abs(offset - self.axes @ along)  # where no axis leads
@@ -56,7 +56,7 @@ class _Near:
 
 
 class Climb:
-    """Places among the numbers of one fault; each is looked at once.
+    """Hill climbing among the numbers of one fault; each place is evaluated once.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class Climb:
         self._wanted = np.inf  # with as many, numbers are as good as the best: all are looked at
 
     def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
-        """Return the best place that smaller and smaller steps reach, and how many are right."""
+        """Climb with ever smaller steps; return the best place and its count of right pixels."""
         right = yield from self.count(values)
         moves = 0
         while step >= last and right >= 0:
@@ -102,7 +102,7 @@ class Climb:
         return values, right
 
     def count(self, values: Values) -> Work[int]:
-        """Return how many pixels are right with these numbers, -1 if there can be no such."""
+        """Return how many pixels are right with these numbers; -1 if they are impossible."""
         if values not in self._known:
             self._known[values] = yield from self._found(values)
         found = self._known[values]
@@ -111,7 +111,7 @@ class Climb:
         return count
 
     def _found(self, values: Values) -> Work[Bools | None]:
-        """Return which pixels are right, None if there can be no such numbers.
+        """Return which pixels are right with these numbers; None if they are impossible.
 
         Beyond what is known, the pixels that change first say whether all others together can make
         it a place that is wanted: if not, they are not looked at, and taken to be right.
@@ -129,7 +129,7 @@ class Climb:
         return (yield from self._right(values))
 
     def _narrow(self, values: Values, step: float) -> None:
-        """From now on, look only at pixels that change a step away from numbers, or nearer."""
+        """Restrict further evaluations to the pixels that change within a step of some numbers."""
         own = self._known[values]
         if self._among is None or step > SMALL or own is None:
             return
@@ -146,12 +146,12 @@ class Climb:
             self._near.append(_Near(self.axes, units, centre, step, own, changing, right))
 
     def _places(self, values: Values, step: float) -> list[Values]:
-        """Return the places a step away in any direction."""
+        """Return the neighbours of a place, a step away."""
         directions = _directions(self.axes.shape[1], WIDE if step >= COARSE else NARROW)
         return [values_of(values + step * self.axes @ direction) for direction in directions]
 
     def _around(self, values: Values, step: float) -> Work[tuple[Values, int]]:
-        """Return the best place a step away in any direction, or this one."""
+        """Return the best of a place and its neighbours, and its count."""
         best, most = values, (yield from self.count(values))
         for there in self._places(values, step):
             found = yield from self.count(there)
@@ -166,7 +166,7 @@ def values_of(numbers: Floats) -> Values:
 
 
 def _directions(count: int, far: Mapping[int, int]) -> Array:
-    """Return the steps with which is looked around: (m, count), also some that follow no axis."""
+    """Return the directions to the neighbours, (m, count): along axes, and some askew."""
     steps = far.get(count, 1)
     around = np.array(np.meshgrid(*[range(-steps, steps + 1)] * count)).reshape(count, -1).T
     around = around[around.any(axis=1)]

@@ -31,7 +31,7 @@ from .suspects import seen_instances
 
 
 def _of_one_color(case: Case, frame: Frame) -> list[int]:
-    """Return the instances that are seen without colours of their corners."""
+    """Return the visible instances without corner colours, those with the most pixels first."""
     scene = case.scene
     meshes = {n: scene.meshes[scene.instances[n].mesh] for n in seen_instances(case, frame)}
     return [n for n, mesh in meshes.items() if mesh.corner_colors is None]
@@ -47,7 +47,7 @@ def _in_color(instance: Instance, *rgb: float) -> Instance:
 
 
 def _recolored(change: Callable[[Array], Array]) -> Pick:
-    """Return what picks the largest object of one colour that changes, and that colour changed."""
+    """Return a function that picks the largest object with one colour, and changes that."""
 
     def pick(case: Case, frame: Frame) -> Numbers | None:
         for number in _of_one_color(case, frame):
@@ -62,7 +62,7 @@ def _recolored(change: Callable[[Array], Array]) -> Pick:
 
 
 def _shown_color(evidence: Evidence) -> Work[list[Numbers]]:
-    """Return, for each object that is suspected, the colour in which most of it is shown."""
+    """Guess, for each suspect, the median colour in which it is shown."""
     out = []
     scene, picture = evidence.case.scene, evidence.picture
     for name in evidence.suspects:
@@ -78,7 +78,7 @@ def _shown_color(evidence: Evidence) -> Work[list[Numbers]]:
 
 
 def _colors_of(scene: Scene, names: Iterable[str]) -> list[Array]:
-    """Return the colours of each of some objects' first instance, of those that have one."""
+    """Return the colours of the first instance of each object that has any."""
     found = (instances_named(scene, name)[:1] for name in names)
     return [scene.instances[n].colors for some in found for n in some]
 
@@ -110,7 +110,7 @@ def _two_colors(case: Case, frame: Frame) -> Pair | None:
 
 @at_once
 def _first_suspects(evidence: Evidence) -> list[Pair]:
-    """Return the two objects that are suspected first, if they have colours."""
+    """Guess the first two suspects, if they have colours."""
     names = evidence.suspects[:2]
     if len(_colors_of(evidence.case.scene, names)) < 2:
         return []

@@ -27,30 +27,30 @@ Values = tuple[float, ...]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Guess:
-    """Which fault it is exactly. This one has no more to say than whose it is."""
+    """Which fault it is exactly. The base record says whose it is, and no more."""
 
     object: str = ""  # that has it; empty where it is the whole scene's, or the picture's
     words: str = ""  # what else the sentence says
 
     @property
     def values(self) -> Values:
-        """The numbers that the sentence tells, as the fault's `numbers` name them."""
+        """The numbers in the sentence, in the order of the fault's `numbers`."""
         return ()
 
     @property
     def low(self) -> Values:
-        """The least of each with which as many pixels agree; empty if none was fitted."""
+        """The least of each with which as many pixels agree; empty if not fitted."""
         return ()
 
     @property
     def high(self) -> Values:
-        """The largest of each."""
+        """The largest of each, likewise."""
         return ()
 
 
 @dataclass(frozen=True, eq=False)
 class Numbers(Guess):
-    """A fault of some size, as its numbers say."""
+    """A fault of some size."""
 
     values: Values = ()
     low: Values = ()
@@ -59,14 +59,14 @@ class Numbers(Guess):
 
 @dataclass(frozen=True, eq=False)
 class Option(Guess):
-    """One of the ways in which the fault is made, by its number."""
+    """One of several ways to make the fault, by index."""
 
     number: int
 
 
 @dataclass(frozen=True, eq=False)
 class Pair(Guess):
-    """Two objects that have something of each other's."""
+    """Two objects that are exchanged in something."""
 
     first: str
     second: str
@@ -90,17 +90,17 @@ class Example:
 
 
 def with_values(*values: float) -> Pick:
-    """Return what picks the same numbers in every scene."""
+    """Return a function that picks the same numbers in every scene."""
     return lambda case, frame: Numbers(values)
 
 
 def with_option(number: int) -> Pick:
-    """Return what picks the same way in every scene."""
+    """Return a function that picks the same option in every scene."""
     return lambda case, frame: Option(number)
 
 
 def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
-    """Return a function as work that is done in no step."""
+    """Turn a plain function into work without steps."""
 
     def work(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
         yield from ()
@@ -110,7 +110,7 @@ def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
 
 
 def always(*guesses: G) -> Find[G]:
-    """Return what finds the same guesses in every picture."""
+    """Return a function that finds the same guesses in every picture."""
     return at_once(lambda evidence: [*guesses])
 
 
@@ -167,7 +167,7 @@ class Fault(Generic[G]):
 
 
 def unchanged(case: Case, guess: Guess) -> Case:
-    """Return the case: the fault is made after it is traced."""
+    """Return the case itself: the fault lies in what is done after tracing."""
     return case
 
 
@@ -175,7 +175,7 @@ AnyFault = Fault[Any]  # with guesses of its own kind
 
 
 def of_camera(change: Callable[..., Camera | None]) -> Make[Guess]:
-    """Return what changes the camera of all scenes, by a function of it and the numbers."""
+    """Return a function that changes the camera, by a function of it and the guess' numbers."""
 
     def assume(case: Case, guess: Guess) -> Case | None:
         camera = change(case.scene.camera, *guess.values)
@@ -185,24 +185,24 @@ def of_camera(change: Callable[..., Camera | None]) -> Make[Guess]:
 
 
 def one_of(*makes: Make[Guess]) -> Make[Option]:
-    """Return what makes a fault in one of several ways."""
+    """Return a function that makes a fault in the way that the option says."""
     return lambda case, guess: makes[guess.number](case, guess)
 
 
 def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Make[Option], Find[Option]]:
-    """Return what makes a fault of the camera in several ways, and what finds which."""
+    """Return how a camera's fault is made in several ways, and a function that guesses each."""
     return one_of(*map(of_camera, changes)), always(*map(Option, range(len(changes))))
 
 
 def instances_named(scene: Scene, name: str) -> list[int]:
-    """Return the instances of the meshes of an object, or of all objects without a name."""
+    """Return the instances of an object's meshes; those of all objects if the name is empty."""
     return [n for n, i in enumerate(scene.instances) if name in ("", scene.objects[i.object])]
 
 
 def of_object(change: Callable[..., Instance | None]) -> Make[Guess]:
-    """Return what changes an object's instances in all scenes, by a function of each.
+    """Return a function that changes an object's instances, by a function of each.
 
-    It takes the instance and the guess' numbers; without a name, all objects are changed.
+    It takes an instance and the guess' numbers. A guess of no object changes all objects.
     """
 
     def assume(case: Case, guess: Guess) -> Case | None:
@@ -218,14 +218,14 @@ def of_object(change: Callable[..., Instance | None]) -> Make[Guess]:
 
 
 def with_instances(scene: Scene, name: str, change: Callable[[Instance], Instance | None]) -> Scene:
-    """Return a scene with an object's instances changed; those that become None are left out."""
+    """Return a scene with an object's instances changed, or left out where that gives None."""
     own = set(instances_named(scene, name))
     made = (change(i) if n in own else i for n, i in enumerate(scene.instances))
     return replace(scene, instances=tuple(i for i in made if i is not None))
 
 
 def of_meshes(change: Callable[..., Mesh]) -> Make[Guess]:
-    """Return what changes an object's meshes in all scenes, as :func:`of_object` its instances."""
+    """Return a function that changes an object's meshes, as :func:`of_object` its instances."""
 
     def assume(case: Case, guess: Guess) -> Case:
         return case.with_scenes(

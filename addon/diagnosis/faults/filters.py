@@ -1,4 +1,4 @@
-"""Faults that mix a pixel with what is near it: several samples, a mean of pixels, any filter.
+"""Faults that mix neighbouring colours: several samples a pixel, a mean of pixels, any filter.
 
 A mean is what it is: it is traced, and held against the picture. Of any other filter no more is
 known than how far it reaches, so it is told if no mean does as well.
@@ -33,7 +33,7 @@ MOST_SAMPLES = 1 << 24  # of a picture that is traced with several a pixel
 
 
 class Coding(NamedTuple):
-    """In which values colours (..., 4) are mixed."""
+    """The values in which colours (..., 4) are mixed."""
 
     into: Callable[[Array], Array]  # from linear, premultiplied ones
     back: Callable[[Array], Array]
@@ -45,7 +45,7 @@ CODINGS = (Coding(np.asarray, np.asarray, ""), SRGB)
 
 
 def _shows_mixes(evidence: Evidence) -> Work[bool]:
-    """Return whether most unexplained pixels show no colour of the scene; looked at once."""
+    """Return whether most unexplained pixels show no colour of the scene (cached)."""
     if "mixes" not in evidence.known:
         shown = evidence.shown.at(np.flatnonzero(evidence.unexplained_sampled))
         pure = np.zeros(len(shown.color), bool)
@@ -69,7 +69,7 @@ class Mean(Guess):
 
     @property
     def values(self) -> Values:
-        """How many there are each way."""
+        """The count along each axis."""
         return (float(self.n),)
 
 
@@ -89,7 +89,7 @@ def _mean_of_samples(colors: Colors, guess: Mean, evidence: Evidence) -> Colors:
 
 
 def _find_samples(evidence: Evidence) -> Work[list[Mean]]:
-    """Return how many samples a pixel shows the mean of, by the sampled pixels."""
+    """Guess of how many samples each pixel is the mean, by the sampled pixels."""
     if not (yield from _shows_mixes(evidence)):
         return []
     scene, out = evidence.case.scene, []
@@ -112,7 +112,7 @@ def _find_samples(evidence: Evidence) -> Work[list[Mean]]:
 
 
 def _means(colors: Array, n: int) -> Array:
-    """Return the mean of n x n pixels of (h, w, 4), those at the border repeated beyond it.
+    """Return the n x n box filter of a picture (h, w, 4), with its border repeated.
 
     The result is (h + n - 1, w + n - 1, 4): its first is that of the lower left pixel and what
     lies below and left of it.
@@ -126,7 +126,7 @@ def _means(colors: Array, n: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class MeanFrom(Mean):
-    """A mean of pixels that begin so many to the left, and below."""
+    """A mean of pixels, of which the first is x to the left and y below."""
 
     x: int
     y: int
@@ -141,7 +141,7 @@ def _averaged(colors: Colors, guess: MeanFrom, evidence: Evidence | None = None)
 
 
 def _find_mean(evidence: Evidence) -> Work[list[MeanFrom]]:
-    """Return of how many pixels each is the mean, and where these begin, by the sampled pixels."""
+    """Guess the size and place of a box filter, by the sampled pixels."""
     if not (yield from _shows_mixes(evidence)):
         return []
     rows, columns = evidence.sample
@@ -163,7 +163,7 @@ def _made_of_means(case: Case, guess: MeanFrom) -> Case:
 
 
 def _two_pixels(case: Case, frame: Frame) -> MeanFrom | None:
-    """Pick a mean of 2 x 2 pixels; nothing where a filter's mixes are excused."""
+    """Pick a mean of 2 x 2 pixels; None where a filter's mixes are excused."""
     return None if case.picture.filter_radius else MeanFrom(2, CODINGS[0], 0, 0)
 
 
@@ -175,7 +175,7 @@ def _filtered(case: Case, guess: Numbers) -> Case:
 
 
 def _find_filter(evidence: Evidence) -> Work[list[Numbers]]:
-    """Return the radii beyond the picture's own, if most unexplained pixels mix colours."""
+    """Guess radii beyond the picture's own, if most unexplained pixels mix colours."""
     if not (yield from _shows_mixes(evidence)):
         return []
     larger = [r for r in RADII if r > evidence.picture.filter_radius]
@@ -184,7 +184,7 @@ def _find_filter(evidence: Evidence) -> Work[list[Numbers]]:
 
 
 def _edges_mix(evidence: Evidence, radius: float) -> bool:
-    """Return whether enough of the edges are unexplained for all of the picture to be filtered.
+    """Return whether enough edges are unexplained for the whole picture to be filtered.
 
     Of the pixels beside an edge, two wide, a filter of half a pixel mixes about half (44 % in the
     test bed), one of a pixel nearly all. A picture that is blurred in a part has crisp edges, too.
@@ -197,7 +197,7 @@ def _edges_mix(evidence: Evidence, radius: float) -> bool:
 
 
 def _may_mix(evidence: Evidence, radius: float) -> bool:
-    """Return whether most unexplained pixels lie between the colours that are traced around."""
+    """Return whether most unexplained pixels lie between the colours traced near them."""
     around = int(np.ceil(radius)) + 1
     at = tuple(v[evidence.unexplained_sampled] for v in evidence.sample)
     made = evidence.picture.made_of(evidence.frame.color)

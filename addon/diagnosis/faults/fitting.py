@@ -38,20 +38,20 @@ BETTER = 0.03  # by how much larger the share of right pixels must be for a star
 
 
 class Shown(Protocol):
-    """What some sampled pixels show."""
+    """Some sampled pixels of the picture."""
 
     def only(self, some: Places) -> Shown:
-        """Return the same of some of the pixels, by their numbers."""
+        """Return some of the pixels, by index."""
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
-        """Return which of the pixels show the hits of a scene, (n,)."""
+        """Return which of the n pixels agree with the hits of a scene, (n,)."""
 
 
 LookUp = Callable[[Evidence, Camera], float]  # the share of some pixels that is right
 
 
 def looked_up(evidence: Evidence, camera: Camera) -> float:
-    """Return the share of the sample that is right if the traced picture is seen by a camera.
+    """Return the share of the sample that agrees with the traced picture as a camera sees it.
 
     The camera stands where the case's does; what lies outside the traced picture is not known.
     """
@@ -71,9 +71,9 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
 
 
 def projected(evidence: Evidence, camera: Camera) -> float:
-    """Return the share of what is traced in the sample that a camera anywhere sees as shown.
+    """Return the share of traced points that agree with the picture where a camera projects them.
 
-    What another surface hides is taken to be seen.
+    Occlusion is ignored.
     """
     few = _few(evidence)
     at = tuple(v[few] for v in evidence.sample)
@@ -97,7 +97,7 @@ def _few(evidence: Evidence) -> slice:
 
 
 def _inside(camera: Camera, film: Floats) -> tuple[Bools, tuple[Floats, Floats]]:
-    """Return which film positions (2, n) lie in the picture, and the rows and columns of these."""
+    """Return which film positions (2, n) lie in the picture, and the pixels of these."""
     r = camera.region
     column, row = np.floor(film[0] - r.x0), np.floor(film[1] - r.y0)
     inside = (column >= 0) & (column < r.width) & (row >= 0) & (row < r.height)
@@ -122,14 +122,14 @@ class Family:
 
 
 class Fit(NamedTuple):
-    """How the numbers of a fault are found in a picture."""
+    """How the numbers of a fault are fitted to a picture."""
 
     find: Find[Numbers]
     refine: Refine[Numbers]  # finely
 
 
 def fitting(family: Family) -> Fit:
-    """Return what finds the numbers of a family."""
+    """Return how the numbers of a family are fitted."""
 
     def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         fine = bool(guess.low)
@@ -166,7 +166,7 @@ def fitting(family: Family) -> Fit:
 
 
 def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
-    """Return the numbers for which looking up gives the most right pixels, the best first."""
+    """Return the starts with the most right pixels by look-up, the best first."""
     camera = evidence.case.scene.camera
     axes = np.asarray(family.axes(evidence))
     units = np.linalg.pinv(np.diag(axes) if axes.ndim == 1 else axes)
@@ -231,7 +231,7 @@ class Traced:
         self.probes: list[Probe] = []  # the last one first
 
     def among(self, some: Places) -> Right:
-        """Return what says so of some of the pixels, by their numbers."""
+        """Return the same function of some of the pixels, by index."""
         evidence, shown = self.evidence.only(some), self.shown.only(some)
         traced = Traced(evidence, self.camera, self.reach, shown)
         traced.guide = self.guide  # the few pixels may all show what is far away

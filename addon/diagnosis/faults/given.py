@@ -1,4 +1,4 @@
-"""Faults that only Blender can make: it knows what the scene that was exported came from.
+"""Faults that only Blender can make, as it knows what the exported scene came from.
 
 The scenes with them come as the case's variants; see `blender/variants.py`.
 """
@@ -16,18 +16,18 @@ from .fault import AnyFault, Example, Fault, Guess, always
 
 @dataclass(frozen=True, eq=False)
 class Given(Guess):
-    """A scene that was made with the fault."""
+    """A scene made with the fault."""
 
     scene: Scene
 
 
 def in_its_scene(case: Case, guess: Given) -> Case:
-    """Return the case with the scene that the guess has."""
+    """Return the case with the guess' scene."""
     return case.in_scene(guess.scene)
 
 
 def given(evidence: Evidence, fault: AnyFault) -> list[tuple[AnyFault, Given]]:
-    """Return a fault as the case's variants have it, whatever else it is made by."""
+    """Return a fault with a guess for each of the case's variants that have it."""
     in_scenes = replace(fault, assume=in_its_scene)
     return [
         (in_scenes, Given(v.scene, object=v.object, words=v.words))

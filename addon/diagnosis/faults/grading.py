@@ -36,7 +36,7 @@ SLACKS = (-1.0, 0.0, 1.0)  # levels of 8 bits that grading may be off; below 0: 
 
 @dataclass(frozen=True, eq=False)
 class Graded(Numbers):
-    """By which curve colours were graded, with how much slack."""
+    """A grading of the colours, and its tolerance."""
 
     of: Transform = LINEAR
     slack: float = 0.0  # levels, of `SLACKS`
@@ -46,7 +46,7 @@ Grading = Iterator[tuple[Values, Transform, str]]  # the numbers, what it is, in
 
 
 def _ends(picture: Picture, shown: Colors) -> tuple[Floats, Floats]:
-    """Return between which straight linear values a picture's rounding leaves (k, 4) colours."""
+    """Return the straight linear values between which rounding leaves colours (k, 4)."""
     _, allowed = difference(shown, shown, False, picture.levels, picture.sums, picture.dither)
     middle = straight(shown)
     if not picture.levels:
@@ -59,7 +59,7 @@ def _ends(picture: Picture, shown: Colors) -> tuple[Floats, Floats]:
 
 
 def _most_covered(low: Floats, high: Floats) -> float:
-    """Return a number that lies in most of n intervals: the middle of where most of them meet."""
+    """Return the middle of where the most of n intervals overlap."""
     places = np.concatenate((low, high))
     step = np.repeat((1, -1), len(low))
     order = np.lexsort((-step, places))
@@ -69,7 +69,7 @@ def _most_covered(low: Floats, high: Floats) -> float:
 
 
 def _balances(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
-    """Yield a factor for each channel, if each has several values to tell it by."""
+    """Yield a factor for each channel, if each has several values to fit it to."""
     for into, back, words in SPACES:
         a, low, high = (into(v) for v in (traced, *ends))
         factors = []
@@ -86,7 +86,7 @@ def _balances(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
 
 
 def _saturations(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
-    """Yield by how much colours lie farther from their grey than they should, or nearer."""
+    """Yield the factor of the colours' distance from their grey, if it is not 1."""
     for into, back, space in SPACES:
         a, low, high = (into(v) for v in (traced, *ends))
         for name, weights in GREYS.items():
@@ -103,7 +103,7 @@ def _saturations(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
 
 
 def _find_graded(gradings: Callable[[Floats, tuple[Floats, Floats]], Grading]) -> Find[Graded]:
-    """Return what finds a grading by which nearly all surfaces agree: the one with least slack.
+    """Return a function that finds the grading with the least slack for nearly all surfaces.
 
     A picture that was graded in 8 bits is rounded twice, or cut off: a level is allowed then,
     unless that alone makes the surfaces agree.

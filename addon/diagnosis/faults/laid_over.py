@@ -35,7 +35,7 @@ MOST_BLENDED = 4096  # pixels that are looked at
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Overlay(Numbers):
-    """What is laid over a picture: its opacity, and its first colour, are told."""
+    """What is laid over a picture; its numbers are the opacity and the first colour."""
 
     inks: Floats  # (k, 3) its colours
     where: Bools  # (h, w)
@@ -43,7 +43,7 @@ class Overlay(Numbers):
 
 
 def _laid_over(colors: Colors, guess: Overlay, evidence: Evidence) -> Colors:
-    """Return a picture with colours laid over it, each pixel the one that is nearest."""
+    """Lay the colours over a picture, in each pixel the one that comes nearest."""
     opacity, where = guess.values[0], guess.where
     into, back, _ = guess.coding
     shown = into(evidence.picture.color[where].astype(np.float64))
@@ -57,7 +57,7 @@ def _laid_over(colors: Colors, guess: Overlay, evidence: Evidence) -> Colors:
 
 
 def _find_overlay(evidence: Evidence) -> Work[list[Overlay]]:
-    """Return an opacity and few colours that make the unexplained pixels.
+    """Guess an opacity and few colours that make the unexplained pixels.
 
     They lie over several surfaces, or two of them fill a box, as a stamp's do. They may be mixed in
     linear values, or in those of a file.
@@ -105,7 +105,7 @@ def _in_values(evidence: Evidence, coding: Coding) -> list[Overlay]:
 
 
 def _as_likely(traced: Floats, shown: Floats, values: Values) -> tuple[Values, Values]:
-    """Return from where to where the opacity and the first colour may lie.
+    """Return the range of the opacity and of the first colour.
 
     Over one surface, an ink is as likely to be a stronger one that covers less.
     """
@@ -121,7 +121,7 @@ def _as_likely(traced: Floats, shown: Floats, values: Values) -> tuple[Values, V
 
 
 def _hangs_together(where: Bools) -> bool:
-    """Return whether most of some pixels (h, w) have two beside them, as what is drawn has."""
+    """Return whether most pixels of a mask (h, w) have two neighbours, as in a drawing."""
     beside = -where.astype(np.int32)
     padded = np.pad(where, 1).astype(np.int32)
     for y in range(3):
@@ -133,10 +133,10 @@ def _hangs_together(where: Bools) -> bool:
 def _inks(
     traced: Floats, shown: Floats, under: Index, opacity: float, surfaces: int = LEAST_SURFACES
 ) -> tuple[float, float, Floats]:
-    """Return the share of n pixels that few colours explain if laid over with an opacity.
+    """Return the share of n pixels that few inks explain if laid over with an opacity.
 
-    And the opacity, fitted, and the colours (k, 3). Each of them must lie over some surfaces, of
-    which `under` (n,) are the numbers.
+    Also return the fitted opacity, and the inks (k, 3). Each must cover several surfaces; `under`
+    (n,) numbers the surface beneath each pixel.
     """
     ink = (shown - (1 - opacity) * traced) / opacity
     step = np.rint(INK_STEPS * np.clip(ink, -FAR, FAR))
@@ -170,7 +170,7 @@ def _inks(
 
 
 def _of_scene(evidence: Evidence, inks: Floats) -> Bools:
-    """Return which of k colours (k, 3) an object of the scene may have, (k,)."""
+    """Return which of k colours (k, 3) occur in the scene, (k,)."""
     table = straight(evidence.case.scene.color_table)[:, None]
     return (np.abs(table - inks).max(axis=-1) <= NEAR).any(axis=0)
 

@@ -41,7 +41,7 @@ UNITS = (0.01, 100.0, 0.001, 1000.0, 0.1, 10.0, 0.0254, 1 / 0.0254, 0.3048, 1 / 
 
 
 def _a_pixel_to_the_right(case: Case, frame: Frame) -> Numbers | None:
-    """Pick the object that is seen in the most pixels, moved by a pixel of them."""
+    """Pick the object visible in the most pixels, moved by a pixel to the right."""
     seen = seen_instances(case, frame)
     if not seen:
         return None
@@ -53,9 +53,9 @@ def _a_pixel_to_the_right(case: Case, frame: Frame) -> Numbers | None:
 
 
 def _with_axes(change: Callable[[Floats, Floats], Floats]) -> Make[Guess]:
-    """Return what changes the axes of an object's instances, by a function of them.
+    """Return a function that changes the axes of an object's instances, by a function of them.
 
-    It takes them in length 1, (3, 3) columns, and their lengths, (3,).
+    It takes unit axes, (3, 3) columns, and their lengths, (3,).
     """
 
     def changed(instance: Instance) -> Instance:
@@ -87,7 +87,7 @@ def _nearest_rotation(axes: Floats) -> Floats:
 
 @at_once
 def _sheared(evidence: Evidence) -> list[Option]:
-    """Return the suspects whose axes are not at right angles, in both ways."""
+    """Guess both options for each suspect whose axes are not orthogonal."""
     scene = evidence.case.scene
     found = []
     for name in evidence.suspects:
@@ -118,13 +118,13 @@ def _exchanged(case: Case, guess: Pair) -> Case:
 
 @at_once
 def _pairs(evidence: Evidence) -> list[Pair]:
-    """Return each two of the suspects that have one instance."""
+    """Guess each pair of suspects with one instance."""
     names = _single(evidence.case.scene, evidence.suspects)
     return [Pair(a, b, words=f"'{a}' and '{b}'") for a, b in combinations(names, 2)]
 
 
 def _two(case: Case, frame: Frame) -> Pair | None:
-    """Pick the two that are seen in the most pixels, of those with one instance."""
+    """Pick the two objects visible in the most pixels, of those with one instance."""
     scene = case.scene
     seen = (scene.objects[scene.instances[n].object] for n in seen_instances(case, frame))
     names = _single(scene, dict.fromkeys(seen))[:2]
@@ -136,7 +136,7 @@ def _single(scene: Scene, names: Iterable[str]) -> list[str]:
 
 
 def _units_or_fitted(evidence: Evidence) -> Work[list[Numbers]]:
-    """Return factors between units for each object that is suspected, and one that is fitted."""
+    """Guess factors between units, and a fitted one, for each suspect."""
     fitted = yield from SCALED.find(evidence)
     return [*(yield from suspects(*UNITS)(evidence)), *fitted]
 

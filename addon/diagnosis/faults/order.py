@@ -1,4 +1,4 @@
-"""Faults of what is drawn over what, and of the whole picture's orientation."""
+"""Faults of the order in which surfaces are drawn, and of the picture's orientation."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ BLOCK = 1 << 14  # pixels that are drawn together
 
 
 def _quarter_turned(case: Case, quarters: int) -> Case | None:
-    """Return the case with its picture turned anticlockwise; None if it is not the same size."""
+    """Rotate the picture of a case anticlockwise; None if its size would change."""
     height, width = case.picture.color.shape[:2]
     if quarters % 2 and height != width:
         return None
@@ -39,7 +39,7 @@ _QUARTERS = {1: "90 degrees anticlockwise", 2: "180 degrees", 3: "90 degrees clo
 
 
 def _middles(scene: Scene) -> Floats:
-    """Return the middles of the instances' boxes, (k, 3)."""
+    """Return the centres of the instances' bounding boxes, (k, 3)."""
     out = []
     for instance in scene.instances:
         v = scene.meshes[instance.mesh].vertices
@@ -49,7 +49,7 @@ def _middles(scene: Scene) -> Floats:
 
 
 def _nearness(scene: Scene) -> Floats:
-    """Return how near the instances' origins are, then their middles, their depths, (3, k)."""
+    """Return the nearness of the instances' origins, of their centres, and in depth, (3, k)."""
     origins = np.array([i.world_from_object[:3, 3] for i in scene.instances]).reshape(-1, 3)
     eye = scene.camera.origin
     origins, middles = origins - eye, _middles(scene) - eye
@@ -69,7 +69,7 @@ ORDERS = (
 
 
 def _ranks(scene: Scene, order: int) -> Floats | None:
-    """Return the rank of each instance, then of planes and nothing, which are drawn first."""
+    """Return the rank of each instance, then of planes and background, which are drawn first."""
     if order == 0:
         return None
     listed = np.arange(len(scene.instances), dtype=np.float64)
@@ -78,7 +78,7 @@ def _ranks(scene: Scene, order: int) -> Floats | None:
 
 
 def _seen(probe: Probe, ranks: Sequence[Floats | None]) -> Work[list[Colors]]:
-    """Return the colours of n pixels for some orders; without ranks, the farthest surface's."""
+    """Return the colours of n pixels in some orders; without ranks, of the farthest surface."""
     scene = probe.scene
     hits = yield from probe.trace()
     colors = colors_of(scene, hits)
@@ -99,7 +99,7 @@ def _seen(probe: Probe, ranks: Sequence[Floats | None]) -> Work[list[Colors]]:
 
 
 def _orders(evidence: Evidence) -> Work[list[Option]]:
-    """Return the orders with which unexplained pixels of the sample have the right colours."""
+    """Guess the orders with which unexplained pixels of the sample have the right colours."""
     scene = evidence.case.scene
     probe = yield from evidence.probe(scene)
     every = yield from _seen(probe, [_ranks(scene, n) for n in range(len(ORDERS))])
@@ -113,7 +113,7 @@ def _orders(evidence: Evidence) -> Work[list[Option]]:
 
 
 def _drawn(traced: Colors, guess: Option, evidence: Evidence) -> Colors:
-    """Return the whole picture in another order, (h, w, 4)."""
+    """Draw the whole picture in another order, (h, w, 4)."""
     scene = evidence.case.scene
     region, ranks = scene.camera.region, _ranks(scene, guess.number)
     made = result_of(plan(scene, SOUND, 0.0))

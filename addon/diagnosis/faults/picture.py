@@ -1,4 +1,4 @@
-"""Faults of the picture, after all is rendered: the order of its rows, its colours, its file."""
+"""Faults of the finished picture: the order of its rows, its colours, its file."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .tones import CURVE_FAULTS
 
 
 def _upside_down(case: Case, guess: Guess) -> Case:
-    """Return the case with its picture's rows in the opposite order."""
+    """Flip the picture of a case upside down."""
     return replace(case, picture=case.picture.at(np.arange(len(case.picture.color))[::-1]))
 
 
@@ -34,14 +34,14 @@ _ROLLS = (
 
 @dataclass(frozen=True, eq=False)
 class Rolled(Guess):
-    """A picture whose columns and rows are so many too far right, and too high."""
+    """A picture with its columns x too far right, and its rows y too high."""
 
     x: int
     y: int
 
 
 def _rolled(way: int) -> Make[Rolled]:
-    """Return what moves the picture's columns and rows; what leaves it comes in opposite."""
+    """Return a function that rolls the picture's columns and rows, or rolls them back."""
 
     def make(case: Case, guess: Rolled) -> Case:
         height, width = case.picture.color.shape[:2]

@@ -37,7 +37,7 @@ class Jpeg(Guess):
 
 
 def _jpeg(colors: Colors, guess: Jpeg, evidence: Evidence) -> Colors:
-    """Return a picture (h, w, 4) after it was stored as a JPEG, its alpha in another file."""
+    """Store a picture (h, w, 4) as a JPEG and read it again; its alpha is the given picture's."""
     from PIL import Image
 
     levels = np.rint(255 * encoded(colors)[::-1, :, :3]).astype(np.uint8)
@@ -49,7 +49,7 @@ def _jpeg(colors: Colors, guess: Jpeg, evidence: Evidence) -> Colors:
 
 
 def _find_jpeg(evidence: Evidence) -> Work[list[Jpeg]]:
-    """Return the quality whose errors are the nearest to the picture's, if it has 8 bits."""
+    """Guess the quality whose errors come nearest to the picture's, if it has 8 bits."""
     try:
         import PIL.Image  # noqa: F401
     except ImportError:  # an extra, which Blender lacks: nobody stores a reference as a JPEG
@@ -81,7 +81,7 @@ def _find_jpeg(evidence: Evidence) -> Work[list[Jpeg]]:
 
 
 def _as_jpeg(case: Case, guess: Jpeg) -> Case:
-    """Allow for what two writers of a JPEG may differ by."""
+    """Allow the tolerance between two writers of JPEGs."""
     picture = replace(case.picture, levels=255, dither=JPEG_LEVELS, opaque=True)
     return replace(case, picture=picture)
 

@@ -28,21 +28,21 @@ TRIED = 2  # objects that are fitted
 
 
 def moved(instance: Instance, x: float, y: float, z: float) -> Instance:
-    """Return an instance at another place, (x, y, z) m away in world space."""
+    """Translate an instance by (x, y, z) m in world space."""
     matrix = instance.world_from_object.copy()
     matrix[:3, 3] += (x, y, z)
     return replace(instance, world_from_object=matrix)
 
 
 def scaled(instance: Instance, factor: float) -> Instance:
-    """Return an instance as many times as large, about its object's origin."""
+    """Scale an instance about its object's origin."""
     matrix = instance.world_from_object.copy()
     matrix[:3, :3] *= factor
     return replace(instance, world_from_object=matrix)
 
 
 def copied(case: Case, guess: Numbers) -> Case:
-    """Return the case with an object's instances a second time, somewhere else."""
+    """Return the case with a translated copy of an object's instances."""
 
     def twice(scene: Scene) -> Scene:
         own = instances_named(scene, guess.object)
@@ -53,7 +53,7 @@ def copied(case: Case, guess: Numbers) -> Case:
 
 
 def displaced(mesh: Mesh, distance: float) -> Mesh:
-    """Displace vertices along the mean of their triangles' normals, each weighed by its area."""
+    """Displace vertices along their area-weighted normals."""
     vertices = mesh.vertices.astype(np.float64)
     a, b, c = (vertices[mesh.triangles[:, k]].T for k in range(3))
     normals = np.zeros_like(vertices)
@@ -65,7 +65,7 @@ def displaced(mesh: Mesh, distance: float) -> Mesh:
 
 @dataclass(frozen=True)
 class Pose:
-    """What is fitted of an object: a change of it in a few numbers."""
+    """A change of an object in a few numbers, to be fitted."""
 
     change: Callable[[Scene, Values], Scene | None]  # of a scene with the object alone
     axes: Floats  # the numbers that a unit, about a pixel, of each stands for, (m, k) columns
@@ -76,7 +76,7 @@ class Pose:
 
 
 def _placed(looked: Looked) -> Pose:
-    """Return the object at another place; its numbers are along the world's axes."""
+    """Return the translation of an object, along the world's axes."""
     axes, start, unseen = looked.axes(), looked.start(), None
     if looked.evidence.case.scene.camera.projection is ORTHOGRAPHIC:  # nearer looks the same
         axes, start, unseen = axes[:, :2], start[:2], axes[:, 2:]
@@ -93,14 +93,14 @@ def _placed(looked: Looked) -> Pose:
 
 
 def _moved_against(camera: Camera, *by: float) -> Camera:
-    """Return a camera that sees the world as if it were moved by (x, y, z) m."""
+    """Translate a camera against (x, y, z) m, as if the world moved by it."""
     matrix = camera.world_from_camera.copy()
     matrix[:3, 3] -= by
     return replace(camera, world_from_camera=matrix)
 
 
 def _sized(looked: Looked) -> Pose:
-    """Return the object as many times as large."""
+    """Return the scale of an object."""
     unit = 2 / max(looked.width, 2.0)
 
     def change(scene: Scene, values: Values) -> Scene | None:
@@ -112,7 +112,7 @@ def _sized(looked: Looked) -> Pose:
 
 
 def _inflated(looked: Looked) -> Pose:
-    """Return the object with a displaced surface."""
+    """Return the displacement of an object's surface."""
     scene = looked.evidence.case.scene
     matrix = scene.instances[instances_named(scene, looked.name)[0]].world_from_object
     size = float(np.cbrt(abs(np.linalg.det(matrix[:3, :3])))) or 1.0
@@ -126,10 +126,7 @@ def _inflated(looked: Looked) -> Pose:
 
 
 def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
-    """Return what finds how objects that are suspected are shown.
-
-    `kept` says that each object stays at its place, too.
-    """
+    """Return how a pose of each suspect is fitted; with `kept`, of a second copy of it."""
 
     def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         looked = yield from Looked.of(evidence, guess.object, kept)

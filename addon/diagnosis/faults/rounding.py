@@ -23,12 +23,12 @@ _SEED = 27
 
 
 def _of_levels(case: Case, guess: Numbers) -> Case:
-    """Allow for some levels of 8 bits."""
+    """Allow a tolerance of some levels of 8 bits."""
     return replace(case, picture=with_slack(case.picture, guess.values[0]))
 
 
 def _is_noisy(found: Surfaces | None) -> bool:
-    """Return whether nearly all surfaces are, of those that can be measured."""
+    """Return whether nearly all measured surfaces are noisy."""
     if found is None or not found.measured.any():
         return False
     return bool(found.noisy[found.measured].mean() > FITTED_SHARE)
@@ -36,7 +36,7 @@ def _is_noisy(found: Surfaces | None) -> bool:
 
 @at_once
 def _find_rounding(evidence: Evidence) -> list[Numbers]:
-    """Return how many levels rounding is off, if each surface is shown in one colour."""
+    """Guess the levels by which rounding is off, if each surface is shown in one colour."""
     if _is_noisy(surfaces(evidence)):
         return []
     more = Numbers((1.0,), words=", and up to one level more off")
@@ -45,7 +45,7 @@ def _find_rounding(evidence: Evidence) -> list[Numbers]:
 
 @at_once
 def _find_noise(evidence: Evidence) -> list[Numbers]:
-    """Return how many levels of noise there are, if all surfaces have it."""
+    """Guess the levels of noise, if all surfaces have it."""
     if not _is_noisy(surfaces(evidence)):
         return []
     return [Numbers((float(n),), words="s" if n > 1 else "") for n in range(1, MOST_NOISE + 1)]

@@ -1,4 +1,4 @@
-"""Finds the numbers of a fault with which the most pixels of a sample are right, and their range.
+"""Finds the numbers of a fault with which the most sampled pixels are right, and their range.
 
 The best place is climbed to (`climbing.py`). Then the region around it is enclosed in which as many
 are right: all numbers in it agree as well.
@@ -69,7 +69,7 @@ class Search(Climb):
     def guess(
         self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
     ) -> Work[Numbers | None]:
-        """Return the best numbers near some starts, with what encloses them; steps are in units.
+        """Return the best numbers near some starts, with their range; steps are in units.
 
         What will be fitted more finely need not be enclosed yet.
         """
@@ -104,7 +104,7 @@ class Search(Climb):
         return Numbers(simple, values_of(low), values_of(high), object=name)
 
     def _box(self, places: Floats) -> tuple[Floats, Floats]:
-        """Return a box around places; what is nearer than the finest step is not told apart.
+        """Return a box around places, wider by the finest step.
 
         A region of several numbers has corners beyond the places.
         """
@@ -114,7 +114,7 @@ class Search(Climb):
         return low - beyond, high + beyond
 
     def _region(self, known: list[Floats], right: int) -> Work[Floats]:
-        """Return the ends of the region around a place in which as many are right, (n, m).
+        """Return points on the border of the region in which as many pixels are right, (n, m).
 
         The place is the first of those that are known to lie in it. The region is convex, as far as
         edges are straight and move in proportion to the numbers, and may be long and thin in any
@@ -147,7 +147,7 @@ class Search(Climb):
         return np.array(ends)
 
     def _push(self, ends: list[Floats], right: int) -> Work[None]:
-        """Add places of a region that lie farther along each number than those that are known.
+        """Extend the known places of a region farther along each number.
 
         The region may be a needle askew to all axes. So the differences of known places lead on,
         from a little inside the farthest one.
@@ -171,7 +171,7 @@ class Search(Climb):
                 return
 
     def _beside(self, centre: Floats) -> Work[dict[Values, int]]:
-        """Return how many are right at some places near a region, drawn by lot."""
+        """Count the right pixels at some random places near a region."""
         rng = np.random.default_rng(SEED)
         out = {}
         for far in BESIDE:
@@ -181,7 +181,7 @@ class Search(Climb):
         return out
 
     def _own_axes(self, ends: Floats) -> Floats:
-        """Return half the region of some places (n, m) along each of its own axes, (m, k)."""
+        """Return the half axes of the region of some places (n, m), as columns (m, k)."""
         units = (ends - ends.mean(axis=0)) @ self._units.T
         _, _, own = np.linalg.svd(units, full_matrices=False)
         reach = np.maximum(np.abs(units @ own.T).max(axis=0), self.finest / 4)
@@ -190,7 +190,7 @@ class Search(Climb):
     def _end(
         self, centre: Floats, along: Floats, right: int, first: float, far: float, close: float
     ) -> Work[Floats]:
-        """Return the last place along a direction (m,) before fewer pixels are right."""
+        """Return the last place in a direction (m,) with as many right pixels (bisection)."""
         far = min(far, self._farthest(centre, along))
         good, bad = 0.0, min(first, far)
         while bad < far and (yield from self.count(values_of(centre + bad * along))) >= right:
@@ -204,13 +204,13 @@ class Search(Climb):
         return centre + good * along
 
     def _farthest(self, centre: Floats, along: Floats) -> float:
-        """Return how often a direction (m,) can be gone until a number is as far as is looked."""
+        """Return how many times a direction (m,) fits before a number is too far away."""
         begun, step = self._units @ (centre - self._middle), self._units @ along
         with np.errstate(divide="ignore", invalid="ignore"):
             return max(0.0, float(np.nanmin((FARTHEST - np.sign(step) * begun) / np.abs(step))))
 
     def _simple_numbers(self, best: Values, ends: Floats, right: int) -> Work[Values]:
-        """Return the numbers that are told: the simplest of those that are as good.
+        """Return the simplest of the numbers that are as good.
 
         Along the widest axis of the region they may be anything: first those are tried with which
         another number is 0, then the least ones.
@@ -229,7 +229,7 @@ class Search(Climb):
         return min(found, key=lambda v: (-v.count(0.0), np.linalg.norm(v)), default=best)
 
     def _rounded(self, place: Floats, width: Floats, right: int) -> Work[Values | None]:
-        """Return numbers with as few digits as they need, None if they are not as good."""
+        """Round numbers to as few digits as are as good; None if none are."""
         known = np.clip(np.floor(-np.log10(np.maximum(width, 1e-12))), -6, 12)
         for more in DIGITS:
             near = tuple(
@@ -241,12 +241,12 @@ class Search(Climb):
 
 
 def _size(ends: Sequence[Floats]) -> float:
-    """Return how large the box around some places is, by the sum of its sides."""
+    """Return the sum of the sides of the box around some places."""
     return float(np.ptp(ends, axis=0).sum())
 
 
 def _simplest(start: Floats, along: Floats) -> Iterator[Floats]:
-    """Yield places on a line (m,): where a number is 0, that nearest to 0, the start."""
+    """Yield the simplest places on a line: where a number is 0, nearest to 0, the start."""
     for k in np.flatnonzero(np.abs(along) > 1e-3 * np.linalg.norm(along)):
         yield start - start[k] / along[k] * along
     if along.any():
@@ -255,7 +255,7 @@ def _simplest(start: Floats, along: Floats) -> Iterator[Floats]:
 
 
 def _spokes(count: int) -> Floats:
-    """Return the directions in which a region's ends are looked for, (n, count) unit vectors."""
+    """Return the directions in which a region's border is looked for, (n, count) unit vectors."""
     if count == 1:
         return np.eye(1)
     askew = np.random.default_rng(SEED).normal(size=(count, count))

@@ -36,7 +36,7 @@ RIGHT = 0.8  # of the sampled pixels that are unexplained, for a guess to be tri
 
 
 class Way(StrEnum):
-    """How pixels of another size are made, in words."""
+    """How a picture is resampled, in words."""
 
     NEAREST = "by the nearest pixel"
     LINEAR = "linearly"
@@ -44,13 +44,13 @@ class Way(StrEnum):
 
 
 def sampled_right(evidence: Evidence, colors: Array) -> bool:
-    """Return whether most of the n sampled pixels that are unexplained show (n, 4) colours."""
+    """Return whether most sampled pixels, and most unexplained ones, show colours (n, 4)."""
     right = ~evidence.shown.other_color(colors)
     return bool(right[evidence.unexplained_sampled].mean() > RIGHT and right.mean() > RIGHT)
 
 
 def at_size(case: Case, size: float) -> Case:
-    """Return the case with what the picture shows, be it a border's, traced at another size."""
+    """Return the case with its region, which may be a border's, traced at another size."""
     camera = case.scene.camera
     r, w = camera.region, camera.window
     across, up = (w.right - w.left) / camera.width, (w.top - w.bottom) / camera.height
@@ -68,7 +68,7 @@ def at_size(case: Case, size: float) -> Case:
 
 @dataclass(frozen=True, eq=False)
 class Resampled(Guess):
-    """A picture of another size, in sizes of the one that is compared."""
+    """A picture rendered at another size, relative to the one compared."""
 
     size: float
     way: Way
@@ -83,7 +83,7 @@ Mix = list[tuple[Places, Floats]]  # for each of n places, which pixels are take
 
 
 def _mix(have: int, size: int, way: Way) -> Mix:
-    """Return, for each pixel of a row of `size`, the pixels of a row of `have` that make it."""
+    """Return the weights with which a row of `have` pixels is resampled to `size` pixels."""
     place = (np.arange(size) + 0.5) * have / size - 0.5
     if way is Way.NEAREST:
         return [(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), np.ones(size))]
@@ -93,12 +93,12 @@ def _mix(have: int, size: int, way: Way) -> Mix:
 
 
 def _resampled(colors: Colors, guess: Resampled, evidence: Evidence) -> Colors:
-    """Return a picture (h', w', 4) at the size of the evidence's."""
+    """Resample a picture (h', w', 4) to the size of the evidence's."""
     return resized(colors, evidence.unexplained.shape, guess.way)
 
 
 def resized(colors: Array, shape: tuple[int, ...], way: Way) -> Colors:
-    """Return a picture (h', w', 4) at another size (h, w), in one of the ways."""
+    """Resample a picture (h', w', 4) to another size (h, w)."""
     out: Array = np.asarray(colors, np.float64)
     for axis, size in enumerate(shape):
         shares = [-1 if n == axis else 1 for n in range(out.ndim)]
@@ -108,7 +108,7 @@ def resized(colors: Array, shape: tuple[int, ...], way: Way) -> Colors:
 
 
 def _find_size(evidence: Evidence) -> Work[list[Resampled]]:
-    """Return the sizes and ways that are right in most sampled pixels, where rays are traced.
+    """Guess the sizes and ways that are right in most sampled pixels, by tracing these.
 
     A pixel of the other size is a ray beside the centre of one of the sampled pixels.
     """
@@ -137,7 +137,7 @@ def _find_size(evidence: Evidence) -> Work[list[Resampled]]:
 
 @dataclass(frozen=True, eq=False)
 class Shrunk(Guess):
-    """A picture shrunk to an n-th of its size, and enlarged again."""
+    """A picture shrunk by a factor of n, and enlarged again."""
 
     n: int
     down: Way
@@ -146,12 +146,12 @@ class Shrunk(Guess):
 
     @property
     def values(self) -> Values:
-        """The part of its size."""
+        """The factor."""
         return (float(self.n),)
 
 
 def _shrunk(colors: Array, guess: Shrunk) -> Array:
-    """Return one pixel of each n x n of (h, w, 4), counted from above, or their mean."""
+    """Shrink a picture (h, w, 4) by n, from its top row: one pixel of each n x n, or the mean."""
     n = guess.n
     out = np.asarray(colors, np.float64)[::-1]
     if guess.down is Way.NEAREST:
@@ -169,7 +169,7 @@ def _shrunk(colors: Array, guess: Shrunk) -> Array:
 
 
 def _enlarged(colors: Colors, guess: Shrunk, evidence: Evidence) -> Colors:
-    """Return a picture (h, w, 4) shrunk and enlarged again."""
+    """Shrink a picture (h, w, 4) and enlarge it again."""
     small, n = _shrunk(colors, guess), guess.n
     height, width = colors.shape[:2]
     if guess.up is Way.NEAREST:  # counted from above: a last block may be smaller
@@ -179,7 +179,7 @@ def _enlarged(colors: Colors, guess: Shrunk, evidence: Evidence) -> Colors:
 
 
 def _find_shrunk(evidence: Evidence) -> Work[list[Shrunk]]:
-    """Return to what size the picture was shrunk, and how, by the sampled pixels."""
+    """Guess by what factor the picture was shrunk, and how, by the sampled pixels."""
     at, out = evidence.sample, []
     for n, name in SHARES.items():
         places = sorted({0, n // 2, n - 1})

@@ -24,7 +24,7 @@ ENOUGH = 32  # pixels of a surface to measure it
 
 
 class Surfaces(NamedTuple):
-    """What k surfaces of one colour each are traced and shown in, away from edges."""
+    """The traced and shown colours of k surfaces of one colour each, away from edges."""
 
     traced: Colors  # (k, 4)
     shown: Colors  # (k, 4) the median of its pixels
@@ -34,14 +34,14 @@ class Surfaces(NamedTuple):
 
 
 def inside(evidence: Evidence) -> Bools:
-    """Return the pixels (h, w) of surfaces that are away from edges and can be judged."""
+    """Return which pixels (h, w) show a surface away from edges, and can be judged."""
     inside = ~boundary(evidence.frame) & (evidence.causes.blind < 0)
     inside &= evidence.unexplained | evidence.judged
     return inside & (evidence.frame.instance_index != NOTHING)
 
 
 def surfaces(evidence: Evidence) -> Surfaces | None:
-    """Return the surfaces, looked at once; None where colours say nothing, or none are wrong."""
+    """Return the surfaces (cached); None where colours say nothing, or none is wrong."""
     if "surfaces" not in evidence.known:
         evidence.known["surfaces"] = _looked_at(evidence)
     found: Surfaces | None = evidence.known["surfaces"]
@@ -69,6 +69,6 @@ def _looked_at(evidence: Evidence) -> Surfaces | None:
 
 
 def agree(picture: Picture, found: Surfaces, of: Transform | None) -> Bools:
-    """Return which of the k surfaces agree by a transform of the traced colours, (k,)."""
+    """Return which of k surfaces agree after a transform of the traced colours, (k,)."""
     one = replace(picture, color=found.shown.astype(np.float32), owner=None)
     return ~replace(one, transform=of).other_color(found.traced)

@@ -1,4 +1,4 @@
-"""Faults of all colours of a picture by a curve: gamma, exposure, channels, two roundings..."""
+"""Faults of all colours of a picture by a transform: gamma, exposure, channels, roundings."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _gamma(color: Array) -> Array:
 
 
 def _curve_of(evidence: Evidence) -> Work[Curve | None]:
-    """Return the transform that makes most unexplained surfaces agree; it is looked for once."""
+    """Return the transform that makes most unexplained surfaces agree (cached)."""
     picture = evidence.picture
     if "curve" not in evidence.known and picture.transform is None and not picture.lit:
         more = evidence.case.curves or ()
@@ -39,9 +39,9 @@ def _curve_of(evidence: Evidence) -> Work[Curve | None]:
 
 
 def _rounded(evidence: Evidence) -> Sequence[Curve]:
-    """Return the transforms with a rounding to 8 bits that say more than a plain one does.
+    """Return the transforms with roundings to 8 bits that explain more than one rounding.
 
-    Where all that is shown is what one rounding gives, it may not be said to be of two.
+    Where one rounding explains all, two must not be told.
     """
     found = surfaces(evidence)
     if found is None:
@@ -60,7 +60,7 @@ def _rounded(evidence: Evidence) -> Sequence[Curve]:
 
 @dataclass(frozen=True, eq=False)
 class OfCurve(Guess):
-    """What was done to the picture's colours."""
+    """A transform of the picture's colours."""
 
     curve: Curve
 

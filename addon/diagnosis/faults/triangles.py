@@ -20,7 +20,7 @@ from .suspects import seen_instances
 
 
 def with_triangles(mesh: Mesh, left: Bools | slice, corners: slice = slice(None)) -> Mesh:
-    """Return the mesh of some of the triangles, with their corners in some order."""
+    """Return a mesh with some of its triangles, and their corners reordered."""
     colors = None if mesh.corner_colors is None else mesh.corner_colors[left][:, corners]
     triangles = mesh.triangles[left][:, corners]
     return replace(mesh, triangles=triangles, slots=mesh.slots[left], corner_colors=colors)
@@ -47,7 +47,7 @@ def _other_diagonal(mesh: Mesh) -> Mesh:
 
 
 def _culled(case: Case, guess: Guess) -> Case:
-    """Leave out the triangles whose backs the camera sees."""
+    """Leave out the back faces."""
 
     def culled(scene: Scene) -> Scene:
         meshes: list[Mesh] = []
@@ -67,14 +67,14 @@ def _culled(case: Case, guess: Guess) -> Case:
 
 
 def _towards(camera: Camera, points: Array, normals: Array) -> Array:
-    """Return a positive number where a normal (n, 3) points towards the camera."""
+    """Return the dot product of normals (n, 3) with the vector to the camera, (n,)."""
     back = -camera.forward if camera.projection is ORTHOGRAPHIC else camera.origin - points
     return (normals * back).sum(axis=1)
 
 
 @dataclass(frozen=True, eq=False)
 class Triangles(Guess):
-    """Triangles of an instance that are missing, by their numbers."""
+    """The triangles that an instance lacks, by index."""
 
     rank: int  # among the object's instances: another scene may number them otherwise
     missing: Places
@@ -97,7 +97,7 @@ def _largest_triangle(case: Case, frame: Frame) -> Triangles | None:
 
 
 def _without_triangles(case: Case, guess: Triangles) -> Case:
-    """Drop triangles of an instance."""
+    """Drop the missing triangles of an instance."""
     rank = guess.rank
 
     def less(scene: Scene) -> Scene:
@@ -122,7 +122,7 @@ PIXELS_PER_TRIANGLE = 4  # else any shape is a sum of triangles
 
 
 def _missing_triangles(evidence: Evidence) -> Work[list[Triangles]]:
-    """Return, for each object, the triangles in which it is unexplained, one behind another.
+    """Guess the missing triangles of each suspect, layer by layer.
 
     Of its instances, those with the most unexplained pixels are looked at.
     """
@@ -140,7 +140,7 @@ def _missing_triangles(evidence: Evidence) -> Work[list[Triangles]]:
 
 
 def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Triangles | None]:
-    """Drop an instance's triangles that are wrong, then those behind them that are, and so on."""
+    """Drop an instance's wrong triangles, then the wrong ones behind them, and so on."""
     case, frame = evidence.case, evidence.frame
     wrong = evidence.unexplained
     mesh = case.scene.meshes[case.scene.instances[instance].mesh]

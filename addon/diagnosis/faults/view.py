@@ -1,4 +1,4 @@
-"""Faults of what the camera lets be seen: its clip range, and how it projects."""
+"""Faults of the camera's clip range."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def _end(camera: Camera, end: float) -> Camera | None:
 
 
 def _halfway(case: Case, frame: Frame) -> Numbers | None:
-    """Pick a clip start halfway between the nearest and the farthest surface that is seen."""
+    """Pick a clip start halfway between the nearest and the farthest visible surface."""
     t = frame.t[np.isfinite(frame.t)]
     if not len(t) or np.ptp(t) == 0:
         return None
@@ -40,7 +40,7 @@ def _halfway(case: Case, frame: Frame) -> Numbers | None:
 
 
 def _find_start(evidence: Evidence) -> Work[list[Numbers]]:
-    """Return the clip start for which the most pixels are right, and none."""
+    """Guess the clip start with the most right pixels, and none."""
     camera = evidence.case.scene.camera
     least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
     fitted = yield from _fitted(evidence, _start, least, -1.0)
@@ -48,7 +48,7 @@ def _find_start(evidence: Evidence) -> Work[list[Numbers]]:
 
 
 def _find_end(evidence: Evidence) -> Work[list[Numbers]]:
-    """Return the clip end for which the most pixels are right, and none."""
+    """Guess the clip end with the most right pixels, and none."""
     most = evidence.case.scene.camera.clip_end * FAR
     fitted = yield from _fitted(evidence, _end, most, 1.0)
     return [*fitted, Numbers((most,), words=LEFT_OUT)]
@@ -57,9 +57,9 @@ def _find_end(evidence: Evidence) -> Work[list[Numbers]]:
 def _fitted(
     evidence: Evidence, changed: Callable[[Camera, float], Camera | None], none: float, sign: float
 ) -> Work[list[Numbers]]:
-    """Return the best depth near those that part unexplained pixels from the others.
+    """Guess the best depth near those that separate unexplained pixels from the others.
 
-    `none` is the depth with which nothing is clipped.
+    With the depth `none`, nothing is clipped.
     """
     camera = evidence.case.scene.camera
     widest = changed(camera, none)
@@ -95,10 +95,10 @@ def _fitted(
 
 
 def _parting(evidence: Evidence, sign: float) -> list[Values]:
-    """Return depths beyond which (sign 1), or before which (-1), the unexplained pixels lie.
+    """Return depths beyond which (sign 1), or before which (-1), nearly all unexplained pixels lie.
 
-    All of them do, or nearly all: some may have another cause. Pixels that agree may lie there,
-    too, as they show what is behind in the same colour.
+    Some may have another cause. Pixels that agree may lie there, too: what is behind may have the
+    same colour.
     """
     t = sign * evidence.frame.t
     wrong = np.sort(t[np.isfinite(t) & evidence.unexplained])
