@@ -29,18 +29,18 @@ from ..tracer.nearest import plan
 from ..tracer.progress import Work
 from .seen import Trees
 
-SAMPLE = 512  # pixels of each kind that are looked at
-FEW = 128  # that are looked at first
-DENSE = 1 << 12  # pixels: for more, all triangles are looked at once
+SAMPLE = 512  # sampled pixels of each kind
+FEW = 128  # those of the small sample, which comes first
+DENSE = 1 << 12  # pixels: more are traced as a picture is, fewer through trees
 SEED = 27
-WORTH = 0.2  # of unexplained pixels
-NOISE = 0.03  # of all, which may be wrong for another reason
+WORTH = 0.2  # of the unexplained pixels: a guess that settles fewer is dropped
+NOISE = 0.03  # of all sampled pixels: as many may be wrong for another reason
 LEAST_SEEN = 4  # unexplained pixels for which an object is suspected
-INVOLVED = 0.1  # of the pixels of the first suspect: others are suspected with as many
+INVOLVED = 0.1  # of the first suspect's pixels: other objects with as many are suspects, too
 MOST_SUSPECTS = 4
-MOST_COLORS = 512  # of a scene in which pixels are told by their colours
-BEYOND = 1e6  # times as far as the farthest surface: where the background is taken to be
-NEAR = 0.02  # of a channel: how far a color may lie from the one that is looked for
+MOST_COLORS = 512  # of a scene whose objects are recognised by their colours
+BEYOND = 1e6  # the depth of the background, in depths of the farthest surface
+NEAR = 0.02  # tolerance of a channel, for a colour to be recognised
 
 
 class Score(NamedTuple):
@@ -64,10 +64,10 @@ class Evidence:
     causes: Causes
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
-    fine: bool = False  # whether pixels beside the picture's edges alone are sampled
-    chosen: tuple[Places, Places] | None = None  # the sample, if it was chosen
+    fine: bool = False  # whether only pixels beside edges are sampled
+    chosen: tuple[Places, Places] | None = None  # the sample, if it is given
     of_object: bool = False  # whether a fault of a single object was put right in it
-    known: dict[str, Any] = field(default_factory=dict)  # what faults share that look for the same
+    known: dict[str, Any] = field(default_factory=dict)  # a cache that faults share
     trees: Trees = field(default_factory=Trees)
 
     @cached_property

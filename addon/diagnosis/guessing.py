@@ -34,27 +34,23 @@ from .variants import carried
 
 T = TypeVar("T")
 
-COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
-FITTED = (
-    0.9  # that share for numbers that were fitted: the wrong kind is nearly right in small places
-)
+COMPLETE = 0.75  # the least recall of a guess, in the regions that it touches
+FITTED = 0.9  # that of fitted numbers: a fit of the wrong kind is nearly right in small regions
 LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 SHARE = 0.2  # of the unexplained pixels
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
-PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
-UNLIKELY = 0.5  # of the least gain: guesses below, by few pixels, are not looked at any more
+PROMISING = 0.3  # of the best gain on the sample: guesses below it get no trial
+UNLIKELY = 0.5  # of the least gain: guesses below it in the small sample are dropped
 NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
-ENOUGH = (
-    0.995  # of the unexplained pixels: after a guess that gains as many, none takes more effort
-)
-ALL_EDGES = 1 << 14  # pixels of each kind that are looked at then
-TRIED = 6  # guesses that are tried on the whole picture together, at most
-MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
-MAIN = 0.5  # of the unexplained pixels: a guess that gains as much may need a second one beside it
-STARTS = 2  # such guesses
-LOST = 0.1  # of the pixels that such a guess settles: it loses no more
-# Of work, after which no other guess is made, and one that is being made is given up. In a step, a
-# bounded number of rays, pairs or pixels is looked at: as many on each machine.
+ENOUGH = 0.995  # of the unexplained pixels: after such a gain, no more effort is made
+ALL_EDGES = 1 << 14  # the sample of a refinement: pixels of each kind
+TRIED = 6  # trials of guesses of all efforts, at most
+MOST_SURE = 24  # trials of guesses that gain nearly all, at most: an empty picture has many
+MAIN = 0.5  # of the unexplained pixels: a guess with such a gain may need a second one beside it
+STARTS = 2  # first guesses of two that are followed
+LOST = 0.1  # of the pixels that a first guess settles: it may break no more
+# The limit of work; a search that reaches it is given up. A step is a bounded number of rays, pairs
+# or pixels, the same on each machine.
 STEPS = 60_000
 NONE = Score(0.0, 0.0)
 

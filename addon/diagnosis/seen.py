@@ -25,7 +25,7 @@ from .boxes import Crossed, Nodes, crossed, inverted, together, tree
 
 RAYS = 1 << 12  # traced together
 PAIRS = 1 << 22  # of a ray and an instance that are listed together, at most
-NEAREST = 2  # instances on a ray that are looked at first; then those behind, four times as many
+NEAREST = 2  # instances on a ray that are tested first; then four times as many, and so on
 
 
 @dataclass(eq=False)
@@ -121,7 +121,7 @@ def _test(
     m = inverse[:, :, number]
     o = (m[:, :3] * own.origins).sum(axis=1) + m[:, 3]
     d = (m[:, :3] * own.directions).sum(axis=1)
-    flat = ~regular[number]  # all its triangles are asked about
+    flat = ~regular[number]  # all its triangles are tested
     o[:, flat] = 0
     through = inverted(d)
     through[:, flat] = 0

@@ -1,10 +1,10 @@
 """Hill climbing: the numbers of a fault with which the most pixels agree.
 
-The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no slope to
-follow. Looked at are the places around the best ones, ever nearer.
+The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no gradient.
+The neighbours of the best place are evaluated, with ever smaller steps.
 
-A pixel that is the same at all the places around one is the same between them, as far as what it
-shows is convex: with steps that are small, only the others are looked at from then on.
+A pixel that is the same at all neighbours of a place is the same between them, as far as what it
+shows is convex: once steps are small, only the other pixels are evaluated.
 """
 
 from __future__ import annotations
@@ -19,18 +19,20 @@ from ...tracer.progress import Work
 from ..evidence import SEED
 from .fault import Values
 
-Right = Callable[[Values], Work[Bools | None]]  # which pixels are right; None if no such can be
-Among = Callable[[Places], Right]  # the same of some of the pixels, by their numbers
+Right = Callable[
+    [Values], Work[Bools | None]
+]  # which pixels are right; None if the numbers are impossible
+Among = Callable[[Places], Right]  # the same function of some of the pixels, by index
 
-# How many steps are looked at on each side, by how many numbers there are; 1 otherwise.
+# Neighbours on each side of an axis, by the number of axes; 1 otherwise.
 WIDE = {1: 4, 2: 2}
 NARROW = {1: 2}
-COARSE = 1 / 2  # of a unit: with smaller steps fewer places around are looked at
-ASKEW = 8  # directions besides those of the axes, where there are three numbers
-SMALL = 1 / 8  # of a unit: with larger steps pixels may be others between places where they are not
+COARSE = 1 / 2  # of a unit: smaller steps have fewer neighbours
+ASKEW = 8  # random directions besides those of three axes
+SMALL = 1 / 8  # of a unit: between larger steps, pixels may change and change back
 ROUNDING = 1e-9  # of a step
-FINE = 0.97  # of the pixels: with as many right, each one counts
-FEWER = 1 / 2  # of the pixels that are looked at: with more left, all of these still are
+FINE = 0.97  # of the pixels: with as many right, each wrong one is evaluated, too
+FEWER = 1 / 2  # of the evaluated pixels: with more left, none is dropped
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +44,14 @@ class _Near:
     centre: Floats
     step: float
     known: Bools  # (n,) which pixels are right in the centre
-    changing: Places  # those that may be others between the places
+    changing: Places  # those that may change within a step
     right: Right  # of these
 
     def holds(self, values: Values) -> bool:
         """Return whether numbers lie within a step of the centre, along two axes at most."""
         offset = np.subtract(values, self.centre)
         along = self.units @ offset
-        beside = np.abs(offset - self.axes @ along)  # where no axis leads
+        beside = np.abs(offset - self.axes @ along)  # beside all axes
         away = np.abs(along) / self.step
         between = np.max(away) <= 1 + ROUNDING and np.sum(away) <= 2 + ROUNDING
         return bool(between and np.all(beside <= ROUNDING * np.abs(offset).max()))
@@ -83,9 +85,11 @@ class Climb:
         self.moves = moves
         self._among = among
         self._known: dict[Values, Bools | None] = {}
-        self._near: list[_Near] = []  # one in the other, the smallest last
+        self._near: list[_Near] = []  # nested, the smallest last
         self._most = 0  # right pixels anywhere so far
-        self._wanted = np.inf  # with as many, numbers are as good as the best: all are looked at
+        self._wanted = (
+            np.inf
+        )  # with as many, a place is as good as the best: all pixels are evaluated
 
     def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
         """Climb with ever smaller steps; return the best place and its count of right pixels."""

@@ -1,8 +1,8 @@
 """Fits a camera in a few numbers: an offset on the film, a focal length, where it stands.
 
-First the traced picture itself is looked up where such a camera would have seen it, which needs no
-ray and finds the numbers to within about a pixel. Then rays are traced, in what is left of the
-sample, until the numbers with the most pixels that agree are enclosed.
+First the traced picture is looked up (reprojected) as such a camera would see it: that needs no ray
+and finds the numbers to about a pixel. Then rays are traced in the sampled pixels, until the
+numbers with the most right pixels are enclosed.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from .climbing import Right
 from .fault import Find, Numbers, Refine, Values
 from .search import Search
 
-REACH = 4.0  # pixels that rays may pass beside where they start; beyond, they start anew
-FINE_REACH = 1.0  # pixels, where a fit is made finer: fewer triangles are near
-PREPARED = 2  # cameras at most, so that none is prepared again where a search goes to and fro
+REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
+FINE_REACH = 1.0  # the same in a refinement: fewer triangles are near
+PREPARED = 2  # cameras with candidates that are kept, as a search goes to and fro
 VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
-KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
+KEPT = 3  # starts that are fitted, at most: no change, and the best by look-up
 LOOKED_UP = 512  # pixels in which the traced picture is looked up
-FINER = 1 / 8  # pixels: the first step where a fit is made finer
+FINER = 1 / 8  # pixels: the first step of a refinement
 ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
-MOVES = 3  # by which a right start is left, with steps of one length: it is a pixel or two away
-BETTER = 0.03  # by how much larger the share of right pixels must be for a start
+MOVES = 3  # with steps of one length, at most: a right start is off by a pixel or two
+BETTER = 0.03  # the least gain of a start in the share of right pixels
 
 
 class Shown(Protocol):
@@ -114,10 +114,10 @@ class Family:
     starts: Callable[[Evidence], Iterator[Values]]
     words: Callable[..., str] = lambda camera, *numbers: ""
     look_up: LookUp = looked_up
-    # Of the unexplained pixels: with fewer right, by steps of half a pixel, a fit is given up.
+    # Of the unexplained pixels: a fit with fewer right is given up at steps of half a pixel.
     worth: float = WORTH
-    by_few: bool = False  # whether few pixels say how good numbers are, until they are made finer
-    # Changes of the numbers, (m, j) columns, that change nothing in some pictures.
+    by_few: bool = False  # whether the small sample does, until the refinement
+    # Changes of the numbers, (m, j) columns, that change nothing in the picture.
     unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
 
 

@@ -1,7 +1,7 @@
 """Finds the numbers of a fault with which the most sampled pixels are right, and their range.
 
-The best place is climbed to (`climbing.py`). Then the region around it is enclosed in which as many
-are right: all numbers in it agree as well.
+Hill climbing leads to the best place (`climbing.py`). Then the region around it is enclosed in
+which as many pixels are right: all numbers in it agree as well.
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ from .climbing import COARSE, Among, Climb, Right, values_of
 from .fault import Numbers, Values
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
-ROUGH = 1 / 32  # of a unit: the last step where a finer fit follows
-FARTHEST = 256.0  # units to which a number is enclosed, at most
-ROUNDS = 5  # in which a region of several numbers is enclosed, at most
-GROWN = 1.2  # times as large after a round: then there is another one
-PUSHES = 8  # in which a region is enclosed farther along each number, at most
-PUSHED = 1.02  # times as large after one: then there is another one
-LED = 4  # differences that are followed
-INSIDE = 1 / 4  # of the way to the middle: where they begin
-CLOSE = 1 / 8  # of the region's half width: how finely its ends are looked for
-WIDER = 1.3  # times as wide as what was reached: the region's corners lie beyond
+ROUGH = 1 / 32  # of a unit: the last step if a refinement follows
+FARTHEST = 256.0  # units: the largest distance of an end
+ROUNDS = 5  # of enclosing a region of several numbers, at most
+GROWN = 1.2  # growth in a round that leads to another one
+PUSHES = 8  # of a region along each number, at most
+PUSHED = 1.02  # growth in a push that leads to another one
+LED = 4  # random directions of a push
+INSIDE = 1 / 4  # of the way to the middle: where a push starts
+CLOSE = 1 / 8  # of the region's half width: the precision of its ends
+WIDER = 1.3  # safety factor of the box: the region's corners lie beyond its known ends
 ANEW = 4  # times that a region is left for a better place beside it, at most
-BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units: how far from it these are looked for
-LOTS = 24  # places at each of these distances
-DIGITS = range(-1, 5)  # that a number is told with, beside those of its interval
+BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units from a region: where better places are looked for
+LOTS = 24  # random places at each of these distances
+DIGITS = range(-1, 5)  # digits of a number beyond those that its range fixes
 
 
 class Search(Climb):
@@ -80,7 +80,7 @@ class Search(Climb):
                 best, most = values, right
         if most < max(self.least, 0):
             return None
-        # What stopped on a ridge goes on from there with larger steps, once.
+        # It may have stopped on a ridge: climb once more from there, with larger steps.
         best, _ = yield from self.climbed(best, step / 2, COARSE)
         last = self.finest if enclose else ROUGH
         best, right = yield from self.climbed(best, min(step, COARSE), last)
@@ -94,7 +94,7 @@ class Search(Climb):
                 break  # `places` are those around `best`
             there = next(place for place, found in beside.items() if found == better)
             best, right = yield from self.climbed(there, COARSE / 2, self.finest)
-        # As many are right there, too, with fewer between.
+        # They are as good, though places between may not be.
         as_good = [place for place, found in beside.items() if found == right]
         places = np.array([*places, *as_good])
         simple = yield from self._simple_numbers(best, places, right)
