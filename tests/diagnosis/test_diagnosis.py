@@ -244,6 +244,22 @@ def test_a_variant_may_number_its_instances_otherwise(solids):
         ]
 
 
+@pytest.mark.parametrize("name", ["swapped_colors", "swapped_transforms"])
+def test_a_variant_may_list_its_objects_otherwise(solids, name):
+    """Two that are exchanged are held by their names: their numbers are others there."""
+    last, *rest = range(len(solids.objects))[::-1]
+    number = {last: 0} | {n: n + 1 for n in rest}
+    listed = tuple(replace(i, object=number[i.object]) for i in solids.instances[::-1])
+    names = (solids.objects[last], *solids.objects[:last])
+    other = replace(solids, instances=listed, objects=names)
+    color = render(solids).color
+    first, second = (
+        render(BY_NAME[name].assume(case_of(scene, color), Pair("Ball", "Ring")).scene).color
+        for scene in (solids, other)
+    )
+    assert np.array_equal(first, second) and not np.array_equal(first, color)
+
+
 def test_colours_put_right_are_those_of_the_picture(solids):
     """Of Blender's own picture, which no transform excuses: the page shows both."""
     frame = render(solids)
