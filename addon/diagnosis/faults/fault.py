@@ -120,13 +120,13 @@ ONCE: Find[Any] = always(Guess())  # of a fault that has no numbers and is of no
 class Effort(IntEnum):
     """What it takes to find a fault: those of less effort are looked for first."""
 
-    NOTHING = 0  # it has no numbers, or few that are tried
-    FILM = 1  # one or two numbers of where rays pass the film are fitted
-    PIXELS = 2  # pixels, or triangles, are gone through
-    CAMERA = 3  # where the camera stands and looks is fitted
+    NOTHING = 0  # it has no numbers, or few values of them are tried
+    FILM = 1  # one or two numbers of the film are fitted
+    PIXELS = 2  # pixels, or triangles, are searched
+    CAMERA = 3  # the camera's pose is fitted
     SIZE = 4  # a number of an object is fitted
-    PLACE = 5  # where an object is
-    ANYTHING = 6  # what can be made to look like much else
+    PLACE = 5  # an object's place is fitted
+    ANYTHING = 6  # it can be made to look like much else
 
 
 @dataclass(frozen=True)
@@ -141,16 +141,15 @@ class Fault(Generic[G]):
     assume: Make[G]
     find: Find[G] = ONCE  # the guesses that are tried
     numbers: tuple[str, ...] = ()  # names of the guess' values
-    # What the picture's pixels are after that, from those that are traced in the case with the
-    # fault, (h', w', 4); the shape is (h, w).
+    # What is done to the pixels traced of that case, (h', w', 4), to give the picture's, (h, w, 4).
     after: After[G] | None = None
-    sampled: bool = True  # whether single pixels can say how good a guess is
-    refine: Refine[G] | None = None  # fits a guess in a finer sample
+    sampled: bool = True  # whether a guess can be scored on single pixels
+    refine: Refine[G] | None = None  # fits a guess on a finer sample
     effort: Effort = Effort.NOTHING
-    sums_up: bool = False  # it says what is seen: faults that do as well are reasons for it
-    everywhere: bool = False  # it is in all pixels: none is looked for beside a fault of an object
-    vague: bool = False  # it allows for more than one picture: what is exact is told in its place
-    removes: bool = False  # it says that its object is not seen
+    sums_up: bool = False  # it says what is visible: faults that do as well are reasons for it
+    everywhere: bool = False  # it is in all pixels: not looked for beside an object's fault
+    vague: bool = False  # it allows for more than one picture: an exact fault is told in its place
+    removes: bool = False  # it says that its object is not visible
     examples: tuple[Example, ...] = ()
 
     def sentence_of(self, guess: Guess) -> str:

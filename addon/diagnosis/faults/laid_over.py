@@ -22,15 +22,15 @@ CODINGS = (
     Coding(np.asarray, np.asarray, ", premultiplied"),
 )
 
-LEAST_SURFACES = 2  # that a colour laid over a picture must cover: else it may be an object's
-LEAST_COVERED = 0.02  # of what is covered, for a surface to count
+LEAST_SURFACES = 2  # that an ink must cover: else it may be an object's colour
+LEAST_COVERED = 0.02  # share of the covered pixels, for a surface to count
 OPACITIES = np.arange(2, 101) / 100  # that are tried
 MOST_INKS = 2  # colours that are laid over
-INK_STEPS = 50  # to which these are told apart
-FAR = 2.0  # beyond which no colour is looked for, nor below its negative
-COVERED = 0.9  # the least share of the unexplained pixels that they must make
-TOGETHER = 0.75  # of the pixels: single ones, like salt, are nothing that is laid over
-MOST_BLENDED = 4096  # pixels that are looked at
+INK_STEPS = 50  # quantisation of a channel, to count equal inks
+FAR = 2.0  # the largest absolute value of a channel of an ink
+COVERED = 0.9  # the least share of the unexplained pixels that the inks must explain
+TOGETHER = 0.75  # the least share of pixels with neighbours: salt noise is no overlay
+MOST_BLENDED = 4096  # sampled pixels
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -155,7 +155,7 @@ def _inks(
             owned.append(own)
     if not owned:
         return 0.0, opacity, np.empty((0, 3))
-    # What is seen of the surfaces beneath, by least squares, is what the inks let through.
+    # The transparency, by least squares: how much of the surfaces beneath shows through.
     below, above = (
         np.concatenate([v[o] - v[o].mean(axis=0) for o in owned]) for v in (traced, shown)
     )

@@ -21,8 +21,8 @@ from ...tracer.vector import transform_points
 from ..evidence import WORTH, Evidence, shows_colors, spread
 from .fault import instances_named
 
-VERTICES = 64  # of an object, about, that say how far it moves
-AROUND = 6  # pixels around the object, on both sides, in which it is looked at, too
+VERTICES = 64  # of an object, about, that are tracked to say how far it moves
+AROUND = 6  # pixels around the object, on both sides, that are looked at, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +33,8 @@ class Looked:
     name: str
     at: tuple[Places, Places]  # rows and columns of the n pixels
     picture: Picture  # of these
-    behind: Hits  # what is hit there without the object
-    rest: Scene  # without it
+    behind: Hits  # of these, without the object
+    rest: Scene  # without the object
     seen: Bools  # (h, w) where it is traced
     shown: Bools  # (h, w) where the picture shows it, as far as is known
     depth: float  # of the object, metres

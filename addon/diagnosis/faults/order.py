@@ -18,8 +18,8 @@ from ...tracer.shading import colors as colors_of
 from ..evidence import Evidence
 from .fault import AnyFault, Effort, Example, Fault, Option, always, unchanged, with_option
 
-LAYERS = 64  # surfaces behind one another that are looked at, at most
-MOST = 2  # orders that are tried on the whole picture
+LAYERS = 64  # surfaces along a ray, at most
+MOST = 2  # guesses, at most
 BLOCK = 1 << 14  # pixels that are drawn together
 
 
@@ -57,7 +57,7 @@ def _nearness(scene: Scene) -> Floats:
     return -np.array([*distances, origins @ scene.camera.forward])
 
 
-# How instances may be ordered, from which each is drawn over those before; the first has none.
+# Orders of drawing (painter's algorithm), each instance over those before; the first has no ranks.
 ORDERS = (
     "the farthest surface is seen, not the nearest",
     "objects are drawn one over the other, by the distances of their origins",

@@ -68,10 +68,10 @@ class Pose:
     """A change of an object in a few numbers, to be fitted."""
 
     change: Callable[[Scene, Values], Scene | None]  # of a scene with the object alone
-    axes: Floats  # the numbers that a unit, about a pixel, of each stands for, (m, k) columns
+    axes: Floats  # changes of the numbers that move the object by about a pixel, (m, k) columns
     starts: list[Values]
-    unseen: Floats | None = None  # the same of what cannot be seen, (m, j) columns
-    # The camera that sees the object alone as it is seen after the change.
+    unseen: Floats | None = None  # changes of the numbers that change nothing, (m, j) columns
+    # The camera that sees the unchanged object as it looks after the change.
     camera: Callable[..., Camera] | None = None
 
 

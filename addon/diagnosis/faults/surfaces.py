@@ -18,9 +18,9 @@ from ...pictures.picture import Picture, Transform
 from ...tracer.hits import NOTHING
 from ..evidence import Evidence, spread
 
-MOST = 1 << 14  # pixels of surfaces that are looked at
-FLAT = 0.3  # levels: the least deviation within a surface that noise has
-ENOUGH = 32  # pixels of a surface to measure it
+MOST = 1 << 14  # sampled pixels of surfaces
+FLAT = 0.3  # levels of 8 bits: the least standard deviation of noise within a surface
+ENOUGH = 32  # pixels, at least, for a surface to be measured
 
 
 class Surfaces(NamedTuple):
@@ -29,8 +29,8 @@ class Surfaces(NamedTuple):
     traced: Colors  # (k, 4)
     shown: Colors  # (k, 4) the median of its pixels
     wrong: Bools  # (k,) most of its pixels are unexplained
-    noisy: Bools  # (k,) its pixels differ from one another by more than rounding
-    measured: Bools  # (k,) enough pixels are seen of it to say so
+    noisy: Bools  # (k,) its pixels deviate by more than rounding
+    measured: Bools  # (k,) it has enough pixels to say so
 
 
 def inside(evidence: Evidence) -> Bools:

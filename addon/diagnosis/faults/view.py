@@ -17,10 +17,10 @@ from .fault import Example, Fault, Numbers, Values, of_camera
 from .search import Search
 
 FEW = (0.0, 0.001, 0.01, 0.05)  # shares of unexplained pixels that may have another cause
-STEPS = 32  # of the depths that are seen: the first step of a fit
+STEPS = 32  # first steps of a fit in the range of visible depths
 BESIDE = 2.0**-40  # of a depth: before what is clipped
 LEFT_OUT = "left out: nothing is clipped"
-FAR = 1e6  # how many times farther is looked for what should have been clipped
+FAR = 1e6  # factor by which a clip distance is moved to clip nothing
 
 
 def _start(camera: Camera, start: float) -> Camera | None:
@@ -66,7 +66,7 @@ def _fitted(
     t = evidence.frame.t[np.isfinite(evidence.frame.t)]
     if widest is None or not len(t) or not np.ptp(t):
         return []
-    # The pixels' rays are the same with each depth: what may be on them is looked for once.
+    # The rays are the same with each clip depth: their candidates are found once.
     probe = yield from evidence.probe(evidence.case.scene.seen_by(widest))
 
     def right(values: Values) -> Work[Bools | None]:
@@ -79,7 +79,7 @@ def _fitted(
 
     starts = []
     for depth in _parting(evidence, sign):
-        # It parts the pixels already: if most are wrong with it, so they are beside it.
+        # If most pixels are wrong with it, so they are with depths near it.
         found = yield from right(depth)
         if found is not None and found.sum() >= evidence.least_right():
             starts.append(depth)
