@@ -13,8 +13,9 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Places
+from ...arrays import Array, Bools, Floats, Places
 from ...causes.checks.probe import Probe
+from ...pictures.picture import Picture
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Scene
 from ...tracer.camera import film_of
@@ -62,12 +63,7 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
         inside, where = _inside(camera, film)
     if inside.mean() < VALID:
         return 0.0
-    shown = evidence.shown.at(few).at(inside)
-    made = shown.made_of(evidence.frame.color[where])
-    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
-    if shown.owner is not None and shown.owners is not None:
-        right &= shown.owners[evidence.frame.instance_index[where]] == shown.owner
-    return float(right.mean())
+    return _share(evidence, evidence.shown.at(few).at(inside), where)
 
 
 def projected(evidence: Evidence, camera: Camera) -> float:
@@ -84,11 +80,15 @@ def projected(evidence: Evidence, camera: Camera) -> float:
     if inside.mean() < VALID:
         return 0.0
     seen = tuple(v[inside] for v in at)
-    shown = evidence.picture.at(where)
-    made = shown.made_of(evidence.frame.color[seen])
+    return _share(evidence, evidence.picture.at(where), seen)
+
+
+def _share(evidence: Evidence, shown: Picture, traced: tuple[Array, ...]) -> float:
+    """Return the share of n pixels that agree with n traced ones, by row and column."""
+    made = shown.made_of(evidence.frame.color[traced])
     right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
     if shown.owner is not None and shown.owners is not None:
-        right &= shown.owners[evidence.frame.instance_index[seen]] == shown.owner
+        right &= shown.owners[evidence.frame.instance_index[traced]] == shown.owner
     return float(right.mean())
 
 
