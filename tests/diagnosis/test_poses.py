@@ -9,7 +9,7 @@ import pytest
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
+from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option, Pair
 from reference_tracer.diagnosis.faults.fitting import Traced
 from reference_tracer.diagnosis.faults.stand import TURNED
 from reference_tracer.pictures.picture import Picture
@@ -91,12 +91,16 @@ def test_of_all_faults_that_of_the_camera_is_told(few, name, values):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "values"),
-    [("last_pixel", (0.0,)), ("swapped_transforms", (1.0, 2.0)), ("picture_turned", (2.0,))],
+    ("name", "guess"),
+    [
+        ("last_pixel", Option(0)),
+        ("swapped_transforms", Pair("Box", "Ball")),
+        ("picture_turned", Option(2)),
+    ],
 )
-def test_a_fault_without_numbers_is_told_alone(few, name, values):
+def test_a_fault_without_numbers_is_told_alone(few, name, guess):
     scene = few(96, 54)
-    assert list(told(scene, pictured(scene, name, Numbers(values)))) == [name]
+    assert list(told(scene, pictured(scene, name, guess))) == [name]
 
 
 def test_a_focal_length_is_not_taken_for_the_last_pixel(few):
