@@ -44,7 +44,7 @@ def extras(
     """Find out what a page shows beside a comparison; yields the share of the work done."""
     left_out: list[str] = []
     works: dict[
-        str, tuple[Work[Any], float]
+        str, tuple[Work[object], float]
     ] = {  # of each field, with its share of the work, roughly
         "literal": (_literal(comparison, left_out), 1.0),
         "derivations": (_derivations(comparison, left_out), 0.5),
