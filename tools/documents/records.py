@@ -12,7 +12,8 @@ from pathlib import Path
 from reference_tracer.causes.cause import Cause
 from reference_tracer.causes.explain import CAUSES
 from reference_tracer.diagnosis import faults
-from reference_tracer.diagnosis.faults import FAULTS, Fault
+from reference_tracer.diagnosis.faults import FAULTS
+from reference_tracer.diagnosis.faults.fault import AnyFault
 from reference_tracer.methods import Method
 from reference_tracer.report.page.content import hex_color
 
@@ -82,7 +83,7 @@ def faults_by_family() -> str:
     return "\n\n".join(_family(*family) for family in families)
 
 
-def _family(of: tuple[Fault, ...], said: str) -> str:
+def _family(of: tuple[AnyFault, ...], said: str) -> str:
     """Return a section of faults, with what their file says of them."""
     title, _, rest = said.split("\n")[0].rstrip(".").partition(": ")
     head = "| name | what is said | what to do | the self-check makes |"
@@ -92,7 +93,7 @@ def _family(of: tuple[Fault, ...], said: str) -> str:
     return "\n\n".join([f"## {title}", *lead, "\n".join([head, "|---|---|---|---|", *rows])])
 
 
-def _row(fault: Fault, told: Fault) -> str:
+def _row(fault: AnyFault, told: AnyFault) -> str:
     """Return a fault's row; `told` is the first whose advice is the same."""
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
