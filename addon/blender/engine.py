@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ..wording import say
 from .temporary import is_temporary
 
 if TYPE_CHECKING:
@@ -75,8 +76,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
         self.update_stats("", "Exporting")
         scene, manifest = export(depsgraph)
-        for line in manifest.lines():
-            print(f"Reference Tracer: {line}")
+        say(*manifest.lines())
         frame = Frame.empty(scene)
         layer = depsgraph.view_layer.name
         passes = _enabled(depsgraph.view_layer)
@@ -87,7 +87,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         if frame.cancelled:
             done = int(frame.rows_done.sum())
             rows = f"{done} of {frame.shape[0]} rows are traced, the others are empty"
-            print(f"Reference Tracer: Cancelled: {rows}")  # Blender shows no report now
+            say(f"Cancelled: {rows}")  # Blender shows no report now
         else:
             self._tell(frame.statistics)
 
@@ -133,8 +133,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     def _tell(self, statistics: Statistics) -> None:
         """Say what a picture took."""
         required = statistics.required()
-        for line in required:
-            print(f"Reference Tracer: {line}")
+        say(*required)
         for note in statistics.notes:  # such as that nothing can be certified here
             self.report({"WARNING"}, note[0].upper() + note[1:])
         self.update_stats("", required[0] if required else "")

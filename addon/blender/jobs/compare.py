@@ -43,6 +43,7 @@ from ..drawing.stand_ins import stand_ins
 from ..drawing.workbench import WORKBENCH
 from ..engine import export_for_judge
 from ..reading.camera import export_camera
+from ..reading.opened import absolute
 from ..reading.palettes import automatic, palette_by
 from ..reading.unmodelled import by_handlers
 from ..temporary import go_to, temporary_scene
@@ -261,7 +262,7 @@ def made_folder(directory: str) -> Path:
     OSError
         If it cannot be made or written.
     """
-    folder = Path(bpy.path.abspath(directory))  # // is beside the file
+    folder = absolute(directory)
     folders.make(folder)
     return folder
 

@@ -11,9 +11,9 @@ from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ...tracer.progress import Work
-from ...wording import count_of
+from ...wording import count_of, say
 from . import results
-from .long_work import Answer, LongWork, named, say, with_ending
+from .long_work import Answer, LongWork, named, with_ending
 from .results import Kind, redraw
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +13,7 @@ from ... import images
 from ...causes.case import Case
 from ...certified.rounding import check_rounding
 from ...comparison import engines
+from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparing import trace_and_compare
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
@@ -19,6 +22,7 @@ from ...pictures import colors_file
 from ...pictures.colors_file import in_colors
 from ...pictures.given import Making, picture_of_file
 from ...pictures.palette import By, GivenColors
+from ...report import animation as frames_report
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
@@ -69,7 +73,6 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "with --against"
         )
     with open_blend(options.scene, options.choice) as blender, progress_bar() as progress:
-        from ...blender.jobs import animation
         from ...blender.jobs.compare import compare_to_folder
         from ...blender.jobs.engines import compare_all
 
@@ -86,9 +89,9 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         }
         diagnose = options.diagnosis
         if options.frames:
-            made_by = options.of_a_frame()
-            chosen["judge"] = judge
-            return animation.compare_open_file(options.frames, out, made_by, progress, **chosen)
+            return _frames(
+                options, options.frames, blender.context.scene, progress, judge=judge, **chosen
+            )
         if options.judge == "all":
             work_of_all = compare_all(blender.context, out, diagnose=diagnose, **chosen)
             rows = result_of(work_of_all, progress)
@@ -97,6 +100,35 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         chosen |= {"judge": judge, "diagnose": diagnose}
         work = compare_to_folder(blender.context, out, **for_page, **chosen)
         return _told_comparison(options, result_of(work, progress))
+
+
+def _frames(
+    options: CompareOptions,
+    named: str,
+    scene: Any,
+    progress: Callable[[float], None],
+    **chosen: Any,
+) -> int:
+    """Compare the frames that are named of the open file; the exit code is that of the worst."""
+    from ...blender.jobs.animation import compare_frames, depends_on, frames_of
+    from ...blender.jobs.stepping import bake_bodies
+
+    frames = frames_named(named) or frames_of(scene)
+    bake_bodies(scene, frames[-1])
+    begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
+
+    def told(rows: list[FrameRow]) -> None:
+        print(begin + frames_report.line(rows[-1]), file=sys.stderr, flush=True)
+
+    made_by = depends_on(options.of_a_frame())
+    work = compare_frames(str(options.out), frames, told, made_by, **chosen)
+    try:
+        rows = result_of(work, progress)
+    except KeyboardInterrupt:
+        print("what is done is kept: the same command goes on from there", file=sys.stderr)
+        raise
+    print(*frames_report.lines(frames, rows), sep="\n")
+    return _told(options, frames_report.verdict(rows), options.out / frames_report.PAGE)
 
 
 def _with_picture(
