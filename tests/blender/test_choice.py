@@ -8,8 +8,9 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.jobs.choice import chosen
-from reference_tracer.blender.jobs.compare import compared, export_open_file, gather_case
+from reference_tracer.blender.jobs.compare import export_open_file, gather_case
 from reference_tracer.cli import in_blender
+from reference_tracer.comparison.comparing import compared
 from reference_tracer.framing import FILLED, Choice, shown_points
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import film_of

@@ -10,8 +10,9 @@ import pytest
 from reference_tracer import images
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.jobs.against import gather_against
-from reference_tracer.blender.jobs.compare import compared, gather_case
+from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.cli import in_blender
+from reference_tracer.comparison.comparing import compared
 from reference_tracer.pictures import colors_file
 from reference_tracer.pictures.palette import By
 from reference_tracer.pictures.picture import Picture

@@ -19,7 +19,7 @@ from ...scene import SceneError
 from ...tracer.progress import Work, called, scaled
 from ..reading.camera import export_camera
 from ..values import values_restored
-from .compare import compare_to_folder, made_folder
+from .compare import compare_open_file, made_folder
 from .stepping import visited
 
 _ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be imported here
@@ -84,7 +84,7 @@ def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -
     own = report.folder_of(folder, frame)
     try:
         # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
-        work = compare_to_folder(bpy.context, str(own), diagnose=False, **choices)
+        work = compare_open_file(bpy.context, str(own), diagnose=False, **choices)
         comparison = yield from work
     except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
         return FrameRow(frame, error=words(error))

@@ -17,11 +17,9 @@ import bpy
 
 from ...arrays import Colors
 from ...causes.case import Case
-from ...comparison.comparing import diagnosed as diagnosed_of
-from ...comparison.comparing import trace_and_compare
+from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
 from ...manifest import Manifest
-from ...mesh_diagnosis import diagnosed
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Picture, Source
 from ...pictures.renderers import EMBREE, RASTER
@@ -29,7 +27,7 @@ from ...report import comparison as comparison_report
 from ...report import folders
 from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ...tracer.render import Tracer
 from ...tracer.settings import Settings
 from ..drawing.behind import behind
@@ -81,12 +79,6 @@ class Choices:
             stored.diagnose,
         )
         return replace(own, **{name: value for name, value in given.items() if value is not None})
-
-
-def compared(case: Case) -> Work[Comparison]:
-    """Do what is left once all is gathered; yields the share of it that is done."""
-    manifest = yield from diagnosed(case.scene, case.manifest)
-    return (yield from trace_and_compare(replace(case, manifest=manifest)))
 
 
 def gather_case(context: Any, **choices: Any) -> Case:
@@ -206,52 +198,32 @@ def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
     return later
 
 
-def compare_here(
-    context: Any, told: Callable[[Comparison], object], **choices: Any
-) -> Work[Comparison]:
-    """Gather at once; return the work of tracing, comparing and diagnosing, which writes nothing.
-
-    `told` hears of the comparison before the diagnosis, if there is one. The choices are the fields
-    of :class:`Choices`.
-    """
-    case = gather_case(context, **choices)
-    return _diagnosed_too(compared(case), Choices.of(context.scene, choices).diagnose, told)
-
-
-def _diagnosed_too(
-    work: Work[Comparison], diagnose: bool, told: Callable[[Comparison], object]
-) -> Work[Comparison]:
-    comparison = yield from scaled(work, 0.0, 0.6)
-    if diagnose and comparison.counts.unexplained:
-        told(comparison)
-        comparison = yield from scaled(diagnosed_of(comparison), 0.6, 0.4)
-    return comparison
-
-
-def compare_to_folder(
+def compare_open_file(
     context: Any,
-    directory: str,
+    directory: str = "",
     trade: bool = False,
     extremes: bool = False,
     told: Callable[[Comparison], object] = lambda comparison: None,
     **choices: Any,
 ) -> Work[Comparison]:
-    """Gather at once; return the work of tracing, comparing and writing the files.
+    """Gather at once; return the work of tracing, comparing, diagnosing, and writing the files.
 
-    With `trade` and `extremes`, these are measured for the page, too. `told` hears of the
-    comparison before the diagnosis, if there is one. The choices are the fields of
-    :class:`Choices`. On failure the folder's JSON says why.
+    Nothing is written if the directory is empty. With `trade` and `extremes`, these are measured
+    for the page, too. `told` hears of the comparison before the diagnosis, if there is one. The
+    choices are the fields of :class:`Choices`. On failure the folder's JSON says why.
 
     Raises
     ------
     OSError
         If the folder cannot be written; else what :func:`gather_case` and the comparison raise.
     """
+    diagnose = Choices.of(context.scene, choices).diagnose
+    if not directory:
+        return compared(gather_case(context, **choices), diagnose, told)
     folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
-    diagnose = Choices.of(context.scene, choices).diagnose
-    return comparison_report.written(folder, compared(case), diagnose, trade, extremes, told)
+    return comparison_report.written(folder, case, diagnose, trade, extremes, told)
 
 
 def made_folder(directory: str) -> Path:

@@ -14,10 +14,8 @@ from ...causes.case import Case
 from ...certified.rounding import check_rounding
 from ...comparison import engines
 from ...comparison.animation import FrameRow, frames_named
-from ...comparison.comparing import trace_and_compare
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
-from ...mesh_diagnosis import diagnosed
 from ...pictures import colors_file
 from ...pictures.colors_file import in_colors
 from ...pictures.given import Making, picture_of_file
@@ -73,7 +71,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "with --against"
         )
     with open_blend(options.scene, options.choice) as blender, progress_bar() as progress:
-        from ...blender.jobs.compare import compare_to_folder
+        from ...blender.jobs.compare import compare_open_file
         from ...blender.jobs.engines import compare_all
 
         stored = blender.context.scene.reference_tracer.settings()
@@ -98,7 +96,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             return _told_engines(options, rows)
         for_page: dict[str, Any] = {"trade": options.trade, "extremes": options.extremes}
         chosen |= {"judge": judge, "diagnose": diagnose}
-        work = compare_to_folder(blender.context, out, **for_page, **chosen)
+        work = compare_open_file(blender.context, out, **for_page, **chosen)
         return _told_comparison(options, result_of(work, progress))
 
 
@@ -182,7 +180,6 @@ def _blend(
 ) -> Work[Comparison]:
     with open_blend(options.scene, options.choice) as blender:
         from ...blender.jobs.against import gather_against
-        from ...blender.jobs.compare import compared
         from ...blender.reading.camera import export_camera
         from ...blender.versions import DITHER
 
@@ -195,7 +192,7 @@ def _blend(
         settings = options.settings_over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         case = gather_against(context, shown, settings, bool(options.self_check), colors)
-        return (yield from _written(options, compared(replace(case, **place))))
+        return (yield from _written(options, replace(case, **place)))
 
 
 def _file(
@@ -204,11 +201,10 @@ def _file(
     scene, manifest, stored = open_file(options.scene, options.choice)
     scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))
-    manifest = yield from diagnosed(scene, manifest)
     shown = picture_of_file(picture, scene.camera, _making(options))
     settings, checked = options.settings_over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
-    return (yield from _written(options, trace_and_compare(replace(case, **place))))
+    return (yield from _written(options, replace(case, **place)))
 
 
 def _making(options: CompareOptions) -> Making:
@@ -217,6 +213,6 @@ def _making(options: CompareOptions) -> Making:
     return Making(options.renderer or "", options.filter or 0.0, options.dither, asked=known)
 
 
-def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison]:
+def _written(options: CompareOptions, case: Case) -> Work[Comparison]:
     diagnose = options.diagnosis is not False
-    return comparison_report.written(options.out, work, diagnose, options.trade, options.extremes)
+    return comparison_report.written(options.out, case, diagnose, options.trade, options.extremes)

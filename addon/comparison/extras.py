@@ -10,16 +10,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ...arrays import Colors
-from ...comparison.comparison import Comparison
-from ...derivation.derivation import Derivation, derive
-from ...methods import Method
-from ...rendering import steps
-from ...study import extremes, tradeoff
-from ...study.trade import Trade
-from ...tracer.frame import Frame
-from ...tracer.progress import Work, called, scaled
-from ...tracer.settings import Precision, Settings
+from ..arrays import Colors
+from ..derivation.derivation import Derivation, derive
+from ..methods import Method
+from ..rendering import steps
+from ..study import extremes, tradeoff
+from ..study.trade import Trade
+from ..tracer.frame import Frame
+from ..tracer.progress import Work, called, scaled
+from ..tracer.settings import Precision, Settings
+from .comparison import Comparison
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
 _DOING = {"literal": "tracing by the textbook, literally", "derivations": "deriving examples"}
