@@ -25,13 +25,13 @@ class _Parser(Parser):
 
     def add_scene(self, sources: str) -> None:
         """Take the file that is open; that none is open is said once one is needed."""
-        from ..blender.reading.opened import open_path
+        from ..blender.paths import open_path
 
         self.set_defaults(scene=open_path(), opened=True)
 
     def path(self, text: str) -> Path:
         """Return a path that was typed; // is the folder of the file."""
-        from ..blender.reading.opened import absolute
+        from ..blender.paths import absolute
 
         return absolute(text)
 

@@ -33,7 +33,8 @@ rendering.py certified_tracer
 blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
   blender/jobs/compare.py compare_open_file
     blender/jobs/compare.py gather_case
-      blender/engine.py export_for_judge
+      blender/jobs/compare.py _exported
+        blender/engine.py export_for_judge
       blender/drawing/picture.py picture
     comparison/comparing.py compared
       comparison/comparing.py trace_and_compare

@@ -17,9 +17,10 @@ from ...errors import words
 from ...report import animation as report
 from ...scene import SceneError
 from ...tracer.progress import Work, called, scaled
+from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..values import values_restored
-from .compare import compare_open_file, made_folder
+from .compare import compare_open_file
 from .stepping import visited
 
 _ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be imported here

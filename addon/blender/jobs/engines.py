@@ -17,7 +17,8 @@ from ...report import engines as engines_report
 from ...scene import SceneError
 from ...tracer.progress import Work, scaled
 from ..drawing.judges import JUDGES
-from .compare import Choices, gather_case, made_folder
+from ..paths import made_folder
+from .compare import Choices, gather_case
 
 
 def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:

@@ -37,16 +37,6 @@ def open_file(path: Path) -> None:
     _reports[bpy.data.filepath] = tuple(line for line in said if line)
 
 
-def open_path() -> Path:
-    """Return the path of the open file, a backup's as a .blend; `none.blend` where none is open."""
-    return Path(bpy.data.filepath or "none").with_suffix(".blend")  # a backup's ends in .blend1
-
-
-def absolute(path: str) -> Path:
-    """Return a path as Blender writes it, where // is beside the open file, or as a shell does."""
-    return Path(bpy.path.abspath(path))
-
-
 @contextmanager
 def _heard() -> Iterator[list[Any]]:
     """Give a list that is empty until Blender has opened a file."""

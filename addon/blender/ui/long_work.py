@@ -79,7 +79,7 @@ class LongWork(Mixin):
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""
-        from ..jobs.compare import made_folder
+        from ..paths import made_folder
 
         directory = self.directory or default_folder(self.bl_idname.rpartition("_OT_")[2])
         if directory and not self.directory:
@@ -200,7 +200,7 @@ def with_ending(filepath: str, *endings: str) -> Path:
         If it has another.
     """
     from ...scene import SceneError
-    from ..reading.opened import absolute
+    from ..paths import absolute
 
     path = absolute(filepath)
     if path.suffix.lower() not in endings:
