@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 
@@ -30,9 +30,6 @@ if TYPE_CHECKING:
 ENGINE = "REFERENCE_TRACER"
 SHOW_EVERY = 0.5  # seconds between showing rows, at least; it takes at most a tenth of the time
 
-# What the engine exported of temporary scenes, by their names, until it is asked for.
-_exported: dict[str, Certified] = {}
-
 
 class ReferenceTracerEngine(bpy.types.RenderEngine):
     """Exports, traces step by step, and hands the rows to Blender; the work is done elsewhere."""
@@ -42,6 +39,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     bl_use_preview = False
     bl_use_postprocess = True
     bl_use_eevee_viewport = True  # else there is no mode Material Preview
+
+    export_to: ClassVar[list[Any]]  # what is Certified, while a temporary scene is rendered
 
     # Blender calls it by position, where the stubs have keywords.
     def update_render_passes(self, scene: Any, renderlayer: Any) -> None:  # type: ignore[override]
@@ -55,7 +54,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         """Render one view layer of one frame; a temporary scene is only exported."""
         from ..errors import failure
 
-        work = _keep_export if is_temporary(depsgraph.scene) else self._trace
+        work = self._export if is_temporary(depsgraph.scene) else self._trace
         if error := failure(work, depsgraph):
             self.report({"ERROR"}, error)
 
@@ -69,6 +68,9 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     def view_draw(self, context: Any, depsgraph: Any) -> None:
         """Draw such a view."""
         self.live.draw(self, context, depsgraph)
+
+    def _export(self, depsgraph: Any) -> None:
+        self.export_to.append(export_certified(depsgraph))
 
     def _trace(self, depsgraph: Any) -> None:
         from ..tracer.frame import Frame
@@ -158,10 +160,6 @@ def export_certified(depsgraph: Any) -> Certified:
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
 
 
-def _keep_export(depsgraph: Any) -> None:
-    _exported[depsgraph.scene.name_full] = export_certified(depsgraph)
-
-
 def export_for_render(scene: Any) -> Certified:
     """Return the *render* evaluation of a temporary scene, and set its engine to this one.
 
@@ -176,6 +174,8 @@ def export_for_render(scene: Any) -> Certified:
     from .values import values_restored
 
     scene.render.engine = ENGINE
+    exported: list[Certified] = []
+    ReferenceTracerEngine.export_to = exported
     try:
         # Else the frame would be that of the context's scene (5.2).
         override = bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0])
@@ -183,7 +183,9 @@ def export_for_render(scene: Any) -> Certified:
             bpy.ops.render.render(scene=scene.name)
     except RuntimeError as error:  # Blender turns our report into one
         raise SceneError(str(error).removeprefix("Error: ").strip()) from error
-    return _exported.pop(scene.name_full)
+    finally:
+        del ReferenceTracerEngine.export_to
+    return exported[0]
 
 
 def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:

@@ -85,18 +85,16 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "self_check": options.self_check,
             **place,
         }
-        diagnose = options.diagnosis
         if options.frames:
             return _frames(
                 options, options.frames, blender.context.scene, progress, judge=judge, **chosen
             )
+        chosen["diagnose"] = options.diagnosis
         if options.judge == "all":
-            work_of_all = compare_all(blender.context, out, diagnose=diagnose, **chosen)
-            rows = result_of(work_of_all, progress)
-            return _told_engines(options, rows)
-        for_page: dict[str, Any] = {"trade": options.trade, "extremes": options.extremes}
-        chosen |= {"judge": judge, "diagnose": diagnose}
-        work = compare_open_file(blender.context, out, **for_page, **chosen)
+            work_of_all = compare_all(blender.context, out, **chosen)
+            return _told_engines(options, result_of(work_of_all, progress))
+        studies = options.trade, options.extremes
+        work = compare_open_file(blender.context, out, *studies, judge=judge, **chosen)
         return _told_comparison(options, result_of(work, progress))
 
 
