@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from .arrays import Floats
-from .projections import projection_of
+from .projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS, Projection
 from .scene import Camera, Region, SceneError, ViewWindow
 
 Content = dict[str, Any]  # an object of JSON
@@ -23,9 +23,6 @@ def camera_of(c: Content) -> Camera:
     """Return a camera; nothing of it may be missing."""
     window: Content = part(c, "window", "camera.", dict)
     region: Content = part(c, "region", "camera.", dict)
-    projection = projection_of(c.get("orthographic"))
-    if projection is None:
-        raise SceneError("camera.orthographic must be true or false")
     sides = "left", "right", "bottom", "top"
     ends = "x0", "y0", "x1", "y1"
     if (clip_end := c.get("clip_end")) not in (ENDLESS, np.inf):
@@ -35,12 +32,22 @@ def camera_of(c: Content) -> Camera:
         ViewWindow(**{k: float(numbers(window, k, "camera.window.", ())) for k in sides}),
         whole(c, "width", "camera."),
         whole(c, "height", "camera."),
-        projection,
+        _projection(c),
         float(numbers(c, "clip_start", "camera.", ())),
         float(clip_end),
         Region(**{k: whole(region, k, "camera.region.") for k in ends}),
         part(c, "name", "camera.", str),
     )
+
+
+def _projection(c: Content) -> Projection:
+    name = c.get("orthographic")  # of version 1: true, false, or the name of a third type
+    if isinstance(name, bool):
+        name = (ORTHOGRAPHIC if name else PERSPECTIVE).name
+    name = c.get("projection", name)
+    if not isinstance(name, str) or name not in PROJECTIONS:
+        raise SceneError(f"camera.projection must be one of: {', '.join(PROJECTIONS)}")
+    return PROJECTIONS[name]
 
 
 def part(content: Content, key: str, where: str, kind: type[T]) -> T:

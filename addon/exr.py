@@ -8,6 +8,7 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -104,7 +105,7 @@ def _opened(path: Path) -> Iterator[Any]:
         yield file
 
 
-def _library() -> Any:
+def _library() -> ModuleType:
     try:
         import OpenImageIO
     except ImportError:

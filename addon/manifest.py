@@ -35,7 +35,7 @@ class ObjectEntry:
     left_out: int = 0  # triangles with a non-finite vertex, or of a non-finite matrix
     empty_slots: int = 0
     hidden: bool = False  # Blender does not draw it either, for the same reason
-    diagnosis: dict[str, Any] | None = None  # see mesh_diagnosis.py
+    diagnosis: dict[str, int] | None = None  # see mesh_diagnosis.py
 
 
 class Effect(Enum):
@@ -121,7 +121,7 @@ class Manifest:
     # Blender: of a collection's instance that is the empty. It is not in the JSON.
     owners: tuple[str, ...] = ()
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the manifest as JSON can hold it."""
         out = {k: v for k, v in vars(self).items() if k not in ("objects", "unmodelled", "owners")}
         out["notes"] = list(self.notes)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from .manifest import Manifest
 from .scene import Mesh, Scene
 
 
-def diagnose(mesh: Mesh) -> dict[str, Any]:
+def diagnose(mesh: Mesh) -> dict[str, int]:
     """Return trimesh's diagnosis of a mesh, for JSON.
 
     Vertices at equal positions count as one. A mesh is closed if every edge has two triangles.
@@ -50,7 +49,7 @@ def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manife
     return replace(manifest, objects=tuple(entries))
 
 
-def _joined(diagnoses: list[dict[str, Any]]) -> dict[str, Any]:
+def _joined(diagnoses: list[dict[str, int]]) -> dict[str, int]:
     """Return the diagnosis of several meshes: closed if all are, and the sum of each count."""
     return {
         key: (all if isinstance(value, bool) else sum)(d[key] for d in diagnoses)

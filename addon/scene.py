@@ -169,14 +169,14 @@ class Camera:
         """World-space viewing direction, (3,) float64."""
         return -self.world_from_camera[:3, 2]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the camera as files hold it, for JSON."""
         return {
             "world_from_camera": self.world_from_camera.tolist(),
             "window": vars(self.window),
             "width": self.width,
             "height": self.height,
-            "orthographic": self.projection.in_files,
+            "projection": self.projection.name,
             "clip_start": self.clip_start,
             "clip_end": self.clip_end,
             "region": vars(self.region),

@@ -25,7 +25,8 @@ from .tracer.memory import free_memory
 
 T = TypeVar("T")
 
-_SCHEMA = "reference_tracer.scene/1"
+_SCHEMA = "reference_tracer.scene/2"
+_READ = "reference_tracer.scene/1", _SCHEMA  # the first had "orthographic" for "projection"
 _ARRAYS = {  # the arrays of a .npz and their shapes, by what has them
     "mesh": {"vertices": "n3", "triangles": "n3", "slots": "n", "corner_colors": "n34"},
     "instance": {"world_from_object": "44", "colors": "n4"},
@@ -105,7 +106,7 @@ def _read(path: str | Path, of: Callable[[ZipFile], T]) -> T:
 
 def _head(stored: ZipFile) -> Content:
     head: Content = json.loads(str(_array(stored, "scene", "", "U")))
-    if head.get("schema") != _SCHEMA:
+    if head.get("schema") not in _READ:
         raise SceneError(f"its schema is {head.get('schema')!r}, not {_SCHEMA!r}")
     return head
 

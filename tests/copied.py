@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 ADDON = Path(__file__).parent.parent / "addon"
+TOOLS = str(ADDON.parent / "tools")
 
 
 def copied(folder: Path) -> Path:

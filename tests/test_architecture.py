@@ -1,15 +1,11 @@
 """ARCHITECTURE.md is what the code is: its floors, and the walks through it."""
 
-import sys
 from pathlib import Path
 
 import pytest
+from documents import architecture
 
 PROJECT = Path(__file__).parent.parent
-sys.path.insert(0, str(PROJECT / "tools"))
-from documents import architecture  # noqa: E402
-
-sys.path.pop(0)
 PAGE = (PROJECT / "ARCHITECTURE.md").read_text(encoding="utf-8")
 
 

@@ -80,6 +80,16 @@ def test_links_lead_somewhere(path):
         assert (path.parent / link).exists(), link
 
 
+@pytest.mark.parametrize("path", texts(), ids=lambda p: p.stem)
+def test_every_row_of_a_table_has_its_columns(path):
+    """A row with more is cut off by who shows it, without a word."""
+    columns = 0
+    for line in path.read_text(encoding="utf-8").splitlines():
+        found = len(re.findall(r"(?<!\\)\|", line)) if line.startswith("|") else 0
+        assert not (columns and found) or found == columns, line
+        columns = found
+
+
 def test_commands_are_run_ones(tools):
     """No block with a command stands outside the markers."""
     for path in texts():

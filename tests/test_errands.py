@@ -78,12 +78,19 @@ SEES_PASS_IN_BLENDER = """
 from reference_tracer.blender.ui.choices import PASSES
 assert PASSES[-1][:2] == ("Twice", "Twice")
 """
-# The panorama's own: its file, and its record's lines; without them nobody knows of it.
+# The panorama's own: its file, and the lines that list it; without them nobody knows of it.
 CAMERA_FILE = "projections/equirectangular.py"
 CAMERA_RECORD = {
-    "from .equirectangular import Equirectangular\n": "",
-    "EQUIRECTANGULAR = Equirectangular()\n": "",
-    "(PERSPECTIVE, ORTHOGRAPHIC, EQUIRECTANGULAR)": "(PERSPECTIVE, ORTHOGRAPHIC)",
+    "projections/__init__.py": {
+        "from .equirectangular import Equirectangular\n": "",
+        "EQUIRECTANGULAR = Equirectangular()\n": "",
+        "(PERSPECTIVE, ORTHOGRAPHIC, EQUIRECTANGULAR)": "(PERSPECTIVE, ORTHOGRAPHIC)",
+    },
+    "blender/reading/lenses.py": {
+        "import EQUIRECTANGULAR, ": "import ",
+        '    kind = {"type": "PANO", "panorama_type": "EQUIRECTANGULAR"}\n': "    kind = {}\n",
+        '    Lens(EQUIRECTANGULAR, "EQUIRECTANGULAR", _ranges, _panorama),\n': "",
+    },
 }
 SEES_NO_PANORAMA = """
 from reference_tracer.projections import PROJECTIONS
@@ -105,7 +112,7 @@ save_scene("scene.npz", new)
 assert load_scene("scene.npz").camera.projection == PROJECTIONS["equirectangular"]
 derivation = derive(new, 4, 4)
 assert "cos v" in str(derivation.camera)
-assert to_dict(derivation)["camera"]["orthographic"] == "equirectangular"
+assert to_dict(derivation)["camera"]["projection"] == "equirectangular"
 """
 COLUMN = {
     "study/trade.py": (
@@ -298,15 +305,15 @@ def test_a_method_is_its_function_and_its_record(tmp_path):
 
 def test_a_camera_type_is_a_file_and_a_record(tmp_path):
     """The panorama is taken out of the add-on, and put back."""
-    assert named("a camera's type") == {"projections/", "projections/__init__.py"}
+    assert named("a camera's type") == {"projections/", *CAMERA_RECORD}
     copy = copied(tmp_path)
     (copy / CAMERA_FILE).unlink()
-    listed = copy / "projections/__init__.py"
-    whole = without = listed.read_text(encoding="utf-8")
-    for line, less in CAMERA_RECORD.items():
-        assert without.count(line) == 1, line
-        without = without.replace(line, less)
-    listed.write_text(without, encoding="utf-8")
+    for listed, lines in CAMERA_RECORD.items():
+        without = (ADDON / listed).read_text(encoding="utf-8")
+        for line, less in lines.items():
+            assert without.count(line) == 1, line
+            without = without.replace(line, less)
+        (copy / listed).write_text(without, encoding="utf-8")
     naming = [
         str(file.relative_to(copy))
         for file in copy.rglob("*.*")
@@ -315,8 +322,8 @@ def test_a_camera_type_is_a_file_and_a_record(tmp_path):
     assert not naming
     done = run(tmp_path, SCENE + SEES_NO_PANORAMA)
     assert done.returncode == 0, done.stderr
-    listed.write_text(whole, encoding="utf-8")
-    shutil.copy(ADDON / CAMERA_FILE, copy / CAMERA_FILE)
+    for file in (CAMERA_FILE, *CAMERA_RECORD):
+        shutil.copy(ADDON / file, copy / file)
     done = run(tmp_path, SCENE + SEES_PANORAMA)
     assert done.returncode == 0, done.stderr
 

@@ -15,6 +15,7 @@ import pytest
 from reference_tracer import scene_files
 from reference_tracer.manifest import Effect, Manifest, ObjectEntry, Unmodelled
 from reference_tracer.mesh_files.load import load_meshes
+from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
 from reference_tracer.scene_files import load_account, load_scene, save_scene
 
@@ -152,6 +153,7 @@ def test_damage_is_named(scene, tmp_path, rng):
         "null",
         "{}",
         "not JSON",
+        '{"schema": "reference_tracer.scene/3"}',
         '{"schema": "reference_tracer.scene/2"}',
         '{"schema": "reference_tracer.scene/1"}',
         '{"schema": "reference_tracer.scene/1", "camera": []}',
@@ -161,6 +163,33 @@ def test_wrong_head_is_named(head, tmp_path):
     np.savez(tmp_path / "bad.npz", scene=np.array(head))
     with pytest.raises(SceneError, match=r"bad\.npz"):
         load_scene(tmp_path / "bad.npz")
+
+
+@pytest.mark.parametrize(
+    ("old", "meant"), [(False, "perspective"), (True, "orthographic"), *[("equirectangular",) * 2]]
+)
+def test_a_file_of_version_1_is_read(make, old, meant, tmp_path):
+    camera = make.camera(projection=PROJECTIONS[meant])
+    save_scene(tmp_path / "scene.npz", Scene(camera, objects=()))
+    arrays = dict(np.load(tmp_path / "scene.npz"))
+    head = json.loads(str(arrays["scene"]))
+    assert head["schema"] == "reference_tracer.scene/2"
+    assert head["camera"].pop("projection") == meant
+    head["camera"]["orthographic"] = old
+    head["schema"] = "reference_tracer.scene/1"
+    np.savez(tmp_path / "scene.npz", **arrays | {"scene": np.array(json.dumps(head))})
+    assert load_scene(tmp_path / "scene.npz").camera.projection == PROJECTIONS[meant]
+
+
+@pytest.mark.parametrize("wrong", [True, False, 1, None, "fisheye", ["perspective"]])
+def test_a_projection_is_one_of_three_names(scene, wrong, tmp_path):
+    save_scene(tmp_path / "scene.npz", scene)
+    arrays = dict(np.load(tmp_path / "scene.npz"))
+    head = json.loads(str(arrays["scene"]))
+    head["camera"] |= {"projection": wrong, "orthographic": False}
+    np.savez(tmp_path / "scene.npz", **arrays | {"scene": np.array(json.dumps(head))})
+    with pytest.raises(SceneError, match=r"camera\.projection must be one of: perspective, "):
+        load_scene(tmp_path / "scene.npz")
 
 
 def test_content_is_checked(scene, tmp_path):

@@ -3,41 +3,55 @@
     python tools/record_trees.py [--check]
 
 The functions run as they are, on numbers that remember where they come from (tools/recorder).
---check writes nothing, and says what has changed.
+--check writes nothing, and says what is another than `make prove` has had Coq read last.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 from recorder import coq
-from recorder.records import FILES, Output, Record, outputs
+from recorder.records import FILES, outputs
 
 RECORDED = Path(__file__).resolve().parents[1] / "proofs" / "recorded"
+PROVEN = RECORDED / "proven.txt"  # digests of what Coq has read: the files themselves are not kept
 
 
-def all_outputs(records: Sequence[Record]) -> list[Output]:
-    """Record functions; return the results of all, in order."""
-    return [output for record in records for output in outputs(record)]
+def proven() -> dict[str, str]:
+    """Return the digests of the expressions that Coq has read last, by name."""
+    lines = PROVEN.read_text(encoding="utf-8").splitlines()
+    return dict(line.split() for line in lines)
+
+
+def write() -> str:
+    """Record all functions and write the Coq files; return their digests as `PROVEN` has them."""
+    lines = []
+    for file, records in FILES.items():
+        found = [output for record in records for output in outputs(record)]
+        (RECORDED / f"{file}.v").write_text(coq.text(found), encoding="utf-8")
+        lines += [f"{name} {digest}\n" for name, digest in coq.digests(file, found).items()]
+    return "".join(lines)
+
+
+def check() -> list[str]:
+    """Record all functions; return in words what Coq has not read so."""
+    before = proven()
+    changed = []
+    for file, records in FILES.items():
+        found = [output for record in records for output in outputs(record)]
+        changed += coq.differences(file, before, found)
+    return changed
 
 
 def main() -> None:
-    """Write the files, or compare them with what is recorded now."""
+    """Write the files, or compare with what Coq has read."""
     parser = argparse.ArgumentParser(description="Record what the tracer computes.")
     parser.add_argument("--check", action="store_true", help="write nothing, say what changed")
-    options = parser.parse_args()
-    changed = []
-    for file, records in FILES.items():
-        path = RECORDED / f"{file}.v"
-        found = all_outputs(records)
-        if options.check:
-            changed += coq.differences(file, path.read_text(encoding="utf-8"), found)
-        else:
-            path.write_text(coq.text(found), encoding="utf-8")
-    if changed:
+    if not parser.parse_args().check:
+        write()
+    elif changed := check():
         sys.exit("\n\n".join(changed))
 
 

@@ -19,9 +19,25 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parents[1]
 SCENE = "sample_scenes/suzanne.blend"
 COMPARE = ["compare", SCENE]
+# What a comparison has Blender do: open the scene, draw a picture to see how its rasteriser rounds,
+# one of the colours and one of the objects.
+BLENDER = """
+import sys, bpy
+bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
+render = bpy.context.scene.render
+render.resolution_y = render.resolution_y * int(sys.argv[2]) // render.resolution_x
+render.resolution_x = int(sys.argv[2])
+render.engine = "BLENDER_WORKBENCH"
+render.image_settings.file_format = "OPEN_EXR"
+render.filepath = sys.argv[-1] + "/picture"
+for _ in range(3):
+    bpy.ops.render.render(write_still=True)
+"""
 COMMANDS: dict[str, list[str]] = {
-    "Blender itself: `import bpy`": [],
+    "Blender alone: `import bpy`": ["-c", "import bpy"],
+    "Blender alone: `compare`'s pictures": ["-c", BLENDER, SCENE, "960"],
     "`compare`": COMPARE,
+    "Blender alone: `compare --width 1920`'s pictures": ["-c", BLENDER, SCENE, "1920"],
     "`compare --width 1920`": [*COMPARE, "--width", "1920"],
     "`compare --self-check`": [*COMPARE, "--self-check"],
     "`compare --frames 1`": [*COMPARE, "--frames", "1"],
@@ -33,11 +49,10 @@ COMMANDS: dict[str, list[str]] = {
 
 def used(checkout: Path, command: list[str]) -> tuple[float, float]:
     """Return a command's CPU seconds and its peak memory in MB."""
-    python = [str(checkout / ".venv/bin/python")]
     with tempfile.TemporaryDirectory() as out:
-        run = [*python, "-m", "reference_tracer.cli", *command, "--out", out]
+        run = ["-m", "reference_tracer.cli", *command, "--out", out]
         process = subprocess.Popen(
-            run if command else [*python, "-c", "import bpy"],
+            [checkout / ".venv/bin/python", *([*command, out] if command[0] == "-c" else run)],
             cwd=checkout,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,

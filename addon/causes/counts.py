@@ -42,7 +42,7 @@ class Counts:
         """Count pixels of any shape by the numbers of their causes."""
         return cls(**_counted(cause))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return them as JSON can hold them."""
         return {
             "total": self.total,
@@ -83,7 +83,7 @@ class PixelCounts(Counts):
     behind: BehindCount | None = None  # None: it was not looked at
     unexplained_shows: Shows | None = None  # whose surfaces unexplained pixels show, if it is known
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return them as JSON can hold them."""
         out = super().to_dict()
         out["interior"] = self.interior.to_dict()

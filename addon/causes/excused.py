@@ -90,7 +90,7 @@ class Excused:
         if more := len(self.objects[_TOLD:]):
             yield f"nor were {more:,} other objects judged"
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return it as JSON can hold it."""
         return {
             "pixels": self.pixels,

@@ -66,9 +66,6 @@ class Ladder:
         Rays with the same common origin or direction as `rays`, whose components span a range that
         contains theirs; by default `rays`. Bounds are computed for these, so that the result for a
         ray does not depend on which others it is traced with.
-    room : float
-        Widens the error bounds of planes, so that they hold for any ray whose components differ
-        by at most this.
     """
 
     def __init__(
@@ -77,7 +74,6 @@ class Ladder:
         surfaces: Surfaces | None = None,
         clip: tuple[float, float] = (0.0, np.inf),
         around: Rays | None = None,
-        room: float = 0.0,
     ) -> None:
         self._rays = rays
         self._planes = surfaces or Surfaces()
@@ -90,13 +86,13 @@ class Ladder:
         self._batch: WorldTriangles | None = None  # of the last pairs
         self._prepared: FromPoint | Parallel | None = None
         for number, (point, normal) in enumerate(self._planes.planes):
-            self._test_plane(number, point[:, None], normal[:, None], room)
+            self._test_plane(number, point[:, None], normal[:, None])
 
     @classmethod
-    def of(cls, scene: Scene, rays: Rays, around: Rays | None = None, room: float = 0.0) -> Ladder:
+    def of(cls, scene: Scene, rays: Rays, around: Rays | None = None) -> Ladder:
         """Return one with a scene's planes, in its camera's clip range."""
         clip = scene.camera.clip_start, scene.camera.clip_end
-        return cls(rays, Surfaces.planes_of(scene), clip, around, room)
+        return cls(rays, Surfaces.planes_of(scene), clip, around)
 
     def test(self, pairs: Pairs) -> None:
         """Find the candidates among pairs of a ray and a triangle, by the error bound.
@@ -155,12 +151,10 @@ class Ladder:
         surfaces = replace(self._planes, triangles=WorldTriangles.joined(self._triangles))
         return found, alone & (found.doubt == SURE), surfaces
 
-    def _test_plane(self, number: int, point: Floats, normal: Floats, room: float) -> None:
+    def _test_plane(self, number: int, point: Floats, normal: Floats) -> None:
         every = np.arange(self._rays.count)
         with np.errstate(all="ignore"):
             fractions = plane_fractions(self._rays, point, normal)
-            for error in (fractions.numerator_error, fractions.denominator_error):
-                error += room * np.abs(normal).sum()
             plane = np.full(len(every), number)
             found = self._candidates(every, plane, fractions, np.ones(len(every), bool))
         self._found.append(found)

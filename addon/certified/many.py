@@ -10,7 +10,7 @@ not share, with integers as coefficients that belong to the triangle alone:
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -58,6 +58,6 @@ def _edges(corners: list[Array]) -> list[tuple[Array, Array]]:
     return [(a, b), (b, c), (c, a)]
 
 
-def _columns(triples: list[Any]) -> Array:
+def _columns(triples: Sequence[object]) -> Array:
     """Return n triples of integers as (3, n), dtype object."""
     return np.array(triples, object).reshape(-1, 3).T

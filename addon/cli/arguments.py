@@ -63,16 +63,6 @@ def add_settings(parser: Parser) -> None:
     )
 
 
-def add_rounding(parser: Parser) -> None:
-    """Add the option that asks what the roundings before the proof change."""
-    parser.add_argument(
-        "--check-rounding",
-        action="store_true",
-        help="say how far rays and corners are rounded before the proof begins, and count the "
-        "pixels that show another surface because of it",
-    )
-
-
 def settings_from(given: Namespace) -> GivenSettings:
     """Return the settings that a command line names for its scene.
 

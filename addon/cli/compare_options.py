@@ -6,17 +6,14 @@ from argparse import ArgumentTypeError, BooleanOptionalAction, Namespace
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..certified.rounding import check_is_proven
 from ..comparison.animation import frames_named
 from ..framing import Choice
 from ..pictures.palette import By
 from ..pictures.renderers import RENDERERS
 from ..scene import SceneError
-from ..tracer.settings import Settings
 from .arguments import (
     GivenSettings,
     Place,
-    add_rounding,
     add_settings,
     place_from,
     refuse,
@@ -44,7 +41,6 @@ class CompareOptions:
     identity: bool | None
     self_check: bool | None
     diagnosis: bool | None
-    check_rounding: bool
     frames: str | None  # of an animation, as they are typed
     # Another picture, in place of Blender's.
     against: Path | None
@@ -62,7 +58,7 @@ class CompareOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
         _refuse_beside_frames(given)
         if given.judge == "all":
-            refuse(given, ("check_rounding", "colors_out"), "is for one judge, not for --judge all")
+            refuse(given, ("colors_out",), "is for one judge, not for --judge all")
         if given.as_is:
             refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
         if given.against is None:
@@ -81,7 +77,6 @@ class CompareOptions:
             identity=given.identity,
             self_check=given.self_check,
             diagnosis=given.diagnosis,
-            check_rounding=given.check_rounding,
             frames=given.frames,
             against=given.against,
             filter=given.filter,
@@ -93,19 +88,6 @@ class CompareOptions:
             place=place_from(given),
         )
 
-    def settings_over(self, stored: Settings) -> Settings:
-        """Return the stored settings with those that are named in their place.
-
-        Raises
-        ------
-        SceneError
-            If they contradict one another, or what is to be checked of them.
-        """
-        settings = self.settings.over(stored)
-        if self.check_rounding:
-            check_is_proven(settings.method)
-        return settings
-
     def of_a_frame(self) -> dict[str, str]:
         """Return the options that a frame's comparison depends on, in words that can be stored."""
         return {k: str(v) for k, v in vars(self).items() if k not in _NOT_OF_A_FRAME}
@@ -115,7 +97,7 @@ def _refuse_beside_frames(given: Namespace) -> None:
     if given.frames is None:
         return
     why = "is for one frame, not for --frames"
-    of_one = "frame", "against", "trade", "extremes", "diagnosis", "check_rounding", "colors_out"
+    of_one = "frame", "against", "trade", "extremes", "diagnosis", "colors_out"
     refuse(given, of_one, why)
     if isinstance(given.colors, Path):
         raise SceneError(f"--colors {given.colors} {why}")
@@ -134,7 +116,6 @@ def add_options(parser: Parser) -> None:
         "--out", required=True, type=parser.path, metavar="DIR", help="folder for what is found"
     )
     add_settings(parser)
-    add_rounding(parser)
     _add_colors(parser)
     _add_blenders_picture(parser)
     _add_page(parser)

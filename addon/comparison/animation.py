@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from ..checked_json import Content
 from .verdict import Verdict
 
 _NAMED = re.compile(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?")
@@ -47,7 +48,7 @@ class FrameRow(NamedTuple):
     error: str = ""
 
     @classmethod
-    def of(cls, frame: int, found: dict[str, Any]) -> FrameRow:
+    def of(cls, frame: int, found: Content) -> FrameRow:
         """Return the row of a comparison, as its JSON holds it."""
         p = found["pixels"]
         explained = p["differ"] - p["unexplained"]

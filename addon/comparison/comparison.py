@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -125,7 +124,7 @@ class Comparison:
         """What it took to certify the picture, and what was left out, in words, a fact a line."""
         return list(dict.fromkeys(line for row in self.methods for line in row.required))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the comparison as JSON can hold it."""
         certificate = self.case.certificate
         return {
@@ -149,7 +148,7 @@ class Comparison:
             "verdict": self.verdict,
         }
 
-    def _tracer(self) -> dict[str, Any]:
+    def _tracer(self) -> dict[str, object]:
         """Return how the scene was traced, as JSON can hold it."""
         s, settings = self.frame.statistics, self.case.settings
         certainty = self.frame.certainty

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ..causes.cause import UNEXPLAINED
 from ..causes.checks.unmodelled import drawn_over
 from ..causes.counts import EXAMPLES, PixelCounts
 from ..causes.explain import BY_NUMBER, CAUSES
+from ..checked_json import Content
 from ..diagnosis.self_check import FaultRow
 from ..pictures.identity import NOTHING, UNKNOWN
 from .comparison import Comparison
@@ -25,7 +26,7 @@ class EngineRow(NamedTuple):
     engine: str
     verdict: Verdict
     counts: PixelCounts | None = None  # None: there is no picture
-    wrong: tuple[dict[str, Any], ...] = ()
+    wrong: tuple[Content, ...] = ()
     wrong_objects: int | None = None  # pixels that show another object; None: not known
     error: str = ""  # why there is no picture
     not_judged: tuple[str, ...] = ()  # lines on what cannot be judged, and why
@@ -45,7 +46,7 @@ class EngineRow(NamedTuple):
             self_check=comparison.self_check,
         )
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the row as JSON can hold it."""
         counts = self.counts and self.counts.to_dict()
         if counts:
@@ -62,7 +63,7 @@ class EngineRow(NamedTuple):
         }
 
 
-def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
+def _wrong(comparison: Comparison) -> list[Content]:
     """Return the first pixels that differ, the unexplained ones first: both sides, and why."""
     causes, frame = comparison.causes, comparison.frame
     identity = comparison.identity
@@ -96,7 +97,7 @@ def worst(rows: Sequence[EngineRow]) -> Verdict:
     return Verdict.gravest(row.verdict if row.counts else Verdict.WARNINGS for row in rows)
 
 
-def to_dict(rows: Sequence[EngineRow]) -> dict[str, Any]:
+def to_dict(rows: Sequence[EngineRow]) -> dict[str, object]:
     """Return all engines as JSON can hold them."""
     engines = [row.to_dict() for row in rows]
     return {"schema": SCHEMA, "engines": engines, "verdict": worst(rows)}

@@ -45,7 +45,7 @@ def extras(
     literal = called(_literal(comparison, left_out), "tracing by the textbook, literally")
     derivations = called(_derivations(comparison, left_out), "deriving examples")
     # Of each field, with its share of the work, roughly.
-    works: dict[str, tuple[Work[Any], float]] = {
+    works: dict[str, tuple[Work[object], float]] = {
         "literal": (literal, 1.0),
         "derivations": (derivations, 0.5),
     }

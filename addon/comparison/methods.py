@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..certainty import Certainty
 from ..certified.arithmetic import broken_assumptions
@@ -26,7 +26,7 @@ class MethodRow(NamedTuple):
     ambiguous: int  # pixels without a unique answer, which the certified tracer's rule decided
     required: tuple[str, ...] = ()  # what the scene required, in words
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the row as JSON can hold it."""
         return self._asdict() | {"seconds": round(self.seconds, 6), "required": list(self.required)}
 

@@ -23,7 +23,7 @@ from . import textbook
 from .candidates import LIMIT, gather_pixel
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
 from .pixel import Answer, Candidate, Pixel, certified_answer, plain_answers
-from .textbook import Arithmetic, Judgement, Values
+from .textbook import Arithmetic, Judgement, Number, Values
 
 Columns = dict[Arithmetic, Values]
 
@@ -60,7 +60,7 @@ class Test:
     quantities: tuple[Quantity, ...]
     judgements: Mapping[Arithmetic, Judgement]
 
-    def number(self, key: str, kind: Arithmetic) -> Any:
+    def number(self, key: str, kind: Arithmetic) -> Number:
         """Return a step's value; for a vector, its first component."""
         return next(q.values[kind][0] for q in self.quantities if q.key == key)
 

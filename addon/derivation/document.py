@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -24,11 +23,11 @@ _TEXTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="u
 CERTAINTY_SENTENCES = {c: _TEXTS["certainty"][c.name.lower()] for c in Certainty}
 
 
-def _text(name: str, **of: Any) -> str:
+def _text(name: str, **of: object) -> str:
     return _TEXTS[name].strip().format(**of)
 
 
-def _said(name: str, tone: str = "", **of: Any) -> Paragraph:
+def _said(name: str, tone: str = "", **of: object) -> Paragraph:
     return Paragraph(_text(name, **of), tone)
 
 

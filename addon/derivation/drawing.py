@@ -7,7 +7,7 @@ place in a drawing, as a plane that the ray never meets, is left out.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import SupportsFloat
 
 import numpy as np
 
@@ -45,7 +45,7 @@ def _plates(derivation: Derivation) -> Iterator[tuple[Plate, str]]:
     yield from _sides(view)
 
 
-def _named(number: Any) -> str:
+def _named(number: SupportsFloat) -> str:
     return f"{float(number):.4g}".replace("-", "−")
 
 

@@ -8,18 +8,18 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ..arrays import Colors, Floats
-from ..checked_json import ENDLESS, camera_of, numbers, part, whole
+from ..checked_json import ENDLESS, Content, camera_of, numbers, part, whole
 from ..file_kinds import check_is_file
 from ..scene import SceneError
 from ..tracer.hits import NOTHING
 from .pixel import Candidate, Pixel
 
-SCHEMA = "reference_tracer.pixel/1"
+SCHEMA = "reference_tracer.pixel/2"
+_READ = "reference_tracer.pixel/1", SCHEMA  # the first had "orthographic" for "projection"
 _COUNTS = "first_plane", "triangles", "left_out", "refused"
 
 
@@ -66,9 +66,9 @@ def read(path: str | Path) -> Pixel:
         raise SceneError(f"'{path}': {error}") from error
 
 
-def _pixel(content: Any) -> Pixel:
+def _pixel(content: Content) -> Pixel:
     schema = content.get("schema") if isinstance(content, dict) else None
-    if schema != SCHEMA:
+    if schema not in _READ:
         raise SceneError(f"its schema is {schema!r}, not {SCHEMA!r}: no pixel to explain")
     first_plane = whole(content, "first_plane", "")
     candidates = tuple(
@@ -95,7 +95,7 @@ def _pixel(content: Any) -> Pixel:
     return pixel
 
 
-def _check_ray(pixel: Pixel, ray: dict[str, Any]) -> None:
+def _check_ray(pixel: Pixel, ray: Content) -> None:
     """Raise a SceneError if the file's ray is not its camera's: one of them was changed."""
     for name, own in (("origin", pixel.origin), ("direction", pixel.direction)):
         if not np.array_equal(numbers(ray, name, "ray.", (3,)), own):
@@ -105,7 +105,7 @@ def _check_ray(pixel: Pixel, ray: dict[str, Any]) -> None:
             )
 
 
-def _candidate(c: Any, where: str) -> Candidate:
+def _candidate(c: Content, where: str) -> Candidate:
     if not isinstance(c, dict):
         raise SceneError(f"{where} must be an object in braces")
     where += "."

@@ -27,7 +27,8 @@ from .formulas import CAMERA, Formula, Rejection, ray_formulas
 
 Number = np.float32 | np.float64 | Fraction
 Vector = NDArray[Any]  # (3,), float32 or float64, which round after every operation, or fractions
-Values = dict[str, Any]  # numbers and vectors of one arithmetic, by their keys or labels
+Value = Any  # a number or a vector of one arithmetic
+Values = dict[str, Value]  # by their keys or labels
 
 
 class Arithmetic(StrEnum):
@@ -65,7 +66,7 @@ _SINES = {"sin": 0, "cos": 1}  # of an angle plus so many right angles
 _UNIT = 1 << 2048  # of sines in integers: the series' terms are below 2^1500 of it
 
 
-def _sine(angle: Any, quarters: int) -> Any:
+def _sine(angle: Value, quarters: int) -> Value:
     """Return a sine, or a cosine; the exact one of a fraction to far more digits than are shown."""
     if not isinstance(angle, Fraction):
         return sine(angle, quarters)
@@ -82,7 +83,7 @@ def _sine(angle: Any, quarters: int) -> Any:
     return Fraction(total, _UNIT)
 
 
-def evaluate(text: str, names: Values) -> Any:
+def evaluate(text: str, names: Values) -> Value:
     """Return the number or vector that a formula gives; `names` has the value of each letter.
 
     Raises
@@ -93,7 +94,7 @@ def evaluate(text: str, names: Values) -> Any:
     return _evaluate([*reversed(_TOKEN.findall(text))], names)
 
 
-def _evaluate(tokens: list[str], names: Values, binding: int = 0) -> Any:
+def _evaluate(tokens: list[str], names: Values, binding: int = 0) -> Value:
     """Take tokens off the end of the list, as far as operators bind more strongly."""
     value = _operand(tokens, names)
     while tokens and tokens[-1] != ")":
@@ -108,7 +109,7 @@ def _evaluate(tokens: list[str], names: Values, binding: int = 0) -> Any:
     return value
 
 
-def _operand(tokens: list[str], names: Values) -> Any:
+def _operand(tokens: list[str], names: Values) -> Value:
     token = tokens.pop()
     if token == "−":
         return -_operand(tokens, names)

@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -21,7 +20,7 @@ from .html import page
 from .pixel import Answer
 from .textbook import FLOATS, Number
 
-SCHEMA = "reference_tracer.derivation/1"
+SCHEMA = "reference_tracer.derivation/2"
 
 
 def json_text(derivation: Derivation) -> str:
@@ -29,7 +28,7 @@ def json_text(derivation: Derivation) -> str:
     return json.dumps(to_dict(derivation), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def to_dict(derivation: Derivation) -> dict[str, Any]:
+def to_dict(derivation: Derivation) -> dict[str, object]:
     """Return a derivation in dicts, lists, strings and numbers."""
     pixel, camera = derivation.pixel, derivation.pixel.camera
     return {
@@ -38,7 +37,7 @@ def to_dict(derivation: Derivation) -> dict[str, Any]:
         "pixel": {"x": pixel.x, "y": pixel.y, "column": pixel.column, "row": pixel.row},
         "camera": {
             "name": camera.name,
-            "orthographic": camera.projection.in_files,
+            "projection": camera.projection.name,
             "width": camera.width,
             "height": camera.height,
             "clip_start": number(np.float64(camera.clip_start)),
@@ -69,7 +68,7 @@ def to_dict(derivation: Derivation) -> dict[str, Any]:
     }
 
 
-def _quantity(quantity: Quantity) -> dict[str, Any]:
+def _quantity(quantity: Quantity) -> dict[str, object]:
     return {
         "key": quantity.key,
         "label": quantity.formula.label,
@@ -78,16 +77,16 @@ def _quantity(quantity: Quantity) -> dict[str, Any]:
     }
 
 
-def _component(quantity: Quantity, index: int) -> dict[str, Any]:
+def _component(quantity: Quantity, index: int) -> dict[str, object]:
     exact = quantity.exact(index)
-    out: dict[str, Any] = {kind: number(quantity.values[kind][index]) for kind in FLOATS}
+    out: dict[str, object] = {kind: number(quantity.values[kind][index]) for kind in FLOATS}
     out["exact"] = None if exact is None else number(exact)
     off = {kind: ulps(quantity.values[kind][index], exact) for kind in FLOATS}
     out["ulp"] = {kind: None if v is None or np.isinf(v) else v for kind, v in off.items()}
     return out
 
 
-def number(value: Number) -> Any:
+def number(value: Number) -> object:
     """Return a number as JSON has it."""
     if isinstance(value, Fraction):
         rational = f"{value.numerator}/{value.denominator}"
@@ -95,7 +94,7 @@ def number(value: Number) -> Any:
     return float(digits_text(value)) if np.isfinite(value) else digits_text(value)
 
 
-def _test(test: Test) -> dict[str, Any]:
+def _test(test: Test) -> dict[str, object]:
     c = test.candidate
     return {
         "object": c.object,
@@ -117,7 +116,7 @@ def _test(test: Test) -> dict[str, Any]:
     }
 
 
-def _answer(answer: Answer, derivation: Derivation) -> dict[str, Any]:
+def _answer(answer: Answer, derivation: Derivation) -> dict[str, object]:
     return {
         "method": answer.method.value,
         "precision": answer.precision.value,

@@ -91,22 +91,28 @@ class Guessing:
         """Return guesses tried on the whole picture, the best first.
 
         Faults without numbers to fit are looked at before the others: where one of them does it
-        all, a fit that does as well says no more.
+        all, a fit that does as well says no more. What may be anything, and cannot be sampled,
+        comes last: it takes most work, and is not told where something exact does as well.
         """
         open_ = float(evidence.open.sum())
         faults = [f for f in self.faults if not (f.everywhere and evidence.of_object)]
         pool: list[tuple[float, Fault, Guess]] = []
+        unknown: list[tuple[float, Fault, Guess]] = []
         out: list[Trial] = []
         for effort in sorted({fault.effort for fault in faults}):
             some = [fault for fault in faults if fault.effort == effort]
             scored = yield from self._scored(evidence, some)
-            pool += [one for one in scored if one[0] < NEARLY * open_]
-            sure = [one for one in scored if one[0] >= NEARLY * open_]
+            unknown += [one for one in scored if one[1].vague and not one[1].sampled]
+            known = [one for one in scored if one[1].sampled or not one[1].vague]
+            pool += [one for one in known if one[0] < NEARLY * open_]
+            sure = [one for one in known if one[0] >= NEARLY * open_]
             out += yield from self._tried(evidence, of, sure, MOST_SURE)
-            if any(t.gain >= ENOUGH * open_ for t in _good(of, out)):
+            if _is_enough(of, out):
                 break
         else:
             out += yield from self._tried(evidence, of, pool, TRIED)
+            if not _is_enough(of, out):
+                out += yield from self._tried(evidence, of, unknown, MOST_SURE)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
     def _scored(
@@ -222,6 +228,12 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
         and min(t.recall, t.own) >= (FITTED if t.cost else COMPLETE)
         and not t.unseen
     ]
+
+
+def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
+    """Return whether one that may be told settles nearly all: then no more are tried."""
+    least = ENOUGH * evidence.open.sum()
+    return any(t.gain >= least for t in _good(evidence, trials))
 
 
 def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:

@@ -132,9 +132,10 @@ def depth_step(camera: Camera, depth: Floats) -> Floats:
     z^2 (f - n) / (f n) 2^-24; of an orthographic one (f - n) 2^-24.
     """
     near, far = camera.clip_start, camera.clip_end
-    z = np.asarray(depth, np.float64)
-    step = camera.projection.depth_step((far - near) * U32, z, near, far)
-    return np.asarray(_DEPTH_STEPS * step, np.float64)
+    step = np.full(np.shape(depth), (far - near) * U32)
+    if not camera.projection.shares_direction:
+        step = step * np.asarray(depth, np.float64) ** 2 / (far * near)
+    return _DEPTH_STEPS * step
 
 
 def differing(

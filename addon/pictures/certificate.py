@@ -7,7 +7,7 @@ is drawn: pictures of different cameras are not compared.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -39,7 +39,7 @@ class CameraCertificate(NamedTuple):
         """Whether rounding accounts for the distance."""
         return self.largest <= self.allowed
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the certificate as JSON can hold it."""
         return self._asdict() | {"passed": self.passed}
 
@@ -70,7 +70,12 @@ def known_points(camera: Camera) -> Floats:
     x, y, depth = np.reshape(corners, (3, 8))
     x = np.append(x, rng.uniform(w.left, w.right, POINTS))
     y = np.append(y, rng.uniform(w.bottom, w.top, POINTS))
-    depth = np.append(depth, camera.projection.depths(rng, ends, POINTS))
+    if camera.projection.sees_behind:
+        depths = rng.uniform(ends[0], ends[1], POINTS)
+    else:  # as many near the camera as far away
+        start, end = np.log(ends)
+        depths = np.exp(rng.uniform(start, end, POINTS))
+    depth = np.append(depth, depths)
     scale = camera.projection.scale(depth)
     beside = x * camera.right[:, None] + y * camera.up[:, None]
     return camera.origin[:, None] + scale * beside + depth * camera.forward[:, None]

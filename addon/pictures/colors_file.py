@@ -9,12 +9,11 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ..arrays import Colors, Floats
-from ..checked_json import numbers, part
+from ..checked_json import Content, numbers, part
 from ..file_kinds import check_is_file
 from ..scene import Scene, SceneError
 from .palette import By, GivenColors, Key, automatic_note, clear_palette, eight_bits, not_told_apart
@@ -60,7 +59,7 @@ def _no_slots(name: str, why: str) -> str:
     return f"--colors-out: '{name}' {why}, which no palette can name: choose --colors object"
 
 
-def _color(color: Floats) -> dict[str, Any]:
+def _color(color: Floats) -> dict[str, object]:
     return {"linear": color[:3].tolist(), "srgb": eight_bits(color[:3]).tolist()}
 
 
@@ -83,7 +82,7 @@ def read(path: Path) -> GivenColors:
         raise SceneError(f"'{path}': {error}") from error
 
 
-def _slots(content: Any) -> dict[Key, Colors]:
+def _slots(content: Content) -> dict[Key, Colors]:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
         raise SceneError(
@@ -106,7 +105,7 @@ def _slots(content: Any) -> dict[Key, Colors]:
     return found
 
 
-def _read(slot: Any, where: str) -> Floats:
+def _read(slot: Content, where: str) -> Floats:
     """Return a colour, (3,) linear RGB; where sRGB is given, too, both must be the same."""
     if not isinstance(slot, dict):
         raise SceneError(f"{where} must be an object in braces")

@@ -8,7 +8,7 @@ falls between digits, or has an odd sum: then the object is not known.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -48,7 +48,7 @@ class Identity(NamedTuple):
             not_known=int((unknown & where).sum()),
         )
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the names and the counts; the pictures are arrays."""
         return {"names": list(self.names), "pixels": self.shows()._asdict()}
 

@@ -6,7 +6,7 @@ Pictures are (h, w, c) of any real type; the data range is given, not guessed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,7 +37,7 @@ class Metrics:
         """The peak signal-to-noise ratio in decibels; infinite for equal pictures."""
         return psnr(self.rmse)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return them as JSON can hold them: no ratio where it is infinite."""
         largest = self.largest_difference
         return {

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +66,7 @@ class Source:
     file: str = ""
     known: str = ""  # of a file: how it is known what made it, in words
     remarks: tuple[str, ...] = ()  # what a file says of its pixels that is not applied
-    settings: dict[str, Any] = field(default_factory=dict)
+    settings: dict[str, object] = field(default_factory=dict)
 
     def __str__(self) -> str:
         return f"the picture '{self.file}'" if self.file else f"Blender's {self.name} picture"
@@ -104,10 +104,10 @@ class Picture:
     beneath: Colors | None = None  # (..., 4) the colour without these features; NaN: not known
     renderer: Renderer = RASTER  # whose rounding excuses a pixel
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return who made it and how, as JSON can hold it."""
         source = self.source
-        out = {
+        out: dict[str, object] = {
             "version": source.version,
             "source": source.name,
             "sample_radius": self.sample_radius,

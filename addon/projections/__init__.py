@@ -12,9 +12,3 @@ EQUIRECTANGULAR = Equirectangular()
 PROJECTIONS: dict[str, Projection] = {
     p.name: p for p in (PERSPECTIVE, ORTHOGRAPHIC, EQUIRECTANGULAR)
 }
-
-
-def projection_of(value: object) -> Projection | None:
-    """Return the projection that a file's "orthographic" means; None for none."""
-    found = [p for p in PROJECTIONS.values() if p.in_files == value]
-    return found[0] if found and isinstance(value, bool | str) else None

@@ -11,19 +11,17 @@ Straight lines are curved in the picture. Boxes on the film are those of cones a
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
 from ..arrays import Array, Floats
-from .projection import Edges, Formulas, Projection, Ray, Vectors
+from .projection import Edges, Formulas, Lengths, Projection, Ray, Vectors
 from .sine import sine
 
 # Radians: far above the rounding of an angle that is found here, where it is not near pi / 2.
 _ANGLE = 1e-9
-_RANGES = "longitude_min", "longitude_max", "latitude_min", "latitude_max"
 _WIDEST, _NEAR_POLE = 1.5, 1e-6  # radians: a cone is narrower, and farther from the poles
 
 
@@ -32,8 +30,6 @@ class Equirectangular(Projection):
     """A panorama. The window is in radians: longitudes, latitudes."""
 
     name = "equirectangular"
-    in_files = "equirectangular"
-    blender = "EQUIRECTANGULAR"
     is_linear = False
     farthest = 1024.0  # many turns, and few enough for `sine`
     formulas: ClassVar[Formulas] = {
@@ -58,7 +54,7 @@ class Equirectangular(Projection):
         """
         return (x + y + 2) * np.abs(frame[:3]).sum(axis=0)
 
-    def scale(self, depth: Any, y: Any = 0.0) -> Any:
+    def scale(self, depth: Lengths, y: Lengths = 0.0) -> Any:
         """Return how many metres a radian of longitude is at a distance and a latitude."""
         return depth * np.maximum(np.abs(np.cos(y)), _ANGLE)
 
@@ -121,20 +117,6 @@ class Equirectangular(Projection):
         half = np.where(once & (low > -pole) & (high < pole), half, np.nan)
         low, high = np.where(low > -pole, low, np.nan), np.where(high < pole, high, np.nan)
         return [longitude - half, low], [longitude + half, high], nearest, farthest
-
-    def window(
-        self, data: Any, lens: Any, sensor: float, around: Callable[[float], Edges]
-    ) -> Edges:
-        """Return the ranges of longitude and latitude; shifts count in lengths of these."""
-        x = data.shift_x * (lens.longitude_max - lens.longitude_min)
-        y = data.shift_y * (lens.latitude_max - lens.latitude_min)
-        longitudes = lens.longitude_min + x, lens.longitude_max + x
-        return *longitudes, lens.latitude_min + y, lens.latitude_max + y
-
-    def settings(self, edges: Edges) -> dict[str, Any]:
-        """Return the ranges of longitude and latitude."""
-        kind = {"type": "PANO", "panorama_type": self.blender}
-        return kind | dict(zip(_RANGES, edges, strict=True))
 
 
 def _direction(x: Array, y: Array) -> tuple[Array, Array, Array]:

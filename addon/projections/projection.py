@@ -6,7 +6,7 @@ linear in the film position, and straight lines are straight in it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -15,18 +15,17 @@ import numpy as np
 from ..arrays import Array, Floats
 
 Vectors = Floats  # (3, ...)
+Lengths = Floats | float
 Ray = tuple[Array, Array]  # origins and directions
 Formulas = dict[str, tuple[str, str]]  # of "o" and "d": the right side, and a remark
 Edges = tuple[float, float, float, float]  # of a view window: left, right, bottom, top
 
 
 @dataclass(frozen=True)
-class Projection:
+class Projection(ABC):
     """A type of camera. World vectors are (3, n) or (3, 1), film positions (n,), window units."""
 
-    name: ClassVar[str]
-    in_files: ClassVar[bool | str]  # their "orthographic"; of a third type, its name
-    blender: ClassVar[str]  # `versions.camera_kind` of Blender's camera
+    name: ClassVar[str]  # in files, too
     # A ray's origin and direction, for readers.
     formulas: ClassVar[Formulas]
     # Whether o and d are linear in the film position. Only then the sweep can find what is seen.
@@ -36,9 +35,9 @@ class Projection:
     sees_behind: ClassVar[bool] = False  # the clip range may begin behind the camera
     farthest: ClassVar[float] = np.inf  # window units: the film ends before this
 
+    @abstractmethod
     def ray(self, eye: Array, x: Array, y: Array, right: Array, up: Array, forward: Array) -> Ray:
         """Return origins and directions of the rays through film positions (x, y)."""
-        raise NotImplementedError
 
     def terms(self, x: float, y: float, frame: Floats) -> Floats:
         """Return the sum of the absolute terms of a ray, by component, (3,).
@@ -49,7 +48,7 @@ class Projection:
         right, up, forward, _ = frame
         return np.abs([x * right, y * up, forward]).sum(axis=0)
 
-    def scale(self, depth: Any, y: Any = 0.0) -> Any:
+    def scale(self, depth: Lengths, y: Lengths = 0.0) -> Any:
         """Return how many metres the window's unit is at a depth (t), at height y of the film."""
         return depth
 
@@ -98,10 +97,10 @@ class Projection:
         *sides, depth = xyz
         nearest, farthest = depth.min(axis=0) - error, depth.max(axis=0) + error
         front = np.maximum(nearest, clip_start)  # what can be seen is at least as deep
-        ends = [self.window_range(v, depth, error, front, clip_start) for v in sides]
+        ends = [self._window_range(v, depth, error, front, clip_start) for v in sides]
         return [low for low, _ in ends], [high for _, high in ends], nearest, farthest
 
-    def window_range(
+    def _window_range(
         self, value: Floats, depth: Floats, error: Floats, front: Floats, clip_start: float
     ) -> tuple[Floats, Floats]:
         """Return where m polygons, from `front` on, lie on the window: lowest, highest, (m,) each.
@@ -121,55 +120,3 @@ class Projection:
             low = np.where(whole, (quotient - margin).min(axis=0), low)
             high = np.where(whole, (quotient + margin).max(axis=0), high)
         return low, high
-
-    def sides(self, across: Floats, depth: Floats, edges: Floats) -> tuple[Floats, Floats]:
-        """Return normals (4, 3) and offsets (4,) of the view volume's sides: here a pyramid's.
-
-        `across` (4, 3), towards each side, and `depth` (3,) are rows of the inverse of the axes;
-        `edges` (4,) is where the window ends on each side.
-        """
-        return across - edges[:, None] * depth, np.zeros(4)
-
-    def depths(self, rng: np.random.Generator, ends: Floats, count: int) -> Floats:
-        """Return depths all over a clip range, (count,): as many near the camera as far away."""
-        start, end = np.log(ends)
-        return np.exp(rng.uniform(start, end, count))
-
-    def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Floats | float:
-        """Return the step of a depth buffer at a depth; `step` is that of equal steps, metres."""
-        return step * depth**2 / (end * start)
-
-    def nearness(self, low: Any, high: Any, room: float) -> tuple[Any, Any]:
-        """Return least and most 1 / t between two t, which are not negative, high perhaps inf.
-
-        `room` is for rounding, relative; where it is negative the range is surely covered.
-        """
-        return (1 - room) / high, (1 + room) / np.maximum(low, 0)
-
-    def window(
-        self, data: Any, lens: Any, sensor: float, around: Callable[[float], Edges]
-    ) -> Edges:
-        """Return the view window of a Blender camera.
-
-        Parameters
-        ----------
-        data : bpy.types.Camera
-        lens
-            What has the settings of a panorama (`versions.lens`).
-        sensor : float
-            Its size on the fitted side, millimetres.
-        around : callable
-            Returns the window of a flat film whose fitted side is so long.
-        """
-        raise NotImplementedError
-
-    def settings(self, edges: Edges) -> dict[str, Any]:
-        """Return the settings of a Blender camera with this window; its sensor is horizontal."""
-        raise NotImplementedError
-
-
-def shifts(edges: Edges) -> dict[str, Any]:
-    """Return the shift of a Blender camera whose flat film has these edges."""
-    left, right, bottom, top = edges
-    extent = right - left
-    return {"shift_x": (left + right) / 2 / extent, "shift_y": (bottom + top) / 2 / extent}

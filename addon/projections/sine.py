@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
+
+from ..arrays import Array
 
 # pi / 2 as a sum: integers below 2^20 times each of the first two, of 33 digits, are exact.
 _QUARTER = 1.57079632673412561417, 6.07710050630396597660e-11, 2.02226624879595063154e-21
 
 
-def sine(angle: Any, quarters: int = 0) -> Any:
+def sine(angle: Array, quarters: int = 0) -> Array:
     """Return the sine of angles (n,), radians, plus so many right angles: 1 for the cosine.
 
     Each operation is one of IEEE 754, so that all machines find the same bits, however many angles

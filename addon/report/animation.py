@@ -9,7 +9,6 @@ from contextlib import suppress
 from html import escape
 from pathlib import Path
 from string import Template
-from typing import Any
 
 from ..comparison.animation import FrameRow, worst_first
 from ..comparison.verdict import Verdict
@@ -33,14 +32,14 @@ def folder_of(directory: str | Path, frame: int) -> Path:
     return Path(directory) / f"frame_{frame:04d}"
 
 
-def mark_whole(directory: Path, frame: int, made_by: Any) -> None:
+def mark_whole(directory: Path, frame: int, made_by: object) -> None:
     """Note what a frame was made by, once its files are complete."""
     folder = folder_of(directory, frame)
     text = json.dumps({"made_by": made_by, "bytes": _sizes(folder)}, indent=2)
     write_text(folder / _MADE_BY, text + "\n")
 
 
-def row_of_whole(directory: Path, frame: int, made_by: Any) -> FrameRow | None:
+def row_of_whole(directory: Path, frame: int, made_by: object) -> FrameRow | None:
     """Return the row of a frame that is whole and made by this; any other is no longer marked."""
     folder = folder_of(directory, frame)
     try:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from ..comparison.engines import EngineRow, to_dict
 from ..diagnosis.self_check import table
@@ -53,7 +52,7 @@ def _cells(row: EngineRow) -> Sequence[str] | str:
     return [row.engine, *found, f" {row.verdict}"]
 
 
-def _sides(wrong: dict[str, Any]) -> str:
+def _sides(wrong: Mapping[str, object]) -> str:
     """Say what both sides show."""
     triangle = wrong["triangle"]
     traced = f"'{wrong['traced']}'" + (f" (triangle {triangle})" if triangle != NOTHING else "")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from ..methods import Method
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
@@ -58,7 +57,7 @@ def _first_scale(point: BreakingPoint | None) -> str:
     return f"{written(point.lost)} +{written(point.doubled)}"
 
 
-def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:
+def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, object]:
     """Return what `extremes.json` holds."""
     return {
         "schema": SCHEMA,

@@ -43,7 +43,7 @@ def text_cells(trade: Trade) -> dict[str, list[Any]]:
     }
 
 
-def to_dict(trade: Trade) -> dict[str, Any]:
+def to_dict(trade: Trade) -> dict[str, object]:
     """Return what `tradeoff.json` holds."""
     return {
         "schema": SCHEMA,
@@ -55,7 +55,7 @@ def to_dict(trade: Trade) -> dict[str, Any]:
     }
 
 
-def _row(r: TradeRow) -> dict[str, Any]:
+def _row(r: TradeRow) -> dict[str, object]:
     held = vars(r) | {"fastest": r.fastest, "slowest": r.slowest, "best": r.best}
     del held["rounds"]
     return {name: finite(v) if isinstance(v, float) else v for name, v in held.items()}

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import reduce
 from typing import Self, TypeVar
 
@@ -25,8 +24,6 @@ D = TypeVar("D", bound=np.generic)
 
 # In numpy 1 `take` is half as fast as indexing row by row.
 _TAKE_IS_FAST = np.lib.NumpyVersion(np.__version__) >= "2.0.0"
-
-rational = np.vectorize(lambda x: Fraction(float(x)), otypes=[object])  # of floats, exactly
 
 
 def gather(values: NDArray[D], index: Index) -> NDArray[D]:

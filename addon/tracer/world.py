@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays import Array, Bools, Floats, Index, Integers
+from ..arrays import Bools, Floats, Index, Integers
 from .camera import project
-from .vector import Arrays, Vectors, gather, rational, transform_points
+from .vector import Arrays, Vectors, gather, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -126,13 +126,9 @@ def world_triangles(
     return WorldTriangles(np.stack(corners), np.repeat(batch.instances, each), triangle)
 
 
-def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = float) -> Array:
-    """Return the corners of named triangles in world space, (corner, component, m).
-
-    In float64; as fractions where dtype is object.
-    """
-    cast = rational if dtype is object else np.asarray
-    out: Array = np.empty((3, 3, len(instance)), dtype)
+def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
+    """Return the corners of named triangles in world space, (corner, component, m) float64."""
+    out = np.empty((3, 3, len(instance)))
     groups: list[Index | slice] = [slice(None)]
     if len(instance) and (instance[0] != instance).any():
         of = scene.instance_meshes[instance]
@@ -143,12 +139,12 @@ def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = 
             if not len(own):
                 continue
             one = bool((own == own[0]).all())
-            matrices = cast(scene.instance_matrices[..., own[:1] if one else own])
+            matrices = scene.instance_matrices[..., own[:1] if one else own]
             mesh = scene.meshes[scene.instances[own[0]].mesh]
             corners = mesh.triangles.take(triangle[rows], axis=0)
             for corner in range(3):
                 local = mesh.vertices.take(corners[:, corner], axis=0).T
-                out[corner][:, rows] = transform_points(matrices, cast(local))
+                out[corner][:, rows] = transform_points(matrices, local)
     return out
 
 

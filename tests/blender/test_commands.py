@@ -240,7 +240,7 @@ def test_explain_prints_or_writes(saved, tmp_path, capsys):
     written = ["--out", str(page), "--reproducer", str(again)]
     assert in_blender.run(["explain", "--pixel", "30", "18", *written]) == 0
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
-    assert "reference_tracer.pixel/1" in again.read_text(encoding="utf-8")
+    assert "reference_tracer.pixel/2" in again.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

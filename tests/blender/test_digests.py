@@ -18,13 +18,12 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from check_rounding import check_rounding
 from reference_tracer.blender.jobs.compare import export_open_file
 from reference_tracer.certainty import Certainty
-from reference_tracer.certified.rounding import check_rounding
 from reference_tracer.rendering import render
 from reference_tracer.scene import Scene
 from reference_tracer.scene_files import save_scene
-from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
 from .. import others
@@ -106,7 +105,7 @@ def test_no_owner_is_another_one_without_rounding(scenes):
     """As docs/accuracy.md says; integers are asked for what is ambiguous, and a little more."""
     for name, scene in scenes.items():
         frame = render(scene, Settings("certified"))
-        [said] = result_of(check_rounding(scene, frame))
+        [said] = check_rounding(scene, frame)
         asked = int(re.search(r"\(([\d,]+) were", said)[1].replace(",", ""))
         ties = int((frame.certainty == Certainty.AMBIGUOUS).sum())
         assert said.startswith("0 of ") and ties <= asked <= 1.1 * ties, (name, said)

@@ -16,8 +16,9 @@ from reference_tracer.scene import Mesh
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.vector import cross, dot, rational
+from reference_tracer.tracer.vector import cross, dot
 
+from ..tracer.rational import rational
 from .cases import find_causes
 
 F = np.float32
@@ -237,7 +238,10 @@ def test_what_rays_of_float32_may_round_is_bounded_and_reached(sine, cosine, mak
     d, corners = triangles_before(rng, 1000, sine, cosine)
     u, v, t = quotients(d, corners)
     assert t.dtype == F
-    exact = [np.array(x, float) for x in quotients(rational(d), rational(corners))]
+    exact = [
+        np.array(x, float)
+        for x in quotients(rational(d.astype(float)), rational(corners.astype(float)))
+    ]
     inside = (exact[0] > 0) & (exact[1] > 0) & (exact[0] + exact[1] < 1) & (exact[2] > 0)
     assert inside.sum() > 300
     c, way = corners.astype(float), d.astype(float)

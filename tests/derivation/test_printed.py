@@ -147,7 +147,7 @@ def test_json(derivations):
         size = camera["width"], camera["height"], pixel["column"], pixel["row"]
         for kind in ("float32", "float64", "exact"):
             p, ray = from_json(camera["steps"], kind), from_json(content["ray"], kind)
-            made = printed.camera(p, *size, camera["orthographic"])
+            made = printed.camera(p, *size, camera["projection"] == "orthographic")
             if kind == "float32":
                 made |= {k: np.float32(from_json(camera["steps"], "float64")[k]) for k in "wh"}
             check(made, p)

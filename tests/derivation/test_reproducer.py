@@ -80,6 +80,15 @@ def put(value, *keys):
     return change
 
 
+def test_a_file_of_version_1_is_read(saved):
+    path, content = saved
+    before = reproducer.read(path)
+    put("reference_tracer.pixel/1", "schema")(content)
+    content["camera"]["orthographic"] = content["camera"].pop("projection") == "orthographic"
+    path.write_text(json.dumps(content))
+    assert reproducer.read(path).camera.projection == before.camera.projection
+
+
 @pytest.mark.parametrize(
     ("change", "says"),
     [
@@ -96,7 +105,7 @@ def put(value, *keys):
         (put(0, "camera", "width"), "has 0 x 18 pixels"),
         (put(float("nan"), "camera", "clip_end"), "camera.clip_end must be a finite number"),
         (put([[1]], "camera", "world_from_camera"), "camera.world_from_camera must be 4 x 4"),
-        (put("no", "camera", "orthographic"), "camera.orthographic must be true or false"),
+        (put("no", "camera", "projection"), "camera.projection must be one of: perspective, "),
         (put([0, 0, 1], "ray", "direction"), "ray.direction is not that of the camera"),
         (put({}, "candidates"), "candidates must be a list"),
         (put(7, "candidates", 0), "candidates\\[0\\] must be an object"),

@@ -8,8 +8,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import trimesh
+from check_rounding import check_rounding
 from reference_tracer.certified.definition import definition
-from reference_tracer.certified.rounding import check_rounding, rounding
+from reference_tracer.certified.rounding import rounding
 from reference_tracer.methods import Method
 from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.rendering import render
@@ -25,7 +26,6 @@ from reference_tracer.tracer.camera import (
 )
 from reference_tracer.tracer.candidates import pixel_bounds
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
 from ..oracle import scene_sights
@@ -303,7 +303,7 @@ def test_its_clip_range_begins_before_it(make):
 def test_its_unrounded_rays_are_refused(make):
     scene = make.scene(panorama(make), make.quad(-1, 1, -1, 1, -2))
     with pytest.raises(SceneError, match=r"equirectangular.*sines and cosines"):
-        result_of(check_rounding(scene, render(scene)))
+        check_rounding(scene, render(scene))
     assert pixel_size(scene.camera) == pytest.approx((np.pi / 16, np.pi / 16))
 
 

@@ -20,24 +20,24 @@ import pytest
 )
 def test_a_hole_is_found(hole, tmp_path):
     (tmp_path / "Holed.v").write_text(f"Lemma m : True.\nProof. exact I. Qed.\n{hole}\n")
-    assert len(prove.holes(tmp_path)) == 1
+    assert len(prove.holes(tmp_path.glob("*.v"))) == 1
 
 
 def test_words_in_comments_are_no_holes(tmp_path):
     (tmp_path / "Whole.v").write_text(
         "(* Admitted (* Axiom *) *)\nLemma admitted : True. exact I. Qed."
     )
-    assert not prove.holes(tmp_path)
+    assert not prove.holes(tmp_path.glob("*.v"))
 
 
 def test_the_proofs_have_none_and_all_are_read():
-    assert not prove.holes()
-    assert sorted(prove.listed()) == prove.files()
+    assert not prove.holes(prove.files())
+    assert sorted(prove.listed()) == sorted([*prove.files(), *prove.recorded()])
 
 
 def test_every_file_has_a_name_of_its_own():
     """`From Reftrace Require Import Rounding` finds Rounding.v in whichever folder it is."""
-    names = [path.stem for path in prove.files()]
+    names = [path.stem for path in prove.listed()]
     assert len(set(names)) == len(names)
 
 
@@ -60,10 +60,12 @@ def test_the_document_names_every_file():
     for path in prove.files():
         link = f"(../proofs/{path.relative_to(prove.PROOFS).as_posix()})"
         assert link in text, f"docs/proof.md doesn't say what {path.name} is"
+    for path in prove.recorded():
+        assert f"`{path.name}`" in text
 
 
 def test_every_folder_says_what_it_proves():
-    for folder in {path.parent for path in prove.files()}:
+    for folder in {path.parent for path in prove.listed()}:
         assert (folder / "README.md").is_file(), f"{folder.name}/ has no README.md"
 
 
@@ -75,8 +77,6 @@ def test_the_theorem_needs_its_own_folders_and_no_other():
     needed = {path.relative_to(prove.PROOFS) for path in required("CertifiedDepth")}
     for path in prove.files():
         path = path.relative_to(prove.PROOFS)
-        if path.parts[0] == "recorded":
-            continue  # of these it needs some
         assert (path in needed) == (path.parts[0] in THEOREM), path
     recorded = {path.stem for path in needed if path.parts[0] == "recorded"}
     assert recorded == {"RecordedBounds", "RecordedDecisions", "RecordedQuotient"}
@@ -84,11 +84,13 @@ def test_the_theorem_needs_its_own_folders_and_no_other():
 
 def required(name):
     """Return a file of the proofs, and all that it requires: as coqdep has it."""
-    paths, found, open_ = {path.stem: path for path in prove.files()}, set(), [name]
+    paths, found, open_ = {path.stem: path for path in prove.listed()}, set(), [name]
     while open_:
         path = paths[open_.pop()]
         if path not in found:
             found.add(path)
+            if path in prove.recorded():
+                continue  # these require Trees, as the others do
             text = prove.without_comments(path.read_text(encoding="utf-8"))
             for names in re.findall(r"From Reftrace Require(?: Import| Export)? ([\w\s]+)\.", text):
                 open_ += names.split()

@@ -158,7 +158,7 @@ def test_studies_are_shown_with_their_plots(show, differing):
 
 def test_a_camera_of_a_third_type_is_refused_in_words(show, differing):
     held = json.loads(page.json_text(content(differing)))
-    held["camera"]["orthographic"] = "mirrored"
+    held["camera"]["projection"] = "mirrored"
     notice = show(differing, held=held, ready="[role=alert]").locator("[role=alert]").inner_text()
     assert notice == "This page cannot be shown: it has no rays of a mirrored camera."
 

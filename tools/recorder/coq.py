@@ -1,11 +1,11 @@
-"""Writes recorded expressions as Coq text, and compares them with those in `proofs/recorded/`."""
+"""Writes recorded expressions as Coq text, and compares them with what Coq has read last."""
 
 from __future__ import annotations
 
-import re
+import hashlib
 import textwrap
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from .nodes import Node, in_order, words
 from .records import Output
@@ -26,10 +26,14 @@ def text(outputs: Sequence[Output]) -> str:
 
 
 def definition(output: Output) -> str:
+    comment = textwrap.fill(f"(** {output.words} *)", 98, subsequent_indent="    ")
+    return f"{comment}\n{_coq(output)}\n"
+
+
+def _coq(output: Output) -> str:
     kind = "test" if output.node.is_test else "expr"
     body = "\n".join(expression(output.node))
-    comment = textwrap.fill(f"(** {output.words} *)", 98, subsequent_indent="    ")
-    return f"{comment}\nDefinition {output.name} : {kind} :=\n{body}.\n"
+    return f"Definition {output.name} : {kind} :=\n{body}."
 
 
 def expression(root: Node) -> list[str]:
@@ -75,37 +79,26 @@ def _wrapped(line: str) -> list[str]:
     return [line.replace(_JOINED, " ") for line in (*lines, current)]
 
 
-_DEFINITION = re.compile(
-    r"^\(\*\* ((?:(?!\*\)).)*) \*\)\nDefinition (\w+) : (\w+) :=\n(.*?)\.$", re.S | re.M
-)
+def digest(output: Output) -> str:
+    """Return what tells an expression from others, but for the comment above it."""
+    return hashlib.sha256(_coq(output).encode()).hexdigest()[:16]
 
 
-def differences(file: str, committed: str, outputs: Sequence[Output]) -> list[str]:
-    """Return in words how a file of `proofs/recorded/` differs from what is recorded now."""
-    where = f"proofs/recorded/{file}.v"
-    before = {m[2]: m[0] for m in _DEFINITION.finditer(committed)}
+def digests(file: str, outputs: Sequence[Output]) -> dict[str, str]:
+    """Return the digests of a file's expressions by their Coq names."""
+    return {f"{file}.{output.name}": digest(output) for output in outputs}
+
+
+def differences(file: str, proven: Mapping[str, str], outputs: Sequence[Output]) -> list[str]:
+    """Return in words what of a file's expressions is not what Coq has read last."""
     found = []
-    for output in outputs:
-        concerned = f"{output.name}, {output.words}"
-        concerned += f"\n  theorem concerned: {output.theorem or 'none by itself'}"
-        old, new = before.pop(output.name, None), definition(output).rstrip("\n")
-        if old is None:
-            found.append(f"{concerned}\n  is recorded, and {where} does not have it")
-        elif old != new:
-            a, b = _first_difference(old, new)
+    now = digests(file, outputs)
+    for output, (name, own) in zip(outputs, now.items(), strict=True):
+        if (old := proven.get(name)) != own:
+            said = "is another now than Coq has read" if old else "is new: Coq has not read it"
             found.append(
-                f"{concerned}\n  {where} has: ... {a}\n  recorded now is: ... {b}"
-                f"\n  as a formula, now: {words(output.node)}"
+                f"{name}, {output.words}\n  theorem concerned: {output.theorem or 'none by itself'}"
+                f"\n  {said}; as a formula: {words(output.node)}\n{_coq(output)}"
             )
-    found += [f"{name} is in {where}, and nothing records it" for name in before]
-    if not found and text(outputs) != committed:
-        found.append(f"{where} has the same definitions in another order or form")
-    return found
-
-
-def _first_difference(old: str, new: str) -> tuple[str, str]:
-    """Return what two texts say from shortly before they part."""
-    old, new = " ".join(old.split()), " ".join(new.split())
-    at = next((k for k, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), 0)
-    first = max(0, at - 40)
-    return old[first : at + 40], new[first : at + 40]
+    gone = [name for name in proven if name.startswith(f"{file}.") and name not in now]
+    return found + [f"{name} was read by Coq, and nothing records it now" for name in gone]

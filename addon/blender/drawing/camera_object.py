@@ -11,6 +11,7 @@ from mathutils import Matrix
 from ...scene import Camera, SceneError
 from ...tracer.camera import pixel_size
 from ..reading.camera import camera_axes, pixel_height, resolution
+from ..reading.lenses import lens_of
 from ..versions import lens
 
 NEAR = 1e-5  # of an axis, or of a pixel's shape: far above the rounding of Blender's settings
@@ -98,7 +99,7 @@ def _set(obj: Any, camera: Camera) -> None:
     """Have a camera object see as a camera, in a picture of its size."""
     w, data = camera.window, obj.data
     data.sensor_fit = "HORIZONTAL"
-    settings = camera.projection.settings((w.left, w.right, w.bottom, w.top))
+    settings = lens_of(camera.projection).settings((w.left, w.right, w.bottom, w.top))
     data.type = settings.pop("type")
     for name, value in settings.items():
         setattr(lens(data), name, value)

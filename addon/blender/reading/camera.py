@@ -14,10 +14,11 @@ import numpy as np
 
 from ...arrays import Floats
 from ...pictures.certificate import CameraCertificate, certify, known_points
-from ...projections import PROJECTIONS, Projection
+from ...projections import Projection
 from ...projections.projection import Edges
 from ...scene import Camera, Region, SceneError, ViewWindow, check_size
 from ..versions import lens
+from .lenses import LENSES, lens_of
 from .missing import why_gone
 
 
@@ -72,8 +73,8 @@ def window_of(scene: Any) -> ViewWindow:
             (y + 0.5 * tall * height) * size,
         )
 
-    projection = projection_of(scene.camera, scene)
-    return ViewWindow(*projection.window(data, lens(data), sensor, around))
+    own = lens_of(projection_of(scene.camera, scene))
+    return ViewWindow(*own.window(data, sensor, around))
 
 
 def camera_axes(matrix_world: Any, name: str) -> np.ndarray:
@@ -104,11 +105,11 @@ def projection_of(obj: Any, scene: Any) -> Projection:
             f"'{obj.name}', the active camera of scene '{scene.name}', is a {obj.type.lower()}: "
             "make a camera object active."
         )
-    projections = {p.blender: p for p in PROJECTIONS.values()}
+    projections = {own.kind: own.projection for own in LENSES}
     kind = getattr(lens(obj.data), "panorama_type", "PANO")
     kind = kind if obj.data.type == "PANO" else obj.data.type
     if kind not in projections:
-        *first, last = PROJECTIONS
+        *first, last = (p.name for p in projections.values())
         raise SceneError(
             f"Camera '{obj.name}' is of type {kind.lower()}; Reference Tracer models "
             f"{', '.join(first)} and {last} cameras."

@@ -98,8 +98,11 @@ def _sides(camera: Camera) -> tuple[Floats, Floats]:
     edges = np.array((w.left, -w.right, w.bottom, -w.top))
     across = np.stack((x, -x, y, -y))
     start, end = _depths(camera)
-    normals, offsets = camera.projection.sides(across, depth, edges)
-    return np.stack((*normals, depth, -depth)), np.array((*offsets, -start, end))
+    if camera.projection.shares_direction:
+        offsets = -edges
+    else:
+        across, offsets = across - edges[:, None] * depth, np.zeros(4)
+    return np.stack((*across, depth, -depth)), np.array((*offsets, -start, end))
 
 
 def polygon(camera: Camera, plane: Plane) -> Floats:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -57,7 +57,7 @@ class Background(NamedTuple):
             "whether something of that colour stands there is not judged"
         )
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return it as JSON can hold it."""
         judged = None if self.transparent else self.unjudged()
         counts = {"pixels": self.pixels, "not_judged": judged}

@@ -38,15 +38,24 @@ class Fragments(Arrays):
     nearest: Floats
 
 
+def nearness(camera: Camera, low: Floats, high: Floats, room: float) -> tuple[Floats, Floats]:
+    """Return least and most nearness between two t, which are not negative, high perhaps inf.
+
+    It is 1 / t, where `room` is for rounding, relative, and the range is surely covered if that is
+    negative. Of parallel rays it is -t, exactly; where high is inf, t may be negative, too.
+    """
+    if camera.projection.shares_direction:
+        return -high, np.where(np.isfinite(high), -low, np.inf)
+    return (1 - room) / high, (1 + room) / np.maximum(low, 0)
+
+
 class ClipRange:
     """The camera's clip range as nearness, with a margin for its rounding."""
 
     def __init__(self, camera: Camera) -> None:
-        start = camera.clip_start
-        end = camera.clip_end
-        nearness = camera.projection.nearness
+        start, end = np.asarray(camera.clip_start), np.asarray(camera.clip_end)
         self._outer, self._inner = (
-            (nearness(end, end, room)[0], nearness(start, start, room)[1])
+            (nearness(camera, end, end, room)[0], nearness(camera, start, start, room)[1])
             for room in (ROUNDING, -ROUNDING)
         )
 

@@ -21,7 +21,7 @@ from ...tracer.vector import gather, parts
 from ..bounds import plane_fractions
 from .boxes import Boxed, InstanceBoxes, boxes_of, by_depth
 from .chunks import Chunk, Names, Numbering, chunks, expand
-from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments
+from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments, nearness
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
 from .rasterise import Boxes, Covered, rasterised, split
@@ -153,7 +153,7 @@ class Sweep:
                 rays = camera_rays(film.camera, *film_positions(region, film.dx, film.dy, pixel))
                 ends = plane_fractions(rays, point, normal).interval()
                 low, high = (np.broadcast_to(v, pixel.shape) for v in ends)
-                least, most = film.camera.projection.nearness(low, high, ROUNDING)
+                least, most = nearness(film.camera, low, high, ROUNDING)
                 place = self._depths.places(pixel)
                 of = np.full(len(pixel), surface)
                 pairs = Covered(place, of, least, most, np.isfinite(high))

@@ -11,7 +11,6 @@ from typing import Any
 
 from ... import images
 from ...causes.case import Case
-from ...certified.rounding import check_rounding
 from ...comparison import engines
 from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparison import Comparison
@@ -78,7 +77,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         judge = options.judge.upper() if options.judge else None
         out = str(options.out)
         chosen: dict[str, Any] = {
-            "settings": options.settings_over(stored),
+            "settings": options.settings.over(stored),
             "as_is": options.as_is or None,
             "colors": _colors(options),
             "identity": options.identity,
@@ -158,11 +157,6 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
         ):
             new.write_text(text, encoding="utf-8")
     print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
-    if options.check_rounding:
-        with progress_bar() as progress:
-            checking = check_rounding(comparison.scene, comparison.frame)
-            checked = result_of(checking, progress)
-        print(comparison.frame.statistics.rounding, *checked, sep="\n")
     return _told(options, comparison.verdict, options.out / page.NAME)
 
 
@@ -187,7 +181,7 @@ def _blend(
             _making(options), default_dither=dither, engine=context.scene.render.engine
         )
         shown = picture_of_file(picture, export_camera(context.scene), making)
-        settings = options.settings_over(context.scene.reference_tracer.settings())
+        settings = options.settings.over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         case = gather_against(context, shown, settings, bool(options.self_check), colors)
         return (yield from _written(options, replace(case, **place)))
@@ -200,7 +194,7 @@ def _file(
     scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))
     shown = picture_of_file(picture, scene.camera, _making(options))
-    settings, checked = options.settings_over(stored), bool(options.self_check)
+    settings, checked = options.settings.over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
     return (yield from _written(options, replace(case, **place)))
 

@@ -8,18 +8,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ... import exr, images
-from ...certified.rounding import check_can_be_checked, check_is_proven, check_rounding
 from ...framing import Choice
 from ...mesh_files.load import READERS
 from ...rendering import render
 from ...report import folders
 from ...scene import Scene, SceneError
 from ...tracer.coloring import Color
-from ...tracer.frame import Frame
-from ...tracer.progress import result_of
 from ...tracer.settings import Settings
 from ...wording import count_of
-from ..arguments import GivenSettings, Place, add_rounding, add_settings, place_from, settings_from
+from ..arguments import GivenSettings, Place, add_settings, place_from, settings_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
 from ..parser import AGREE, INTEGER, Parser
@@ -35,7 +32,6 @@ class TraceOptions:
     settings: GivenSettings
     choice: Choice
     rows: Sequence[int] | None  # the first and the last
-    check_rounding: bool
     place: Place
 
     @classmethod
@@ -47,7 +43,6 @@ class TraceOptions:
             settings=settings_from(given),
             choice=choice_from(given, given.scene),
             rows=given.rows,
-            check_rounding=given.check_rounding,
             place=place_from(given),
         )
 
@@ -84,7 +79,6 @@ def add(parser: Parser) -> None:
         metavar=("FIRST", "LAST"),
         help="trace only a part of a large picture: its rows FIRST to LAST, row 0 the lowest",
     )
-    add_rounding(parser)
     add_camera(parser)
 
 
@@ -95,7 +89,8 @@ def trace(options: TraceOptions) -> int:
         settings = options.settings.over(stored)
         if options.rows:
             scene = _rows_alone(scene, settings, *options.rows)
-        frame, checked = _traced(scene, settings, options)
+        with options.place as place, progress_bar() as progress:
+            frame = render(scene, settings, progress, **place)
         with folders.replacing_file(options.out) as new:
             if options.is_png:
                 images.save_png(new, images.to_display(frame.color))
@@ -107,25 +102,12 @@ def trace(options: TraceOptions) -> int:
         f"{count_of(s.pairs_tested, 'pair')} tested in {s.seconds:.2f} s ({s.method}, "
         f"{settings.precision}): {options.out}"
     )
-    for line in (*s.required(), *checked):
+    for line in s.required():
         print(line)
     is_mesh = options.scene.suffix.lower() in READERS
     if options.is_png and is_mesh and not options.settings.color:
         print("each mesh has one flat colour: --color facing shows its shape")
     return AGREE
-
-
-def _traced(scene: Scene, settings: Settings, options: TraceOptions) -> tuple[Frame, list[str]]:
-    """Return the picture, and lines about rounding if they are asked for."""
-    if options.check_rounding:
-        check_is_proven(settings.method)
-        check_can_be_checked(scene.camera)
-    with options.place as place, progress_bar() as progress:
-        frame = render(scene, settings, progress, **place)
-        if not options.check_rounding:
-            return frame, []
-        checked = result_of(check_rounding(scene, frame), progress)
-    return frame, [frame.statistics.rounding, *checked]
 
 
 def _rows_alone(scene: Scene, settings: Settings, first: int, last: int) -> Scene:

@@ -9,7 +9,6 @@ Source: Khronos, glTF 2.0 specification, 3.6.2; KHR_mesh_quantization for the no
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from ...tracer.memory import free_memory
 from .buffers import Buffers
 from .document import Document, Thing, quoted
 
-_COMPONENTS: dict[int, np.dtype[Any]] = {  # little-endian, by the file's number
+_COMPONENTS: dict[int, np.dtype[np.generic]] = {  # little-endian, by the file's number
     5120: np.dtype("i1"),
     5121: np.dtype("u1"),
     5122: np.dtype("<i2"),
@@ -124,7 +123,12 @@ class Accessors:
         return values
 
     def _viewed(
-        self, source: Thing, number: int, shape: tuple[int, int], dtype: np.dtype[Any], packed: bool
+        self,
+        source: Thing,
+        number: int,
+        shape: tuple[int, int],
+        dtype: np.dtype[np.generic],
+        packed: bool,
     ) -> Array:
         """Return rows of a buffer view, without a copy, once they are known to lie in it."""
         view, data = self._buffers.view(number, source.label)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Floats
+from ...checked_json import Content
 from ...scene import SceneError
 
 _LARGEST = 2**53  # a size or number beyond it is not exact in all readers (3.6.1.1)
@@ -38,7 +39,7 @@ def short(text: str) -> str:
     return printable(text[:_SHOWN])
 
 
-def quoted(value: Any) -> str:
+def quoted(value: object) -> str:
     """Return the beginning of a value, as messages show it."""
     return short(repr(value))
 
@@ -51,7 +52,7 @@ class Thing:
     the type that it should be.
     """
 
-    content: dict[str, Any]
+    content: Content
     label: str  # what messages call it: node 3 'Arm'
 
     @property
@@ -157,7 +158,7 @@ class Document(Thing):
             yield self.thing(kind, number, "the file")
 
 
-def _thing(value: Any, label: str) -> Thing:
+def _thing(value: object, label: str) -> Thing:
     if not isinstance(value, dict):
         raise SceneError(f"{label} is {quoted(value)}, which must be an object")
     return Thing(value, label)

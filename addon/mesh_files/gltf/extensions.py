@@ -6,8 +6,8 @@ Source: Khronos, glTF 2.0 extension registry, and the specification of each exte
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
+from ...checked_json import Content
 from ...scene import SceneError
 from .document import Document, short
 from .notes import Notes, listed
@@ -104,9 +104,9 @@ def _names(document: Document, key: str) -> list[str]:
     return [short(name) for name in names]
 
 
-def _present(content: dict[str, Any]) -> Iterator[str]:
+def _present(content: Content) -> Iterator[str]:
     """Yield the extensions that objects of the file hold, listed or not."""
-    waiting: list[Any] = [content]
+    waiting: list[object] = [content]
     while waiting:
         value = waiting.pop()
         if isinstance(value, list):

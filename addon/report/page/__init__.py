@@ -14,7 +14,6 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from ...comparison.comparison import Comparison
 from ...comparison.extras import Extras
@@ -44,7 +43,7 @@ def write(path: str | Path, comparison: Comparison, extras: Extras | None = None
         new.write_text(text, encoding="utf-8")
 
 
-def html(held: Mapping[str, Any]) -> str:
+def html(held: Mapping[str, object]) -> str:
     """Return the page that shows this content."""
     text = template("page.html")
     text = text.replace(_NO_SCRIPT, _policy([_text(name) for name in _SCRIPT.findall(text)]))
@@ -59,7 +58,7 @@ def template(name: str) -> str:
     return _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}</style>", _text(name))
 
 
-def json_text(held: Mapping[str, Any]) -> str:
+def json_text(held: Mapping[str, object]) -> str:
     """Return JSON that cannot end a script element, whatever names it holds.
 
     Raises

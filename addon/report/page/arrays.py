@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import base64
 import zlib
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,7 @@ _LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller
 _TOGETHER = 1 << 16  # pixels: some MiB of temporaries
 
 
-def packed(values: Array) -> dict[str, Any]:
+def packed(values: Array) -> dict[str, object]:
     """Return an array's type, its shape, and its bytes, deflated (zlib) and in base64.
 
     The first bytes of all numbers come first, then all second ones, and so on, so that the
@@ -42,7 +42,7 @@ def packed(values: Array) -> dict[str, Any]:
     return {"type": values.dtype.name, "shape": list(values.shape), "data": data}
 
 
-def size(value: Any) -> int:
+def size(value: object) -> int:
     """Return how many characters the packed arrays in a value take."""
     if isinstance(value, dict):
         return sum(map(size, value.values()))
@@ -71,7 +71,7 @@ def seen(frame: Frame) -> SeenSurfaces:
     )
 
 
-def surface_table(scene: Scene, surfaces: SeenSurfaces) -> dict[str, Any]:
+def surface_table(scene: Scene, surfaces: SeenSurfaces) -> dict[str, object]:
     """Return the surfaces as the page has them: their instances, and their corners.
 
     Vertices are in object space, those that a seen triangle has; `matrices` are the rows of

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from types import ModuleType
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
@@ -27,13 +27,14 @@ from .. import trade as trade_report
 from . import arrays
 from .arrays import packed
 
-SCHEMA = "reference_tracer.page/1"
+T = TypeVar("T")
+SCHEMA = "reference_tracer.page/2"
 MOST_CHARACTERS = 32 << 20  # characters of the packed arrays: what a browser still opens at once
 
 
 def content(
     comparison: Comparison, extras: Extras | None = None, limit: int = MOST_CHARACTERS
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """Return all that a page shows.
 
     `extras` is what else was found out. The packed arrays take at most `limit` characters.
@@ -74,7 +75,7 @@ def content(
     }
 
 
-def _causes(comparison: Comparison) -> list[dict[str, Any]]:
+def _causes(comparison: Comparison) -> list[dict[str, object]]:
     """Return the text, the colour and the count of each cause, in the order of their numbers."""
     counts = comparison.counts
     count = {**counts.by_cause, "agree": counts.agree, "not_traced": counts.not_traced}
@@ -147,7 +148,7 @@ def _unexplained(comparison: Comparison) -> list[Region]:
     return regions(comparison.causes.cause == UNEXPLAINED, shown)
 
 
-def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[str]]:
+def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, object], list[str]]:
     """Return as many of the pixels' numbers as fit, and sentences on what was left out."""
     frame, causes = comparison.frame, comparison.causes
     seen = arrays.seen(frame)
@@ -155,7 +156,7 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
     differing = {"index": packed(index.astype(np.uint32))}
     for name in ("cause", "figure", "allowed"):
         differing[name] = packed(getattr(causes, name).ravel()[index])
-    found: dict[str, Any] = {
+    found: dict[str, object] = {
         "differing": differing,
         "certainty": packed(frame.certainty),
         "surface": packed(seen.number),
@@ -187,7 +188,9 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
     return found, missing
 
 
-def _study(report: ModuleType, found: Any, table: Callable[[Any], Any] | None = None) -> Any:
+def _study(
+    report: ModuleType, found: T | None, table: Callable[[T], object] | None = None
+) -> dict[str, object] | None:
     """Return a study as its module of `report` has it, with its plot, and its table as text."""
     if found is None:
         return None

@@ -110,7 +110,7 @@ function begin() {
 }
 
 async function main() {
-  if (!projection) throw new Error(`it has no rays of a ${camera.orthographic} camera`);
+  if (!projection) throw new Error(`it has no rays of a ${camera.projection} camera`);
   await loadPixels();
   await loadLayers();
   fillChoices();

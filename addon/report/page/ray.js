@@ -6,11 +6,11 @@ const camera = page.camera;
 const column = (k, sign = 1) => camera.world_from_camera.slice(0, 3).map((row) => sign * row[k]);
 const AXES = { right: column(0), up: column(1), forward: column(2, -1), origin: column(3) };
 
-// What tells the types of cameras apart, by their `orthographic`: how their rays begin and where they
+// What tells the types of cameras apart, by their `projection`: how their rays begin and where they
 // go, as formulas and as arithmetic, of a film position u, v.
 const CAMERAS = new Map([
   [
-    false,
+    "perspective",
     {
       origin: "o = camera",
       direction: "d = u right + v up + forward",
@@ -21,7 +21,7 @@ const CAMERAS = new Map([
     },
   ],
   [
-    true,
+    "orthographic",
     {
       origin: "o = camera + u right + v up",
       direction: "d = forward",
@@ -63,7 +63,7 @@ function sine(angle, quarters) {
   return quarter < 2 ? found : -found;
 }
 
-const projection = CAMERAS.get(camera.orthographic);
+const projection = CAMERAS.get(camera.projection);
 
 /** The ray x = o + t d through the centre of a pixel. */
 function cameraRay(x, y, precision) {

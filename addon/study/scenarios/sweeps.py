@@ -10,8 +10,8 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from ...checked_json import Content
 from ...scene import Scene
 from . import scenes
 
@@ -48,8 +48,8 @@ class Scenario:
         return f"{self.scale_name}, {self.unit}" if self.unit else self.scale_name
 
 
-def _scenario(listed: dict[str, Any]) -> Scenario:
-    build = getattr(scenes, listed.get("build", listed["name"]))
+def _scenario(listed: Content) -> Scenario:
+    build = getattr(scenes, listed.get("build") or listed["name"])
     return Scenario(**listed | {"scales": tuple(listed["scales"]), "build": build})
 
 

@@ -1,7 +1,7 @@
 (** What is said of a cell holds at all of its pixels; the depth buffer; nearness from t.
 
     See "Boxes, cells, blocks" and "Front to back" in docs/speed.md; the code is `_may_be_seen` in
-    rasterise.py, depth_buffer.py and `nearness` in addon/projections. Rounding is monotone, so what was
+    rasterise.py, and depth_buffer.py with its `nearness`. Rounding is monotone, so what was
     computed at a cell's corner bounds, to the last bit, what is computed at each of its pixels. *)
 Require Import ZArith Reals Psatz List.
 From Flocq Require Import Core.
