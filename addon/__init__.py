@@ -49,17 +49,22 @@ def __dir__() -> list[str]:
     return sorted([*globals(), *__all__])
 
 
+def _command(argv: list[str]) -> int:
+    """Run `blender FILE --command reference_tracer ...`; return the exit code."""
+    from .cli import in_blender
+
+    return in_blender.run(argv)
+
+
 def register() -> None:
     """Register the render engine, operators, panels, properties and commands (inside Blender)."""
-    from .blender import commands, registration
+    from .blender import registration
 
-    registration.register()
-    commands.register()
+    registration.register(_command)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
-    from .blender import commands, registration
+    from .blender import registration
 
-    commands.unregister()
     registration.unregister()

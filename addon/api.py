@@ -11,14 +11,13 @@ from pathlib import Path
 from numpy.typing import ArrayLike
 
 from .causes.case import Case
-from .comparison.comparing import diagnosed, trace_and_compare
+from .comparison.comparing import compared
 from .comparison.comparison import Comparison
 from .comparison.verdict import Verdict as Verdict
 from .derivation.candidates import LIMIT
 from .derivation.derivation import derive
 from .derivation.document import document_markdown
 from .images import open_picture
-from .mesh_diagnosis import diagnosed as with_mesh_faults
 from .opened import file_manifest, open_scene
 from .pictures.given import Making, picture_of_array, picture_of_file
 from .rendering import render as render
@@ -146,10 +145,8 @@ def compare(
         shown = picture_of_file(open_picture(picture), scene.camera, making)
     else:
         shown = picture_of_array(picture, scene.camera, making)
-    manifest = result_of(with_mesh_faults(scene, manifest))
     case = Case(scene, manifest, settings or Settings(), shown, curves=(), self_check=self_check)
-    found = result_of(trace_and_compare(case))
-    return result_of(diagnosed(found)) if diagnose else found
+    return result_of(compared(case, diagnose))
 
 
 def explain(scene: Scene, x: int, y: int, limit: int = LIMIT) -> str:

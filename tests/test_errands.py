@@ -262,9 +262,9 @@ assert main(["count", "scene.npz", "--frame", "3"]) == 4
 SEES_COMMAND_IN_BLENDER = """
 from contextlib import redirect_stdout
 from io import StringIO
-from reference_tracer.blender import commands
+from reference_tracer.cli import in_blender
 with redirect_stdout(StringIO()) as said:
-    assert commands.run(["--help"]) == 0
+    assert in_blender.run(["--help"]) == 0
 assert "count the triangles" in said.getvalue()
 """
 SCENE = """

@@ -189,6 +189,18 @@ def test_a_room_of_blenders_knows_only_those_before_it():
         assert own and known.isdisjoint(ROOMS[number + 1 :]), room
 
 
+OF_COMMANDS = {"print", "isatty", "exit", "exit_code", "SystemExit"}
+
+
+def test_blenders_part_neither_prints_nor_ends_a_command():
+    """What is printed, and the exit code, is the command line's; the console's log is `say`'s."""
+    for file in (ADDON / "blender").rglob("*.py"):
+        nodes = list(ast.walk(ast.parse(file.read_text(encoding="utf-8"))))
+        named = {n.id for n in nodes if isinstance(n, ast.Name)}
+        named |= {n.attr for n in nodes if isinstance(n, ast.Attribute)}
+        assert named.isdisjoint(OF_COMMANDS), file
+
+
 def test_a_circle_is_found():
     assert circle({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == ["b", "c", "b"]
     assert circle({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 
+from ..wording import say
 from .temporary import is_temporary
 
 if TYPE_CHECKING:
@@ -29,9 +30,6 @@ if TYPE_CHECKING:
 ENGINE = "REFERENCE_TRACER"
 SHOW_EVERY = 0.5  # seconds between showing rows, at least; it takes at most a tenth of the time
 
-# What the engine exported of temporary scenes, by their names, until it is asked for.
-_exported: dict[str, Certified] = {}
-
 
 class ReferenceTracerEngine(bpy.types.RenderEngine):
     """Exports, traces step by step, and hands the rows to Blender; the work is done elsewhere."""
@@ -41,6 +39,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     bl_use_preview = False
     bl_use_postprocess = True
     bl_use_eevee_viewport = True  # else there is no mode Material Preview
+
+    export_to: ClassVar[list[Any]]  # what is Certified, while a temporary scene is rendered
 
     # Blender calls it by position, where the stubs have keywords.
     def update_render_passes(self, scene: Any, renderlayer: Any) -> None:  # type: ignore[override]
@@ -54,7 +54,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         """Render one view layer of one frame; a temporary scene is only exported."""
         from ..errors import failure
 
-        work = _keep_export if is_temporary(depsgraph.scene) else self._trace
+        work = self._export if is_temporary(depsgraph.scene) else self._trace
         if error := failure(work, depsgraph):
             self.report({"ERROR"}, error)
 
@@ -69,14 +69,16 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         """Draw such a view."""
         self.live.draw(self, context, depsgraph)
 
+    def _export(self, depsgraph: Any) -> None:
+        self.export_to.append(export_certified(depsgraph))
+
     def _trace(self, depsgraph: Any) -> None:
         from ..tracer.frame import Frame
         from .reading.export import export
 
         self.update_stats("", "Exporting")
         scene, manifest = export(depsgraph)
-        for line in manifest.lines():
-            print(f"Reference Tracer: {line}")
+        say(*manifest.lines())
         frame = Frame.empty(scene)
         layer = depsgraph.view_layer.name
         passes = _enabled(depsgraph.view_layer)
@@ -87,7 +89,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         if frame.cancelled:
             done = int(frame.rows_done.sum())
             rows = f"{done} of {frame.shape[0]} rows are traced, the others are empty"
-            print(f"Reference Tracer: Cancelled: {rows}")  # Blender shows no report now
+            say(f"Cancelled: {rows}")  # Blender shows no report now
         else:
             self._tell(frame.statistics)
 
@@ -133,8 +135,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     def _tell(self, statistics: Statistics) -> None:
         """Say what a picture took."""
         required = statistics.required()
-        for line in required:
-            print(f"Reference Tracer: {line}")
+        say(*required)
         for note in statistics.notes:  # such as that nothing can be certified here
             self.report({"WARNING"}, note[0].upper() + note[1:])
         self.update_stats("", required[0] if required else "")
@@ -159,10 +160,6 @@ def export_certified(depsgraph: Any) -> Certified:
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
 
 
-def _keep_export(depsgraph: Any) -> None:
-    _exported[depsgraph.scene.name_full] = export_certified(depsgraph)
-
-
 def export_for_render(scene: Any) -> Certified:
     """Return the *render* evaluation of a temporary scene, and set its engine to this one.
 
@@ -177,6 +174,8 @@ def export_for_render(scene: Any) -> Certified:
     from .values import values_restored
 
     scene.render.engine = ENGINE
+    exported: list[Certified] = []
+    ReferenceTracerEngine.export_to = exported
     try:
         # Else the frame would be that of the context's scene (5.2).
         override = bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0])
@@ -184,7 +183,9 @@ def export_for_render(scene: Any) -> Certified:
             bpy.ops.render.render(scene=scene.name)
     except RuntimeError as error:  # Blender turns our report into one
         raise SceneError(str(error).removeprefix("Error: ").strip()) from error
-    return _exported.pop(scene.name_full)
+    finally:
+        del ReferenceTracerEngine.export_to
+    return exported[0]
 
 
 def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:

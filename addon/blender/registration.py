@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import bpy
@@ -16,6 +17,9 @@ MODULES = (properties, preferences, engine, menus, panels, study_panels)
 _register, _unregister = bpy.utils.register_classes_factory(OPERATORS)
 
 
+_commands: list[Any] = []  # that are registered
+
+
 @bpy.app.handlers.persistent
 def _file_closes(*_: Any) -> None:
     """Forget the results of the file that is closed; Blender ends the operators that run."""
@@ -24,16 +28,24 @@ def _file_closes(*_: Any) -> None:
     inspector.REFERENCE_TRACER_OT_inspect.running = False
 
 
-def register() -> None:
-    """Register every module of the add-on."""
+def register(command: Callable[[list[str]], int] | None = None) -> None:
+    """Register every module of the add-on.
+
+    A command is run by `blender FILE --command reference_tracer ...`, with the words that follow;
+    Blender exits with what it returns.
+    """
     for module in MODULES:
         module.register()
     _register()
     bpy.app.handlers.load_pre.append(_file_closes)
+    if command:
+        _commands.append(bpy.utils.register_cli_command("reference_tracer", command))
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
+    while _commands:
+        bpy.utils.unregister_cli_command(_commands.pop())
     bpy.app.handlers.load_pre.remove(_file_closes)
     if LongWork.running:  # Blender tells no operator that its add-on is switched off
         context: Any = bpy.context

@@ -1,7 +1,11 @@
-"""Compares a traced scene with a picture, in small steps; then finds what is wrong with it."""
+"""Compares a scene with a picture, in small steps, and finds what is wrong with that.
+
+`compared` is the one driver, of commands, operators and scripts.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from ..causes.case import Case
@@ -11,6 +15,7 @@ from ..causes.explain import explain
 from ..diagnosis.diagnosis import diagnose
 from ..diagnosis.guessing import STEPS
 from ..diagnosis.self_check import FaultRow, self_check
+from ..mesh_diagnosis import diagnosed as with_mesh_faults
 from ..pictures.identity import Identity
 from ..pictures.metrics import boundary, image_metrics
 from ..rendering import steps
@@ -24,6 +29,51 @@ from .methods import list_methods
 _TRACING, _METHODS = 0.4, 0.35
 _CHECKING = 0.8
 _CAUSES = 0.8  # of comparing: the rest is for metrics and counts
+
+
+def _not_kept(comparison: Comparison) -> Work[None]:
+    yield 0.0
+
+
+def compared(
+    case: Case,
+    diagnose: bool = False,
+    told: Callable[[Comparison], object] = lambda found: None,
+    kept: Callable[[Comparison], Work[None]] = _not_kept,
+    shares: tuple[float, float] = (0.6, 0.6),
+) -> Work[Comparison]:
+    """Diagnose the meshes, trace, compare, check the comparison, and find what is wrong.
+
+    Yields the share of the work done; the caller stops by not asking for more, and has what was
+    kept before.
+
+    Parameters
+    ----------
+    case : Case
+    diagnose : bool
+        Whether what accounts for unexplained pixels is looked for, if there are any.
+    told : callable
+        Hears of the comparison before that.
+    kept : callable
+        Returns the work of keeping a comparison: once it is there, and again with its diagnosis.
+    shares : (float, float)
+        Of the work that are done when the comparison is there, and when it is kept.
+
+    Raises
+    ------
+    SizeError, SceneError, PictureTooLargeError
+        As :func:`trace_and_compare`.
+    """
+    there, safe = shares
+    manifest = yield from with_mesh_faults(case.scene, case.manifest)
+    work = trace_and_compare(replace(case, manifest=manifest))
+    found = yield from scaled(work, 0.0, there)
+    yield from scaled(kept(found), there, safe - there)
+    if diagnose:
+        found = yield from scaled(diagnosed(found, told=told), safe, 1 - safe)
+        if found.diagnosis:
+            yield from scaled(kept(found), 1.0, 0.0)
+    return found
 
 
 def trace_and_compare(case: Case) -> Work[Comparison]:
@@ -55,13 +105,19 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     return replace(found, methods=rows)
 
 
-def diagnosed(comparison: Comparison, steps: float = STEPS) -> Work[Comparison]:
+def diagnosed(
+    comparison: Comparison,
+    steps: float = STEPS,
+    told: Callable[[Comparison], object] = lambda found: None,
+) -> Work[Comparison]:
     """Return a comparison with what accounts for its unexplained pixels, if it has any.
 
     Yields the share of the work done. The verdict stays. No guess is begun after so many steps.
+    `told` hears of the comparison if it has any.
     """
     if not comparison.counts.unexplained:
         return comparison
+    told(comparison)
     case, frame, causes = comparison.case, comparison.frame, comparison.causes
     work = diagnose(case, frame, causes, steps=steps)
     found = yield from called(work, "looking for what is wrong")

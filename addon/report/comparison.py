@@ -11,9 +11,12 @@ import numpy as np
 
 from .. import images
 from ..arrays import Array, Colors
+from ..causes.case import Case
 from ..causes.maps import cause_map
-from ..comparison.comparing import diagnosed
+from ..comparison.comparing import compared
 from ..comparison.comparison import SCHEMA, Comparison
+from ..comparison.extras import Extras
+from ..comparison.extras import extras as find_extras
 from ..comparison.verdict import Verdict
 from ..tracer.frame import PASSES
 from ..tracer.progress import Work, called, scaled
@@ -26,7 +29,7 @@ NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 
 
 def write(
-    directory: str | Path, comparison: Comparison, extras: page.Extras | None = None
+    directory: str | Path, comparison: Comparison, extras: Extras | None = None
 ) -> Work[None]:
     """Write the pictures, `frame.npz`, `page.html` with the extras, and `comparison.json`.
 
@@ -50,7 +53,7 @@ def write(
 
 def written(
     folder: Path,
-    work: Work[Comparison],
+    case: Case,
     diagnose: bool,
     trade: bool = False,
     extremes: bool = False,
@@ -61,16 +64,16 @@ def written(
     Who ends it in the midst of the diagnosis has the comparison in the folder without it. If the
     work fails, the folder says why. `told` hears of the comparison before the diagnosis.
     """
-    rest, end = (0.2, 0.8) if trade or extremes else (0.5, 0.6)
+    extras: Extras | None = None
+
+    def kept(comparison: Comparison) -> Work[None]:
+        nonlocal extras
+        extras = extras or (yield from find_extras(comparison, trade, extremes))
+        yield from scaled(called(write(folder, comparison, extras), "writing"), 1.0, 0.0)
+
+    shares = (0.2, 0.8) if trade or extremes else (0.5, 0.6)
     with failure_written(folder):
-        comparison = yield from scaled(work, 0.0, rest)
-        finding = page.extras(comparison, trade, extremes)
-        extras = yield from scaled(finding, rest, end - rest)
-        yield from scaled(called(write(folder, comparison, extras), "writing"), end, 0.0)
-        if diagnose and comparison.counts.unexplained:
-            told(comparison)
-            comparison = yield from scaled(diagnosed(comparison), end, 1 - end)
-            yield from scaled(called(write(folder, comparison, extras), "writing"), 1.0, 0.0)
+        comparison = yield from compared(case, diagnose, told, kept, shares)
     yield 1.0
     return comparison
 

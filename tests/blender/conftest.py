@@ -17,10 +17,11 @@ import pytest
 import reference_tracer
 from reference_tracer.blender import registration
 from reference_tracer.blender.engine import export_for_render
-from reference_tracer.blender.jobs.compare import compared, gather_case
+from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.blender.reading.export import export as export_depsgraph
 from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.cli.main import main
+from reference_tracer.comparison.comparing import compared
 from reference_tracer.tracer.progress import result_of
 
 from .live import kept  # noqa: F401  # a fixture

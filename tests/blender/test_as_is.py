@@ -86,20 +86,18 @@ def test_anti_aliasing_alone_is_checked(name, smooth, opened, compare):
 def test_light_does_not_excuse_a_missing_object(build, compare, monkeypatch):
     """Blender draws one object less, in studio light: the other shades are no reason."""
     from reference_tracer.blender.drawing import drawings
-    from reference_tracer.blender.jobs import compare as compare_module
 
     scene = build.scene()
     build.solids()
     build.corner_camera(lens=40)
     scene.display.shading.light = "STUDIO"
-    real = compare_module.stand_ins
+    real = drawings.stand_ins
 
     def lacking(tmp, *rest):
         tmp.collection.objects.unlink(tmp.objects["Green"])
         return real(tmp, *rest)
 
-    for module in (compare_module, drawings):
-        monkeypatch.setattr(module, "stand_ins", lacking)
+    monkeypatch.setattr(drawings, "stand_ins", lacking)
     found = compare(as_is=True)
     assert found.verdict == "differences"
     assert found.counts.unexplained_shows.other_object > 100

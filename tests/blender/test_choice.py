@@ -7,9 +7,10 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import commands
 from reference_tracer.blender.jobs.choice import chosen
-from reference_tracer.blender.jobs.compare import compared, export_open_file, gather_case
+from reference_tracer.blender.jobs.compare import export_open_file, gather_case
+from reference_tracer.cli import in_blender
+from reference_tracer.comparison.comparing import compared
 from reference_tracer.framing import FILLED, Choice, shown_points
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import film_of
@@ -100,7 +101,7 @@ def test_scene_layer_frame_and_camera_are_those_that_are_named(two, tmp_path, ca
     options = ["--scene", "Other", "--view-layer", "Second", "--frame", "6"]
     options += ["--camera", "Hidden Camera", "--height", "64"]
     out = tmp_path / "out"
-    assert commands.run(["compare", "--out", str(out), *options]) == 0, capsys.readouterr().err
+    assert in_blender.run(["compare", "--out", str(out), *options]) == 0, capsys.readouterr().err
     found = json.loads((out / "comparison.json").read_text(encoding="utf-8"))
     said = {k: found["scene"][k] for k in ("scene", "view_layer", "frame", "camera")}
     assert list(said.values()) == ["Other", "Second", 6, "Hidden Camera"]
@@ -213,11 +214,11 @@ def test_without_a_camera_the_command_says_how_to_get_one(solids, tmp_path, caps
     compare, explain = ["compare", "--out", out], ["explain", "--pixel", "3", "3"]
     trade = ["trade", "--out", out, "--width", "8", "--samples", "1"]
     for command in (compare, explain, trade):
-        assert commands.run(command) == 4
+        assert in_blender.run(command) == 4
         said = capsys.readouterr().err
         assert all(option in said for option in ("--frame-all", "--eye X Y Z", "--camera NAME"))
     for command in (compare, explain):
-        assert commands.run([*command, "--frame-all"]) == 0
+        assert in_blender.run([*command, "--frame-all"]) == 0
 
 
 @pytest.mark.parametrize(
@@ -227,7 +228,7 @@ def test_without_a_camera_the_command_says_how_to_get_one(solids, tmp_path, caps
 def test_a_picture_that_blender_cannot_draw(width, height, words, solids, tmp_path, capsys):
     """One line says it; memory is asked for before Blender takes minutes to fail."""
     size = ["--width", str(width), "--height", str(height), "--frame-all"]
-    assert commands.run(["compare", "--out", str(tmp_path / "out"), *size]) == 4
+    assert in_blender.run(["compare", "--out", str(tmp_path / "out"), *size]) == 4
     said = capsys.readouterr().err
     assert words in said.splitlines()[-1] and "Traceback" not in said
 

@@ -7,8 +7,8 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import commands
 from reference_tracer.blender.jobs import compare as compare_module
+from reference_tracer.cli import in_blender
 from reference_tracer.cli.main import main
 
 
@@ -39,7 +39,7 @@ def replaced_picture(monkeypatch, change):
 
 
 def test_0_the_pictures_agree(saved, out, capsys):
-    assert commands.run(["compare", "--out", str(out)]) == 0
+    assert in_blender.run(["compare", "--out", str(out)]) == 0
     assert sorted(p.name for p in out.iterdir()) == [
         "blender.png",
         "comparison.json",
@@ -59,7 +59,7 @@ def test_0_the_pictures_agree(saved, out, capsys):
 
 def test_1_something_is_not_modelled(saved, out):
     bpy.data.materials["Red"].diffuse_color[3] = 0.5
-    assert commands.run(["compare", "--out", str(out)]) == 1
+    assert in_blender.run(["compare", "--out", str(out)]) == 1
     found = verdict(out)
     assert found["verdict"] == "warnings"
     assert [u["feature"] for u in found["scene"]["unmodelled"]] == ["transparency"]
@@ -68,14 +68,14 @@ def test_1_something_is_not_modelled(saved, out):
 
 def test_2_differences_that_no_cause_explains(saved, out, monkeypatch):
     replaced_picture(monkeypatch, lambda picture: np.ascontiguousarray(picture[::-1]))
-    assert commands.run(["compare", "--no-diagnosis", "--out", str(out)]) == 2
+    assert in_blender.run(["compare", "--no-diagnosis", "--out", str(out)]) == 2
     assert verdict(out)["verdict"] == "differences"
     assert verdict(out)["pixels"]["unexplained"] > 100
 
 
 def test_3_the_sizes_do_not_match(saved, out, monkeypatch, capsys):
     replaced_picture(monkeypatch, lambda picture: picture[:-1])
-    assert commands.run(["compare", "--out", str(out)]) == 3
+    assert in_blender.run(["compare", "--out", str(out)]) == 3
     found = verdict(out)
     assert found["verdict"] == "failed"
     assert "64 x 35" in found["error"]["message"]
@@ -88,14 +88,14 @@ def test_3_also_where_blender_made_another_size(saved, out, monkeypatch, capsys)
 
     real = picture.read
     monkeypatch.setattr(picture, "read", lambda path: real(path)[:, :-1])
-    assert commands.run(["compare", "--out", str(out)]) == 3
+    assert in_blender.run(["compare", "--out", str(out)]) == 3
     assert "63 x 36" in capsys.readouterr().err
     assert verdict(out)["verdict"] == "failed"
 
 
 def test_4_no_camera(saved, out, capsys):
     saved.camera = None
-    assert commands.run(["compare", "--out", str(out)]) == 4
+    assert in_blender.run(["compare", "--out", str(out)]) == 4
     assert "camera" in capsys.readouterr().err
     found = verdict(out)
     assert (found["verdict"], found["error"]["type"]) == ("failed", "SceneError")
@@ -105,7 +105,7 @@ def test_4_no_camera(saved, out, capsys):
 def test_4_no_file_is_open(build, out, capsys):
     build.camera()
     assert not bpy.data.filepath
-    assert commands.run(["compare", "--out", str(out)]) == 4
+    assert in_blender.run(["compare", "--out", str(out)]) == 4
     assert "no file is open" in capsys.readouterr().err
     assert [p.name for p in out.iterdir()] == ["comparison.json"]
     assert verdict(out)["verdict"] == "failed"
@@ -127,20 +127,20 @@ def test_4_no_file_is_open(build, out, capsys):
     ids=str,
 )
 def test_4_an_option_that_is_wrong(argv, saved, capsys):
-    assert commands.run(argv) == 4
+    assert in_blender.run(argv) == 4
     message = capsys.readouterr().err
     assert "--help" in message
 
 
 @pytest.mark.parametrize("samples", ["0", "-1", "65"])
 def test_4_a_value_out_of_range(samples, saved, out, capsys):
-    assert commands.run(["compare", "--out", str(out), "--samples", samples]) == 4
+    assert in_blender.run(["compare", "--out", str(out), "--samples", samples]) == 4
     assert f"samples is {samples}" in capsys.readouterr().err
 
 
 def test_4_a_folder_that_cannot_be_written(saved, tmp_path, capsys):
     (tmp_path / "file").write_text("in the way")
-    assert commands.run(["compare", "--out", str(tmp_path / "file")]) == 4
+    assert in_blender.run(["compare", "--out", str(tmp_path / "file")]) == 4
     assert "file" in capsys.readouterr().err
 
 
@@ -150,14 +150,14 @@ def test_4_an_exception_of_its_own(kind, saved, out, monkeypatch, capsys):
         raise kind("on purpose")
 
     monkeypatch.setattr(compare_module, "picture", fail)
-    assert commands.run(["compare", "--out", str(out)]) == 4
+    assert in_blender.run(["compare", "--out", str(out)]) == 4
     assert "on purpose" in capsys.readouterr().err
     assert verdict(out)["error"]["type"] == kind.__name__
 
 
 @pytest.mark.parametrize("argv", [["--help"], ["-h"], ["compare", "--help"]], ids=str)
 def test_help(argv, saved, capsys):
-    assert commands.run(argv) == 0
+    assert in_blender.run(argv) == 0
     text = capsys.readouterr().out
     assert "exit codes:" in text
     assert "blender FILE --command reference_tracer" in text
@@ -178,7 +178,7 @@ def test_help(argv, saved, capsys):
 def test_options_hold_before_what_the_scene_stores(options, section, key, value, saved, out):
     saved.reference_tracer.method = "textbook_literal"
     saved.reference_tracer.judge = "CYCLES" if "auto" in options else "WORKBENCH"
-    commands.run(["compare", "--no-diagnosis", "--out", str(out), *options])
+    in_blender.run(["compare", "--no-diagnosis", "--out", str(out), *options])
     assert verdict(out)[section][key] == value
     assert saved.reference_tracer.method == "textbook_literal"
 
@@ -187,7 +187,7 @@ def test_what_the_scene_stores_holds_without_options(saved, out):
     saved.reference_tracer.method = "moller_trumbore"
     saved.reference_tracer.precision = "float32"
     saved.reference_tracer.shading = "AS_IS"
-    commands.run(["compare", "--out", str(out)])
+    in_blender.run(["compare", "--out", str(out)])
     found = verdict(out)
     assert (found["tracer"]["method"], found["tracer"]["precision"]) == (
         "moller_trumbore",
@@ -199,25 +199,25 @@ def test_what_the_scene_stores_holds_without_options(saved, out):
 def test_a_folder_beside_the_file(saved, tmp_path):
     """The file may be one of Blender's backups."""
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend1"))
-    assert commands.run(["compare", "--out", "//beside"]) == 0
+    assert in_blender.run(["compare", "--out", "//beside"]) == 0
     assert (tmp_path / "beside" / "comparison.json").is_file()
     written = ["--out", "//beside/pixel.md", "--reproducer", "//beside/pixel.json"]
-    assert commands.run(["explain", "--pixel", "0", "0", *written]) == 0
+    assert in_blender.run(["explain", "--pixel", "0", "0", *written]) == 0
     assert (tmp_path / "beside" / "pixel.md").is_file()
     assert (tmp_path / "beside" / "pixel.json").is_file()
     traced = ["--against", "//beside/traced.png"]
-    assert commands.run(["compare", "--out", "//again", *traced]) == 0
+    assert in_blender.run(["compare", "--out", "//again", *traced]) == 0
 
 
 def test_another_picture_than_blenders(saved, out, capsys):
-    assert commands.run(["compare", "--out", str(out)]) == 0
+    assert in_blender.run(["compare", "--out", str(out)]) == 0
     picture = ["--against", str(out / "traced.png")]
-    assert commands.run(["compare", "--out", str(out / "again"), *picture]) == 0
+    assert in_blender.run(["compare", "--out", str(out / "again"), *picture]) == 0
     assert "agree with the picture 'traced.png'" in capsys.readouterr().out
 
 
 def test_the_operator_and_the_command_find_the_same(saved, out, tmp_path):
-    commands.run(["compare", "--out", str(out)])
+    in_blender.run(["compare", "--out", str(out)])
     bpy.ops.reference_tracer.compare(directory=str(tmp_path / "operator"))
     first, second = verdict(out), verdict(tmp_path / "operator")
     for found in (first, second):
@@ -234,11 +234,11 @@ def test_the_operator_fails_where_it_cannot_write(saved, tmp_path):
 
 
 def test_explain_prints_or_writes(saved, tmp_path, capsys):
-    assert commands.run(["explain", "--pixel", "30", "18"]) == 0
+    assert in_blender.run(["explain", "--pixel", "30", "18"]) == 0
     assert capsys.readouterr().out.startswith("# The ray through pixel (30, 18) of scene.blend")
     page, again = tmp_path / "pixel.html", tmp_path / "pixel.json"
     written = ["--out", str(page), "--reproducer", str(again)]
-    assert commands.run(["explain", "--pixel", "30", "18", *written]) == 0
+    assert in_blender.run(["explain", "--pixel", "30", "18", *written]) == 0
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
     assert "reference_tracer.pixel/2" in again.read_text(encoding="utf-8")
 
@@ -252,15 +252,15 @@ def test_explain_prints_or_writes(saved, tmp_path, capsys):
     ],
 )
 def test_explain_says_what_is_wrong(saved, capsys, options, says):
-    assert commands.run(["explain", *options]) == 4
+    assert in_blender.run(["explain", *options]) == 4
     assert says in capsys.readouterr().err
 
 
 def test_trace_and_export_are_of_the_open_file(saved, tmp_path, capsys):
     """What is exported gives the same picture."""
     bpy.ops.wm.save_mainfile()
-    assert commands.run(["trace", "--out", "//traced.png"]) == 0
-    assert commands.run(["export", "--out", "//scene.npz"]) == 0
+    assert in_blender.run(["trace", "--out", "//traced.png"]) == 0
+    assert in_blender.run(["export", "--out", "//scene.npz"]) == 0
     assert "64 x 36 pixels" in capsys.readouterr().out
     argv = ["trace", str(tmp_path / "scene.npz"), "--out", str(tmp_path / "again.png")]
     assert main(argv) == 0
@@ -269,5 +269,5 @@ def test_trace_and_export_are_of_the_open_file(saved, tmp_path, capsys):
 
 
 def test_explain_needs_a_file(capsys):
-    assert commands.run(["explain", "--pixel", "0", "0"]) == 4
+    assert in_blender.run(["explain", "--pixel", "0", "0"]) == 4
     assert "no file is open" in capsys.readouterr().err

@@ -9,7 +9,8 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.jobs.compare import compared, gather_case
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.comparison.comparing import compared
 from reference_tracer.tracer.progress import result_of
 
 

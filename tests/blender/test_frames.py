@@ -10,10 +10,10 @@ import sys
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import commands
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
+from reference_tracer.cli import in_blender
 
 from . import hard_cases as hard
 from .test_hard_cases import own_picture
@@ -55,7 +55,7 @@ def run(out):
 
     def command(frames: str, *options: str) -> int:
         given = ["--out", str(out), f"--frames={frames}", "--no-identity", *options]
-        return commands.run(["compare", *given])
+        return in_blender.run(["compare", *given])
 
     return command
 

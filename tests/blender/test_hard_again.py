@@ -6,7 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.jobs.against import gather_against
-from reference_tracer.blender.jobs.compare import compared, gather_case
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.comparison.comparing import compared
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings

@@ -36,7 +36,7 @@ judges.JUDGES["draft"] = judges.Judge(
 import bpy
 import reference_tracer
 from reference_tracer.cli import main as cli
-from reference_tracer.blender import commands
+from reference_tracer.cli import in_blender
 
 reference_tracer.register()
 out = Path(sys.argv[1])
@@ -48,9 +48,9 @@ assert (item.name, item.description, item.value) == ("Draft", "A quick picture",
 bpy.context.scene.render.resolution_percentage = 10
 assert bpy.ops.reference_tracer.compare(directory=str(out / "stored")) == {"FINISHED"}
 stored.judge = "AUTO"
-commands.run(["compare", "--judge", "draft", "--out", str(out / "named")])
+in_blender.run(["compare", "--judge", "draft", "--out", str(out / "named")])
 assert len(drawn) == 5, drawn  # what it rounds to, then its pictures, and whose they show
-commands.run(["compare", "--judge", "all", "--out", str(out / "all")])
+in_blender.run(["compare", "--judge", "all", "--out", str(out / "all")])
 cli.main(["compare", "--help"])
 """
 

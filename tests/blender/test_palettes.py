@@ -8,10 +8,11 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer import images
-from reference_tracer.blender import commands
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.jobs.against import gather_against
-from reference_tracer.blender.jobs.compare import compared, gather_case
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.cli import in_blender
+from reference_tracer.comparison.comparing import compared
 from reference_tracer.pictures import colors_file
 from reference_tracer.pictures.palette import By
 from reference_tracer.pictures.picture import Picture
@@ -265,13 +266,13 @@ def test_what_the_file_lacks_or_has_too_much_is_named(ordinary, compare, tmp_pat
 def test_the_command_line_writes_and_takes_them(ordinary, tmp_path, capsys):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     palette, out = tmp_path / "colors.json", str(tmp_path / "out")
-    assert commands.run(["compare", "--colors-out", str(palette), "--out", out]) == 0
+    assert in_blender.run(["compare", "--colors-out", str(palette), "--out", out]) == 0
     assert "clear colour of its own" in capsys.readouterr().out
     case = gather_case(bpy.context, colors=By.OBJECT)
     images.save_png(tmp_path / "other.png", images.to_display(case.picture.color))
     against = "compare", "--against", str(tmp_path / "other.png"), "--out", out
-    assert commands.run([*against, "--colors", str(palette)]) == 0
-    assert commands.run([*against, "--colors", "viewport", "--no-diagnosis"]) != 0
-    assert commands.run(["compare", "--frames", "1", "--out", out]) == 0
+    assert in_blender.run([*against, "--colors", str(palette)]) == 0
+    assert in_blender.run([*against, "--colors", "viewport", "--no-diagnosis"]) != 0
+    assert in_blender.run(["compare", "--frames", "1", "--out", out]) == 0
     of_frame = json.loads(next((tmp_path / "out").glob("*/comparison.json")).read_text("utf-8"))
     assert of_frame["blender"]["settings"]["colors"] == "object"

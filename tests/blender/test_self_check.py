@@ -6,7 +6,7 @@ import json
 
 import bpy
 import pytest
-from reference_tracer.blender import commands
+from reference_tracer.cli import in_blender
 
 LONG = (pytest.param(n, marks=pytest.mark.torture) for n in ("geometry_nodes", "shifted_room"))
 
@@ -47,7 +47,7 @@ def saved(build, tmp_path):
 
 
 def test_on_request_of_the_command_and_the_panel(saved, tmp_path, capsys):
-    assert commands.run(["compare", "--self-check", "--out", str(tmp_path / "out")]) == 0
+    assert in_blender.run(["compare", "--self-check", "--out", str(tmp_path / "out")]) == 0
     assert "faults that can be seen here are caught" in capsys.readouterr().out
     found = json.loads((tmp_path / "out/comparison.json").read_text(encoding="utf-8"))
     assert len(found["self_check"]) > 15
@@ -59,7 +59,7 @@ def test_on_request_of_the_command_and_the_panel(saved, tmp_path, capsys):
 
 def test_every_engine_in_one_table(saved, tmp_path, capsys):
     out = tmp_path / "out"
-    assert commands.run(["compare", "--judge", "all", "--out", str(out)]) == 0
+    assert in_blender.run(["compare", "--judge", "all", "--out", str(out)]) == 0
     found = json.loads((out / "engines.json").read_text(encoding="utf-8"))
     assert [row["engine"] for row in found["engines"]] == ["workbench", "cycles"]
     assert found["verdict"] == "agree"
@@ -73,7 +73,7 @@ def test_an_engine_that_cannot_is_named(saved, build, tmp_path, capsys):
     empty.instance_type = "COLLECTION"
     empty.instance_collection = build.collection("Kit", build.cube("Child", 0.3, link=False))
     saved.display.shading.color_type = "RANDOM"
-    assert commands.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 1
+    assert in_blender.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 1
     assert "cycles     no picture: Cycles cannot draw" in capsys.readouterr().out
     found = json.loads((tmp_path / "out/engines.json").read_text(encoding="utf-8"))
     assert [row["verdict"] for row in found["engines"]] == ["agree", "failed"]
@@ -81,5 +81,5 @@ def test_an_engine_that_cannot_is_named(saved, build, tmp_path, capsys):
 
 def test_no_engine_at_all_is_an_error(saved, tmp_path, capsys):
     saved.camera = None
-    assert commands.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 4
+    assert in_blender.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 4
     assert "has no camera" in capsys.readouterr().err

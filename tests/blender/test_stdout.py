@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import bpy
-from reference_tracer.blender import commands
+from reference_tracer.cli import in_blender
 
 LOGGED = "Saved:", "Read blend", "Read new", "Fra:"  # words of Blender's log
 
@@ -24,7 +24,7 @@ def test_standard_output_holds_our_lines_alone(build, tmp_path, capsys):
     assert any(word in done.stderr for word in LOGGED)
     # With the file open, it prints the same lines into whatever Python has for its output.
     capsys.readouterr()
-    assert commands.run(["compare", *options[2:], "--out", str(tmp_path / "b")]) == 0
+    assert in_blender.run(["compare", *options[2:], "--out", str(tmp_path / "b")]) == 0
     ours = capsys.readouterr().out
     assert names(done.stdout.splitlines()) == names(ours.splitlines())
 

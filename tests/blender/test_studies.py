@@ -10,9 +10,9 @@ from urllib.request import url2pathname
 
 import bpy
 import pytest
-from reference_tracer.blender import commands
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
+from reference_tracer.cli import in_blender
 from reference_tracer.study import extremes
 from reference_tracer.tracer.settings import PLAIN_SETTINGS
 
@@ -107,21 +107,21 @@ def test_results_go_with_their_file(solids):
 def test_the_commands(solids, tmp_path, capsys):
     out = tmp_path / "out"
     trade = ["trade", "--out", str(out), "--width", "16", "--samples", "1"]
-    assert commands.run(trade) == 0
+    assert in_blender.run(trade) == 0
     assert {p.name for p in out.iterdir()} == TRADE_FILES
     assert "float32" in capsys.readouterr().out
-    assert commands.run([*trade[:-1], "65"]) == 4
+    assert in_blender.run([*trade[:-1], "65"]) == 4
     assert "samples is 65" in capsys.readouterr().err
-    assert commands.run(["extremes", "--out", str(out), "--rays", "0"]) == 4
+    assert in_blender.run(["extremes", "--out", str(out), "--rays", "0"]) == 4
     assert "--rays: 0 is not an integer of at least 1" in capsys.readouterr().err
     solids.camera = None
-    assert commands.run(trade) == 4
+    assert in_blender.run(trade) == 4
     assert "has no camera" in capsys.readouterr().err
 
 
 def test_the_command_for_the_trade_needs_a_file(build, tmp_path, capsys):
     build.camera()
-    assert commands.run(["trade", "--out", str(tmp_path / "out")]) == 4
+    assert in_blender.run(["trade", "--out", str(tmp_path / "out")]) == 4
     assert "no file is open" in capsys.readouterr().err
 
 
@@ -129,6 +129,6 @@ def test_the_command_for_the_extremes_runs_all(tmp_path, monkeypatch, capsys):
     """All of them take minutes: what is left of them here is one."""
     [fan] = [s for s in extremes.SCENARIOS if s.name == "closed_fan"]
     monkeypatch.setattr(extremes, "measure", partial(extremes.measure, [fan]))
-    assert commands.run(["extremes", "--out", str(tmp_path / "out"), "--rays", "12"]) == 0
+    assert in_blender.run(["extremes", "--out", str(tmp_path / "out"), "--rays", "12"]) == 0
     assert "closed" in capsys.readouterr().out.lower()
     assert (tmp_path / "out" / "extremes.json").is_file()

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 import reference_tracer
+from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.ui.results import BLENDER, DIFFERENCE, TRACED
 
@@ -191,14 +192,22 @@ def test_a_second_comparison_adds_nothing(user_scene):
 
 
 @pytest.mark.parametrize(
-    "where", ["picture", "export_for_judge", "prepare_scene", "stand_ins", "with_identity"]
+    ("module", "where"),
+    [
+        (compare_module, "picture"),
+        (compare_module, "export_for_judge"),
+        (compare_module, "with_identity"),
+        (drawings, "prepare_scene"),
+        (drawings, "stand_ins"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
 )
 @pytest.mark.parametrize("kind", [RuntimeError, KeyError, MemoryError])
-def test_nothing_is_changed_by_an_error(kind, where, user_scene, monkeypatch):
+def test_nothing_is_changed_by_an_error(kind, module, where, user_scene, monkeypatch):
     def fail(*args, **options):
         raise kind("on purpose")
 
-    monkeypatch.setattr(compare_module, where, fail)
+    monkeypatch.setattr(module, where, fail)
     before = state()
     with pytest.raises(RuntimeError, match="on purpose"):
         bpy.ops.reference_tracer.compare()

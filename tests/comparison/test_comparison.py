@@ -18,6 +18,7 @@ from reference_tracer.causes.explain import (
     UNEXPLAINED,
 )
 from reference_tracer.comparison.comparing import compare, trace_and_compare
+from reference_tracer.comparison.comparing import compared as driver
 from reference_tracer.comparison.comparison import SCHEMA
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.manifest import ObjectEntry, Unmodelled
@@ -244,6 +245,29 @@ def test_tracing_and_comparing_in_one(scene):
     apart = compared(scene, picture)
     assert np.array_equal(found.frame.color, apart.frame.color)
     assert np.array_equal(found.causes.cause, apart.causes.cause)
+
+
+def test_whether_to_diagnose_is_decided_by_the_driver(scene):
+    """What is kept has the diagnosis the second time; who stops before it has the comparison."""
+
+    def diagnosed(color, **wanted):
+        def kept(found):
+            seen.append("diagnosis" if found.diagnosis else "comparison")
+            yield 0.5
+
+        seen = []
+        case = case_of(scene, Picture(color), curves=())
+        shares = []
+        work = driver(case, told=lambda found: seen.append("told"), kept=kept, **wanted)
+        found = result_of(work, shares.append)
+        assert all(0 <= share <= 1 for share in shares)
+        assert (found.diagnosis is not None) == ("told" in seen)
+        return seen
+
+    same = render(scene).color
+    assert diagnosed(same, diagnose=True) == diagnosed(same[::-1].copy()) == ["comparison"]
+    wrong = diagnosed(same[::-1].copy(), diagnose=True)
+    assert wrong == ["comparison", "told", "diagnosis"]
 
 
 @pytest.mark.parametrize("color", [Color.NORMAL, Color.DEPTH])

@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from reference_tracer.comparison.extras import extras
 from reference_tracer.images import to_display
 from reference_tracer.report import page
 from reference_tracer.report.page.content import content
@@ -42,7 +43,7 @@ def show(chromium, tmp_path):
 
     def opened(comparison, hash_="", held=None, script="", ready="html[data-ready]", **options):
         path = tmp_path / "page.html"
-        held = held or content(comparison, result_of(page.extras(comparison)))
+        held = held or content(comparison, result_of(extras(comparison)))
         path.write_text(page.html(held), encoding="utf-8")
         options = {"viewport": SIZE, "color_scheme": "light"} | options
         context = chromium.new_context(**options)

@@ -15,6 +15,7 @@ import jsonschema
 import numpy as np
 import pytest
 from PIL import Image
+from reference_tracer.comparison.extras import extras
 from reference_tracer.images import to_display
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
@@ -58,7 +59,7 @@ def validator():
 
 def whole(comparison):
     """Return all that a page can show."""
-    return content(comparison, result_of(page.extras(comparison)))
+    return content(comparison, result_of(extras(comparison)))
 
 
 @pytest.mark.parametrize("kind", ["uint8", "int32", "uint32", "uint64", "float32", "float64"])
@@ -258,7 +259,7 @@ def test_what_does_not_fit_is_left_out_and_said(differing):
 
 
 def test_extras_are_the_literal_picture_and_derivations(differing):
-    found = result_of(page.extras(differing))
+    found = result_of(extras(differing))
     literal = render(differing.scene, Settings("textbook_literal"))
     assert np.array_equal(found.literal, literal.color)
     examples = differing.counts.examples
@@ -270,7 +271,7 @@ def test_a_slow_textbook_is_not_traced_again(differing):
     from reference_tracer.comparison.methods import MethodRow
 
     slow = replace(differing, methods=(MethodRow("textbook", "float64", 1, 99.0, 0, 0),))
-    found = result_of(page.extras(slow))
+    found = result_of(extras(slow))
     assert found.literal is None and "99 s" in " ".join(found.left_out)
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.comparison.extras import Extras
 from reference_tracer.manifest import ObjectEntry
 from reference_tracer.pictures.picture import Source
 from reference_tracer.report import page
@@ -141,7 +142,7 @@ def test_a_page_without_what_was_left_out(show, differing):
 def test_studies_are_shown_with_their_plots(show, differing):
     trade = result_of(tradeoff.measure(differing.scene, 24, 2, "a.blend"))
     rows = result_of(extremes.measure(SCENARIOS[:1], 40))
-    held = json.loads(page.json_text(content(differing, page.Extras(trade, rows))))
+    held = json.loads(page.json_text(content(differing, Extras(trade, rows))))
     tab = show(differing, held=held)
     assert "where methods break" in tab.locator("#tables").inner_text()
     plots = tab.locator("#tables svg")

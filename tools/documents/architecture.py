@@ -31,20 +31,20 @@ rendering.py certified_tracer
 """,
     "The button *Trace and Compare*": """
 blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
-  blender/jobs/compare.py compare_here
+  blender/jobs/compare.py compare_open_file
     blender/jobs/compare.py gather_case
-      blender/engine.py export_for_judge
+      blender/jobs/compare.py _exported
+        blender/engine.py export_for_judge
       blender/drawing/picture.py picture
-    blender/jobs/compare.py compared
+    comparison/comparing.py compared
       comparison/comparing.py trace_and_compare
         comparison/comparing.py compare
           causes/explain.py explain
             causes/explain.py find_causes
           causes/counts.py count_pixels
-    blender/jobs/compare.py _diagnosed_too
-comparison/comparing.py diagnosed
-  diagnosis/diagnosis.py diagnose
-    diagnosis/guessing.py accounting
+      comparison/comparing.py diagnosed
+        diagnosis/diagnosis.py diagnose
+          diagnosis/guessing.py accounting
 blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish
   blender/ui/results.py keep_comparison
   comparison/comparison.py Comparison.verdict
@@ -55,11 +55,10 @@ cli/main.py main
 cli/commands/compare.py compare
   cli/commands/compare.py _with_blender
     cli/opening.py open_blend
-    blender/jobs/compare.py compare_to_folder
+    blender/jobs/compare.py compare_open_file
       blender/jobs/compare.py gather_case
-      blender/jobs/compare.py compared
       report/comparison.py written
-        comparison/comparing.py diagnosed
+        comparison/comparing.py compared
         report/comparison.py write
           report/page/__init__.py write
     cli/commands/compare.py _told_comparison

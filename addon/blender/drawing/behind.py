@@ -46,16 +46,15 @@ def behind(
         return None
     without = replace(drawing, left_out=tuple(left))
     try:
-        exported, manifest = without.exported_again()
-        without = replace(without, exported=exported, manifest=manifest)
-        with without.begun() as tmp:
+        without = without.exported_again()
+        with without.begun() as (tmp, scene):
             shown = made(without.picture(tmp, drawing.like_for_like))
         if identity:
             shown = with_identity(without, shown)
         shown, manifest = with_what_draws_itself(without, shown)
     except (SceneError, RuntimeError):  # nothing is left that could be seen
         return None
-    rest = Case(without.planes_drawn(), manifest, case.settings, shown, tracer=case.tracer)
+    rest = Case(scene, manifest, case.settings, shown, tracer=case.tracer)
     return Behind(rest, frozenset(u.object for u in left))
 
 

@@ -8,7 +8,7 @@ without them. The user's objects are drawn, never copies of them: those have no 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -28,55 +28,67 @@ from ..temporary import drawn, leave_out, temporary_scene
 from ..values import in_colors, is_animated, untold
 from .judge import Judge
 from .picture import picture, prepare_scene
-from .shading import use_view_shading
+from .shading import anti_aliasing, use_view_shading
 from .stand_ins import STANDS_FOR, stand_ins
 
 _HIDING = ("hide_render", "hide_viewport")
 
 
 @dataclass(frozen=True)
-class Drawing:
+class Plan:
     """How the user's scene is drawn: the same each time."""
 
-    scene: Any
+    scene: Any  # bpy.types.Scene
     layer: str
     judge: Judge
-    like_for_like: bool
-    view_shading: Any  # of the 3D view whose shading is used, or None
-    exported: Scene
-    manifest: Manifest
+    like_for_like: bool = True
+    view_shading: Any = None  # of the 3D view whose shading is used
     palette: Palette = VIEWPORT
     left_out: tuple[Unmodelled, ...] = ()  # objects that are never drawn
 
     @contextmanager
-    def begun(self) -> Iterator[Any]:
-        """Give a new temporary scene, set up as for the first picture."""
-        planes = self.manifest.owners[len(self.exported.instances) :]
-        with self._prepared() as tmp, stand_ins(tmp, self.layer, self.exported, planes):
-            yield tmp
-
-    @contextmanager
-    def _prepared(self) -> Iterator[Any]:
+    def prepared(self) -> Iterator[tuple[Any, dict[str, Any]]]:
+        """Give a new temporary scene that is set up to be drawn, and with what settings it is."""
         with (
             temporary_scene(self.scene, self.layer, self.judge.ignores, self.palette) as tmp,
             left_out(tmp, self.layer, self.left_out),
         ):
             if self.view_shading:
                 use_view_shading(tmp, self.view_shading)
-            prepare_scene(tmp, self.like_for_like)
-            yield tmp
+            used = prepare_scene(tmp, self.like_for_like)
+            used["shading_of"] = "3D view" if self.view_shading else "scene"
+            used["anti_aliasing"] = anti_aliasing(tmp, self.judge, self.like_for_like)
+            yield tmp, used | {"colors": self.palette.by.value}
 
-    def exported_again(self) -> tuple[Scene, Manifest]:
+
+@dataclass(frozen=True, kw_only=True)
+class Drawing(Plan):
+    """A plan, and what was exported by it."""
+
+    exported: Scene
+    manifest: Manifest
+
+    @classmethod
+    def of(cls, plan: Plan, exported: Scene, manifest: Manifest) -> Drawing:
+        """Return the drawing of what was exported by a plan, or by another drawing."""
+        return cls(**vars(plan) | {"exported": exported, "manifest": manifest})
+
+    @contextmanager
+    def begun(self) -> Iterator[tuple[Any, Scene]]:
+        """Give a new temporary scene, set up as for the first picture, and as :meth:`planes_in`."""
+        with self.prepared() as (tmp, _), self.planes_in(tmp) as scene:
+            yield tmp, scene
+
+    def planes_in(self, tmp: Any) -> AbstractContextManager[Scene]:
+        """Have planes drawn, for a while; gives the scene with them in the colours drawn."""
+        owners = self.manifest.owners[len(self.exported.instances) :]
+        return stand_ins(tmp, self.layer, self.exported, owners)
+
+    def exported_again(self) -> Drawing:
         """Export the scene without what is left out."""
-        with self._prepared() as tmp:
-            scene, manifest, _ = export_for_judge(tmp, self.layer, self.judge)
-        return scene, manifest
-
-    def planes_drawn(self) -> Scene:
-        """Return the exported scene with its planes in the colours that they are drawn in."""
-        planes = self.manifest.owners[len(self.exported.instances) :]
-        with self._prepared() as tmp, stand_ins(tmp, self.layer, self.exported, planes) as scene:
-            return scene
+        with self.prepared() as (tmp, _):
+            exported, manifest, _ = export_for_judge(tmp, self.layer, self.judge)
+        return Drawing.of(self, exported, manifest)
 
     def picture(self, tmp: Any, like_for_like: bool) -> Colors:
         """Draw a temporary scene; raises what :func:`.picture.picture` does."""
@@ -84,7 +96,7 @@ class Drawing:
 
     def without(self, features: Sequence[Unmodelled]) -> Colors:
         """Draw the scene without some features that draw themselves."""
-        with self.begun() as tmp, left_out(tmp, self.layer, features):
+        with self.begun() as (tmp, _), left_out(tmp, self.layer, features):
             return self.picture(tmp, self.like_for_like)
 
 
@@ -161,7 +173,7 @@ def drawn_by_others(drawing: Drawing) -> Integers | None:
     if not any(u.effect is Effect.DRAWN for u in drawing.manifest.unmodelled):
         return None
     try:
-        with drawing.begun() as tmp:
+        with drawing.begun() as (tmp, _):
             shown = Picture(drawing.picture(tmp, True))
     except (SceneError, RuntimeError):  # there is nothing to draw with: all that it may cover
         return None
@@ -182,7 +194,7 @@ def with_identity(drawing: Drawing, shown: Picture) -> Picture:
     itself is left out where that is possible.
     """
     manifest = drawing.manifest
-    with drawing.begun() as tmp, left_out(tmp, drawing.layer, _separate(manifest)):
+    with drawing.begun() as (tmp, _), left_out(tmp, drawing.layer, _separate(manifest)):
         # The layer's own list has the stand-ins of planes once it is evaluated: that is too early.
         planes = [o for o in tmp.collection.objects if STANDS_FOR in o]
         objects = list(dict.fromkeys((*drawn(tmp, drawing.layer), *planes)))

@@ -28,12 +28,12 @@ from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Curve, Picture
 from ...scene import Scene
 from ...tracer.settings import Settings
-from ..drawing.drawings import Drawing, drawn_by_others
+from ..drawing.drawings import Drawing, Plan, drawn_by_others
 from ..drawing.judges import AUTO, judge_named
 from ..drawing.picture import read
 from ..engine import export_for_render
 from ..reading.export import export
-from ..reading.palettes import automatic, palette_by
+from ..reading.palettes import automatic, noted, palette_by
 from ..temporary import go_to, temporary_scene
 from ..values import values_restored
 from ..versions import set_format
@@ -67,17 +67,15 @@ def gather_against(
         palette = automatic(context.scene, scene, manifest)
         if palette.by != By.VIEWPORT:
             scene, manifest, _ = export_open_file(context, palette=palette)
-    palette.check(scene, manifest.owners)
-    if palette.note:
-        manifest = replace(manifest, notes=(*manifest.notes, palette.note))
+    manifest = noted(palette, scene, manifest)
     judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
     layer = context.view_layer.name
-    drawing = Drawing(context.scene, layer, judge, True, None, scene, manifest, palette)
+    plan = Plan(context.scene, layer, judge, palette=palette)
     return Case(
         scene,
         manifest,
         settings,
-        replace(picture, drawn=drawn_by_others(drawing)),
+        replace(picture, drawn=drawn_by_others(Drawing.of(plan, scene, manifest))),
         alternatives=alternatives(context, scene, manifest, palette),
         curves=view_transforms(context.scene, scene),
         self_check=self_check,

@@ -12,15 +12,16 @@ from typing import Any
 
 import bpy
 
-from ...comparison.animation import FrameRow, frames_named
+from ...comparison.animation import FrameRow
 from ...errors import words
 from ...report import animation as report
 from ...scene import SceneError
-from ...tracer.progress import Work, called, result_of, scaled
+from ...tracer.progress import Work, called, scaled
+from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..values import values_restored
-from .compare import compare_to_folder, made_folder
-from .stepping import bake_bodies, visited
+from .compare import compare_open_file
+from .stepping import visited
 
 _ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be imported here
 
@@ -84,7 +85,7 @@ def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -
     own = report.folder_of(folder, frame)
     try:
         # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
-        work = compare_to_folder(bpy.context, str(own), diagnose=False, **choices)
+        work = compare_open_file(bpy.context, str(own), diagnose=False, **choices)
         comparison = yield from work
     except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
         return FrameRow(frame, error=words(error))
@@ -97,41 +98,12 @@ def frames_of(scene: Any) -> range:
     return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
 
 
-def compare_open_file(
-    named: str,
-    directory: str,
-    options: dict[str, str],
-    progress: Callable[[float], None],
-    **choices: Any,
-) -> int:
-    """Compare the frames that are named, print the table, return the worst's exit code.
+def depends_on(options: dict[str, str]) -> dict[str, Any]:
+    """Return all that a frame's comparison depends on, but for the frame's number.
 
-    The options are those of the command line that a frame's comparison depends on: a frame that was
-    compared with others, or of another file, is compared again.
-
-    Raises what :func:`compare_frames` does.
+    The options are those of the command line: a frame that was compared with others, or of another
+    file, is compared again.
     """
-    scene = bpy.context.scene
-    frames = frames_named(named) or frames_of(scene)
-    bake_bodies(scene, frames[-1])
-    begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
-
-    def told(rows: list[FrameRow]) -> None:
-        print(begin + report.line(rows[-1]), file=sys.stderr, flush=True)
-
-    work = compare_frames(directory, frames, told, _made_by(options), **choices)
-    try:
-        rows = result_of(work, progress)
-    except KeyboardInterrupt:
-        print("what is done is kept: the same command goes on from there", file=sys.stderr)
-        raise
-    print(*report.lines(frames, rows), f"written to {directory}", sep="\n")
-    print(f"open {Path(directory) / report.PAGE} in a browser")
-    return report.verdict(rows).exit_code
-
-
-def _made_by(options: dict[str, str]) -> dict[str, Any]:
-    """Return all that a frame's comparison depends on, but for the frame's number."""
     used = {bpy.data.filepath, *bpy.utils.blend_paths(absolute=True)}  # libraries, Alembic, images
     files = sorted(path for path in map(Path, used) if path.is_file())
     return {

@@ -6,51 +6,45 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 
 from ...arrays import Colors
 from ...causes.case import Case
-from ...comparison.comparing import diagnosed as diagnosed_of
-from ...comparison.comparing import trace_and_compare
+from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
 from ...manifest import Manifest
-from ...mesh_diagnosis import diagnosed
+from ...pictures.certificate import CameraCertificate
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Picture, Source
 from ...pictures.renderers import EMBREE, RASTER
 from ...report import comparison as comparison_report
-from ...report import folders
 from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ...tracer.render import Tracer
 from ...tracer.settings import Settings
 from ..drawing.behind import behind
-from ..drawing.drawings import Drawing, with_identity, with_what_draws_itself
+from ..drawing.drawings import Drawing, Plan, with_identity, with_what_draws_itself
 from ..drawing.judge import Judge
 from ..drawing.judges import judge_named
 from ..drawing.picture import picture, prepare_scene
 from ..drawing.rasteriser import snapping_of
-from ..drawing.shading import anti_aliasing, of_shading, solid_shading, use_view_shading
-from ..drawing.stand_ins import stand_ins
+from ..drawing.shading import of_shading, solid_shading
 from ..drawing.workbench import WORKBENCH
 from ..engine import export_for_judge
+from ..paths import made_folder
 from ..reading.camera import export_camera
-from ..reading.palettes import automatic, palette_by
+from ..reading.palettes import automatic, noted, palette_by
 from ..reading.unmodelled import by_handlers
 from ..temporary import go_to, temporary_scene
 from ..values import values_restored
 from .variants import variants
-
-if TYPE_CHECKING:
-    from ..engine import Certified
 
 
 @dataclass(frozen=True)
@@ -82,12 +76,6 @@ class Choices:
         return replace(own, **{name: value for name, value in given.items() if value is not None})
 
 
-def compared(case: Case) -> Work[Comparison]:
-    """Do what is left once all is gathered; yields the share of it that is done."""
-    manifest = yield from diagnosed(case.scene, case.manifest)
-    return (yield from trace_and_compare(replace(case, manifest=manifest)))
-
-
 def gather_case(context: Any, **choices: Any) -> Case:
     """Export the context's scene and view layer, and have Blender draw them.
 
@@ -104,81 +92,84 @@ def gather_case(context: Any, **choices: Any) -> Case:
     RuntimeError
         If Blender makes no picture of it.
     """
-    scene = context.scene
-    layer = context.view_layer.name
-    chosen = Choices.of(scene, choices)
-    like_for_like = not chosen.as_is
-    camera = export_camera(scene)  # first: its errors name the user's scene, say what to do
-    is_panorama = not camera.projection.is_linear
-    judge = judge_named(chosen.judge, bpy.app.background, is_panorama)
-    of_view = judge.needs_window and not like_for_like
-    view_shading = solid_shading(context) if of_view else None
-    check_memory(
-        camera.region.width, camera.region.height, COMPARED, 2 * ALWAYS
-    )  # before Blender draws
-    with ExitStack() as stack:
-
-        def begun(palette: Palette) -> tuple[Any, dict[str, Any], Certified]:
-            tmp = stack.enter_context(temporary_scene(scene, layer, judge.ignores, palette))
-            used = _prepared(tmp, judge, like_for_like, view_shading)
-            return tmp, used | {"colors": palette.by.value}, export_for_judge(tmp, layer, judge)
-
-        palette = palette_by(scene, chosen.colors) if like_for_like else VIEWPORT
-        tmp, used, (exported, manifest, certificate) = begun(palette)
-        if like_for_like and chosen.colors == By.AUTOMATIC:
-            palette = automatic(scene, exported, manifest)
-        if palette.by != used["colors"]:
-            stack.close()
-            tmp, used, (exported, manifest, certificate) = begun(palette)
-        palette.check(exported, manifest.owners)
-        if palette.note:
-            manifest = replace(manifest, notes=(*manifest.notes, palette.note))
-        if certificate:
-            certificate.check()
-        there = [o.name_full for o in scene.objects]
-        if like_for_like and used["color_type"] == "RANDOM":
-            judge.check_random(exported, manifest.owners)
-        if not like_for_like:
-            of_picture = of_shading(tmp, judge, used["anti_aliasing"])
-            own = (replace(u, object=f"scene '{scene.name}'") for u in of_picture)
-            manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
+    chosen = Choices.of(context.scene, choices)
+    plan = _planned(context, chosen)
+    user, layer, judge = plan.scene, plan.layer, plan.judge
+    is_automatic = plan.like_for_like and chosen.colors == By.AUTOMATIC
+    with _exported(plan, is_automatic) as (tmp, used, drawing, certificate):
+        there = _names(user)
         later = _a_frame_later(tmp, layer, judge) if chosen.self_check else None
         snapping = snapping_of(judge)  # its drawing is the first, which may differ from the others
-        planes = manifest.owners[len(exported.instances) :]
-        with stand_ins(tmp, layer, exported, planes) as with_planes:
-            pixels = picture(tmp, layer, judge, exported.camera, like_for_like)
-    shown = _picture(pixels, judge, used, snapping)
-    drawing = Drawing(scene, layer, judge, like_for_like, view_shading, exported, manifest, palette)
+        made = partial(_picture, judge=judge, used=used, snapping=snapping)
+        with drawing.planes_in(tmp) as scene:
+            shown = made(picture(tmp, layer, judge, scene.camera, plan.like_for_like))
     if chosen.identity:
         shown = with_identity(drawing, shown)
     shown, manifest = with_what_draws_itself(drawing, shown)
-    if there != [o.name_full for o in scene.objects]:
-        manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(scene)))
-    settings = chosen.settings
-    if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
-        settings = replace(settings, samples=1)
-    case = Case(with_planes, manifest, settings, shown, certificate)
-    if like_for_like:
-        color_type = scene.display.shading.color_type
-        made = partial(_picture, judge=judge, used=used, snapping=snapping)
-        case = replace(case, behind=behind(drawing, case, color_type, made, chosen.identity))
-    return replace(
-        case,
+    if there != _names(user):
+        manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(user)))
+    case = Case(
+        scene,
+        manifest,
+        # Like for like, Blender's picture has one sample in a pixel: so has the traced one.
+        replace(chosen.settings, samples=1) if plan.like_for_like else chosen.settings,
+        shown,
+        certificate,
         self_check=chosen.self_check,
         next_frame=later,
         tracer=chosen.tracer,
-        variants=partial(variants, scene.name_full, layer, judge.ignores, palette),
+        variants=partial(variants, user.name_full, layer, judge.ignores, drawing.palette),
     )
+    if plan.like_for_like:
+        color_type = user.display.shading.color_type
+        case = replace(case, behind=behind(drawing, case, color_type, made, chosen.identity))
+    return case
 
 
-def _prepared(tmp: Any, judge: Judge, like_for_like: bool, view_shading: Any) -> dict[str, Any]:
-    """Set a temporary scene up for a judge; return the settings that the picture is made with."""
-    if view_shading:
-        use_view_shading(tmp, view_shading)
-    used = prepare_scene(tmp, like_for_like)
-    used["shading_of"] = "3D view" if view_shading else "scene"
-    used["anti_aliasing"] = anti_aliasing(tmp, judge, like_for_like)
-    return used
+def _planned(context: Any, chosen: Choices) -> Plan:
+    """Return how the context's scene is to be drawn, which is decided before Blender is asked."""
+    scene = context.scene
+    camera = export_camera(scene)  # first: its errors name the user's scene, say what to do
+    judge = judge_named(chosen.judge, bpy.app.background, not camera.projection.is_linear)
+    shading = solid_shading(context) if judge.needs_window and chosen.as_is else None
+    region = camera.region
+    check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # before Blender draws
+    palette = VIEWPORT if chosen.as_is else palette_by(scene, chosen.colors)
+    return Plan(scene, context.view_layer.name, judge, not chosen.as_is, shading, palette)
+
+
+@contextmanager
+def _exported(
+    plan: Plan, is_automatic: bool
+) -> Iterator[tuple[Any, dict[str, Any], Drawing, CameraCertificate | None]]:
+    """Export a scene in the colours that are wanted, and refuse what the judge cannot draw.
+
+    Gives the temporary scene, the settings that it is drawn with, what was exported of it, and how
+    close its camera is to Blender's.
+    """
+    with plan.prepared() as (tmp, used):
+        scene, manifest, certificate = export_for_judge(tmp, plan.layer, plan.judge)
+        palette = automatic(plan.scene, scene, manifest) if is_automatic else plan.palette
+        own = replace(plan, palette=palette)
+        if palette.by == plan.palette.by:
+            manifest = noted(palette, scene, manifest)
+            if certificate:
+                certificate.check()
+            if plan.like_for_like and used["color_type"] == "RANDOM":
+                plan.judge.check_random(scene, manifest.owners)
+            if not plan.like_for_like:
+                of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
+                name = f"scene '{plan.scene.name}'"
+                of_scene = (replace(u, object=name) for u in of_picture)
+                manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_scene))
+            yield tmp, used, Drawing.of(own, scene, manifest), certificate
+            return
+    with _exported(own, False) as found:
+        yield found
+
+
+def _names(scene: Any) -> list[str]:
+    return [o.name_full for o in scene.objects]
 
 
 def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float) -> Picture:
@@ -205,65 +196,32 @@ def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
     return later
 
 
-def compare_here(
-    context: Any, told: Callable[[Comparison], object], **choices: Any
-) -> Work[Comparison]:
-    """Gather at once; return the work of tracing, comparing and diagnosing, which writes nothing.
-
-    `told` hears of the comparison before the diagnosis, if there is one. The choices are the fields
-    of :class:`Choices`.
-    """
-    case = gather_case(context, **choices)
-    return _diagnosed_too(compared(case), Choices.of(context.scene, choices).diagnose, told)
-
-
-def _diagnosed_too(
-    work: Work[Comparison], diagnose: bool, told: Callable[[Comparison], object]
-) -> Work[Comparison]:
-    comparison = yield from scaled(work, 0.0, 0.6)
-    if diagnose and comparison.counts.unexplained:
-        told(comparison)
-        comparison = yield from scaled(diagnosed_of(comparison), 0.6, 0.4)
-    return comparison
-
-
-def compare_to_folder(
+def compare_open_file(
     context: Any,
-    directory: str,
+    directory: str = "",
     trade: bool = False,
     extremes: bool = False,
     told: Callable[[Comparison], object] = lambda comparison: None,
     **choices: Any,
 ) -> Work[Comparison]:
-    """Gather at once; return the work of tracing, comparing and writing the files.
+    """Gather at once; return the work of tracing, comparing, diagnosing, and writing the files.
 
-    With `trade` and `extremes`, these are measured for the page, too. `told` hears of the
-    comparison before the diagnosis, if there is one. The choices are the fields of
-    :class:`Choices`. On failure the folder's JSON says why.
+    Nothing is written if the directory is empty. With `trade` and `extremes`, these are measured
+    for the page, too. `told` hears of the comparison before the diagnosis, if there is one. The
+    choices are the fields of :class:`Choices`. On failure the folder's JSON says why.
 
     Raises
     ------
     OSError
         If the folder cannot be written; else what :func:`gather_case` and the comparison raise.
     """
+    diagnose = Choices.of(context.scene, choices).diagnose
+    if not directory:
+        return compared(gather_case(context, **choices), diagnose, told)
     folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
-    diagnose = Choices.of(context.scene, choices).diagnose
-    return comparison_report.written(folder, compared(case), diagnose, trade, extremes, told)
-
-
-def made_folder(directory: str) -> Path:
-    """Make a folder, and return it; its path is as Blender writes it, or as the shell does.
-
-    Raises
-    ------
-    OSError
-        If it cannot be made or written.
-    """
-    folder = Path(bpy.path.abspath(directory))  # // is beside the file
-    folders.make(folder)
-    return folder
+    return comparison_report.written(folder, case, diagnose, trade, extremes, told)
 
 
 def export_open_file(

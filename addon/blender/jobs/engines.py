@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 
 from ...causes.case import Case
+from ...comparison.comparing import compared
 from ...comparison.engines import EngineRow
 from ...comparison.verdict import Verdict
 from ...errors import words
@@ -16,7 +17,8 @@ from ...report import engines as engines_report
 from ...scene import SceneError
 from ...tracer.progress import Work, scaled
 from ..drawing.judges import JUDGES
-from .compare import Choices, compared, gather_case, made_folder
+from ..paths import made_folder
+from .compare import Choices, gather_case
 
 
 def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
@@ -55,7 +57,7 @@ def _all_compared(
             continue
         work = compared(gathered)
         if folder:
-            work = comparison_report.written(folder / engine, work, diagnose)
+            work = comparison_report.written(folder / engine, gathered, diagnose)
         comparison = yield from scaled(work, number / len(drawn), 1 / len(drawn))
         rows.append(EngineRow.of(comparison))
     if folder:

@@ -5,6 +5,7 @@ Blender is given them on temporary scenes: see `temporary.py`.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -88,6 +89,12 @@ def automatic(scene: Any, exported: Scene, manifest: Manifest) -> Palette:
         return clear_palette(_object_names(scene), automatic_note("viewport", pair))
     except SceneError as error:
         return Palette(By.VIEWPORT, note=f"'{pair[0]}' and '{pair[1]}' share a colour: {error}")
+
+
+def noted(palette: Palette, exported: Scene, manifest: Manifest) -> Manifest:
+    """Return the manifest with the palette's note; raises SceneError if a colour is missing."""
+    palette.check(exported, manifest.owners)
+    return replace(manifest, notes=(*manifest.notes, *filter(None, [palette.note])))
 
 
 def _object_names(scene: Any) -> list[str]:

@@ -17,6 +17,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
 from ...tracer.progress import Work, doing, result_of
+from ...wording import say
 from ..versions import RELATIVE
 from .preferences import default_folder
 from .results import redraw
@@ -78,7 +79,7 @@ class LongWork(Mixin):
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""
-        from ..jobs.compare import made_folder
+        from ..paths import made_folder
 
         directory = self.directory or default_folder(self.bl_idname.rpartition("_OT_")[2])
         if directory and not self.directory:
@@ -199,8 +200,9 @@ def with_ending(filepath: str, *endings: str) -> Path:
         If it has another.
     """
     from ...scene import SceneError
+    from ..paths import absolute
 
-    path = Path(bpy.path.abspath(filepath))
+    path = absolute(filepath)
     if path.suffix.lower() not in endings:
         raise SceneError(f"'{filepath}' must end in {' or '.join(endings)}")
     return path
@@ -217,9 +219,3 @@ def is_blocked(operator: Any, context: Any, needs_camera: bool) -> bool:
     if why:
         operator.poll_message_set(why)
     return bool(why)
-
-
-def say(*lines: str) -> None:
-    """Print lines under the add-on's name."""
-    for line in lines:
-        print(f"Reference Tracer: {line}")

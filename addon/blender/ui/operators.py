@@ -11,9 +11,9 @@ from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ...tracer.progress import Work
-from ...wording import count_of
+from ...wording import count_of, say
 from . import results
-from .long_work import Answer, LongWork, named, say, with_ending
+from .long_work import Answer, LongWork, named, with_ending
 from .results import Kind, redraw
 
 
@@ -28,7 +28,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         """Have Blender draw the scene at once; return the work that is left."""
-        from ..jobs.compare import compare_here, compare_to_folder
+        from ..jobs.compare import compare_open_file
 
         def told(comparison: Any) -> None:
             """Show the comparison: Esc ends no more than the search for what is wrong with it."""
@@ -38,9 +38,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
             self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
             redraw(context)
 
-        if folder := self.folder():
-            return compare_to_folder(context, str(folder), told=told)
-        return compare_here(context, told)
+        return compare_open_file(context, str(self.folder() or ""), told=told)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         lines = results.keep_comparison(context, result).lines
@@ -135,11 +133,11 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         return super().poll(context) and bool(found)
 
     def begin(self, context: Any) -> Work[Any]:
-        from ...report import page
+        from ...comparison.extras import extras
 
         self._folder = self.folder() or results.session_folder()
         self._comparison = results.content(Kind.COMPARISON, context.scene)
-        return page.extras(self._comparison)
+        return extras(self._comparison)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Write the page, with the studies that there are, and open it."""

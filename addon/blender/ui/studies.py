@@ -8,6 +8,7 @@ import bpy
 from bpy.props import EnumProperty, IntProperty
 
 from ...tracer.progress import Work
+from ...wording import say
 from . import choices, results
 from .long_work import LongWork, named
 
@@ -51,7 +52,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         if self._folder:
             trade_report.write(self._folder, result)
         results.keep_trade(result)
-        print(trade_report.table(result))
+        say(trade_report.table(result), name="")
         return "INFO", result.advice
 
 
@@ -91,5 +92,5 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         if self._folder:
             extremes_report.write(self._folder, result)
         [said] = results.keep_extremes(result).lines
-        print(extremes_report.breaking_table(result), said, sep="\n")
+        say(extremes_report.breaking_table(result), said, name="")
         return "INFO", said

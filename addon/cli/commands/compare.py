@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -10,14 +12,14 @@ from typing import Any
 from ... import images
 from ...causes.case import Case
 from ...comparison import engines
-from ...comparison.comparing import trace_and_compare
+from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
-from ...mesh_diagnosis import diagnosed
 from ...pictures import colors_file
 from ...pictures.colors_file import in_colors
 from ...pictures.given import Making, picture_of_file
 from ...pictures.palette import By, GivenColors
+from ...report import animation as frames_report
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
@@ -68,8 +70,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "with --against"
         )
     with open_blend(options.scene, options.choice) as blender, progress_bar() as progress:
-        from ...blender.jobs import animation
-        from ...blender.jobs.compare import compare_to_folder
+        from ...blender.jobs.compare import compare_open_file
         from ...blender.jobs.engines import compare_all
 
         stored = blender.context.scene.reference_tracer.settings()
@@ -83,19 +84,46 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "self_check": options.self_check,
             **place,
         }
-        diagnose = options.diagnosis
         if options.frames:
-            made_by = options.of_a_frame()
-            chosen["judge"] = judge
-            return animation.compare_open_file(options.frames, out, made_by, progress, **chosen)
+            return _frames(
+                options, options.frames, blender.context.scene, progress, judge=judge, **chosen
+            )
+        chosen["diagnose"] = options.diagnosis
         if options.judge == "all":
-            work_of_all = compare_all(blender.context, out, diagnose=diagnose, **chosen)
-            rows = result_of(work_of_all, progress)
-            return _told_engines(options, rows)
-        for_page: dict[str, Any] = {"trade": options.trade, "extremes": options.extremes}
-        chosen |= {"judge": judge, "diagnose": diagnose}
-        work = compare_to_folder(blender.context, out, **for_page, **chosen)
+            work_of_all = compare_all(blender.context, out, **chosen)
+            return _told_engines(options, result_of(work_of_all, progress))
+        studies = options.trade, options.extremes
+        work = compare_open_file(blender.context, out, *studies, judge=judge, **chosen)
         return _told_comparison(options, result_of(work, progress))
+
+
+def _frames(
+    options: CompareOptions,
+    named: str,
+    scene: Any,
+    progress: Callable[[float], None],
+    **chosen: Any,
+) -> int:
+    """Compare the frames that are named of the open file; the exit code is that of the worst."""
+    from ...blender.jobs.animation import compare_frames, depends_on, frames_of
+    from ...blender.jobs.stepping import bake_bodies
+
+    frames = frames_named(named) or frames_of(scene)
+    bake_bodies(scene, frames[-1])
+    begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
+
+    def told(rows: list[FrameRow]) -> None:
+        print(begin + frames_report.line(rows[-1]), file=sys.stderr, flush=True)
+
+    made_by = depends_on(options.of_a_frame())
+    work = compare_frames(str(options.out), frames, told, made_by, **chosen)
+    try:
+        rows = result_of(work, progress)
+    except KeyboardInterrupt:
+        print("what is done is kept: the same command goes on from there", file=sys.stderr)
+        raise
+    print(*frames_report.lines(frames, rows), sep="\n")
+    return _told(options, frames_report.verdict(rows), options.out / frames_report.PAGE)
 
 
 def _with_picture(
@@ -144,7 +172,6 @@ def _blend(
 ) -> Work[Comparison]:
     with open_blend(options.scene, options.choice) as blender:
         from ...blender.jobs.against import gather_against
-        from ...blender.jobs.compare import compared
         from ...blender.reading.camera import export_camera
         from ...blender.versions import DITHER
 
@@ -157,7 +184,7 @@ def _blend(
         settings = options.settings.over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         case = gather_against(context, shown, settings, bool(options.self_check), colors)
-        return (yield from _written(options, compared(replace(case, **place))))
+        return (yield from _written(options, replace(case, **place)))
 
 
 def _file(
@@ -166,11 +193,10 @@ def _file(
     scene, manifest, stored = open_file(options.scene, options.choice)
     scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))
-    manifest = yield from diagnosed(scene, manifest)
     shown = picture_of_file(picture, scene.camera, _making(options))
     settings, checked = options.settings.over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
-    return (yield from _written(options, trace_and_compare(replace(case, **place))))
+    return (yield from _written(options, replace(case, **place)))
 
 
 def _making(options: CompareOptions) -> Making:
@@ -179,6 +205,6 @@ def _making(options: CompareOptions) -> Making:
     return Making(options.renderer or "", options.filter or 0.0, options.dither, asked=known)
 
 
-def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison]:
+def _written(options: CompareOptions, case: Case) -> Work[Comparison]:
     diagnose = options.diagnosis is not False
-    return comparison_report.written(options.out, work, diagnose, options.trade, options.extremes)
+    return comparison_report.written(options.out, case, diagnose, options.trade, options.extremes)

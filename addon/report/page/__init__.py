@@ -16,12 +16,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ...comparison.comparison import Comparison
+from ...comparison.extras import Extras
 from ...derivation import html as explained
 from ..folders import replacing_file
 from .content import content
-from .extras import Extras, extras
 
-__all__ = ["NAME", "Extras", "extras", "html", "json_text", "template", "write"]
 NAME = "page.html"  # of the file that a comparison leaves
 
 _HERE = Path(__file__).parent

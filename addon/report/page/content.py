@@ -16,6 +16,7 @@ from ...causes.cause import AGREE, UNEXPLAINED
 from ...causes.explain import CAUSES
 from ...certainty import Certainty
 from ...comparison.comparison import Comparison
+from ...comparison.extras import Extras
 from ...derivation import html
 from ...derivation.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...diagnosis.regions import Region, regions, sides
@@ -25,7 +26,6 @@ from .. import extremes as extremes_report
 from .. import trade as trade_report
 from . import arrays
 from .arrays import packed
-from .extras import Extras
 
 T = TypeVar("T")
 SCHEMA = "reference_tracer.page/2"

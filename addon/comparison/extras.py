@@ -10,19 +10,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ...arrays import Colors
-from ...comparison.comparison import Comparison
-from ...derivation.derivation import Derivation, derive
-from ...methods import Method
-from ...rendering import steps
-from ...study import extremes, tradeoff
-from ...study.trade import Trade
-from ...tracer.frame import Frame
-from ...tracer.progress import Work, called, scaled
-from ...tracer.settings import Precision, Settings
+from ..arrays import Colors
+from ..derivation.derivation import Derivation, derive
+from ..methods import Method
+from ..rendering import steps
+from ..study import extremes, tradeoff
+from ..study.trade import Trade
+from ..tracer.frame import Frame
+from ..tracer.progress import Work, called, scaled
+from ..tracer.settings import Precision, Settings
+from .comparison import Comparison
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
-_DOING = {"literal": "tracing by the textbook, literally", "derivations": "deriving examples"}
 DERIVED = 3  # examples of each cause that are derived
 DERIVED_TRIANGLES = 3_000_000  # in the scene: each derivation looks at all of them
 
@@ -43,11 +42,12 @@ def extras(
 ) -> Work[Extras]:
     """Find out what a page shows beside a comparison; yields the share of the work done."""
     left_out: list[str] = []
-    works: dict[
-        str, tuple[Work[object], float]
-    ] = {  # of each field, with its share of the work, roughly
-        "literal": (_literal(comparison, left_out), 1.0),
-        "derivations": (_derivations(comparison, left_out), 0.5),
+    literal = called(_literal(comparison, left_out), "tracing by the textbook, literally")
+    derivations = called(_derivations(comparison, left_out), "deriving examples")
+    # Of each field, with its share of the work, roughly.
+    works: dict[str, tuple[Work[object], float]] = {
+        "literal": (literal, 1.0),
+        "derivations": (derivations, 0.5),
     }
     if measure_trade:
         measuring = tradeoff.measure(comparison.scene, name=comparison.manifest.file)
@@ -58,8 +58,6 @@ def extras(
     done = 0.0
     found: dict[str, Any] = {}
     for name, (work, share) in works.items():
-        if name in _DOING:
-            work = called(work, _DOING[name])
         found[name] = yield from scaled(work, done / total, share / total)
         done += share
     return Extras(**found, left_out=tuple(left_out))

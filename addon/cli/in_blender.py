@@ -1,18 +1,18 @@
-"""Parses a command that was given to Blender, for the scene that is open, and runs it.
+"""`blender FILE --command reference_tracer COMMAND`, for scripts.
 
-It is imported once a command is run: registering the add-on takes no time for it.
+These are the commands of `reftrace` that are part of the add-on, for the file that is open. This is
+imported once a command is run: registering the add-on takes no time for it.
 """
 
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import bpy
-
-from ..cli.commands import COMMANDS
-from ..cli.parser import DONE_HELP, EXIT_CODES_HELP, Parser
+from . import running
+from .commands import COMMANDS
+from .parser import DONE_HELP, EXIT_CODES_HELP, Parser
 
 
 class _Parser(Parser):
@@ -25,17 +25,30 @@ class _Parser(Parser):
 
     def add_scene(self, sources: str) -> None:
         """Take the file that is open; that none is open is said once one is needed."""
-        # A backup's name ends in .blend1.
-        file = Path(bpy.data.filepath or "none").with_suffix(".blend")
-        self.set_defaults(scene=file, opened=True)
+        from ..blender.paths import open_path
+
+        self.set_defaults(scene=open_path(), opened=True)
 
     def path(self, text: str) -> Path:
         """Return a path that was typed; // is the folder of the file."""
-        return Path(bpy.path.abspath(text))
+        from ..blender.paths import absolute
+
+        return absolute(text)
 
 
-def parse_and_run(argv: list[str]) -> int:
-    """Run the command that a line names; return its exit code."""
+def run(argv: Sequence[str]) -> int:
+    """Run the command; Blender exits with what this returns.
+
+    An exception would make Blender exit with 1, which means warnings here.
+    """
+    running.keep_stdout()
+    try:
+        return running.run(lambda: _run(argv), "reference_tracer")
+    except SystemExit as stop:
+        return int(stop.code or 0)
+
+
+def _run(argv: Sequence[str]) -> int:
     parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES_HELP)
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
     for name, command in COMMANDS.items():
