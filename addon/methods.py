@@ -20,6 +20,7 @@ class MethodRecord:
     number: int  # what a .blend stores: one that was given away is never given to another
     color: str  # in plots; told apart without telling red from green (after Okabe and Ito)
     description: str  # the tooltip in Blender's panel
+    guarantees: str  # of the picture, for the documents
 
 
 class Method(StrEnum):
@@ -58,6 +59,7 @@ RECORDS = {
         description=(
             "The test exactly as printed, with s1 + s2 + s3 = 1: it loses about half of all hits"
         ),
+        guarantees="nothing",
     ),
     Method.TEXTBOOK: MethodRecord(
         label="Textbook",
@@ -69,6 +71,7 @@ RECORDS = {
             "The exercise's test, first the plane and then the barycentrics, usable in "
             "floating point"
         ),
+        guarantees="nothing near edges",
     ),
     Method.MOLLER_TRUMBORE: MethodRecord(
         label="Möller–Trumbore",
@@ -76,7 +79,8 @@ RECORDS = {
         short="Möller–T.",
         number=2,
         color="#0072b2",
-        description="The test that most renderers started from",
+        description="The test that most renderers started from (1997)",
+        guarantees="nothing near edges, as neighbours compute the common edge in different ways",
     ),
     Method.WATERTIGHT: MethodRecord(
         label="Watertight",
@@ -85,8 +89,12 @@ RECORDS = {
         number=3,
         color="#009e73",
         description=(
-            "Woop, Benthin and Wald: neighbours compute their common edge from the same numbers, "
-            "so that no ray slips between them; it may hit both"
+            "Woop, Benthin and Wald 2013: neighbours compute their common edge from the same "
+            "numbers, so that no ray slips between them; it may hit both"
+        ),
+        guarantees=(
+            "no ray slips through an edge or a corner of the triangles as rounded; but it may name "
+            "the wrong one of the two at an edge, and either of two surfaces near each other"
         ),
     ),
     Method.CERTIFIED: MethodRecord(
@@ -96,6 +104,7 @@ RECORDS = {
         number=4,
         color="#7a3d9a",
         description="Every pixel shows what exact arithmetic says it should, or the render fails",
+        guarantees="every pixel",
     ),
     Method.AUTO: MethodRecord(
         label="Automatic",
@@ -108,6 +117,7 @@ RECORDS = {
             "where it does not decide. Where this machine's arithmetic allows no proof, "
             "watertight with a warning"
         ),
+        guarantees="that of the method it came to",
     ),
 }
 PLAIN = tuple(m for m in Method if m.is_plain)

@@ -40,7 +40,7 @@ Check Pairs.interval_right.
 Check Nearer.order_sign.
 (** Ties: what the code says of edges is what one real ray does, along d + (x, x^2, x^3) and from
     o + (y, y^2, y^3), for all small x, and then small y; the same ray for all triangles. *)
-Check Hits.met_rule_all.
+Check Hits.crossed_rule_all.
 (** Ties: two hits are ordered as that ray meets them. *)
 Check Hits.order_rule.
 (** Ties: where that order is open, the two surfaces lie in one plane. *)

@@ -27,12 +27,12 @@ def tools():
     sys.path.insert(0, TOOLS)
     try:
         import make_docs
-        from documents import derivations, figures, markers, pictures, python
+        from documents import derivations, figures, markers, pictures, python, records
 
         yield {
             **{"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures},
             "derivations": derivations,
-            "python": python,
+            **{"python": python, "records": records},
         }
     finally:
         sys.path.remove(TOOLS)
@@ -42,7 +42,9 @@ def tools():
 def values(tools):
     """Every figure, computed once for all documents."""
     page = {"python_api": tools["python"].page()}
-    return tools["figures"].values() | tools["derivations"].values() | page
+    return (
+        page | tools["figures"].values() | tools["derivations"].values() | tools["records"].values()
+    )
 
 
 def texts():

@@ -1,4 +1,4 @@
-"""What the README and the documents say: links, commands, code, the table of causes."""
+"""What the README and the documents say: links, commands, code."""
 
 from __future__ import annotations
 
@@ -10,10 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.causes.explain import CAUSES
 from reference_tracer.cli.main import parser
 from reference_tracer.rendering import render
-from reference_tracer.report.page.content import _hex
 from reference_tracer.scene_files import load_scene
 
 PROJECT = Path(__file__).parent.parent
@@ -125,11 +123,3 @@ def test_the_scene_of_its_own_making_is_read(tmp_path, monkeypatch):
     assert frame.t[height // 2, width // 2] == 3
     for key in json.loads(str(np.load("scene.npz")["scene"]))["camera"]:
         assert f"`camera.{key}`" in text
-
-
-def test_the_table_of_causes_is_that_of_the_code():
-    text = DOCUMENTS[PROJECT / "docs" / "causes.md"]
-    rows = re.findall(r"^\| [^|]*`(#[0-9a-f]{6})` \| (\d+) \| ([^|]+) \|", text, re.M)
-    assert {(int(n), label.strip(), color) for color, n, label in rows} == {
-        (int(cause), cause.label, _hex(cause.color)) for cause in CAUSES if cause.color is not None
-    }

@@ -28,7 +28,7 @@ METHOD = {
         "    NEVER = auto()\n",
         "    Method.CERTIFIED: MethodRecord(",
         '    Method.NEVER: MethodRecord("Never", "never at all", "never", 77, "#123456", '
-        '"Misses"),\n',
+        '"Misses", "nothing"),\n',
     ),
 }
 SEES_METHOD = """

@@ -18,7 +18,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from documents import architecture, derivations, figures, pictures, python, story
+from documents import architecture, derivations, figures, pictures, python, records, story
 from documents.markers import MARKED, Command, refreshed
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -74,7 +74,8 @@ def main() -> None:
         from documents import window
 
         window.write(DOCS / "images" / "tutorial")
-    values = figures.values() | derivations.values() | {"python_api": python.page()}
+    values = figures.values() | derivations.values() | records.values()
+    values |= {"python_api": python.page()}
     page = PROJECT / "ARCHITECTURE.md"
     page.write_text(architecture.refreshed(page.read_text(encoding="utf-8")), encoding="utf-8")
     for path in options.files or documents():

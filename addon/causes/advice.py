@@ -40,7 +40,7 @@ def advise(
     if EDGE in where and where[EDGE].sum() > allowed:
         yield _of_edges(causes, where[EDGE], allowed)
     if NOT_DECIDABLE in where:
-        yield "move the scene to the origin, or apply the objects' scale"
+        yield NOT_DECIDABLE.advice
 
 
 def _of_depths(

@@ -44,6 +44,11 @@ class Cause(int):
     warns: bool = False  # with such a pixel the verdict is no better than 'warnings'
     rounding: bool = False  # Blender's own float32 arithmetic accounts for the pixel
     see_through: bool = False  # whole surfaces have it: they stay visible in the difference picture
+    # For the documents, which are made of these.
+    why: str = ""  # why it happens
+    check: str = ""  # what is asked before a pixel gets the cause
+    never: str = ""  # what it cannot excuse
+    advice: str = ""  # what to do
 
     def __new__(cls, number: int, *_: object, **__: object) -> Self:
         """Return the number, to which the record's fields are added."""
@@ -91,12 +96,31 @@ NOT_DECIDABLE = Cause(
     (0.25, 0.3, 0.6),
     warns=True,
     see_through=True,
+    why="So far from the origin, or at such a scale, float32 moves Blender's surfaces by more than "
+    "half a pixel: whatever Blender shows there proves nothing.",
+    check="The bound of float32's error, for the surfaces that are seen around the pixel. It "
+    "depends on the scene, not on the picture.",
+    never="Any other pixel.",
+    advice="move the scene to the origin, or apply the objects' scale",
 )
 UNEXPLAINED = Cause(
-    5, "unexplained", "unexplained", "no check accounts for the difference", color=(1.0, 0.0, 0.0)
+    5,
+    "unexplained",
+    "unexplained",
+    "no check accounts for the difference",
+    color=(1.0, 0.0, 0.0),
+    why="The picture is wrong there, or it is of another scene than the one that was traced.",
+    check="All others come first.",
+    advice="read the diagnosis; have the maths of one such pixel explained",
 )
 NOT_TRACED = Cause(
-    6, "not_traced", "not traced", "the picture was cancelled before", color=(0.0, 0.0, 0.0)
+    6,
+    "not_traced",
+    "not traced",
+    "the picture was cancelled before",
+    color=(0.0, 0.0, 0.0),
+    why="The comparison was stopped before the tracer came to the pixel's row.",
+    advice="compare again, to the end",
 )
 
 

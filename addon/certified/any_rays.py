@@ -37,7 +37,7 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
 class Decision:
     """What n rays make of n triangles, pair by pair: (n,) bool each."""
 
-    hit: Bools  # the ray, moved infinitesimally by the rule, meets it in the clip range
+    crossed: Bools  # by the ray, moved infinitesimally by the rule, in the clip range
     edge: Bools  # the ray as it is meets its edge or corner exactly
     exact: Bools  # integers decided
 
@@ -64,19 +64,19 @@ def decide(
     """
     every = np.arange(corners.shape[2] if row is None else len(row))
     row = every if row is None else row
-    hit, edge, undecided = np.zeros((3, len(every)), bool)
+    crossed, edge, undecided = np.zeros((3, len(every)), bool)
     with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
         prepared = FromPoint(rays.origins, np.abs(rays.directions), corners.take(row, axis=2))
         sure, possible = sides(prepared, every, rays)
         fractions = prepared.fractions(possible, rays.take(possible))
         _, _, outside, doubt = in_range(fractions, sure, start, end)
-    hit[possible] = ~outside & (doubt == SURE)
+    crossed[possible] = ~outside & (doubt == SURE)
     undecided[possible] = ~outside & (doubt != SURE)
     for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
         used, number = occurring(row[part], corners.shape[2])
         batch = IntegerBatch(rays.take(part), corners.take(used, axis=2), (), start, end)
         found = hits_of(batch, np.arange(len(part)), number)
-        for pair, met in zip(part.tolist(), found, strict=True):
-            if met:
-                hit[pair], edge[pair] = met.is_hit(), met.on_edge
-    return Decision(hit, edge, undecided)
+        for pair, hit in zip(part.tolist(), found, strict=True):
+            if hit:
+                crossed[pair], edge[pair] = hit.is_crossed(), hit.on_edge
+    return Decision(crossed, edge, undecided)

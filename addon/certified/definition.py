@@ -4,12 +4,17 @@ Each pixel has one stored ray. The ray, the triangles in world space and the inf
 float64 numbers. They are taken as exact, and nothing that follows is rounded but t, once. Only hits
 with clip start <= t <= clip end count, and none at t = 0 where clip start is 0.
 
+Here and in all of this folder a ray *meets* a surface, an edge or a corner where the two have a
+point in common; a triangle includes its edges and corners. A *hit* is such a place. The moved ray
+of 2 meets no edges: it *crosses* the surfaces that it meets. Two surfaces *intersect*, in a line.
+
 1. Clear rays. A ray is clear if, up to and including the first place where it meets anything, it
-   touches no edge or corner of a triangle and meets no two surfaces at the same t. It sees the
-   surface of the least t; or nothing, if it meets none.
+   meets no edge or corner of a triangle and no two surfaces at the same t. It sees the surface of
+   the least t; or nothing, if it meets none.
 2. Ambiguous rays: all others. The ray's direction is moved by (x, x^2, x^3) for an infinitely small
-   x (`exact.py`), and the pixel shows what the moved ray sees, which may be nothing. Of several
-   surfaces in one plane it sees the lowest (instance, triangle); planes come after all instances.
+   x (`exact.py`), and the pixel shows the first surface that the moved ray crosses, which may be
+   none. Of several in one plane it is the lowest (instance, triangle); planes come after all
+   instances.
 3. Depth. On the surface that is seen, the ray that was not moved has t = T / D, a fraction of two
    integers. It is rounded once, to the nearest float64, ties to even.
 
@@ -18,7 +23,7 @@ the code; docs/proof.md says what the model leaves out:
 
     certified_with_depth          all three; in it, `clearly_sees` is 1 and `moved_sees` is 2
     integers_exact, seen_exact    the integers are the floats, and find the hits in the clip range
-    met_rule_all, order_rule      what the moved ray meets, and in which order
+    crossed_rule_all, order_rule  what the moved ray crosses, and in which order
     t_rounded                     3
 
 Not claimed: that a stored ray is the camera's ideal ray, or a corner its exact transform
@@ -67,16 +72,15 @@ def definition(scene: Scene, pixels: Index | None = None) -> Iterator[Seen]:
     clip = camera.clip_start, camera.clip_end
     integers = IntegerBatch(rays, triangles.corners, planes, *clip)  # planes first, as in `names`
     for ray in range(rays.count):
-        # What the ray touches. Of these, the moved ray crosses those whose `is_hit` says so.
-        touched = []
+        met = []
         for number, name in enumerate(names):
             hit = integers.hit(ray, number)
             if hit is not None:
-                touched.append((name, hit))
-        chosen, ties = seen_and_ties(touched)  # an index; -1 for nothing
-        crossings = sum(hit.is_hit() for _, hit in touched)
+                met.append((name, hit))
+        chosen, ties = seen_and_ties(met)  # an index; -1 for nothing
+        crossings = sum(hit.is_crossed() for _, hit in met)
         if chosen >= 0:
-            name, hit = touched[chosen]
+            name, hit = met[chosen]
             yield Seen(name, integers.t(hit), ties, crossings)
         else:
             yield Seen(NOWHERE, np.inf, ties, crossings)

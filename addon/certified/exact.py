@@ -9,19 +9,20 @@ corners a, b, c relative to the ray's origin o:
     D = e_ab + e_bc + e_ca = d . n,  n = m_ab + m_bc + m_ca = (b - a) x (c - a)
     T = a . m_bc = a . n,            t = T / D
 
-The ray hits the triangle where the three e have one sign. Where one of them is zero, the ray is
-moved infinitesimally, to the direction d + (x, x^2, x^3) for an infinitesimal x: the sign of e is
-then that of the first of e, m_x, m_y, m_z that is not zero. As that is *one* real ray for all
-triangles, a surface without gaps is hit exactly once. Two hits at the same t are ordered by the
+The ray meets the triangle where no two of the e have opposite signs. Where one of them is zero, the
+ray is moved infinitesimally, to the direction d + (x, x^2, x^3) for an infinitesimal x: the sign of
+e is then that of the first of e, m_x, m_y, m_z that is not zero. As that is *one* real ray for all
+triangles, a surface without gaps is crossed exactly once. Two hits at the same t are ordered by the
 same ray. If they tie even then, they lie in one plane, and the lower name is seen.
 
 Where m itself is zero, the ray begins on the line of an edge, and no direction moves it away. A ray
-does not hit what it begins on, unless an orthographic camera sees behind itself. Then o is moved as
-well, infinitely less: m_ab becomes y (1, y, y^2) x (a - b), and its sign is that of
+does not meet what it begins on, unless an orthographic camera sees behind itself. Then o is moved
+as well, infinitely less: m_ab becomes y (1, y, y^2) x (a - b), and its sign is that of
 ((a - b) x d)_x, and so on. Two hits at t = 0 are ordered in the same way.
 
 References: Edelsbrunner and Mücke, "Simulation of simplicity", ACM TOG 9(1), 1990, for the moved
-direction. Theorems: `Hits.met_rule_all`, `Hits.order_rule`, `Clip.seen_exact`, `Clip.t_rounded`.
+direction. Theorems: `Hits.crossed_rule_all`, `Hits.order_rule`, `Clip.seen_exact`,
+`Clip.t_rounded`.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ class Hit(NamedTuple):
 
     @property
     def on_edge(self) -> bool:
-        """Whether the ray, not moved, hits an edge or a corner."""
+        """Whether the ray, not moved, meets an edge or a corner."""
         return 0 in self.edges
 
     @property
@@ -64,8 +65,8 @@ class Hit(NamedTuple):
         ab, bc, ca = self.edges or (0, 0, 0)
         return bc / self.denominator, ca / self.denominator, ab / self.denominator
 
-    def is_hit(self, moves: Moves = PERTURBATION) -> bool:
-        """Return whether the moved ray hits it."""
+    def is_crossed(self, moves: Moves = PERTURBATION) -> bool:
+        """Return whether the moved ray crosses the surface."""
         if not self.on_edge:
             return True
         parts = zip(self.edges, self.sides, self.spans, strict=True)
@@ -76,12 +77,12 @@ class Hit(NamedTuple):
 def sign_of_difference(first: Hit, second: Hit, moves: Moves = PERTURBATION) -> int:
     """Return the sign of t1 - t2 for the moved ray; 0 only for what lies in one plane."""
     apart = first.numerator * second.denominator - second.numerator * first.denominator
-    sign = _sign(apart, *crossing(first, second), first.direction, moves)
+    sign = _sign(apart, *intersection(first, second), first.direction, moves)
     return sign if (first.denominator > 0) == (second.denominator > 0) else -sign
 
 
-def crossing(first: Hit, second: Hit) -> tuple[Integers, Integers]:
-    """Return T1 n2 - T2 n1 and, at t = 0, n1 x n2: how the order depends on the moved ray."""
+def intersection(first: Hit, second: Hit) -> tuple[Integers, Integers]:
+    """Return T1 n2 - T2 n1 and, at t = 0, n1 x n2: where the two intersect, as m and span."""
     w = sub(scaled(second.normal, first.numerator), scaled(first.normal, second.numerator))
     return w, ZERO if first.numerator else cross(first.normal, second.normal)
 
@@ -99,7 +100,7 @@ class IntegerBatch:
         Point, of the same kind, and normal, float64, of each infinite plane.
     start, end : float
         The clip range. Hits with start <= t <= end are seen, but none with t = 0 if `start` is 0,
-        as a ray does not hit what it begins on. `end` may be inf.
+        as a ray does not meet what it begins on. `end` may be inf.
     """
 
     def __init__(

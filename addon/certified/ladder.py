@@ -3,7 +3,7 @@
 1. **Error bound** (`Ladder.test`, `bounds.py`). A pair of a ray and a surface is dropped if it is a
    miss however the rounding errors fall. Every other one is a candidate, with an interval that
    holds its t. A candidate whose interval begins beyond the end of a certain hit's is dropped, too.
-   A ray with one candidate left, which certainly is a hit, is decided.
+   A ray with one candidate left, which it certainly meets, is decided.
 2. **Order of depths** (`Decisions.by_order`, `order.py`). If all candidates of a ray are certain
    hits, only the order of their t is open. For rays with a common origin or direction it is the
    sign of an expression whose coefficients belong to two surfaces: integers find these once, and
@@ -223,12 +223,12 @@ class Decisions:
     ties: list[Ties] = field(default_factory=list)
 
     def by_bound(self, ray: Index, surface: Index) -> Iterator[None]:
-        """Write the surfaces that rays certainly hit first, with t and barycentrics, in steps."""
+        """Write the surfaces that rays certainly meet first, with t and barycentrics, in steps."""
         surfaces, surface = self.surfaces.only(surface)
         yield from Prepared(self.around, surfaces).enter(self.hits, ray, surface, self.rays.take)
 
     def by_order(self, found: Candidates, nearest: Nearest) -> Candidates:
-        """Decide the rays that certainly hit all their candidates, if the order of these is known.
+        """Decide the rays that certainly meet all their candidates, if the order of these is known.
 
         All candidates of a ray come together. Returns those of the other rays.
         """

@@ -44,7 +44,7 @@ class Prepared:
     def enter(
         self, hits: Hits, at: Index, surface: Index, rays_at: Callable[[Index], Rays]
     ) -> Iterator[None]:
-        """Enter what rays surely hit first into the hits with these numbers (p,), in small steps.
+        """Enter what rays surely meet first into the hits with these numbers (p,), in small steps.
 
         Integers divide where t or the barycentrics are not known well.
         """
@@ -69,7 +69,7 @@ class Prepared:
         )
         for ray, number, of in zip(at.tolist(), numbers.tolist(), surfaces.tolist(), strict=True):
             hit = batch.hit(number, of)
-            assert hit, "the ray certainly hits it"
+            assert hit, "the ray certainly meets it"
             hits.t[ray] = batch.t(hit)
             if np.isnan(hits.s[0, ray]):
                 hits.s[:, ray] = hit.weights

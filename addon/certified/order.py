@@ -1,6 +1,6 @@
 """Decides which of two surfaces is nearer, for many rays at once.
 
-Where a ray hits both, f = T1 D2 - T2 D1 has the sign of t1 - t2, times that of D1 D2. For rays
+Where a ray meets both, f = T1 D2 - T2 D1 has the sign of t1 - t2, times that of D1 D2. For rays
 from one point, T is the same for all rays and D = d . n, so that
 
     f = d . w,  w = T1 n2 - T2 n1.
@@ -42,7 +42,7 @@ def applies(rays: Rays, start: float) -> bool:
 def order_of(
     around: Rays, rays: Rays, batch: IntegerBatch, first: Index, second: Index
 ) -> NDArray[np.int8]:
-    """Return how the first of two surfaces lies, for n rays that surely hit both.
+    """Return how the first of two surfaces lies, for n rays that surely meet both.
 
     Parameters
     ----------

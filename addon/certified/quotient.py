@@ -1,4 +1,4 @@
-"""Computes t = T / D of rays and surfaces that they surely hit, rounded to the nearest float64.
+"""Computes t = T / D of rays and surfaces that they surely meet, rounded to the nearest float64.
 
 T = (p - o) . n and D = d . n are sums of three products each. Vectors are split into a high half of
 25 digits and the rest (`halves`), so that what the high halves make is exact, and all else is some

@@ -11,7 +11,7 @@ from functools import cmp_to_key
 from math import gcd
 
 from ..tracer.hits import NOWHERE, Name
-from .exact import PERTURBATION, Hit, Moves, crossing, gap, sign_of_difference, turning
+from .exact import PERTURBATION, Hit, Moves, gap, intersection, sign_of_difference, turning
 from .integers import Integers
 
 
@@ -23,7 +23,7 @@ def seen_and_ties(hits: Sequence[tuple[Name, Hit]]) -> tuple[int, frozenset[Name
     seen : int
         Index of the hit that the rule sees; -1 for none.
     ties : frozenset of names
-        Ambiguous is a ray that, not moved, first hits an edge, a corner, or two surfaces at once.
+        Ambiguous is a ray that, not moved, first meets an edge, a corner, or two surfaces at once.
         Then these are all surfaces that a moved ray may see, NOWHERE for none; else it is empty.
     """
     seen = _first(hits, PERTURBATION)
@@ -45,9 +45,9 @@ def seen_and_ties(hits: Sequence[tuple[Name, Hit]]) -> tuple[int, frozenset[Name
 def _ways(hits: Sequence[Hit]) -> list[Integers]:
     """Return ways to move the ray of these hits, one for each answer that it may have.
 
-    The answer changes where the moved ray crosses an edge that the ray hits, or the line in which
-    two surfaces intersect at the hit. Seen along the ray, these are lines through one point, so
-    that one way between every two neighbours is enough.
+    The answer changes where the moved ray goes to the other side of an edge that the ray meets, or
+    of the line in which two surfaces intersect at the hit. Seen along the ray, these are lines
+    through one point, so that one way between every two neighbours is enough.
     """
     d = hits[0].direction
     along = max(range(3), key=lambda axis: abs(d[axis]))  # moves along d change nothing
@@ -86,7 +86,7 @@ def _lines(hits: Sequence[Hit]) -> list[tuple[Integers, Integers]]:
         in_plane.setdefault(max(plane, tuple(-v for v in plane)), hit)
     planes = list(in_plane.values())
     for k, hit in enumerate(planes):
-        lines += [crossing(hit, other) for other in planes[:k] if gap(hit, other) == 0]
+        lines += [intersection(hit, other) for other in planes[:k] if gap(hit, other) == 0]
     return lines
 
 
@@ -110,7 +110,7 @@ def _first(hits: Sequence[tuple[Name, Hit]], moves: Moves) -> int:
     """Return the index of the moved ray's nearest hit, -1 for none."""
     best = -1
     for k, (name, m) in enumerate(hits):
-        if m.is_hit(moves):
+        if m.is_crossed(moves):
             order = sign_of_difference(m, hits[best][1], moves) if best >= 0 else -1
             if order < 0 or (order == 0 and name < hits[best][0]):
                 best = k

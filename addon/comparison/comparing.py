@@ -139,7 +139,9 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     explaining = called(explain(case, frame), "looking for causes")
     found = yield from scaled(explaining, 0.0, rest * _CAUSES)
     traced, picture = found.frame, found.case.picture  # both before the picture's own background
-    measuring = called(image_metrics(traced.color, picture.color), "measuring differences")
+    channels = slice(3 if picture.opaque else 4)  # an opaque picture says nothing of alpha
+    pair = traced.color[..., channels], picture.color[..., channels]
+    measuring = called(image_metrics(*pair), "measuring differences")
     measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
     identity = None
     if picture.owner is not None and picture.owners is not None:

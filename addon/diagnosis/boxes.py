@@ -1,7 +1,7 @@
-"""Trees of boxes: which of many boxes each ray passes through, without asking about all of them.
+"""Bounding volume hierarchies: which of many boxes each ray crosses.
 
-A node holds up to `EACH` nodes, or items. What is in one lies close together: items are ordered by
-the Morton code of their middles (Morton 1966; Lauterbach et al., "Fast BVH Construction on GPUs",
+A node holds up to `EACH` nodes, or items. What is in one lies close together: items are sorted by
+the Morton code of their centres (Morton 1966; Lauterbach et al., "Fast BVH Construction on GPUs",
 2009, for trees). Boxes are a little too large, rather than too small.
 """
 
@@ -25,7 +25,7 @@ TOGETHER = 1 << 15  # pairs of a ray and a box that are looked at together
 
 @dataclass(frozen=True, eq=False)
 class Nodes:
-    """The nodes of some trees; those of a node stand one behind the other."""
+    """The nodes of some trees; the children of a node are contiguous."""
 
     box: Floats  # (2, 3, n) lowest and highest corner
     first: Places  # (n,) the first of the nodes in it; of an item, its number
@@ -34,7 +34,7 @@ class Nodes:
 
 
 class Crossed(NamedTuple):
-    """Pairs of a ray and an item's box that it passes through, (p,)."""
+    """Pairs of a ray and an item whose box it crosses, (p,)."""
 
     ray: Places
     item: Places
@@ -42,7 +42,7 @@ class Crossed(NamedTuple):
 
 
 def tree(low: Floats, high: Floats) -> Nodes:
-    """Return the tree of m items by their boxes, (3, m) each; one that is not finite is left out.
+    """Build the tree of m items from their boxes, (3, m) each; non-finite ones are left out.
 
     The root is the first node, the items are the last ones.
     """
@@ -86,7 +86,7 @@ def _morton(points: Floats) -> Array:
 
 
 def together(trees: Sequence[Nodes]) -> Nodes:
-    """Return the nodes of some trees as one record."""
+    """Concatenate the nodes of some trees."""
     starts = np.append(0, np.cumsum([len(t.first) for t in trees], dtype=np.intp))
     pairs = list(zip(trees, starts[:-1], strict=True))
     return Nodes(
@@ -100,13 +100,13 @@ def together(trees: Sequence[Nodes]) -> Nodes:
 
 
 def inverted(directions: Floats) -> Floats:
-    """Return 1 / d, finite."""
+    """Return 1 / d, kept finite."""
     return 1 / np.where(np.abs(directions) < TINY, TINY, directions)
 
 
 @np.errstate(over="ignore", invalid="ignore")
 def crossed(nodes: Nodes, node: Places, origins: Floats, inverse: Floats) -> Iterator[Crossed]:
-    """Yield which items each of k rays passes through, some at a time.
+    """Yield the items whose boxes each of k rays crosses, some at a time.
 
     Parameters
     ----------

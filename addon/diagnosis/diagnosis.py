@@ -1,4 +1,4 @@
-"""The diagnosis: what accounts for the unexplained pixels, with numbers that one can act on.
+"""The diagnosis: what accounts for the unexplained pixels, with numbers to act on.
 
 Each known fault is put into the scene that is traced, or taken out of the picture. It is told only
 if the picture then agrees: `guessing.py` says under which conditions. It never changes the verdict.
@@ -20,8 +20,8 @@ from ..tracer.progress import Work, scaled
 from ..wording import count_of
 from .evidence import Evidence
 from .faults import FAULTS
-from .faults.fault import Fault, Guess
-from .guessing import LEAST, STEPS, Guessing, accounting
+from .faults.fault import AnyFault, Guess
+from .guessing import LEAST_SETTLED, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
 from .trial import Trial, counted
 from .variants import carried, with_variants
@@ -36,7 +36,7 @@ NAMED = 6  # faults that are named where there is no room for more
 class Told:
     """A fault that accounts for unexplained pixels."""
 
-    fault: Fault
+    fault: AnyFault
     guess: Guess
     unexplained: int  # pixels, before
     settled: int  # of these, pixels that agree with this put right
@@ -50,7 +50,7 @@ class Told:
     @property
     def sentence(self) -> str:
         """What is wrong, without a full stop."""
-        return self.fault.told(self.guess)
+        return self.fault.sentence_of(self.guess)
 
     def effect(self) -> str:
         """Say what putting it right does."""
@@ -66,7 +66,7 @@ class Told:
         return self.settled == self.unexplained and not self.broken
 
     def enclosed(self) -> str:
-        """Say between what its numbers lie; empty if none was fitted, or each is one number.
+        """Say the ranges of its numbers; empty if none was fitted, or none has a range.
 
         Where pixels are left, or lost, something else is wrong, too, or the fit ended beside the
         best place: then nothing is said of how far the numbers may be off.
@@ -79,7 +79,7 @@ class Told:
         return ", ".join(f"{name} from {low} to {high}" for name, low, high in wide if low != high)
 
     def lines(self) -> Iterator[str]:
-        """Yield it as a person reads it."""
+        """Yield it as lines of text."""
         yield f"diagnosis: {'or, as likely, ' if self.alternative else ''}{self.sentence}"
         yield f"           {self.effect()}"
         if enclosed := self.enclosed():
@@ -88,7 +88,7 @@ class Told:
             named = ", ".join(map(spoken, self.also))
             how = "so it would be with" if self.fault.sums_up else "as likely"
             yield f"           {how}: {named}"
-        yield f"           what to do: {self.fault.advised(self.guess)}"
+        yield f"           what to do: {self.fault.advice_of(self.guess)}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
@@ -100,7 +100,7 @@ class Told:
         return {
             "fault": self.fault.name,
             "sentence": self.sentence,
-            "advice": self.fault.advised(g),
+            "advice": self.fault.advice_of(g),
             "object": g.object,
             "numbers": numbers,
             "alternative": self.alternative,
@@ -125,7 +125,7 @@ class Diagnosis:
     regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
 
     def lines(self) -> list[str]:
-        """Return what a person wants to know first."""
+        """Return it as lines of text, the most important first."""
         out = [line for told in self.told for line in told.lines()]
         if not out:
             which = "fault that was tried" if self.untried else "known fault"
@@ -159,7 +159,7 @@ class Diagnosis:
 
 
 def _framed(region: Region) -> str:
-    """Say where a region is, and what is in it; the pixel counts from the picture's lower left."""
+    """Say where a region is, from the picture's lower left, and what is in it."""
     shows = ", ".join(f"'{name}'" for name in region.objects[:3]) or "nothing of the scene"
     place = f"{region.width} x {region.height} px from ({region.left}, {region.bottom})"
     return f"{region.pixels:,} px in {place}: {shows}"
@@ -169,7 +169,7 @@ def diagnose(
     case: Case,
     frame: Frame,
     causes: Causes,
-    faults: Sequence[Fault] = FAULTS,
+    faults: Sequence[AnyFault] = FAULTS,
     steps: float = STEPS,
 ) -> Work[Diagnosis]:
     """Look for what accounts for the unexplained pixels; yields the share of the work done.
@@ -178,12 +178,12 @@ def diagnose(
     background. If nothing is unexplained, nothing is done. No guess is begun after so many steps.
     """
     evidence = Evidence(case, frame, causes)
-    if not evidence.open.any() or frame.cancelled:
+    if not evidence.unexplained.any() or frame.cancelled:
         return Diagnosis()
     began = time.monotonic()
     guessing = Guessing(faults, steps)
     evidence = yield from with_variants(evidence)
-    was_open = evidence.open
+    at_first = evidence.unexplained
     told: list[Told] = []
     for number in range(ROUNDS):
         finding = accounting(guessing, evidence)
@@ -193,13 +193,12 @@ def diagnose(
         for trials in chain:
             told += _all_told(evidence, trials)
             evidence = carried(evidence, trials[0])
-        remain = int((evidence.open & was_open).sum())
-        broken = int((evidence.open & ~was_open).sum())
-        if remain < max(
-            LEAST, broken
-        ):  # what was broken is no other fault's, nor is what is beside
+        remain = int((evidence.unexplained & at_first).sum())
+        broken = int((evidence.unexplained & ~at_first).sum())
+        # What was broken is no other fault's, nor is what is beside.
+        if remain < max(LEAST_SETTLED, broken):
             break
-    left = int(evidence.open.sum())
+    left = int(evidence.unexplained.sum())
     framed = _regions(evidence) if left else ()
     seconds = time.monotonic() - began
     untried = tuple(sorted(guessing.untried))
@@ -214,17 +213,17 @@ def _regions(evidence: Evidence) -> tuple[Region, ...]:
     if picture.owner is not None and picture.owners is not None:
         own = picture.owners[frame.instance_index]
         identity = Identity(picture.names, own, picture.owner)
-    return tuple(regions(evidence.open, sides(case.scene, frame, identity)))
+    return tuple(regions(evidence.unexplained, sides(case.scene, frame, identity)))
 
 
 def spoken(name: str) -> str:
-    """Return a fault's name in words: its sentence, where that is the same for every guess."""
+    """Return a fault's name in words: its sentence, if that is the same for every guess."""
     same = (f.sentence for f in FAULTS if f.name == name and "{" not in f.sentence)
     return next(same, name.replace("_", " "))
 
 
 def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
-    """Return what is told of a fault and of those that do as well, few of them at length."""
+    """Return what is told of a fault and of its alternatives, few of them at length."""
     first, *others = trials
     many = 0 if first.fault.sums_up else ALTERNATIVES
     also = tuple(t.fault.name for t in others[many:])
@@ -233,7 +232,7 @@ def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
 
 
 def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
-    """Return what is told of a trial, in the pixels of the evidence before it."""
+    """Return what is told of a trial, counted in the evidence before it."""
     after = trial.evidence
     settled, broken, _, _ = counted(evidence, after)
     color = after.frame.color.copy()
@@ -242,7 +241,7 @@ def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
     return Told(
         trial.fault,
         trial.guess,
-        int(evidence.open.sum()),
+        int(evidence.unexplained.sum()),
         settled,
         int(evidence.judged.sum()),
         broken,

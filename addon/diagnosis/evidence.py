@@ -1,4 +1,4 @@
-"""What a diagnosis has to go by: unexplained pixels, and what a guess makes of a sample of them.
+"""The evidence of a diagnosis: unexplained pixels, and the score of a guess on a sample of them.
 
 A guess is tried on a sample first: half of it unexplained pixels, half pixels that agree, most of
 these at edges, where a wrong camera shows first. A guess that is right makes the former agree, and
@@ -29,22 +29,22 @@ from ..tracer.nearest import plan
 from ..tracer.progress import Work
 from .seen import Trees
 
-SAMPLE = 512  # pixels of each kind that are looked at
-FEW = 128  # that are looked at first
-DENSE = 1 << 12  # pixels: for more, all triangles are looked at once
+SAMPLE = 512  # sampled pixels of each kind
+FEW = 128  # those of the small sample, which comes first
+DENSE = 1 << 12  # pixels: more are traced as a picture is, fewer through trees
 SEED = 27
-WORTH = 0.2  # of unexplained pixels
-NOISE = 0.03  # of all, which may be wrong for another reason
-LEAST = 4  # unexplained pixels for which an object is suspected
-INVOLVED = 0.1  # of the pixels of the first suspect: others are suspected with as many
+WORTH = 0.2  # of the unexplained pixels: a guess that settles fewer is dropped
+NOISE = 0.03  # of all sampled pixels: as many may be wrong for another reason
+LEAST_SEEN = 4  # unexplained pixels for which an object is suspected
+INVOLVED = 0.1  # of the first suspect's pixels: other objects with as many are suspects, too
 MOST_SUSPECTS = 4
-MOST_COLORS = 512  # of a scene in which pixels are told by their colours
-BEYOND = 1e6  # times as far as the farthest surface: where the background is taken to be
-NEAR = 0.02  # of a channel: how far a color may lie from the one that is looked for
+MOST_COLORS = 512  # of a scene whose objects are recognised by their colours
+BEYOND = 1e6  # the depth of the background, in depths of the farthest surface
+NEAR = 0.02  # tolerance of a channel, for a colour to be recognised
 
 
 class Score(NamedTuple):
-    """What a guess makes of the sampled pixels, scaled to the whole picture."""
+    """How a guess does in the sampled pixels, scaled to the whole picture."""
 
     settled: float  # unexplained pixels that agree with it
     broken: float  # pixels that agreed and do not with it
@@ -64,21 +64,21 @@ class Evidence:
     causes: Causes
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
-    fine: bool = False  # whether pixels beside the picture's edges alone are sampled
-    chosen: tuple[Places, Places] | None = None  # the sample, if it was chosen
+    fine: bool = False  # whether only pixels beside edges are sampled
+    chosen: tuple[Places, Places] | None = None  # the sample, if it is given
     of_object: bool = False  # whether a fault of a single object was put right in it
-    known: dict[str, Any] = field(default_factory=dict)  # what faults share that look for the same
+    known: dict[str, Any] = field(default_factory=dict)  # a cache that faults share
     trees: Trees = field(default_factory=Trees)
 
     @cached_property
-    def open(self) -> Bools:
+    def unexplained(self) -> Bools:
         """Which pixels (h, w) are unexplained."""
         return self.causes.cause == UNEXPLAINED
 
     @cached_property
     def judged(self) -> Bools:
         """Which pixels (h, w) agree or have a cause, and can be judged."""
-        return ~self.open & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
+        return ~self.unexplained & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
 
     @cached_property
     def picture(self) -> Picture:
@@ -87,7 +87,7 @@ class Evidence:
 
     @cached_property
     def few(self) -> Evidence:
-        """The same with a smaller sample."""
+        """The same evidence with a smaller sample."""
         return replace(self, size=min(FEW, self.size))
 
     @cached_property
@@ -97,21 +97,21 @@ class Evidence:
         return rows, columns
 
     def only(self, some: Places) -> Evidence:
-        """Return the same with some of the sampled pixels alone, by their numbers."""
+        """Return the evidence restricted to some of the sampled pixels, by index."""
         rows, columns = self.sample
         return replace(self, chosen=(rows[some], columns[some]))
 
     @cached_property
     def _weights(self) -> Floats:
-        """How many pixels each sampled pixel stands for, 0 for the others, (h, w)."""
-        out = np.zeros(self.open.shape)
+        """The weight of each sampled pixel, in pixels; 0 for all others, (h, w)."""
+        out = np.zeros(self.unexplained.shape)
         if self.fine:
-            out.flat[spread(self.open & self.beside_edges, self.size)] = 1
+            out.flat[spread(self.unexplained & self.beside_edges, self.size)] = 1
             out.flat[spread(self.judged & self.beside_edges, self.size)] = 1
             return out
         edge = self.judged & boundary(self.frame)
         for some, most in (
-            (self.open, self.size),
+            (self.unexplained, self.size),
             (edge, 3 * self.size // 4),
             (self.judged & ~edge, self.size // 4),
         ):
@@ -121,16 +121,17 @@ class Evidence:
 
     @cached_property
     def beside_edges(self) -> Bools:
-        """Which pixels (h, w) are beside an edge that is shown: small changes show nowhere else."""
+        """Which pixels (h, w) lie beside an edge of the picture, where small changes show."""
         out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
-        return out if (out & self.open).any() else np.ones_like(out)
+        return out if (out & self.unexplained).any() else np.ones_like(out)
 
     def least_right(self, share: float = WORTH) -> float:
-        """Return how many of the sampled pixels are right if a share of the unexplained ones is.
+        """Return how many sampled pixels must agree for a guess to be worth a closer look.
 
-        With fewer a guess is not worth a closer look.
+        It is the count if a share of the unexplained ones agrees, and nearly all others.
         """
-        return float((~self.was_open).sum() + share * self.was_open.sum()) * (1 - NOISE)
+        wrong = self.unexplained_sampled
+        return float((~wrong).sum() + share * wrong.sum()) * (1 - NOISE)
 
     @cached_property
     def shown(self) -> Picture:
@@ -138,23 +139,23 @@ class Evidence:
         return self.picture.at(self.sample)
 
     @cached_property
-    def was_open(self) -> Bools:
+    def unexplained_sampled(self) -> Bools:
         """Which of the n sampled pixels are unexplained, (n,)."""
-        return self.open[self.sample]
+        return self.unexplained[self.sample]
 
     def probe(self, scene: Scene, reach: float = 0.0) -> Work[Probe]:
-        """Prepare to trace the sampled pixels in a scene."""
-        wanted = np.zeros(self.open.shape, bool)
+        """Return a probe that traces the sampled pixels in a scene."""
+        wanted = np.zeros(self.unexplained.shape, bool)
         wanted[self.sample] = True
         made = yield from plan(scene, SOUND, reach)
         return (yield from Probe.of(made, scene.camera.region, wanted.ravel()))
 
     def trace(self, scene: Scene, at: tuple[Places, Places] | None = None) -> Work[Hits]:
-        """Return what pixels see of a scene: those in n rows and columns, or the sampled ones."""
+        """Trace a scene in n pixels, by row and column, or in the sampled ones."""
         rows, columns = self.sample if at is None else at
         r = scene.camera.region
         if len(rows) > DENSE:
-            wanted = np.zeros(self.open.shape, bool)
+            wanted = np.zeros(self.unexplained.shape, bool)
             wanted[rows, columns] = True
             made = yield from plan(scene, SOUND, 0.0)
             probe = yield from Probe.of(made, r, wanted.ravel())
@@ -163,21 +164,21 @@ class Evidence:
         return (yield from self.trees.trace(scene, rays))
 
     def score(self, case: Case) -> Work[Score]:
-        """Return what a case that differs in its scene, or its picture, makes of the sample."""
+        """Score a case, with another scene or picture, on the sample."""
         r = case.scene.camera.region
-        if (r.height, r.width) != self.open.shape:
+        if (r.height, r.width) != self.unexplained.shape:
             return Score(0, 0)
         hits = yield from self.trace(case.scene)
         return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
-        """Return which of the n sampled pixels show the n hits of a scene like the case's."""
+        """Return which of the n sampled pixels agree with the n hits of a scene, (n,)."""
         return ~self.shown.differ(scene, hits)
 
     def scored(self, right: Bools) -> Score:
-        """Return the score of the n sampled pixels, (n,) of them right."""
-        was_open, weights = self.was_open, self._weights[self.sample]
-        settled, broken = right & was_open, ~right & ~was_open
+        """Score the sample, given which of its n pixels agree."""
+        wrong, weights = self.unexplained_sampled, self._weights[self.sample]
+        settled, broken = right & wrong, ~right & ~wrong
         return Score(float(weights[settled].sum()), float(weights[broken].sum()))
 
     @cached_property
@@ -189,7 +190,7 @@ class Evidence:
 
     @cached_property
     def points(self) -> Floats:
-        """What is traced in the n sampled pixels, (3, n) world space; the background far away.
+        """The points traced in the n sampled pixels, (3, n) world space; the background far away.
 
         Parallel rays that are turned would lose it: of them it is as far as the farthest surface.
         """
@@ -207,18 +208,18 @@ class Evidence:
         All that a moved object makes wrong involves it; less of that involves what is around it.
         """
         scene = self.case.scene
-        rows, columns = (v[self.was_open] for v in self.sample)
+        rows, columns = (v[self.unexplained_sampled] for v in self.sample)
         seen = scene.instance_objects[self.frame.instance_index[rows, columns]]
         shown = self._shown_objects()
         both = np.concatenate((seen, shown[shown != seen]))
         count = np.bincount(both[both >= 0], minlength=len(scene.objects))
         order = np.argsort(-count, kind="stable")
-        least = max(LEAST, INVOLVED * int(np.max(count, initial=0)))
+        least = max(LEAST_SEEN, INVOLVED * int(np.max(count, initial=0)))
         return tuple(scene.objects[n] for n in order if count[n] >= least)[:MOST_SUSPECTS]
 
     def _shown_objects(self) -> Integers:
-        """Return the objects that unexplained pixels of the sample show, NOTHING if not known."""
-        scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.was_open))
+        """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
+        scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
         if shown.owner is not None and shown.owners is not None:
             first = {int(o): n for n, o in reversed(list(enumerate(shown.owners[:-1])))}
@@ -236,7 +237,7 @@ class Evidence:
 
 
 def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) -> Floats:
-    """Return where a camera sees what another one in its place sees at film positions, (2, n)."""
+    """Map film positions of another camera in the same place to a camera's own film, (2, n)."""
     rays = camera_rays(other, px, py)
     # A panorama's or perspective's rays pass one point: any point of them will do.
     x, y, _ = film_of(camera, rays.at(np.ones(rays.count)))
@@ -244,7 +245,7 @@ def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) ->
 
 
 def spread(where: Bools, most: int) -> Places:
-    """Return some of the pixels of a mask, by their index, chosen at random."""
+    """Return at most so many pixels of a mask, by flat index, chosen at random."""
     found = np.flatnonzero(where)
     if len(found) <= most:
         return found
@@ -253,7 +254,7 @@ def spread(where: Bools, most: int) -> Places:
 
 
 def shows_colors(picture: Picture, colors: Array) -> Bools:
-    """Return which pixels (h, w) of a picture show about one of some traced colours (m, 4)."""
+    """Return which pixels (h, w) of a picture have nearly one of m traced colours, (m, 4)."""
     out = np.zeros(picture.color.shape[:2], bool)
     for made in picture.made_of(np.unique(colors, axis=0)):  # a thousand trees have one
         for rows in blocks(out.shape):

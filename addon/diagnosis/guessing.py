@@ -6,8 +6,8 @@ A guess is told under three conditions.
   be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
   for a distorted lens, is right in some places alone.
 - It settles enough pixels. A guess that changes k pixels of two colours is right in all of them by
-  chance once in 2^k times, and some hundred guesses are tried: so `LEAST` are needed, and half
-  as many again for each number that was fitted.
+  chance once in 2^k times, and some hundred guesses are tried: so `LEAST_SETTLED` are needed, and
+  half as many again for each number that was fitted.
 - It settles a share of what is unexplained (`SHARE`), or all that earlier ones left: a fault of a
   few pixels beside another one of many is looked for once that one is put right. In a picture that
   is wrong in a way that is not known, a small thing that is shown elsewhere looks like a missing
@@ -27,33 +27,30 @@ from ..causes.case import PRECISE
 from ..scene import SceneError
 from ..tracer.progress import Work
 from .evidence import FEW, Evidence, Score
-from .faults.fault import Fault, Guess
-from .trial import Trial, tried
+from .faults.fault import AnyFault, Guess
+from .faults.given import given
+from .trial import Trial, trial_of
 from .variants import carried
 
 T = TypeVar("T")
 
-COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
-FITTED = (
-    0.9  # that share for numbers that were fitted: the wrong kind is nearly right in small places
-)
-LEAST = 10  # the least pixels that a guess must settle, and half as many for each of its numbers
+COMPLETE = 0.75  # the least recall of a guess, in the regions that it touches
+FITTED = 0.9  # that of fitted numbers: a fit of the wrong kind is nearly right in small regions
+LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 SHARE = 0.2  # of the unexplained pixels
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
-PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
-UNLIKELY = 0.5  # of the least gain: guesses below, by few pixels, are not looked at any more
+PROMISING = 0.3  # of the best gain on the sample: guesses below it get no trial
+UNLIKELY = 0.5  # of the least gain: guesses below it in the small sample are dropped
 NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
-ENOUGH = (
-    0.995  # of the unexplained pixels: after a guess that gains as many, none takes more effort
-)
-ALL_EDGES = 1 << 14  # pixels of each kind that are looked at then
-TRIED = 6  # guesses that are tried on the whole picture together, at most
-MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
-MAIN = 0.5  # of the unexplained pixels: a guess that gains as much may need a second one beside it
-STARTS = 2  # such guesses
-LOST = 0.1  # of the pixels that such a guess settles: it loses no more
-# Of work, after which no other guess is made, and one that is being made is given up. In a step, a
-# bounded number of rays, pairs or pixels is looked at: as many on each machine.
+ENOUGH = 0.995  # of the unexplained pixels: after such a gain, no more effort is made
+ALL_EDGES = 1 << 14  # the sample of a refinement: pixels of each kind
+TRIED = 6  # trials of guesses of all efforts, at most
+MOST_SURE = 24  # trials of guesses that gain nearly all, at most: an empty picture has many
+MAIN = 0.5  # of the unexplained pixels: a guess with such a gain may need a second one beside it
+STARTS = 2  # first guesses of two that are followed
+LOST = 0.1  # of the pixels that a first guess settles: it may break no more
+# The limit of work; a search that reaches it is given up. A step is a bounded number of rays, pairs
+# or pixels, the same on each machine.
 STEPS = 60_000
 NONE = Score(0.0, 0.0)
 
@@ -61,7 +58,7 @@ NONE = Score(0.0, 0.0)
 class Guessing:
     """The guesses that are made in one diagnosis, and how many steps of work they took."""
 
-    def __init__(self, faults: Sequence[Fault], limit: float) -> None:
+    def __init__(self, faults: Sequence[AnyFault], limit: float) -> None:
         self.faults = faults
         self.limit = limit
         self.steps = 0
@@ -70,11 +67,11 @@ class Guessing:
 
     @property
     def ended(self) -> bool:
-        """Whether it took so many steps that no other guess is made."""
+        """Whether the limit of steps is reached."""
         return self.steps >= self.limit
 
-    def _limited(self, work: Work[T], fault: Fault) -> Work[T | None]:
-        """Run work that looks for a fault; None if the steps come to an end before it does."""
+    def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
+        """Run work that looks for a fault; None if the limit of steps is reached first."""
         while not self.ended:
             try:
                 share = next(work)
@@ -94,61 +91,60 @@ class Guessing:
         all, a fit that does as well says no more. What may be anything, and cannot be sampled,
         comes last: it takes most work, and is not told where something exact does as well.
         """
-        open_ = float(evidence.open.sum())
+        unexplained = float(evidence.unexplained.sum())
         faults = [f for f in self.faults if not (f.everywhere and evidence.of_object)]
-        pool: list[tuple[float, Fault, Guess]] = []
-        unknown: list[tuple[float, Fault, Guess]] = []
+        pool: list[tuple[float, AnyFault, Guess]] = []
+        unknown: list[tuple[float, AnyFault, Guess]] = []
         out: list[Trial] = []
         for effort in sorted({fault.effort for fault in faults}):
             some = [fault for fault in faults if fault.effort == effort]
             scored = yield from self._scored(evidence, some)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
             known = [one for one in scored if one[1].sampled or not one[1].vague]
-            pool += [one for one in known if one[0] < NEARLY * open_]
-            sure = [one for one in known if one[0] >= NEARLY * open_]
-            out += yield from self._tried(evidence, of, sure, MOST_SURE)
+            pool += [one for one in known if one[0] < NEARLY * unexplained]
+            sure = [one for one in known if one[0] >= NEARLY * unexplained]
+            out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
             if _is_enough(of, out):
                 break
         else:
-            out += yield from self._tried(evidence, of, pool, TRIED)
+            out += yield from self._trials_of(evidence, of, pool, TRIED)
             if not _is_enough(of, out):
-                out += yield from self._tried(evidence, of, unknown, MOST_SURE)
+                out += yield from self._trials_of(evidence, of, unknown, MOST_SURE)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
     def _scored(
-        self, evidence: Evidence, faults: Sequence[Fault]
-    ) -> Work[list[tuple[float, Fault, Guess]]]:
-        """Return the guesses of some faults that gain on the sample, each with its gain."""
+        self, evidence: Evidence, faults: Sequence[AnyFault]
+    ) -> Work[list[tuple[float, AnyFault, Guess]]]:
+        """Score the guesses of some faults on the sample; return those that gain enough."""
         out = []
         for fault in faults:
-            given = [
-                Guess(object=v.object, scene=v.scene, words=v.words)
-                for v in evidence.variants
-                if v.fault == fault.name
-            ]
             found = yield from self._limited(fault.find(evidence), fault)
-            for guess in (*given, *(found or ())):
+            for made, guess in (*given(evidence, fault), *((fault, g) for g in found or ())):
                 self.guesses += 1
-                score = (yield from self._limited(_score(evidence, fault, guess), fault)) or NONE
+                score = (yield from self._limited(_score(evidence, made, guess), made)) or NONE
                 if _may_be_finer(evidence, score):
-                    guess = yield from self._finer(evidence, fault, guess)
-                    again = self._limited(_score(evidence, fault, guess), fault)
+                    guess = yield from self._finer(evidence, made, guess)
+                    again = self._limited(_score(evidence, made, guess), made)
                     score = (yield from again) or NONE
                 if score.gain >= _least(evidence):
-                    out.append((score.gain, fault, guess))
+                    out.append((score.gain, made, guess))
         return out
 
-    def _finer(self, evidence: Evidence, fault: Fault, guess: Guess) -> Work[Guess]:
-        """Return a guess that was fitted roughly with its numbers fitted finely."""
+    def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
+        """Refine the numbers of a roughly fitted guess."""
         if not (fault.refine and guess.low and guess.low == guess.high):
             return guess
         finer = replace(evidence, size=ALL_EDGES, fine=True)
         return (yield from self._limited(fault.refine(finer, guess), fault)) or guess
 
-    def _tried(
-        self, evidence: Evidence, of: Evidence, scored: list[tuple[float, Fault, Guess]], most: int
+    def _trials_of(
+        self,
+        evidence: Evidence,
+        of: Evidence,
+        scored: list[tuple[float, AnyFault, Guess]],
+        most: int,
     ) -> Work[list[Trial]]:
-        """Return the trials of the guesses with the most gain; what was fitted is fitted finely.
+        """Try the guesses with the most gain, refining fitted ones.
 
         Vague ones come last: their trials take long, and what is exact is told in their place.
         """
@@ -162,7 +158,7 @@ class Guessing:
             if fault.name in done:
                 continue
             guess = yield from self._finer(evidence, fault, guess)
-            trial = yield from self._limited(tried(evidence, fault, guess, of), fault)
+            trial = yield from self._limited(trial_of(evidence, fault, guess, of), fault)
             if trial and trial.gain > 0:
                 out.append(trial)
                 if trial.perfect:
@@ -171,22 +167,24 @@ class Guessing:
 
 
 def _least(evidence: Evidence) -> float:
-    """Return how many pixels a guess must settle at least."""
-    return float(max(LEAST, SHARE * evidence.open.sum()))
+    """Return how many pixels a guess must settle, at least."""
+    return float(max(LEAST_SETTLED, SHARE * evidence.unexplained.sum()))
 
 
 def _may_be_finer(evidence: Evidence, score: Score) -> bool:
-    """Return whether a rough fit may break as much as it settles, as that is very little."""
-    open_ = int(evidence.open.sum())
-    return score.gain < _least(evidence) and MAIN * open_ <= score.settled <= open_ <= FEW
+    """Return whether so few pixels are at stake that a rough fit may break as many."""
+    unexplained = int(evidence.unexplained.sum())
+    return (
+        score.gain < _least(evidence) and MAIN * unexplained <= score.settled <= unexplained <= FEW
+    )
 
 
-def _score(evidence: Evidence, fault: Fault, guess: Guess) -> Work[Score]:
-    """Return what a guess makes of the sample; all is settled by one that cannot be sampled."""
+def _score(evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Score]:
+    """Score a guess on the sample; one that cannot be sampled is taken to settle all."""
     if not fault.sampled:
-        return Score(float(evidence.open.sum()), 0.0)
+        return Score(float(evidence.unexplained.sum()), 0.0)
     try:
-        case = fault.tried(evidence.case, evidence.frame, guess)
+        case = fault.assume(evidence.case, guess)
         if case is None:
             return NONE
         few = yield from evidence.few.score(case)
@@ -198,7 +196,7 @@ def _score(evidence: Evidence, fault: Fault, guess: Guess) -> Work[Score]:
 
 
 def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]]:
-    """Return the next fault, with those that do as well; or two that account for it together.
+    """Return the next fault with its alternatives, or two faults that account for more together.
 
     Of two, the first one alone must lose few pixels, and with the second one more must agree.
     """
@@ -206,7 +204,7 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
     if best := _best(evidence, trials):
         return [best]
     for first in trials[:STARTS]:
-        if first.gain < MAIN * evidence.open.sum() or not first.evidence.open.any():
+        if first.gain < MAIN * evidence.unexplained.sum() or not first.evidence.unexplained.any():
             continue
         if first.broken > LOST * first.settled or first.own < COMPLETE:
             continue
@@ -218,13 +216,13 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
 def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     """Return the trials that may be told."""
-    open_ = int(evidence.open.sum())
+    unexplained = int(evidence.unexplained.sum())
     return [
         t
         for t in trials
         if t.precision >= PRECISE
-        and t.settled >= LEAST * (1 + t.cost / 2)
-        and t.settled >= SHARE * open_
+        and t.settled >= LEAST_SETTLED * (1 + t.cost / 2)
+        and t.settled >= SHARE * unexplained
         and min(t.recall, t.own) >= (FITTED if t.cost else COMPLETE)
         and not t.unseen
     ]
@@ -232,12 +230,12 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 
 def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
     """Return whether one that may be told settles nearly all: then no more are tried."""
-    least = ENOUGH * evidence.open.sum()
+    least = ENOUGH * evidence.unexplained.sum()
     return any(t.gain >= least for t in _good(evidence, trials))
 
 
 def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
-    """Return those of the most gain with the fewest numbers, one of each fault.
+    """Return the trials with the most gain and the fewest numbers, one of each fault.
 
     What sums up the others comes first. An object's fault is not told where the picture or the view
     as a whole may have one.

@@ -1,4 +1,4 @@
-"""Groups the pixels of a picture into regions, and says which objects are in each.
+"""Groups the pixels of a mask into regions, and lists the objects in each.
 
 Pixels belong together if a chain of them links them in which no step is longer than a few pixels.
 None is left out: where there would be too many regions, longer steps link them.
@@ -53,7 +53,7 @@ class Region:
 
 
 def sides(scene: Scene, frame: Frame, identity: Identity | None) -> list[Side]:
-    """Return the objects that the traced side shows, and the other side's where they are known."""
+    """Return the object in each pixel of the traced side, and of the other side if known."""
     found: list[Side] = [(scene.objects, scene.instance_objects[frame.instance_index])]
     if identity is not None:
         found.append((identity.names, identity.shown))
@@ -87,7 +87,7 @@ def regions(
     bottom, left = int(np.min(y)), int(np.min(x))
     held = mask[bottom : int(np.max(y)) + 1, left : int(np.max(x)) + 1]
     while True:
-        label = _labels(_grown(held, near))[y - bottom, x - left]
+        label = _labels(_dilated(held, near))[y - bottom, x - left]
         unique, number = np.unique(label, return_inverse=True)
         if len(unique) <= most:
             break
@@ -110,8 +110,8 @@ def _region(y: Places, x: Places, shown: Sequence[Side]) -> Region:
     return Region(left, bottom, *size, len(y), tuple(name for name, _ in count.most_common()))
 
 
-def _grown(mask: Bools, by: int) -> Bools:
-    """Return a mask with so many more pixels on all sides of each, within its shape."""
+def _dilated(mask: Bools, by: int) -> Bools:
+    """Dilate a mask by n pixels in each direction; the shape stays."""
     for _ in range(2):  # once along the rows, once along the columns
         length = mask.shape[1]
         total = np.zeros((mask.shape[0], length + 1), np.int32)
@@ -123,9 +123,9 @@ def _grown(mask: Bools, by: int) -> Bools:
 
 
 def _labels(mask: Bools) -> Array:
-    """Return a number (h, w) for each pixel; those that touch, also at a corner, have the same.
+    """Label the 8-connected components of a mask, (h, w); pixels outside it get any label.
 
-    What touches is found between runs of pixels in neighbouring rows. Pixels outside get any.
+    Runs of pixels that touch in neighbouring rows are linked.
     """
     height, width = mask.shape
     edges = np.zeros((height, width + 3), np.int8)
@@ -145,7 +145,7 @@ def _labels(mask: Bools) -> Array:
 
 
 def _linked(count: int, one: Places, other: Places) -> Places:
-    """Return the lowest of those that links connect each of so many items with, (count,)."""
+    """Return the smallest item that each item is connected with, (count,) (union-find)."""
     lowest = np.arange(count)
     while True:
         a, b = lowest[one], lowest[other]

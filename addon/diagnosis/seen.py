@@ -25,7 +25,7 @@ from .boxes import Crossed, Nodes, crossed, inverted, together, tree
 
 RAYS = 1 << 12  # traced together
 PAIRS = 1 << 22  # of a ray and an instance that are listed together, at most
-NEAREST = 2  # instances on a ray that are looked at first; then those behind, four times as many
+NEAREST = 2  # instances on a ray that are tested first; then four times as many, and so on
 
 
 @dataclass(eq=False)
@@ -65,7 +65,7 @@ class Trees:
 
 
 def _same(first: Sequence[object], second: Sequence[object]) -> bool:
-    """Return whether two sequences hold the same things."""
+    """Return whether two sequences hold the identical objects."""
     if first is second:
         return True
     return len(first) == len(second) and all(a is b for a, b in zip(first, second, strict=True))
@@ -91,7 +91,7 @@ def _instances(scene: Scene) -> Nodes:
 def _enter(
     scene: Scene, rays: Rays, some: Places, nodes: Nodes, instances: Nodes, hits: Hits
 ) -> Work[None]:
-    """Enter the nearest hits of some rays: the instances on each are looked at from near to far."""
+    """Find the nearest hits of some rays, testing the instances on each from near to far."""
     o, d = (np.broadcast_to(v, (3, rays.count))[:, some] for v in (rays.origins, rays.directions))
     root = np.zeros(len(some), np.intp)
     found = list(crossed(instances, root, o, inverted(d)))
@@ -114,14 +114,14 @@ def _enter(
 def _test(
     scene: Scene, rays: Rays, ray: Places, instance: Places, nodes: Nodes, hits: Hits
 ) -> Work[None]:
-    """Test rays (p,) with the triangles of an instance each whose boxes they pass through."""
+    """Test each of p rays with one instance: with the triangles whose boxes it crosses."""
     own = rays.take(ray)
     used, number = np.unique(instance, return_inverse=True)
     inverse, regular = _object_from_world(scene.instance_matrices[:3, :, used])
     m = inverse[:, :, number]
     o = (m[:, :3] * own.origins).sum(axis=1) + m[:, 3]
     d = (m[:, :3] * own.directions).sum(axis=1)
-    flat = ~regular[number]  # all its triangles are asked about
+    flat = ~regular[number]  # all its triangles are tested
     o[:, flat] = 0
     through = inverted(d)
     through[:, flat] = 0

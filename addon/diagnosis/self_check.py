@@ -1,4 +1,4 @@
-"""The self-check: whether this comparison would have found a fault in this very scene.
+"""The self-check: whether the comparison would have found a fault in this very scene.
 
 Known faults are made, one at a time, and explained as the comparison itself was: by the same
 function, method, alternatives and curves. A fault is caught if it leaves pixels unexplained, or if
@@ -19,12 +19,12 @@ from ..causes.case import Case
 from ..causes.cause import AGREE, UNEXPLAINED, Causes
 from ..causes.explain import CAUSES, explain
 from ..pictures.bounds import differing
-from ..rendering import steps
 from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, called, scaled
 from .faults import EXAMPLES
-from .faults.fault import Example, Fault
+from .faults.fault import AnyFault, Example
+from .trial import traced_anew
 
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
 
@@ -69,7 +69,7 @@ def self_check(
     case: Case,
     frame: Frame,
     causes: Causes,
-    examples: Sequence[tuple[Fault, Example]] = EXAMPLES,
+    examples: Sequence[tuple[AnyFault, Example]] = EXAMPLES,
 ) -> Work[tuple[FaultRow, ...]]:
     """Make every example of a fault and see what becomes of it; yields the share of the work done.
 
@@ -86,20 +86,17 @@ def self_check(
 
 
 def _checked(
-    case: Case, frame: Frame, causes: Causes, fault: Fault, example: Example
+    case: Case, frame: Frame, causes: Causes, fault: AnyFault, example: Example
 ) -> Work[FaultRow]:
     row = FaultRow(example.name, example.text)
     try:
         guess = example.pick(case, frame)
-        wrong = None if guess is None else fault.make(case, frame, guess)
+        wrong = None if guess is None else (example.make or fault.assume)(case, guess)
     except SceneError as error:  # the scene cannot be traced then, which nobody would overlook
         return row._replace(note=f"refused: {error}")
     if wrong is None:
         return row._replace(note="there is nothing to get wrong")
-    traced = frame
-    if wrong.scene is not case.scene:
-        traced = Frame.empty(wrong.scene)
-        yield from scaled(steps(wrong.scene, case.settings, traced), 0.0, 0.3)
+    traced = yield from scaled(traced_anew(wrong, case, frame), 0.0, 0.3)
     changed = _changed(case, frame, wrong, traced)
     if not changed.any():
         return row
@@ -122,9 +119,9 @@ def _checked(
 
 
 def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
-    """Return which pixels (h, w) the fault changes: their colour, or the object that they show."""
+    """Return which pixels (h, w) the fault changes, in colour or in the object shown."""
     right, picture = case.picture, wrong.picture
-    if wrong.scene is case.scene:
+    if traced is frame:  # it is the picture's
         changed = differing(right.color, picture.color)
         return changed if right.owner is None else changed | (right.owner != picture.owner)
     changed = differing(frame.color, traced.color)
@@ -134,7 +131,7 @@ def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
 
 
 def table(rows: Sequence[FaultRow]) -> list[str]:
-    """Return the self-check as a person reads it, a fault a line."""
+    """Return the self-check as lines of text, a fault a line."""
     if not rows:
         return []
     caught = sum(r.result == "caught" for r in rows)

@@ -16,7 +16,7 @@ from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from .evidence import Evidence
-from .faults.fault import Fault, Guess
+from .faults.fault import AnyFault, Guess
 
 HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
 LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
@@ -24,9 +24,9 @@ LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """What a guess makes of the whole picture."""
+    """How a guess does in the whole picture."""
 
-    fault: Fault
+    fault: AnyFault
     guess: Guess
     evidence: Evidence  # with the fault put right
     settled: int  # pixels that were unexplained, and are not now
@@ -49,14 +49,14 @@ class Trial:
     def unseen(self) -> bool:
         """Whether its object is not seen any more: then all that is known is that it is missing."""
         names, name = self.evidence.case.scene.objects, self.guess.object
-        if name not in names or self.fault.name == "object_missing":
+        if name not in names or self.fault.removes:
             return False
         return not (self.evidence.frame.object_index == names.index(name)).any()
 
     @property
     def perfect(self) -> bool:
         """Whether it settles all that is unexplained, and breaks nothing."""
-        return not self.broken and not still_open(self.evidence).any()
+        return not self.broken and not left_unexplained(self.evidence).any()
 
     @property
     def recall(self) -> float:
@@ -69,8 +69,8 @@ class Trial:
         return self.settled / max(self.settled + self.broken + self.stubborn, 1)
 
 
-def tried(
-    evidence: Evidence, fault: Fault, guess: Guess, of: Evidence | None = None
+def trial_of(
+    evidence: Evidence, fault: AnyFault, guess: Guess, of: Evidence | None = None
 ) -> Work[Trial | None]:
     """Try a guess on the whole picture; yields the share of the work done.
 
@@ -80,13 +80,10 @@ def tried(
     before = of or evidence
     case, frame = evidence.case, evidence.frame
     try:
-        other = fault.tried(case, frame, guess)
+        other = fault.assume(case, guess)
         if other is None:
             return None
-        traced = frame
-        if other.scene is not case.scene:
-            traced = Frame.empty(other.scene)  # here: steps of waiting for others are not work
-            yield from scaled(steps(other.scene, other.settings, traced), 0.0, 0.3)
+        traced = yield from scaled(traced_anew(other, case, frame), 0.0, 0.3)
         if fault.after is not None:
             color = fault.after(traced.color, guess, evidence)
             traced = replace(frame, color=color.astype(np.float32))
@@ -103,8 +100,17 @@ def tried(
     return Trial(fault, guess, after, *counted(before, after), own)
 
 
+def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
+    """Trace another case; if it has the same scene, return the frame there is."""
+    if other.scene is case.scene:
+        return frame
+    traced = Frame.empty(other.scene)
+    yield from steps(other.scene, case.settings, traced)  # here: waiting for others is no work
+    return traced
+
+
 def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
-    """Return whether most pixels that are to be settled have the right colour at once.
+    """Return whether a guess settles enough pixels by colour alone to be looked at further.
 
     The others are left to the checks, which take long where whole pictures differ.
     """
@@ -114,7 +120,7 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
     picture = as_known(case)
     right = picture.alike(case.scene, frame.instance_index, frame.color)
     right &= ~picture.other_object(frame.instance_index)
-    settled = int((right & before.open).sum())
+    settled = int((right & before.unexplained).sum())
     was = before.picture.alike(before.case.scene, before.frame.instance_index, before.frame.color)
     broken = int((~right & (was | (not mixes)) & before.judged).sum())
     # Where colours are mixed, it may be that only the checks can say so.
@@ -122,28 +128,28 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
 
 
 def counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
-    """Return how many pixels are settled, broken, stay wrong though changed, and are touched."""
-    open_ = still_open(after)
-    settled = before.open & ~open_ & ~after.causes.unjudged
-    stubborn = before.open & open_ & _changed(before, after)
-    counted = settled, open_ & before.judged, stubborn, _grown(settled, before.open)
-    settles, breaks, stays, touches = (int(some.sum()) for some in counted)
-    return settles, breaks, stays, touches
+    """Count the pixels that are settled, broken, stubborn and touched: see :class:`Trial`."""
+    unexplained = left_unexplained(after)
+    settled = before.unexplained & ~unexplained & ~after.causes.unjudged
+    stubborn = before.unexplained & unexplained & _changed(before, after)
+    broken = unexplained & before.judged
+    touched = _connected(settled, before.unexplained)
+    return int(settled.sum()), int(broken.sum()), int(stubborn.sum()), int(touched.sum())
 
 
 def _of_object(name: str, before: Evidence, after: Evidence) -> float:
-    """Return the share of the unexplained pixels of an object that are settled; 1 without one."""
-    own = np.zeros(before.open.shape, bool)
+    """Return the settled share of an object's unexplained pixels; 1 without an object."""
+    own = np.zeros(before.unexplained.shape, bool)
     for one in (before, after):
         scene = one.case.scene
         numbers = [n for n, o in enumerate(scene.objects) if o == name]
         own |= np.isin(scene.instance_objects[one.frame.instance_index], numbers)
-    own &= before.open
-    return float((~still_open(after))[own].mean()) if own.any() else 1.0
+    own &= before.unexplained
+    return float((~left_unexplained(after))[own].mean()) if own.any() else 1.0
 
 
-def _grown(seed: Bools, within: Bools) -> Bools:
-    """Return the regions of a picture (h, w) that have a pixel of the seed."""
+def _connected(seed: Bools, within: Bools) -> Bools:
+    """Return the 8-connected components of a mask (h, w) that contain a seed (flood fill)."""
     out = seed & within
     while True:
         more = (largest_within(out.astype(np.int8), 1) > 0) & within
@@ -152,15 +158,15 @@ def _grown(seed: Bools, within: Bools) -> Bools:
         out = more
 
 
-def still_open(evidence: Evidence) -> Bools:
-    """Return which pixels (h, w) are unexplained, or were not looked at for their number."""
-    out = evidence.open.copy()
+def left_unexplained(evidence: Evidence) -> Bools:
+    """Return which pixels (h, w) are unexplained, or passed over as there were too many."""
+    out = evidence.unexplained.copy()
     out.flat[evidence.causes.passed_over] = True
     return out
 
 
 def _changed(before: Evidence, after: Evidence) -> Bools:
-    """Return where other colours are traced, or the picture was changed."""
+    """Return which pixels (h, w) are traced in other colours; all, if the picture changed."""
     if before.case.picture.color is not after.case.picture.color:
-        return np.ones(before.open.shape, bool)
+        return np.ones(before.unexplained.shape, bool)
     return differing(before.frame.color, after.frame.color)

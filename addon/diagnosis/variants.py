@@ -16,13 +16,14 @@ from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.progress import Work
 from .evidence import Evidence
+from .faults.given import Given
 from .trial import Trial
 
 
 def with_variants(evidence: Evidence) -> Work[Evidence]:
-    """Return the evidence with the case's variants, and with all that the view leaves out.
+    """Return the evidence with the case's variants, and with the objects outside the view.
 
-    What no ray meets is not exported. A camera with a fault may have seen it.
+    What no ray hits is not exported, but a faulty camera may have seen it.
     """
     case = evidence.case
     variants = [replace(v, scene=_as_in(case.scene, v.scene)) for v in case.variants()]
@@ -46,7 +47,7 @@ def with_variants(evidence: Evidence) -> Work[Evidence]:
 
 
 def _look_alike(first: Frame, second: Frame) -> bool:
-    """Return whether the same is traced, however instances are numbered."""
+    """Return whether two frames are equal but for the numbering of instances."""
     return all(
         np.array_equal(getattr(first, name), getattr(second, name))
         for name in ("color", "t", "triangle_index")
@@ -54,14 +55,14 @@ def _look_alike(first: Frame, second: Frame) -> bool:
 
 
 def carried(evidence: Evidence, trial: Trial) -> Evidence:
-    """Return the evidence with a fault put right, in the variants, too."""
+    """Return the evidence with a fault put right, also in the variants."""
     variants = []
     for variant in evidence.variants:
-        scene, given = variant.scene, trial.guess.scene
-        if given is not None:  # of two faults that only Blender can make, one may be the camera's
-            other = given.camera is not evidence.case.scene.camera
-            scene = scene.seen_by(given.camera) if other else scene
-        elif case := trial.fault.tried(evidence.case.in_scene(scene), evidence.frame, trial.guess):
+        scene, guess = variant.scene, trial.guess
+        if isinstance(guess, Given):  # of two such faults, one may be the camera's
+            other = guess.scene.camera is not evidence.case.scene.camera
+            scene = scene.seen_by(guess.scene.camera) if other else scene
+        elif case := trial.fault.assume(evidence.case.in_scene(scene), guess):
             scene = case.scene
         variants.append(replace(variant, scene=scene))
     of_object = evidence.of_object or bool(trial.guess.object)
@@ -69,7 +70,7 @@ def carried(evidence: Evidence, trial: Trial) -> Evidence:
 
 
 def _as_in(own: Scene, other: Scene) -> Scene:
-    """Return another scene before the background, and with the objects' colours, of one's own."""
+    """Return another scene with the background and the objects' colours of a case's own."""
     colors = {own.objects[i.object]: i.colors for i in own.instances}
     instances = [
         replace(i, colors=colors.get(other.objects[i.object], i.colors)) for i in other.instances

@@ -97,19 +97,19 @@ ROUNDED = (
         key="twice_rounded",
     ),
 )
-# The names of the faults of colours, in the order in which they are told.
-KEYS = (
-    "channels",
-    "gamma",
-    "srgb_twice",
-    "srgb_left_out",
-    "power_for_srgb",
-    "cut_off",
-    "coded_gamma",
-    "exposure",
-    "coded_factor",
-    "view_transform",
-)
+# The names of the faults of colours, in the order in which they are told, and what they are.
+KEYS = {
+    "channels": "channels swapped",
+    "gamma": "a power of linear values",
+    "srgb_twice": "sRGB's curve applied once more",
+    "srgb_left_out": "sRGB's curve left out",
+    "power_for_srgb": "a power in place of sRGB's curve",
+    "cut_off": "values cut off to 8 bits, not rounded",
+    "coded_gamma": "a power of coded (sRGB) values",
+    "exposure": "an exposure",
+    "coded_factor": "a factor on coded (sRGB) values",
+    "view_transform": "a view transform",
+}
 
 
 def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) -> Iterator[Curve]:

@@ -47,7 +47,7 @@ def truth_of(scene: Scene) -> Work[Truth]:
         yield 0.5 + 0.5 * share
         if some is not None:
             corners = some.triangles.corners
-            crossed = decide(rays.take(some.pixel), corners, *clip, row=some.row).hit
+            crossed = decide(rays.take(some.pixel), corners, *clip, row=some.row).crossed
             count += np.bincount(some.pixel[crossed], minlength=len(count))
     return Truth(frame, count)
 

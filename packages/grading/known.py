@@ -73,7 +73,7 @@ def known(
     """
     rays = Rays(origins.T, directions.T)
     corners = triangles.transpose(1, 2, 0)
-    hit = decide(rays, corners, start, end).hit
+    hit = decide(rays, corners, start, end).crossed
     with np.errstate(all="ignore"):  # what over- or underflows is in doubt
         t, s = plane_hits(rays, corners)
         t_allowed, s_allowed = allowed(rays, corners, t)

@@ -243,7 +243,7 @@ Definition code_answers : Contest.answers := {|
   Contest.two_by_two := false;
   Contest.hit s := asked s (fun _ => true) false;
   Contest.on_edge s := asked s Hits.on_edge false;
-  Contest.is_hit s := asked s (Hits.is_hit Ties.PERTURBATION) false;
+  Contest.is_crossed s := asked s (Hits.is_crossed Ties.PERTURBATION) false;
   Contest.gap := compared Integers.gap;
   Contest.sign_of_difference := compared (Hits.sign_of_difference Ties.PERTURBATION);
   Contest.computed_t s :=

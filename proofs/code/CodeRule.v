@@ -40,15 +40,15 @@ Lemma soon_small2 (P : R * R -> Prop) : small2 (fun x y => P (x, y)) -> Nearby.s
 Proof. intros H. exact H. Qed.
 
 (** The rule says 0 of two hits only where T1 n2 = T2 n1 and n1 x n2 = 0. *)
-Lemma tie_crossing o d p1 h1 p2 h2 : hit_on o d p1 h1 -> hit_on o d p2 h2 ->
+Lemma tie_intersection o d p1 h1 p2 h2 : hit_on o d p1 h1 -> hit_on o d p2 h2 ->
   sign_of_difference PERTURBATION h1 h2 = 0%Z ->
-  fst (crossing h1 h2) = ZERO /\ _cross (normal_ h1) (normal_ h2) = ZERO.
+  fst (intersection h1 h2) = ZERO /\ _cross (normal_ h1) (normal_ h2) = ZERO.
 Proof.
   intros (T1 & D1 & d1 & N1) (T2 & D2 & _ & N2) H.
-  assert (E : (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z = _dot d (fst (crossing
+  assert (E : (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z = _dot d (fst (intersection
     h1 h2))).
-  { rewrite D1, D2. unfold crossing, _dot. cbn [fst ix iy iz]. ring. }
-  apply (sign_0 _ _ d). revert H. unfold sign_of_difference. rewrite crossing_span, E, d1.
+  { rewrite D1, D2. unfold intersection, _dot. cbn [fst ix iy iz]. ring. }
+  apply (sign_0 _ _ d). revert H. unfold sign_of_difference. rewrite intersection_span, E, d1.
   match goal with |- context [if ?t then _ else _] => destruct t end; lia.
 Qed.
 
@@ -95,9 +95,9 @@ Qed.
 Lemma ray_is s : in_lengths b (reals (ray_origin i)) s -> r = Hits.stored_ray L M o d.
 Proof. intros I. exact (ray_exact i b directions_in s I). Qed.
 
-Theorem code_is_hit_right s h : in_lengths b (reals (ray_origin i)) s -> is_stored i s ->
+Theorem code_is_crossed_right s h : in_lengths b (reals (ray_origin i)) s -> is_stored i s ->
   code_hit i b s = Some h ->
-  Nearby.soon (fun by_ => is_hit PERTURBATION h = true <->
+  Nearby.soon (fun by_ => is_crossed PERTURBATION h = true <->
     Contest.meets_within (Nearby.moved_ray r by_) s).
 Proof.
   intros I S H. apply soon_small2. assert (R := ray_is s I).
@@ -105,10 +105,10 @@ Proof.
   assert (E := code_hit_line _ _ _ _ H). unfold line_hit in E.
   unfold Contest.meets_within. destruct (Contest.shape_of s) as [x|p n] eqn:Sh.
   - assert (X := triangle_exact i b s I S x Sh).
-    eapply small2_mono; [| apply (met_rule_stored L M PERTURBATION o d (integers_of (lengths b) (ca x))
+    eapply small2_mono; [| apply (crossed_rule_stored L M PERTURBATION o d (integers_of (lengths b) (ca x))
       (integers_of (lengths b) (cb x)) (integers_of (lengths b) (cc x))); apply bpow_gt_0].
     intros u v _ _ K. rewrite <- moved_ray_is, R.
-    unfold met in K. rewrite E in K. symmetry. rewrite X. exact K.
+    unfold crossed in K. rewrite E in K. symmetry. rewrite X. exact K.
   - injection E as <-. destruct (plane_exact i b s I S p n Sh) as [_ Q]. cbn [plane_hit denominator_] in N.
     eapply small2_mono; [| apply (moved_denominator L M (bpow radix2 (exponent_of (components n)))
       PERTURBATION o d
@@ -139,7 +139,7 @@ Proof.
   set (q := Nearby.moved_ray r (x, y)) in *. unfold Contest.t.
   destruct (Pl q) as [-> ->], (Pl' q) as [-> ->]. unfold Hits.t_of in G.
   destruct (Z.compare_spec (sign_of_difference PERTURBATION h h') 0) as [Z|Z|Z].
-  - destruct (tie_crossing _ _ _ _ _ _ P P' Z) as [W C].
+  - destruct (tie_intersection _ _ _ _ _ _ P P' Z) as [W C].
     destruct P as (T1 & D1 & _ & N1), P' as (T2 & D2 & _ & N2).
     assert (Dr : Contest.D r s = M * k * IZR (denominator_ h)).
     { rewrite (proj2 (Pl r)), R, D1, real_dot. unfold D_of, Hits.stored_ray, dot, vscale; simpl; ring. }
@@ -169,7 +169,7 @@ Proof.
         assert (K5 := f_equal (Z.mul d3) C1); assert (K6 := f_equal (Z.mul d3) C2); lia.
     + rewrite Dr, Dr', Tr, Tr'.
       assert (E : (numerator_ h * denominator_ h' = numerator_ h' * denominator_ h)%Z).
-      { rewrite D1, D2. clear - W. unfold crossing, ZERO in W; cbn [fst] in W. injection W as W1 W2 W3.
+      { rewrite D1, D2. clear - W. unfold intersection, ZERO in W; cbn [fst] in W. injection W as W1 W2 W3.
         assert (K1 := f_equal (Z.mul (ix d)) W1). assert (K2 := f_equal (Z.mul (iy d)) W2).
         assert (K3 := f_equal (Z.mul (iz d)) W3). unfold _dot. lia. }
       apply (f_equal IZR) in E. rewrite !mult_IZR in E.

@@ -152,9 +152,9 @@ Qed.
 
 (** * The rule, for any ray at all: so many triangles of a closed surface are hit, along the whole line.
 
-    [met] is what the code decides before it looks at D and the clip range. *)
+    [Hits.crossed] is what the code decides before it looks at D and the clip range. *)
 Definition met_of o d (t : Integers * Integers * Integers) : bool :=
-  let '(a, b, c) := t in met PERTURBATION o d a b c.
+  let '(a, b, c) := t in Hits.crossed PERTURBATION o d a b c.
 Definition reals (t : Integers * Integers * Integers) : vec * vec * vec :=
   let '(a, b, c) := t in (real a, real b, real c).
 Lemma edges_reals l : edges_of (map reals l) = map (fun e => (real (fst e), real (snd e))) (edges_of l).
@@ -164,7 +164,7 @@ Theorem closed_surface_rule o d (l : list (Integers * Integers * Integers)) : cl
   Nat.even (length (filter (met_of o d) l)) = true.
 Proof.
   intros (half & other & Pm & F) N.
-  destruct (small2_exists _ (met_rule_all PERTURBATION o d l)) as (x & y & _ & _ & R).
+  destruct (small2_exists _ (crossed_rule_all PERTURBATION o d l)) as (x & y & _ & _ & R).
   set (r := moved_ray PERTURBATION o d x y) in *.
   assert (G : forall a b, In (a, b) (edges_of l) -> edge r (real a) (real b) <> 0).
   { intros a b I Z. assert (Nab := N a b I). apply in_flat_map in I. destruct I as ([[u v] w] & I & J).
@@ -227,7 +227,7 @@ Definition code_sees o d (start : option (Z * Z)) (t : Integers * Integers * Int
   let '(a, b, c) := t in
   match hit d o a b c with
   | None => false
-  | Some h => match _seen start None false h with Some h => is_hit PERTURBATION h | None => false end
+  | Some h => match _seen start None false h with Some h => is_crossed PERTURBATION h | None => false end
   end.
 Example edge_on_counts :
   let o := I3 1 2 (-4) in let d := I3 1 0 0 in let start := Some (-100, 0)%Z in

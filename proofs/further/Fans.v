@@ -9,10 +9,10 @@ Open Scope R_scope.
 (** * In the stored floats
 
     Ray and triangle as they are stored, the ray moved as the docs say: what the code decides. *)
-Theorem met_rule_float unit direction_unit moves o d a b c : small2 (fun x y =>
+Theorem crossed_rule_float unit direction_unit moves o d a b c : small2 (fun x y =>
   meets_inside (moved (map real moves) (float_ray unit direction_unit o d) x y)
-               (float_triangle unit a b c) <-> met moves o d a b c = true).
-Proof. exact (met_rule_stored _ _ moves o d a b c (bpow_gt_0 radix2 unit) (bpow_gt_0 radix2 direction_unit)). Qed.
+               (float_triangle unit a b c) <-> crossed moves o d a b c = true).
+Proof. exact (crossed_rule_stored _ _ moves o d a b c (bpow_gt_0 radix2 unit) (bpow_gt_0 radix2 direction_unit)). Qed.
 Theorem order_rule_float unit direction_unit moves o d a b c h a' b' c' h' :
   hit d o a b c = Some h -> hit d o a' b' c' = Some h' -> denominator_ h <> 0%Z -> denominator_ h' <> 0%Z ->
   small2 (fun x y => let r := moved (map real moves) (float_ray unit direction_unit o d) x y in
@@ -40,14 +40,14 @@ Theorem shared_edge o d a b c c' s s' : a <> b ->
   (s = 1 \/ s = -1)%Z -> (s' = 1 \/ s' = -1)%Z ->
   edge_sign PERTURBATION o d b c = s -> edge_sign PERTURBATION o d c a = s ->
   edge_sign PERTURBATION o d a c' = s' -> edge_sign PERTURBATION o d c' b = s' ->
-  (met PERTURBATION o d a b c = true <->
-   if (s =? s')%Z then met PERTURBATION o d b a c' = false else met PERTURBATION o d b a c' = true).
+  (crossed PERTURBATION o d a b c = true <->
+   if (s =? s')%Z then crossed PERTURBATION o d b a c' = false else crossed PERTURBATION o d b a c' = true).
 Proof.
   intros N S S' A B A' B'.
   assert (Z : edge_sign PERTURBATION o d a b <> 0%Z) by now apply edge_never_0.
   assert (P : (edge_sign PERTURBATION o d a b = 1 \/ edge_sign PERTURBATION o d a b = -1)%Z).
   { revert Z. unfold edge_sign. rewrite sign_is_first. lia. }
-  assert (M := met_signs PERTURBATION o d a b c). assert (M' := met_signs PERTURBATION o d b a c').
+  assert (M := crossed_signs PERTURBATION o d a b c). assert (M' := crossed_signs PERTURBATION o d b a c').
   cbv zeta in M, M'. rewrite A, B in M. rewrite A', B', (edge_opposite _ o d a b) in M'.
   destruct S as [-> | ->], S' as [-> | ->], P as [P | P]; rewrite P in M, M'; simpl Z.eqb; cbv iota;
     rewrite ?M, <- ?not_true_iff_false, ?M'; clear; lia.
@@ -206,7 +206,7 @@ Theorem fan_rule o d c (v : nat -> Integers) n k : k = 1 \/ k = -1 -> v n = v O 
   (forall i, (i < n)%nat ->
      0 < k * denominator (real_ray o d) (real_triangle c (v i) (v (S i)))) ->
   round_once (real d) (fun i => vsub (real (v i)) (real c)) n ->
-  one_of (fun i => met PERTURBATION o d c (v i) (v (S i)) = true) n.
+  one_of (fun i => crossed PERTURBATION o d c (v i) (v (S i)) = true) n.
 Proof.
   intros K E n0 L D (q & A & Q). set (s := fun i => vsub (real (v i)) (real c)) in *.
   apply (f_equal real) in L. rewrite real_cross, real_sub in L.
@@ -224,7 +224,7 @@ Proof.
       apply sgn_pos. rewrite H. apply sgn_pos. lra.
     - enough (dot (direction (moved_ray PERTURBATION o d x y)) (normal (real_triangle c (v i) (v (S i)))) < 0) by lra.
       apply sgn_neg. rewrite H. apply sgn_neg. lra. }
-  assert (S3 := met_rule_all PERTURBATION o d (map (fun i => (c, v i, v (S i))) (seq 0 n))).
+  assert (S3 := crossed_rule_all PERTURBATION o d (map (fun i => (c, v i, v (S i))) (seq 0 n))).
   destruct (small2_exists _ (small2_and _ _ S1 (small2_and _ _ S2 S3))) as (x & y & _ & _ & H1 & H2 & H3).
   clear S1 S2 S3. set (r := moved_ray PERTURBATION o d x y) in *.
   assert (R : forall i, (i < n)%nat -> rule_is PERTURBATION o d (c, v i, v (S i)) x y).
@@ -280,7 +280,7 @@ Qed.
 (** That is not empty: four triangles around (0, 0, 5), seen from the origin along +z. *)
 Definition rim (i : nat) : Integers :=
   match i with 0 | 4 => I3 1 0 4 | 1 => I3 0 1 4 | 2 => I3 (-1) 0 4 | _ => I3 0 (-1) 4 end%nat.
-Example fan_of_four : one_of (fun i => met PERTURBATION ZERO (I3 0 0 1) (I3 0 0 5) (rim i) (rim (S i)) = true) 4.
+Example fan_of_four : one_of (fun i => crossed PERTURBATION ZERO (I3 0 0 1) (I3 0 0 5) (rim i) (rim (S i)) = true) 4.
 Proof.
   apply fan_rule with (k := 1); try reflexivity; [now left | lia | |].
   - intros i I. do 4 (destruct i as [|i]; [unfold denominator, normal, dot, cross, vsub; simpl; lra|]). lia.

@@ -1,4 +1,4 @@
-(** What the rule says of hits: [is_hit] and [sign_of_difference] are those of the moved ray. *)
+(** What the rule says of hits: [is_crossed] and [sign_of_difference] are those of the moved ray. *)
 Require Import ZArith Reals Psatz List Bool.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Small Integers Ties.
@@ -7,7 +7,7 @@ Open Scope R_scope.
 
 (** * One edge *)
 
-(** What [is_hit] asks of the edge from a to b, for an integer ray: [_sign] of the [Hit]'s entries. *)
+(** What [is_crossed] asks of the edge from a to b, for an integer ray: [_sign] of the [Hit]'s entries. *)
 Definition edge_sign (moves : list Integers) (o d a b : Integers) : Z :=
   let a := _sub a o in let b := _sub b o in
   _sign (_dot d (_cross a b)) (_cross a b) (_sub a b) d moves.
@@ -82,20 +82,20 @@ Qed.
 (** * A triangle *)
 
 Definition on_edge (h : Hit) : bool := existsb (Z.eqb 0) (edges h).
-Definition is_hit (moves : list Integers) (h : Hit) : bool :=
+Definition is_crossed (moves : list Integers) (h : Hit) : bool :=
   if negb (on_edge h) then true else
   let signs := map (fun '(e, m, span) => _sign e m span (direction_ h) moves)
                    (combine (combine (edges h) (sides h)) (spans h)) in
   (forallb (Z.eqb 1) signs || forallb (Z.eqb (-1)) signs)%bool.
 (** Whether a ray hits a triangle, without its clip range. *)
-Definition met (moves : list Integers) (o d a b c : Integers) : bool :=
-  match hit d o a b c with None => false | Some h => is_hit moves h end.
+Definition crossed (moves : list Integers) (o d a b c : Integers) : bool :=
+  match hit d o a b c with None => false | Some h => is_crossed moves h end.
 
-Lemma met_signs moves o d a b c : met moves o d a b c = true <->
+Lemma crossed_signs moves o d a b c : crossed moves o d a b c = true <->
   let s := edge_sign moves o d in
   (s a b = 1 /\ s b c = 1 /\ s c a = 1)%Z \/ (s a b = -1 /\ s b c = -1 /\ s c a = -1)%Z.
 Proof.
-  unfold met, hit, _triangle, edge_sign. cbv zeta.
+  unfold crossed, hit, _triangle, edge_sign. cbv zeta.
   set (a' := _sub a o). set (b' := _sub b o). set (c' := _sub c o).
   cbn [map]. generalize (sign_value (_dot d (_cross a' b')) (_cross a' b') (_sub a' b') d moves)
     (sign_value (_dot d (_cross b' c')) (_cross b' c') (_sub b' c') d moves)
@@ -122,49 +122,49 @@ Proof.
       try (rewrite H3 by discriminate); clear; simpl; intuition congruence. }
   specialize (G _ _ _ H1 H2 H3). rewrite <- G. clear G.
   match goal with |- context [if ?t then None else _] => destruct t end; [reflexivity|].
-  unfold is_hit, on_edge. cbn [edges sides spans direction_ combine map]. reflexivity.
+  unfold is_crossed, on_edge. cbn [edges sides spans direction_ combine map]. reflexivity.
 Qed.
 (** The rule's answer is the moved ray's: it passes inside the triangle. *)
-Theorem met_rule_stored L M moves o d a b c : 0 < L -> 0 < M -> small2 (fun x y =>
+Theorem crossed_rule_stored L M moves o d a b c : 0 < L -> 0 < M -> small2 (fun x y =>
   meets_inside (moved (map real moves) (stored_ray L M o d) x y)
     (Triangle (vscale L (real a)) (vscale L (real b)) (vscale L (real c))) <->
-  met moves o d a b c = true).
+  crossed moves o d a b c = true).
 Proof.
   intros HL HM. eapply small2_mono; [| exact (small2_and _ _ (edge_rule_stored L M HL HM moves o d a b)
     (small2_and _ _ (edge_rule_stored L M HL HM moves o d b c) (edge_rule_stored L M HL HM moves o d c a)))].
-  intros x y _ _ (A & B & C). rewrite met_signs. cbv zeta. rewrite <- A, <- B, <- C.
+  intros x y _ _ (A & B & C). rewrite crossed_signs. cbv zeta. rewrite <- A, <- B, <- C.
   unfold meets_inside. cbn [ca cb cc]. now rewrite !sgn_pos, !sgn_neg.
 Qed.
-Theorem met_rule moves o d a b c : small2 (fun x y =>
-  meets_inside (moved_ray moves o d x y) (real_triangle a b c) <-> met moves o d a b c = true).
+Theorem crossed_rule moves o d a b c : small2 (fun x y =>
+  meets_inside (moved_ray moves o d x y) (real_triangle a b c) <-> crossed moves o d a b c = true).
 Proof.
-  assert (H := met_rule_stored 1 1 moves o d a b c Rlt_0_1 Rlt_0_1). unfold stored_ray in H.
+  assert (H := crossed_rule_stored 1 1 moves o d a b c Rlt_0_1 Rlt_0_1). unfold stored_ray in H.
   now rewrite !vscale_1 in H.
 Qed.
 (** One moved ray for all: whatever is proven of one real ray in general position holds of the rule. *)
 Definition rule_is moves o d (s : Integers * Integers * Integers) (x y : R) : Prop :=
   let '(a, b, c) := s in let r := moved_ray moves o d x y in
-  (meets_inside r (real_triangle a b c) <-> met moves o d a b c = true) /\
+  (meets_inside r (real_triangle a b c) <-> crossed moves o d a b c = true) /\
   sgn (edge r (real a) (real b)) = edge_sign moves o d a b /\
   sgn (edge r (real b) (real c)) = edge_sign moves o d b c /\
   sgn (edge r (real c) (real a)) = edge_sign moves o d c a.
-Theorem met_rule_all moves o d l :
+Theorem crossed_rule_all moves o d l :
   small2 (fun x y => forall s, In s l -> rule_is moves o d s x y).
 Proof.
-  apply small2_family. intros [[a b] c] _. apply small2_and; [apply met_rule|].
+  apply small2_family. intros [[a b] c] _. apply small2_and; [apply crossed_rule|].
   apply small2_and; [apply edge_rule|]. apply small2_and; apply edge_rule.
 Qed.
 
 (** * The order of two hits *)
 
-Definition crossing (h1 h2 : Hit) : Integers * Integers :=
+Definition intersection (h1 h2 : Hit) : Integers * Integers :=
   let w n1 n2 := (numerator_ h1 * n2 - numerator_ h2 * n1)%Z in
   let n1 := normal_ h1 in let n2 := normal_ h2 in
   (I3 (w (ix n1) (ix n2)) (w (iy n1) (iy n2)) (w (iz n1) (iz n2)),
    if (numerator_ h1 =? 0)%Z then _cross n1 n2 else ZERO).
 Definition sign_of_difference (moves : list Integers) (h1 h2 : Hit) : Z :=
   let apart := (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z in
-  let sign := _sign apart (fst (crossing h1 h2)) (snd (crossing h1 h2)) (direction_ h1) moves in
+  let sign := _sign apart (fst (intersection h1 h2)) (snd (intersection h1 h2)) (direction_ h1) moves in
   if Bool.eqb (0 <? denominator_ h1)%Z (0 <? denominator_ h2)%Z then sign else (- sign)%Z.
 
 (** A hit of a ray on the plane through p; a triangle's is on the plane through its first corner. *)
@@ -198,11 +198,11 @@ Proof.
   apply Rmult_integral_contrapositive_currified; nra.
 Qed.
 (** Where T1 is not 0, the code leaves out the span; then it has no say. *)
-Lemma crossing_span moves value h1 h2 d :
-  _sign value (fst (crossing h1 h2)) (snd (crossing h1 h2)) d moves =
-  _sign value (fst (crossing h1 h2)) (_cross (normal_ h1) (normal_ h2)) d moves.
+Lemma intersection_span moves value h1 h2 d :
+  _sign value (fst (intersection h1 h2)) (snd (intersection h1 h2)) d moves =
+  _sign value (fst (intersection h1 h2)) (_cross (normal_ h1) (normal_ h2)) d moves.
 Proof.
-  unfold crossing. destruct (Z.eqb_spec (numerator_ h1) 0) as [E|N]; [reflexivity|]. cbn [fst snd].
+  unfold intersection. destruct (Z.eqb_spec (numerator_ h1) 0) as [E|N]; [reflexivity|]. cbn [fst snd].
   rewrite !sign_is_first. set (w := I3 _ _ _). destruct (is_zero w) eqn:Ew; [|reflexivity].
   apply is_zero_spec in Ew. unfold w, ZERO in Ew. injection Ew as Wx Wy Wz.
   replace (_cross (normal_ h1) (normal_ h2)) with ZERO; [reflexivity|].
@@ -224,11 +224,11 @@ Theorem order_rule L M k1 k2 moves o d p1 h1 p2 h2 : 0 < L -> 0 < M -> 0 < k1 ->
 Proof.
   intros HL HM K1 K2 (T1 & D1 & d1 & N1) (T2 & D2 & _ & N2).
   assert (M1 := N1). assert (M2 := N2). rewrite D1 in M1. rewrite D2 in M2.
-  set (m1 := normal_ h1) in *. set (m2 := normal_ h2) in *. set (w := fst (crossing h1 h2)).
+  set (m1 := normal_ h1) in *. set (m2 := normal_ h2) in *. set (w := fst (intersection h1 h2)).
   assert (E : (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z = _dot d w).
-  { rewrite D1, D2. unfold w, crossing, _dot. cbn [fst ix iy iz]. fold m1 m2. ring. }
+  { rewrite D1, D2. unfold w, intersection, _dot. cbn [fst ix iy iz]. fold m1 m2. ring. }
   assert (P : _dot w (_cross m1 m2) = 0%Z).
-  { unfold w, crossing, _dot, _cross. cbn [fst ix iy iz]. fold m1 m2. ring. }
+  { unfold w, intersection, _dot, _cross. cbn [fst ix iy iz]. fold m1 m2. ring. }
   assert (K : 0 < k1 * k2) by nra. assert (LK : 0 < L * (k1 * k2)) by nra.
   eapply small2_mono; [| exact (small2_and _ _ (sign_is_of_moved_ray w (_cross m1 m2) d moves _ _ _ P HM LK K)
     (small2_and _ _ (moved_denominator L M k1 moves o d m1 HM K1 M1) (moved_denominator L M k2 moves o d m2 HM K2 M2)))].
@@ -240,7 +240,7 @@ Proof.
   split; [exact A1|]. split; [exact A2|].
   assert (W : vscale (L * (k1 * k2)) (real w) =
     w_of (T_of (stored_ray L M o d) (vscale L (real p1)) n1) n1 (T_of (stored_ray L M o d) (vscale L (real p2)) n2) n2).
-  { unfold w, crossing. cbn [fst]. fold m1 m2. rewrite T1, T2.
+  { unfold w, intersection. cbn [fst]. fold m1 m2. rewrite T1, T2.
     unfold w_of, T_of, n1, n2, stored_ray, real, vsub, vscale, dot, _dot, _sub. cbn [origin vx vy vz ix iy iz].
     rewrite !minus_IZR, !mult_IZR, !plus_IZR, !mult_IZR, !minus_IZR. apply V_eq; ring. }
   assert (X : vscale (k1 * k2) (real (_cross m1 m2)) = cross n1 n2).
@@ -248,7 +248,7 @@ Proof.
   rewrite W, X in S.
   change (vscale M (real d)) with (direction (stored_ray L M o d)) in S. rewrite <- difference_moved in S. fold r in S.
   clear W X. set (q1 := vscale L (real p1)) in *. set (q2 := vscale L (real p2)) in *.
-  unfold sign_of_difference. rewrite crossing_span, d1, E. fold w m1 m2. rewrite <- S.
+  unfold sign_of_difference. rewrite intersection_span, d1, E. fold w m1 m2. rewrite <- S.
   rewrite <- D1 in S1. rewrite <- D2 in S2. clear S.
   assert (Q : 0 < (D_of r n1 * D_of r n2) * (D_of r n1 * D_of r n2)).
   { assert (D_of r n1 * D_of r n2 <> 0) by now apply Rmult_integral_contrapositive_currified.
@@ -325,16 +325,16 @@ Proof.
   assert (M1 := N1). assert (M2 := N2). rewrite D1 in M1. rewrite D2 in M2.
   apply not_0_IZR in M1, M2. rewrite real_dot in M1, M2. apply (f_equal IZR) in T1, T2.
   rewrite real_dot, real_sub in T1, T2.
-  assert (E : (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z = _dot d (fst (crossing h1 h2))).
-  { rewrite D1, D2. unfold crossing, _dot. cbn [fst ix iy iz]. ring. }
+  assert (E : (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z = _dot d (fst (intersection h1 h2))).
+  { rewrite D1, D2. unfold intersection, _dot. cbn [fst ix iy iz]. ring. }
   assert (S : sign_of_difference PERTURBATION h1 h2 = 0%Z <->
-    fst (crossing h1 h2) = ZERO /\ _cross (normal_ h1) (normal_ h2) = ZERO).
-  { unfold sign_of_difference. rewrite crossing_span, E, d1, <- (sign_0 _ _ d).
+    fst (intersection h1 h2) = ZERO /\ _cross (normal_ h1) (normal_ h2) = ZERO).
+  { unfold sign_of_difference. rewrite intersection_span, E, d1, <- (sign_0 _ _ d).
     match goal with |- context [if ?t then _ else _] => destruct t end; lia. }
   rewrite S, !real_0, real_cross. clear S E.
-  assert (W : real (fst (crossing h1 h2)) =
+  assert (W : real (fst (intersection h1 h2)) =
     w_of (IZR (numerator_ h1)) (real (normal_ h1)) (IZR (numerator_ h2)) (real (normal_ h2))).
-  { unfold crossing, real, w_of, vsub, vscale. cbn [fst ix iy iz vx vy vz].
+  { unfold intersection, real, w_of, vsub, vscale. cbn [fst ix iy iz vx vy vz].
     now rewrite !minus_IZR, !mult_IZR. }
   rewrite W, (one_plane_iff (real d) _ _ _ _ M1 M2), T1, T2.
   set (n1 := real (normal_ h1)) in *. set (n2 := real (normal_ h2)) in *.

@@ -124,7 +124,7 @@ Theorem code_rule_facts :
 Proof.
   assert (St := scene_stored _ _ _ G). constructor.
   - intros s M. simpl. unfold asked. destruct (met_hit s M) as [h H]. rewrite H. assert (I := proj1 M).
-    apply (code_is_hit_right i _ (settled_directions _ _ _ G s s I I) end_known s h
+    apply (code_is_crossed_right i _ (settled_directions _ _ _ G s s I I) end_known s h
       (proj1 (settled_lengths _ _ _ G s s I I))); auto.
   - intros s s' M M'. simpl. unfold compared. assert (I := proj1 M). assert (I' := proj1 M').
     destruct (both_hit s s' M M') as [[h H] [h' H']]. rewrite H, H'.

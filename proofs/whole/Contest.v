@@ -67,7 +67,7 @@ Record answers := Answers {
   two_by_two : bool; (* whether candidates are compared in rounds, as the sweep does: tournament.py *)
   hit : surface -> bool; (* exact.py: whether [IntegerBatch.hit] is not None *)
   on_edge : surface -> bool;
-  is_hit : surface -> bool; (* by the moved ray *)
+  is_crossed : surface -> bool; (* by the moved ray *)
   gap : surface -> surface -> comparison; (* Lt: the first is nearer *)
   sign_of_difference : surface -> surface -> comparison; (* for the moved ray *)
   computed_t : surface -> number (* quotient.py, or [IntegerBatch.t] *)
@@ -112,7 +112,7 @@ Definition enter (c : contest) (batch : list surface) : contest :=
 
 (** [_first]: the nearest hit of the moved ray. *)
 Definition nearer_of (best : option surface) (s : surface) : option surface :=
-  if is_hit a s then
+  if is_crossed a s then
     match best with
     | None => Some s
     | Some b =>

@@ -105,7 +105,7 @@ Record ray_facts : Prop := {
 
 (** *** Ties.v: the signs of the rule are the moved ray's *)
 Record rule_facts : Prop := {
-  is_hit_right : forall s, met s -> (is_hit a s = true <-> meets_within moved s);
+  is_crossed_right : forall s, met s -> (is_crossed a s = true <-> meets_within moved s);
   sign_right : forall s s', met s -> met s' -> meets_within moved s -> meets_within moved s' ->
     match sign_of_difference a s s' with
     | Lt => t moved s < t moved s'

@@ -285,8 +285,8 @@ Variable a : answers.
 
 (** Of one surface and of two: the rule's signs are those of the moved ray. Ties.v *)
 Record rule_facts_nearby : Prop := {
-  is_hit_nearby : forall s, met s ->
-    eventually (fun x => is_hit a s = true <-> meets_within (path x) s);
+  is_crossed_nearby : forall s, met s ->
+    eventually (fun x => is_crossed a s = true <-> meets_within (path x) s);
   sign_nearby : forall s s', met s -> met s' ->
     eventually (fun x => meets_within (path x) s -> meets_within (path x) s' ->
       match sign_of_difference a s s' with

@@ -53,9 +53,9 @@ Qed.
 
 Definition first_of (l : list surface) (o : option surface) : Prop :=
   match o with
-  | None => forall s, In s l -> is_hit a s = false
-  | Some s => In s l /\ is_hit a s = true /\
-      forall s', In s' l -> is_hit a s' = true -> s' <> s -> beats s s'
+  | None => forall s, In s l -> is_crossed a s = false
+  | Some s => In s l /\ is_crossed a s = true /\
+      forall s', In s' l -> is_crossed a s' = true -> s' <> s -> beats s s'
   end.
 Lemma first_right l : (forall s, In s l -> met s) -> first_of l (first a l).
 Proof.
@@ -68,11 +68,11 @@ Proof.
     apply IH; auto. assert (Ms : met s) by (apply M, in_or_app; left; apply in_or_app; simpl; auto).
     assert (Md : forall x, In x done -> met x)
       by (intros; apply M, in_or_app; left; apply in_or_app; auto).
-    unfold nearer_of. destruct (is_hit a s) eqn:Hs.
+    unfold nearer_of. destruct (is_crossed a s) eqn:Hs.
     - destruct best as [b|]; simpl in B.
       + destruct B as [Ib [Hb B]]. assert (Mb := Md _ Ib).
-        assert (Vs := proj1 (is_hit_right F _ Ms) Hs).
-        assert (Vb := proj1 (is_hit_right F _ Mb) Hb).
+        assert (Vs := proj1 (is_crossed_right F _ Ms) Hs).
+        assert (Vb := proj1 (is_crossed_right F _ Mb) Hb).
         assert (S := sign_right F s b Ms Mb Vs Vb).
         assert (Stay : beats b s -> first_of (done ++ [s]) (Some b)).
         { intros Q. split; [apply in_or_app; auto|]. split; auto.
@@ -86,7 +86,7 @@ Proof.
           intros s' I H N. apply in_app_or in I. destruct I as [I|[I|[]]]; [|now destruct N].
           destruct (same_or_not F s' b) as [E|E];
             [apply met_in; auto | apply met_in; auto | now subst |].
-          assert (V' := proj1 (is_hit_right F _ (Md _ I)) H).
+          assert (V' := proj1 (is_crossed_right F _ (Md _ I)) H).
           apply (beats_trans s b s'); auto using within_D. }
         destruct (sign_of_difference a s b).
         * destruct (before s b) eqn:N; [apply Change; right; auto|].
@@ -109,21 +109,21 @@ Lemma first_moved : moved_sees (first a hits).
 Proof.
   assert (M : forall s, In s hits -> met s) by (intros s H; now apply hits_are).
   generalize (first_right hits M). destruct (first a hits) as [s|]; simpl.
-  - intros [I [H B]]. assert (Ms := M _ I). assert (V := proj1 (is_hit_right F _ Ms) H). split.
+  - intros [I [H B]]. assert (Ms := M _ I). assert (V := proj1 (is_crossed_right F _ Ms) H). split.
     + destruct Ms as [J [C R]]. repeat split; auto; try apply R. now apply closed_D.
     + intros s' M' N. assert (E := moved_meets_met F _ M'). destruct M' as [J [V' _]].
       destruct (hit_or_behind s' E) as [I'|[w [I' [W L]]]].
-      * apply B; auto. now apply (is_hit_right F).
+      * apply B; auto. now apply (is_crossed_right F).
       * assert (Mw := M _ I'). assert (Vw := moved_stays_inside F _ Mw W).
         assert (L' := moved_keeps_order F _ _ Mw E Vw V' L). left.
         destruct (same_or_not F w s) as [Q|Q]; auto using met_in; [now subst|].
-        destruct (B w I' (proj2 (is_hit_right F _ Mw) Vw) Q) as [K|[K _]]; [lra|].
+        destruct (B w I' (proj2 (is_crossed_right F _ Mw) Vw) Q) as [K|[K _]]; [lra|].
         rewrite (same_plane_t moved _ _ K (within_D _ _ Vw)). auto.
   - intros B s M'. assert (E := moved_meets_met F _ M'). destruct M' as [J [V' _]].
     destruct (hit_or_behind s E) as [I'|[w [I' [W L]]]].
-    + specialize (B _ I'). rewrite (proj2 (is_hit_right F _ E) V') in B. discriminate.
+    + specialize (B _ I'). rewrite (proj2 (is_crossed_right F _ E) V') in B. discriminate.
     + assert (Mw := M _ I'). specialize (B _ I').
-      rewrite (proj2 (is_hit_right F _ Mw) (moved_stays_inside F _ Mw W)) in B. discriminate.
+      rewrite (proj2 (is_crossed_right F _ Mw) (moved_stays_inside F _ Mw W)) in B. discriminate.
 Qed.
 
 (** No ties: a clear answer; ties: none. *)

@@ -13,7 +13,7 @@ from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.diagnosis.faults.fault import Numbers, Option
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import camera_rays
 
@@ -122,26 +122,26 @@ def test_without_a_finding_there_is_no_button(seen):
 
 
 @pytest.mark.parametrize(
-    ("name", "values"),
+    ("name", "guess"),
     [
-        ("pixel_offset", (0.5, -0.25)),
-        ("focal_length", (-30.0,)),
-        ("roll", (40.0,)),
-        ("mirrored_x", (1.0,)),
-        ("sensor_fit", (0.0,)),
-        ("clip_end", (9.0,)),
-        ("forward", (0.0,)),
-        ("matrix_inverted", (0.0,)),
+        ("pixel_offset", Numbers((0.5, -0.25))),
+        ("focal_length", Numbers((-30.0,))),
+        ("roll", Numbers((40.0,))),
+        ("mirrored_x", Option(1)),
+        ("sensor_fit", Option(0)),
+        ("clip_end", Numbers((9.0,))),
+        ("forward", Option(0)),
+        ("matrix_inverted", Option(0)),
     ],
 )
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
-def test_a_copy_sees_as_the_camera_of_a_fault(seen, compare, name, values, kind):
+def test_a_copy_sees_as_the_camera_of_a_fault(seen, compare, name, guess, kind):
     """Exported again, its rays pass where the fault's do, but for the rounding to float32."""
     scene, camera = seen
     camera.data.type = kind
     camera.data.shift_x = 0.05
     case = compare().case
-    made = BY_NAME[name].make(case, None, Guess(values))
+    made = BY_NAME[name].assume(case, guess)
     if made is None:  # such as a focal length of parallel rays
         pytest.fail(f"{name} makes nothing")
     wanted = made.scene.camera

@@ -107,7 +107,7 @@ def test_the_price_grows_with_the_surfaces(make, monkeypatch):
         monkeypatch.setattr(module, name, call)
 
     counting(order, "order_of")
-    for name in ("gap", "crossing", "sign_of_difference"):
+    for name in ("gap", "intersection", "sign_of_difference"):
         counting(ties, name)
     prices = []
     for surfaces in (20, 80):

@@ -84,7 +84,7 @@ def test_a_hit_is_the_closed_triangle_and_its_hit_the_moved_rays(rng, scale):
         if m:
             assert m.on_edge == (0 in e)
             moved, _, _ = functions(o[:, k], rational(d[:, k]) + BY, c[:, :, k])
-            assert m.is_hit() == bool((moved > 0).all() or (moved < 0).all())
+            assert m.is_crossed() == bool((moved > 0).all() or (moved < 0).all())
             on_edge += m.on_edge
     assert on_edge > 60
 
@@ -96,7 +96,7 @@ def test_compare_is_the_order_of_the_moved_rays_t(rng):
         depths = {}
         for name, m in found:
             t = moved_t(o, d, c, solids, name)
-            assert (t is not None) == m.is_hit()
+            assert (t is not None) == m.is_crossed()
             if t is not None:
                 depths[name] = t
         hits = [(name, m) for name, m in found if name in depths]

@@ -210,10 +210,10 @@ def test_decide(rng, family, shared):
         found = decide(Rays(o, d), c, start, end)
         truth = intersect_pairs(np.broadcast_to(o, d.shape), d, c)
         within = truth.within(start, end)
-        assert np.array_equal(found.hit, truth.hit & within)
+        assert np.array_equal(found.crossed, truth.hit & within)
         assert np.array_equal(found.edge, (truth.side == EDGE) & within)
         assert not (found.edge & ~found.exact).any()
-        counts += [found.hit.sum(), found.edge.sum(), found.exact.sum()]
+        counts += [found.crossed.sum(), found.edge.sum(), found.exact.sum()]
     assert counts[0] > 1 and (counts.min() > 5 or family is not whole)
 
 
@@ -248,4 +248,4 @@ def test_no_triangles_and_no_rays():
     some = Rays(np.zeros((3, 1)), np.ones((3, 4)))
     hits = nearest_hits(some, np.zeros((3, 3, 0)))
     assert np.isinf(hits.t).all() and (hits.certainty == Certainty.BOUND).all()
-    assert len(decide(Rays(np.zeros((3, 1)), np.ones((3, 0))), np.zeros((3, 3, 0))).hit) == 0
+    assert len(decide(Rays(np.zeros((3, 1)), np.ones((3, 0))), np.zeros((3, 3, 0))).crossed) == 0

@@ -31,7 +31,10 @@ def diagnosis_of(scene, color, **known):
 def pictured(scene, name, guess):
     """Return the picture that a fault makes of a scene."""
     frame = render(scene)
-    wrong = BY_NAME[name].make(case_of(scene, frame.color), frame, guess)
+    fault = BY_NAME[name]
+    of_picture = (example.make for example in fault.examples if example.make)
+    make = next(of_picture, fault.assume)
+    wrong = make(case_of(scene, frame.color), guess)
     if wrong.scene is scene:
         return wrong.picture.color
     return render(wrong.scene).color
@@ -56,12 +59,10 @@ def fitted(scene, color, name):
     """Return the numbers of a fault that fit a picture, with what encloses them."""
     found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
     evidence = Evidence(found.case, found.frame, found.causes)
-    if evidence.open.sum() < 25:
+    if evidence.unexplained.sum() < 25:
         return None
     fault = BY_NAME[name]
     guesses = [g for g in result_of(fault.find(evidence)) if g.low]
-    gains = [
-        result_of(evidence.score(fault.tried(found.case, found.frame, g))).gain for g in guesses
-    ]
+    gains = [result_of(evidence.score(fault.assume(found.case, g))).gain for g in guesses]
     best = guesses[int(np.argmax(gains))]
     return result_of(fault.refine(replace(evidence, size=ALL_EDGES), best))

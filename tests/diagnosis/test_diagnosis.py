@@ -11,7 +11,9 @@ import trimesh
 from reference_tracer.causes.case import WHOLE, Variant
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option, Pair
+from reference_tracer.diagnosis.faults.picture import Rolled
+from reference_tracer.diagnosis.faults.triangles import Triangles
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
@@ -23,38 +25,38 @@ SEED = 27
 
 
 MADE = [
-    ("pixel_offset", Guess((0.5, 0.5))),
-    ("pixel_offset", Guess((-3.25, 7.5))),
-    ("focal_length", Guess((2.0,))),
-    ("focal_length", Guess((-30.0,))),
-    ("roll", Guess((1.5,))),
-    ("mirrored_x", Guess((1.0,))),
-    ("mirrored_y", Guess((0.0,))),
-    ("sensor_fit", Guess((0.0,))),
-    ("matrix_transposed", Guess((0.0,))),
-    ("matrix_inverted", Guess((0.0,))),
-    ("y_up", Guess((0.0,))),
-    ("forward", Guess((0.0,))),
-    ("shift_left_out", Guess((0.0,))),
-    ("shift_sign", Guess((1.0,))),
-    ("shift_unit", Guess((0.0,))),
-    ("resolution_percentage", Guess((2.0,))),
-    ("clip_end", Guess((8.0,))),
-    ("clip_start", Guess((7.5,))),
+    ("pixel_offset", Numbers((0.5, 0.5))),
+    ("pixel_offset", Numbers((-3.25, 7.5))),
+    ("focal_length", Numbers((2.0,))),
+    ("focal_length", Numbers((-30.0,))),
+    ("roll", Numbers((1.5,))),
+    ("mirrored_x", Option(1)),
+    ("mirrored_y", Option(0)),
+    ("sensor_fit", Option(0)),
+    ("matrix_transposed", Option(0)),
+    ("matrix_inverted", Option(0)),
+    ("y_up", Option(0)),
+    ("forward", Option(0)),
+    ("shift_left_out", Option(0)),
+    ("shift_sign", Option(1)),
+    ("shift_unit", Option(0)),
+    ("resolution_percentage", Option(2)),
+    ("clip_end", Numbers((8.0,))),
+    ("clip_start", Numbers((7.5,))),
     ("object_missing", Guess(object="Ball")),
     ("rotation_left_out", Guess(object="Box")),
     ("place_left_out", Guess(object="Ring")),
-    ("object_scaled", Guess((1.15,), object="Ball")),
-    ("object_scaled", Guess((0.1,), object="Drum")),
-    ("scene_scaled", Guess((0.1,))),
-    ("object_moved", Guess((0.2, -0.1, 0.15), object="Box")),
-    ("object_twice", Guess((0.9, 0.3, 0.8), object="Ball")),
-    ("smooth_displaced", Guess((0.05,), object="Ring")),
-    ("recolored", Guess((0.1, 0.8, 0.9), object="Drum")),
-    ("swapped_colors", Guess((2.0, 3.0))),
+    ("object_scaled", Numbers((1.15,), object="Ball")),
+    ("object_scaled", Numbers((0.1,), object="Drum")),
+    ("scene_scaled", Numbers((0.1,))),
+    ("object_moved", Numbers((0.2, -0.1, 0.15), object="Box")),
+    ("object_twice", Numbers((0.9, 0.3, 0.8), object="Ball")),
+    ("smooth_displaced", Numbers((0.05,), object="Ring")),
+    ("recolored", Numbers((0.1, 0.8, 0.9), object="Drum")),
+    ("swapped_colors", Pair("Ball", "Ring")),
     ("rows", Guess()),
-    ("row_off", Guess((0.0, 1.0))),
-    ("row_off", Guess((-1.0, 0.0))),
+    ("row_off", Rolled(0, 1)),
+    ("row_off", Rolled(-1, 0)),
 ]
 
 
@@ -65,8 +67,8 @@ FIRST = [next(g for n, g in MADE if n == name) for name in QUICK]  # the others 
 
 
 SOME = [
-    pytest.param(n, g, id=f"{n}{g.values}", marks=() if g in FIRST else pytest.mark.torture)
-    for n, g in MADE
+    pytest.param(n, g, id=f"{n}{number}", marks=() if g in FIRST else pytest.mark.torture)
+    for number, (n, g) in enumerate(MADE)
 ]
 
 
@@ -93,8 +95,8 @@ def test_a_fault_gets_its_name_and_its_numbers(solids, name, guess):
 @pytest.mark.torture
 def test_two_faults_are_found_one_after_the_other(solids):
     frame = render(solids)
-    wrong = BY_NAME["sensor_fit"].make(case_of(solids, frame.color), frame, Guess((0.0,)))
-    both = BY_NAME["pixel_offset"].make(wrong, frame, Guess((0.5, 0.5)))
+    wrong = BY_NAME["sensor_fit"].assume(case_of(solids, frame.color), Option(0))
+    both = BY_NAME["pixel_offset"].assume(wrong, Numbers((0.5, 0.5)))
     found = diagnosis_of(solids, render(both.scene).color)
     assert names(found) == ["sensor_fit", "pixel_offset"]
     assert found.diagnosis.left == 0 and found.verdict == "differences"
@@ -103,9 +105,9 @@ def test_two_faults_are_found_one_after_the_other(solids):
 @pytest.mark.torture
 def test_two_objects_are_found_one_after_the_other(solids):
     frame = render(solids)
-    wrong = BY_NAME["object_missing"].make(case_of(solids, frame.color), frame, Guess(object="Box"))
+    wrong = BY_NAME["object_missing"].assume(case_of(solids, frame.color), Guess(object="Box"))
     color = (0.1, 0.9, 0.9)
-    both = BY_NAME["recolored"].make(wrong, frame, Guess(color, object="Ring"))
+    both = BY_NAME["recolored"].assume(wrong, Numbers(color, object="Ring"))
     found = diagnosis_of(solids, render(both.scene).color)
     assert sorted(names(found)) == ["object_missing", "recolored"]
     assert found.diagnosis.left == 0
@@ -187,11 +189,11 @@ def test_an_object_that_is_turned_is_not_said_to_be_moved(solids):
 
 
 ALIKE = [
-    ("pixel_offset", Guess((0.3, 0.0)), {"focal_length", "roll", "object_moved"}),
-    ("focal_length", Guess((0.5,)), {"pixel_offset", "roll"}),
+    ("pixel_offset", Numbers((0.3, 0.0)), {"focal_length", "roll", "object_moved"}),
+    ("focal_length", Numbers((0.5,)), {"pixel_offset", "roll"}),
     ("object_missing", Guess(object="Ball"), {"recolored", "overlay", "object_moved"}),
-    ("recolored", Guess((0.3, 0.9, 0.1), object="Box"), {"object_missing", "overlay"}),
-    ("object_moved", Guess((0.3, 0.0, 0.0), object="Ball"), {"object_scaled", "object_twice"}),
+    ("recolored", Numbers((0.3, 0.9, 0.1), object="Box"), {"object_missing", "overlay"}),
+    ("object_moved", Numbers((0.3, 0.0, 0.0), object="Ball"), {"object_scaled", "object_twice"}),
     ("rows", Guess(), {"mirrored_x"}),
 ]
 
@@ -226,12 +228,12 @@ def test_a_variant_is_told_by_its_fault_and_words(solids):
 def test_a_variant_may_number_its_instances_otherwise(solids):
     """Triangles of an instance are missing, and another fault is looked for beside."""
     name = solids.objects[solids.instances[-1].object]
-    dropped = Guess((1.0, 0.0, 0.0), object=name)
+    dropped = Triangles(0, [0], object=name)
     fewer = replace(solids, instances=solids.instances[-1:])
     [fault] = [f for f in FAULTS if f.name == "triangles_missing"]
     for scene in (solids, fewer):
         frame = render(scene)
-        case = fault.make(case_of(scene, Picture(frame.color)), frame, dropped)
+        case = fault.assume(case_of(scene, Picture(frame.color)), dropped)
         meshes = [case.scene.meshes[i.mesh] for i in case.scene.instances]
         before = [scene.meshes[i.mesh] for i in scene.instances]
         assert [
@@ -240,6 +242,22 @@ def test_a_variant_may_number_its_instances_otherwise(solids):
             *([0] * (len(meshes) - 1)),
             1,
         ]
+
+
+@pytest.mark.parametrize("name", ["swapped_colors", "swapped_transforms"])
+def test_a_variant_may_list_its_objects_otherwise(solids, name):
+    """Two that are exchanged are held by their names: their numbers are others there."""
+    last, *rest = range(len(solids.objects))[::-1]
+    number = {last: 0} | {n: n + 1 for n in rest}
+    listed = tuple(replace(i, object=number[i.object]) for i in solids.instances[::-1])
+    names = (solids.objects[last], *solids.objects[:last])
+    other = replace(solids, instances=listed, objects=names)
+    color = render(solids).color
+    first, second = (
+        render(BY_NAME[name].assume(case_of(scene, color), Pair("Ball", "Ring")).scene).color
+        for scene in (solids, other)
+    )
+    assert np.array_equal(first, second) and not np.array_equal(first, color)
 
 
 def test_colours_put_right_are_those_of_the_picture(solids):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.diagnosis.faults.fault import Numbers
 
 from .diagnosing import fitted, pictured
 
@@ -28,7 +28,7 @@ def enclosed(few, seed, size):
     name = list(KINDS)[seed % len(KINDS)]
     scene = few(*size, parallel=rng.random() < 0.25, seed=seed)
     values = tuple(float(v) for v in KINDS[name](rng))
-    guess = Guess(values, object=str(rng.choice(OBJECTS)) if "object" in name else "")
+    guess = Numbers(values, object=str(rng.choice(OBJECTS)) if "object" in name else "")
     found = fitted(scene, pictured(scene, name, guess), name)
     if found is None:
         return None
@@ -56,7 +56,7 @@ def test_the_right_numbers_are_enclosed_nearly_always(few, part):
 def test_an_object_that_sinks_is_told_as_it_is(few):
     """Its distance is hardly seen: of all moves that fit, that with zeros is the right one."""
     scene = few(96, 54)
-    color = pictured(scene, "object_moved", Guess((0, 0, -0.06), object="Box"))
+    color = pictured(scene, "object_moved", Numbers((0, 0, -0.06), object="Box"))
     found = fitted(scene, color, "object_moved")
     assert found.values[:2] == (0, 0) and found.values[2] == pytest.approx(-0.06, abs=0.01)
 
@@ -66,7 +66,7 @@ def test_what_an_orthographic_camera_cannot_see_is_left_open(few):
     scene = few(parallel=True)
     move = (0.2, 0.1, 0)
     found = fitted(
-        scene, pictured(scene, "object_moved", Guess(move, object="Box")), "object_moved"
+        scene, pictured(scene, "object_moved", Numbers(move, object="Box")), "object_moved"
     )
     away = scene.camera.forward
     open_ = np.subtract(found.high, found.low)

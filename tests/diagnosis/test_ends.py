@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
-from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.diagnosis.faults.fault import Guess, Numbers
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
@@ -56,7 +56,7 @@ def _salted(scene):
 
 @pytest.mark.parametrize("steps", [1, 20, 150])
 def test_it_ends_inside_a_guess_and_says_what_was_not_looked_for(pair, steps):
-    moved = pictured(pair, "pixel_offset", Guess((0.4, 0.2)))
+    moved = pictured(pair, "pixel_offset", Numbers((0.4, 0.2)))
     before = result_of(trace_and_compare(case_of(pair, Picture(moved), curves=())))
     found = result_of(diagnosed(before, steps)).diagnosis
     assert found.steps == steps and "pixel_offset" in found.untried
@@ -84,10 +84,8 @@ def test_a_picture_without_the_scene_is_told_in_few_lines(pair):
 def test_each_fault_that_is_told_makes_more_pixels_agree(solids):
     """Two faults that only do together: of the first one, few pixels are lost."""
     frame = render(solids)
-    first = BY_NAME["object_missing"].make(
-        case_of(solids, frame.color), frame, Guess(object="Ball")
-    )
-    both = BY_NAME["pixel_offset"].make(first, frame, Guess((0.5, 0.5)))
+    first = BY_NAME["object_missing"].assume(case_of(solids, frame.color), Guess(object="Ball"))
+    both = BY_NAME["pixel_offset"].assume(first, Numbers((0.5, 0.5)))
     found = diagnosis_of(solids, render(both.scene).color).diagnosis
     assert found.told
     for told in found.told:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.diagnosis.faults.fault import Option
 from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
 
@@ -29,7 +29,7 @@ def test_a_shift_in_another_length(few, factor):
 
 
 def test_a_shift_of_another_sign_is_in_no_other_length(few):
-    color = pictured(few(), "shift_sign", Guess((0.0,)))
+    color = pictured(few(), "shift_sign", Option(0))
     assert "shift_length" not in told(few(), color, *SHIFTS)
 
 

@@ -17,9 +17,9 @@ from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.diagnosis.diagnosis import diagnose
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.colors import COLOR_FAULTS
-from reference_tracer.diagnosis.faults.fault import Guess
+from reference_tracer.diagnosis.faults.fault import Numbers
 from reference_tracer.diagnosis.faults.picture import PICTURE_FAULTS
-from reference_tracer.diagnosis.faults.sizes import LINEAR, NEAREST, resized
+from reference_tracer.diagnosis.faults.sizes import Way, resized
 from reference_tracer.images import curve, curve_undone
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture
@@ -181,7 +181,7 @@ def test_it_gets_its_name_and_no_other(quads, name, change):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("way", [NEAREST, LINEAR])
+@pytest.mark.parametrize("way", [Way.NEAREST, Way.LINEAR])
 def test_a_picture_of_half_the_size_is_resampled(quads, way):
     small = resolved(quads, 0.5)
     assert set(told(quads, resized(small, (48, 72), way))) == {"resampled"}
@@ -287,8 +287,8 @@ def test_a_transform_of_all_objects_but_one_is_no_excuse_for_that_one(quads, nam
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
 def test_a_sentence_and_its_advice_have_their_numbers(fault):
-    guess = Guess(tuple(1.5 + n for n in range(len(fault.numbers))), object="Ball", words="words")
-    for text in (fault.told(guess), fault.advised(guess)):
+    guess = Numbers(tuple(1.5 + n for n in range(len(fault.numbers))), object="Ball", words="words")
+    for text in (fault.sentence_of(guess), fault.advice_of(guess)):
         assert text and "{" not in text and "}" not in text
 
 

@@ -25,10 +25,10 @@ def test_what_is_told_lies_between_its_ends(seed):
     search = Search(right, (1.0,))
     guess = result_of(search.guess([(0.0,)]))
     assert guess.low <= guess.values <= guess.high
-    most = result_of(search.right(guess.values))
+    most = result_of(search.count(guess.values))
     assert most > 0
     ends = guess.low[0] + search.finest, guess.high[0] - search.finest
-    assert all(result_of(search.right((end,))) >= most for end in ends)
+    assert all(result_of(search.count((end,))) >= most for end in ends)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])

@@ -91,7 +91,7 @@ def test_a_mirrored_camera_cannot_be_seen_in_a_symmetric_scene(make, half, resul
 def test_a_fault_within_rounding_is_none(stripes, pixels, result):
     """Of the camera: what float32 may do itself."""
 
-    def nudge(case, frame, guess):
+    def nudge(case, guess):
         w = case.scene.camera.window
         x = pixels * (w.right - w.left) / case.scene.camera.width
         window = replace(w, left=w.left + x, right=w.right + x)

@@ -30,7 +30,7 @@ LEFT_OUT = {
     },
     "definition.py": {CALLS: "definition _surfaces"},
     "exact.py": {
-        EXACT: "Hit.on_edge Hit.weights Hit.is_hit sign_of_difference crossing gap turning "
+        EXACT: "Hit.on_edge Hit.weights Hit.is_crossed sign_of_difference intersection gap turning "
         "IntegerBatch.__init__ IntegerBatch.hit IntegerBatch.of_first_ray "
         "IntegerBatch._triangle IntegerBatch._plane IntegerBatch.t IntegerBatch._limit "
         "IntegerBatch._clipped _sign",

@@ -11,7 +11,7 @@ import pytest
 from reference_tracer.causes.cause import UNEXPLAINED
 from reference_tracer.comparison.comparing import diagnosed as find_diagnosis
 from reference_tracer.diagnosis.diagnosis import Diagnosis, Told
-from reference_tracer.diagnosis.faults.fault import Fault, Guess, of_camera
+from reference_tracer.diagnosis.faults.fault import Fault, Numbers, of_camera
 from reference_tracer.diagnosis.regions import regions
 from reference_tracer.images import to_display
 from reference_tracer.report import page
@@ -56,7 +56,7 @@ def diagnosed(comparison, told=1, side="traced", **changed):
         traced = replace(frame, color=right) if side == "traced" else frame
         shown = right if side == "blender" else picture
         fault = replace(FAULT, numbers=("dx", "dy"), sentence="<b>another</b>" if k else SENTENCE)
-        guess = Guess((0.5, 0.25), (0.498, 0.25), (0.502, 0.25))
+        guess = Numbers((0.5, 0.25), (0.498, 0.25), (0.502, 0.25))
         of = Told(fault, guess, 3307, 3300, 515093, k, traced, shown, alternative=bool(k))
         faults.append(replace(of, **changed))
     left = regions(comparison.causes.cause == UNEXPLAINED)[1:2]

@@ -92,7 +92,7 @@ def decided(rays: Rays, corners: NDArray, method: Method) -> tuple[NDArray, NDAr
     """Return which pairs meet at t > 0, and on an edge (which a plain method does not say)."""
     if not method.is_plain:
         decision = decide(rays, corners)
-        return decision.hit, decision.edge
+        return decision.crossed, decision.edge
     hit, t, _ = TESTS[method](rays, *corners)
     with np.errstate(invalid="ignore"):
         return hit & (t > 0), np.zeros(len(hit), bool)

@@ -49,7 +49,7 @@ def test_static_filters(rng, loops, kind):
     truth = result.within() & result.hit
     decisions = [decide(rays, corners[list(order)]) for order in permutations(range(3))]
     for decision in decisions:
-        assert np.array_equal(decision.hit, truth)
+        assert np.array_equal(decision.crossed, truth)
         assert np.array_equal(decision.edge, result.within() & (result.side == EDGE))
     assert 0.01 < truth.mean() < 0.9
     needed = decisions[0].exact.mean()
@@ -66,12 +66,12 @@ def test_the_plane_of_three_points_and_a_fourth(rng, kind):
     d = rng.normal(size=o.shape)
     decision = decide(Rays(o, d), np.stack(corners))
     result = intersect_pairs(o, d, np.stack(corners))
-    assert np.array_equal(decision.hit, result.within() & result.hit)
-    assert 0.3 < decision.hit.mean() < 0.6
-    away = decide(Rays(o, -d), np.stack(corners)).hit
+    assert np.array_equal(decision.crossed, result.within() & result.hit)
+    assert 0.3 < decision.crossed.mean() < 0.6
+    away = decide(Rays(o, -d), np.stack(corners)).crossed
     on = result.numerator == 0
-    assert np.array_equal(decision.hit[~on], ~away[~on])  # from beside it, one of the two ways
-    assert not (decision.hit | away)[on].any()
+    assert np.array_equal(decision.crossed[~on], ~away[~on])  # from beside it, one of the two ways
+    assert not (decision.crossed | away)[on].any()
 
 
 def test_first_hit_is_the_least_of_all():

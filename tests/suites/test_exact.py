@@ -35,11 +35,11 @@ def test_pairs_of_every_family_and_size(family, chunks):
         shape = (3, CHUNK)
         result = intersect_pairs(np.broadcast_to(o, shape), np.broadcast_to(d, shape), corners)
         met = result.within()
-        wrong = (decision.hit != (met & result.hit)) | (
+        wrong = (decision.crossed != (met & result.hit)) | (
             decision.edge != (met & (result.side == EDGE))
         )
         assert not wrong.any(), (how, number, np.flatnonzero(wrong))
-        hits += decision.hit.sum()
+        hits += decision.crossed.sum()
         edges += decision.edge.sum()
         exact += decision.exact.sum()
     pairs = chunks * CHUNK
@@ -116,9 +116,9 @@ def test_the_clip_range_is_exact_at_its_ends(rng):
             near = float(exact)
             pair = Rays(o[:, [k]], d[:, [k]]), corners[:, :, [k]]
             for limit in (np.nextafter(near, 0), near, np.nextafter(near, np.inf)):
-                assert decide(*pair, limit).hit.item() == (limit <= exact)
-                assert decide(*pair, 0.0, limit).hit.item() == (exact <= limit)
-                assert decide(*pair, limit, limit).hit.item() == (exact == limit)
+                assert decide(*pair, limit).crossed.item() == (limit <= exact)
+                assert decide(*pair, 0.0, limit).crossed.item() == (exact <= limit)
+                assert decide(*pair, limit, limit).crossed.item() == (exact == limit)
                 assert (nearest_hits(*pair, limit).triangle == 0).item() == (limit <= exact)
                 assert (nearest_hits(*pair, -1.0, limit).triangle == 0).item() == (exact <= limit)
             told += exact != near
@@ -128,14 +128,14 @@ def test_the_clip_range_is_exact_at_its_ends(rng):
 def test_the_least_and_the_most_that_there_can_be():
     """No pair, no triangle, no direction, no size: nothing is hit, and nothing is in the way."""
     none = np.zeros((3, 0))
-    assert decide(Rays(none, none), np.zeros((3, 3, 0))).hit.shape == (0,)
+    assert decide(Rays(none, none), np.zeros((3, 3, 0))).crossed.shape == (0,)
     ray = Rays(np.zeros((3, 1)), np.array([[0], [0], [1.0]]))
     assert nearest_hits(ray, np.zeros((3, 3, 0))).triangle.tolist() == [-1]
     corners = np.array([[-1.0, -1, 1], [2, -1, 1], [0, 3, 1]])[:, :, None]
     for o, d in (((0, 0, 0), (0, 0, 0)), ((0, 0, 1), (0, 0, 0)), ((-1, -1, 1), (0, 0, 0))):
         still = Rays(np.array(o, float)[:, None], np.array(d, float)[:, None])
-        assert not decide(still, corners).hit.any()
+        assert not decide(still, corners).crossed.any()
         assert nearest_hits(still, corners).triangle.tolist() == [-1]
     points = corners[:, :, [0, 0]] * 0
     both = Rays(np.zeros((3, 2)), np.array([[0, 1], [0, 0], [1.0, 0]]))
-    assert not decide(both, points).hit.any() and not decide(both, points + 1).hit.any()
+    assert not decide(both, points).crossed.any() and not decide(both, points + 1).crossed.any()

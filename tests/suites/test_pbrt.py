@@ -130,8 +130,8 @@ def test_reintersect_is_what_whole_numbers_say(rng, triangles, each):
         result = intersect_pairs(points, d, corners)
         for end in (np.inf, 1.0):
             given = decide(Rays(points, d), corners, 0.0, end)
-            assert np.array_equal(given.hit, result.hit & result.within(0.0, end))
-        count, again = count + len(given.hit), again + given.hit.sum()
+            assert np.array_equal(given.crossed, result.hit & result.within(0.0, end))
+        count, again = count + len(given.crossed), again + given.crossed.sum()
     assert count > triangles * each // 2
     # The stored point is beside the surface by rounding: without a bound, some rays meet it again.
     assert 0.001 < again / count < 0.6
@@ -153,8 +153,8 @@ def test_a_ray_does_not_meet_the_surface_that_it_begins_on(rng, triangles):
     result = intersect_pairs(points, d, corners)
     assert (result.numerator == 0).all()  # truly on the surface
     for end in (np.inf, 1.0):
-        assert not decide(Rays(points, d), corners, 0.0, end).hit.any()
-    assert decide(Rays(points, d), corners, -1.0, 1.0).hit.mean() > 0.3  # it is met, at t = 0
+        assert not decide(Rays(points, d), corners, 0.0, end).crossed.any()
+    assert decide(Rays(points, d), corners, -1.0, 1.0).crossed.mean() > 0.3  # it is met, at t = 0
 
 
 def test_behind_its_first_hit_a_ray_goes_on_by_the_exact_order(rng):
@@ -192,7 +192,7 @@ def test_solid_angle(rng):
         distance = np.sqrt(dot(d, d))
         solid = np.abs(dot(d, n)) / distance**3  # of a share of the parallelogram
         shape = corners[:, :, k : k + 1].repeat(count, axis=2)
-        hit = decide(Rays(np.broadcast_to(point, d.shape), d), shape).hit
+        hit = decide(Rays(np.broadcast_to(point, d.shape), d), shape).crossed
         estimate = (hit * solid).mean()
         p, q, r = ((x - point)[:, 0] / np.linalg.norm(x - point) for x in (a, b, c))
         closed_form = 2 * np.arctan2(abs(np.cross(p, q) @ r), 1 + p @ q + q @ r + r @ p)
@@ -213,5 +213,5 @@ def test_bad_cases(method):
         if method.is_plain:
             assert not decided(rays, exact[2], method)[0].any()
         else:
-            assert not decide(rays, exact[2], 0.0, 0.9999).hit.any()
-            assert not decide(rays, exact[2]).hit.any()
+            assert not decide(rays, exact[2], 0.0, 0.9999).crossed.any()
+            assert not decide(rays, exact[2]).crossed.any()

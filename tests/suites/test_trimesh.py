@@ -114,7 +114,7 @@ def test_in_the_plane_of_a_face(rng):
     d[0, (d == 0).all(axis=0)] = 1
     o = np.stack((*rng.integers(-3, 4, (2, 200)), np.zeros(200))) / 4
     decision = decide(Rays(o, d), triangle.repeat(200, axis=2))
-    assert not decision.hit.any() and not decision.edge.any()
+    assert not decision.crossed.any() and not decision.edge.any()
     o = np.array([[0.5], [-3], [0.125]])  # in the plane x = 0.5, just outside by the rule
     assert not crossings(o, np.array([[0], [1.0], [0]]), BOX, all_pairs=True).counts.any()
 

@@ -38,7 +38,7 @@ def test_a_closed_mesh_has_no_holes():
         hits = nearest_hits(rays, corners)
         assert (hits.t == 1).all()
         ray, row = np.divmod(np.arange(targets.shape[1] * 12), 12)
-        crossed = decide(rays.take(ray), corners[..., row]).hit
+        crossed = decide(rays.take(ray), corners[..., row]).crossed
         assert (np.bincount(ray, crossed) == 1).all()
         ambiguous += (hits.certainty == Certainty.AMBIGUOUS).sum()
         assert all((-1, -1) not in names for names in hits.ties.values())
@@ -52,5 +52,5 @@ def test_from_outside_a_closed_mesh_is_entered_as_often_as_left():
     for direction in ((0, 0, -1), (1, 0, -2), (1, 1, -1), (-1, 2, -3)):
         ray, row = np.divmod(np.arange(origins.shape[1] * 12), 12)
         rays = Rays(origins[:, ray] * 1.0, np.array(direction, float)[:, None])
-        crossed = np.bincount(ray, decide(rays, corners[..., row]).hit)
+        crossed = np.bincount(ray, decide(rays, corners[..., row]).crossed)
         assert set(crossed.tolist()) == {0, 2}

@@ -5,7 +5,7 @@
     <!-- run silently: ... -->      the command alone: what it prints is of no interest
     <!-- not run: REASON -->        a block that stays as it is, and why
     <!-- /run -->
-    <!-- NAME -->123<!-- / -->     a figure of `figures.py`, a part of `derivations.py`
+    <!-- NAME -->123<!-- / --> a figure of `figures.py`; a part of `derivations.py`, of `records.py`
 
 Seconds are left out, as they are other ones every time.
 """

@@ -1,14 +1,20 @@
-"""The small pictures of the lessons, traced from the exercise's scenes: docs/images/lessons."""
+"""The small pictures traced from the exercise's scenes, of lessons and of faults."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
+from PIL import Image, ImageDraw, ImageFont
+from reference_tracer.causes.case import Case
+from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.images import to_display
+from reference_tracer.manifest import Manifest
+from reference_tracer.pictures.picture import Picture as Shown
+from reference_tracer.pictures.picture import Source
 from reference_tracer.rendering import render
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.hits import NOTHING
@@ -23,6 +29,7 @@ from .figures import scene, traced
 
 WIDTH = 320  # pixels of one picture; several stand side by side
 GAP = 8
+FAULTY, ACROSS, CAPTION = 4, 6, 20  # a fault's picture: how much smaller; in a row; pixels below
 STUDENTS = Path(__file__).resolve().parents[2] / "docs" / "students"
 
 Picture = NDArray[np.uint8]  # (h, w, 4), row 0 at the bottom
@@ -102,13 +109,47 @@ def judged() -> Picture:
     return beside(*pictures)
 
 
+def faults() -> Picture:
+    """What the self-check makes: each fault that can be seen in the scene, with its name below."""
+    right = scene("perspective")
+    width, height = right.camera.width // FAULTY, right.camera.height // FAULTY
+    right = right.seen_by(replace(right.camera, width=width, height=height, region=None))
+    frame = render(right, Settings())
+    manifest = Manifest("", "", "", 0, "FILE", right.camera.name)
+    case = Case(right, manifest, Settings(), Shown(frame.color, Source(file="")))
+    rows, made = [], [("as it should be", frame.color)]
+    for fault, example in EXAMPLES:
+        guess = example.pick(case, frame)
+        make = example.make or fault.assume
+        wrong = guess and make(case, guess)
+        if wrong is None:
+            continue
+        same = wrong.scene is right
+        color = wrong.picture.color if same else render(wrong.scene, Settings()).color
+        if (color != frame.color).any():
+            made.append((fault.name, color))
+    for start in range(0, len(made), ACROSS):
+        row = [_named(*one) for one in made[start : start + ACROSS]]
+        row += [np.zeros_like(row[0])] * (ACROSS - len(row))
+        rows.append(beside(*row))
+    return np.concatenate(rows[::-1])
+
+
+def _named(name: str, color: NDArray[np.float32]) -> Picture:
+    """A picture with its name below."""
+    label = Image.new("RGBA", (color.shape[1], CAPTION), (255, 255, 255, 255))
+    ImageDraw.Draw(label).text((2, 3), name, font=ImageFont.load_default(11), fill=(0, 0, 0))
+    return np.concatenate((np.asarray(label)[::-1], to_display(color)))
+
+
 PICTURES: Mapping[str, Callable[[], Picture]] = {
-    f.__name__: f for f in (orthographic, shapes, perspective, plane, triangle, weights, judged)
+    f.__name__: f
+    for f in (orthographic, shapes, perspective, plane, triangle, weights, judged, faults)
 }
 
 
 def write(folder: Path) -> None:
-    """Write them all as PNG."""
+    """Write them all as PNG: docs/images/lessons."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, make in PICTURES.items():
         Image.fromarray(np.ascontiguousarray(make()[::-1])).save(

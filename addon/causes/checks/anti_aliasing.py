@@ -35,6 +35,18 @@ ANTI_ALIASING = Cause(
     (0.7, 0.4, 0.2),
     explains=True,
     warns=True,
+    why="The picture has a filter, which mixes the colours around an edge; the tracer shows what "
+    "the pixel's centre sees.",
+    check="The colour lies in the convex hull of what the tracer sees within the filter's radius, "
+    "in linear colours or in Workbench's logarithms log2(1 + c), before Blender 5.0 log2(1/2 + c). "
+    "Each sample comes with a tenth or more of what lies on the opposite side of the centre. More "
+    "than one colour must be seen. If it is known whose surface Blender shows, that must be seen "
+    "in the centre, or within its error. If that is not enough and an edge is there, any triangle "
+    "within the radius may shine through a crack, with no more weight than the centre's own "
+    "colour. The figure is the radius that is enough.",
+    never="An object that is not seen there; a surface of one colour in another shade; a colour "
+    "beyond those that are mixed.",
+    advice="compare like for like, or render one sample in each pixel's centre",
 )
 
 

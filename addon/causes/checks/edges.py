@@ -32,6 +32,15 @@ EDGE = Cause(
     (1.0, 0.3, 0.0),
     explains=True,
     rounding=True,
+    why="Float32 and the rasteriser move corners a little. A pixel whose centre lies so near to an "
+    "edge falls to the edge's other side.",
+    check="Within the other side's own error of the pixel's centre, the tracer sees the colour and "
+    "the object that it shows, each looked for on its own, as they come from two drawings. That "
+    "error is the rasteriser's snapping, and float32's bound for the surfaces around. Triangles "
+    "that share an edge leave no gap between them.",
+    never="A pixel farther from an edge; another colour or object than is seen within the band; "
+    "what lies behind a closed surface.",
+    advice="leave it, if pixels are few; else move the scene to the origin, or draw it larger",
 )
 DEPTH_TIE = Cause(
     2,
@@ -43,6 +52,13 @@ DEPTH_TIE = Cause(
     (0.0, 0.7, 1.0),
     explains=True,
     rounding=True,
+    why="Two surfaces lie nearer to one another than a depth buffer of 24 bits, or float32, tells "
+    "apart.",
+    check="What the picture shows, colour and object each on its own, lies behind on the very same "
+    "ray, nearer than depths are told apart there: by the depth buffer and float32 of a "
+    "rasteriser, by float32 alone of rays. It is told before an edge.",
+    never="A surface that lies clearly behind.",
+    advice="raise the clip start, move the surfaces apart, or leave one of two copies out",
 )
 
 

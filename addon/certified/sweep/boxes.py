@@ -33,7 +33,7 @@ _TOGETHER = 1 << 15  # triangles at a time
 class InstanceBoxes:
     """The boxes of n instances on the film.
 
-    `in_view` (n,) is False for an instance that no ray of the region hits. `depth` (n,) is the
+    `in_view` (n,) is False for an instance that no ray of the region meets. `depth` (n,) is the
     least of its bounding box, in metres. It covers only pixels from `low` to `high`, (2, n) x and
     y, both included. `nearest` (n,) bounds its nearness (`edge_functions.py`) from above.
     """

@@ -195,7 +195,7 @@ class DepthBuffer:
         return out
 
     def farthest_around(self, x0: int, y0: int, x1: int, y1: int) -> float:
-        """Return the least nearness in all cells that a box of any size touches."""
+        """Return the least nearness in all cells that a box of any size overlaps."""
         rows = slice(y0 // FINE, y1 // FINE + 1)
         columns = slice(x0 // FINE, x1 // FINE + 1)
         return float(self._fine[rows, columns].min())

@@ -4,14 +4,14 @@ With the corners a, b, c on the film in homogeneous pixels (`film.py`), and for 
 
     e_bc = det[b, c, ray],  e_ca = det[c, a, ray],  e_ab = det[a, b, ray],   T = det[a, b, c],
 
-the ray hits the triangle in front of the eye where each e has the sign of T; and
+the ray meets the triangle in front of the eye where each e has the sign of T; and
 
     1 / t = (e_bc + e_ca + e_ab) / T                                   perspective
         t = (e_bc t_a + e_ca t_b + e_ab t_c) / T                       orthographic.
 
 All are linear in the pixel: a + b y + c x. The nearness, 1 / t or -t, grows towards the eye. Every
 function has a bound on its rounding error. The stored ray of a pixel that is inside all edges by
-more than that surely hits the triangle.
+more than that surely meets the triangle.
 
 The bounds. A corner is off by place = c0 + c1 size in p and q, and by weight in w. L and W are the
 largest of |p|, |q| and of |w| plus those errors, relative to the pixel in which the triangle's box

@@ -44,10 +44,10 @@ class Boxes(Arrays):
 
 @dataclass(frozen=True, eq=False)
 class Covered(Arrays):
-    """p pairs of a pixel of a depth buffer and a triangle that its ray may hit, (p,) each.
+    """p pairs of a pixel of a depth buffer and a triangle that its ray may meet, (p,) each.
 
     `owner` is the triangle. The nearness of the hit is between `least` and `most`. `sure` says
-    whether the ray surely hits.
+    whether the ray surely meets it.
     """
 
     pixel: Index

@@ -1,10 +1,10 @@
-"""The faults that are known: the self-check makes them, and the diagnosis looks for them."""
+"""The known faults: the self-check makes them, and the diagnosis looks for them."""
 
 from __future__ import annotations
 
 from .camera import CAMERA_FAULTS
 from .colors import COLOR_FAULTS
-from .fault import Example, Fault
+from .fault import AnyFault, Example
 from .given import GIVEN_FAULTS
 from .lens import LENS_FAULTS
 from .objects import OBJECT_FAULTS
@@ -13,7 +13,7 @@ from .picture import PICTURE_FAULTS
 from .triangles import TRIANGLE_FAULTS
 from .view import VIEW_FAULTS
 
-FAULTS: tuple[Fault, ...] = (
+FAULTS: tuple[AnyFault, ...] = (
     *CAMERA_FAULTS,
     *LENS_FAULTS,
     *VIEW_FAULTS,
@@ -25,6 +25,6 @@ FAULTS: tuple[Fault, ...] = (
     *PICTURE_FAULTS,
 )
 # Those that the self-check makes, and how, in the order in which it does.
-EXAMPLES: tuple[tuple[Fault, Example], ...] = tuple(
+EXAMPLES: tuple[tuple[AnyFault, Example], ...] = tuple(
     (fault, example) for fault in FAULTS for example in fault.examples
 )

@@ -12,7 +12,17 @@ from ...causes.case import Case
 from ...scene import Camera, ViewWindow
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
-from .fault import Effort, Example, Fault, Guess, of_camera, options, with_values
+from .fault import (
+    AnyFault,
+    Effort,
+    Example,
+    Fault,
+    Numbers,
+    of_camera,
+    options,
+    with_option,
+    with_values,
+)
 from .film import FOCAL, FOCALS, OFFSET, ROLL
 from .fitting import fitting
 from .stand import MOVED, TURNED
@@ -22,7 +32,7 @@ _Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 
 
 def _axes(change: Callable[[Array], Array], at_origin: bool = False) -> Callable[[Camera], Camera]:
-    """Return what changes the axes of the camera, the columns of a (3, 3) matrix."""
+    """Return a function that changes the axes of a camera, the columns of a (3, 3) matrix."""
 
     def changed(camera: Camera) -> Camera:
         matrix = camera.world_from_camera.copy()
@@ -35,12 +45,12 @@ def _axes(change: Callable[[Array], Array], at_origin: bool = False) -> Callable
 
 
 def _matrix(change: Callable[[Array], Array]) -> Callable[[Camera], Camera]:
-    """Return what changes the whole matrix of the camera, (4, 4)."""
+    """Return a function that changes the matrix of a camera, (4, 4)."""
     return lambda camera: replace(camera, world_from_camera=change(camera.world_from_camera))
 
 
 def _turned_world(rotation: Array, position: bool) -> Callable[[Camera], Camera]:
-    """Return what turns the camera as if the world had other axes; its position, too, or not."""
+    """Return a function that rotates a camera about the world's origin, or in its place."""
 
     def change(matrix: Array) -> Array:
         turned = rotation @ matrix
@@ -52,7 +62,7 @@ def _turned_world(rotation: Array, position: bool) -> Callable[[Camera], Camera]
 
 
 def flipped(camera: Camera, axis: int) -> Camera:
-    """Return the camera that sees the picture mirrored along an axis, 0 or 1."""
+    """Mirror the view of a camera along axis 0 or 1 of the picture."""
     w = camera.window
     signs = np.ones(3)
     signs[axis] = -1
@@ -63,14 +73,14 @@ def flipped(camera: Camera, axis: int) -> Camera:
     return replace(turned, window=ViewWindow(*sides))
 
 
-def _a_pixel_aside(case: Case, frame: Frame) -> Guess | None:
-    """Pick a move that moves what is seen halfway deep by a pixel."""
+def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:
+    """Pick a sideways move of one pixel at the median depth."""
     t = frame.t[np.isfinite(frame.t)]
     if not len(t):
         return None
     camera = case.scene.camera
     width = pixel_size(camera)[0] * camera.projection.scale(float(np.median(t)))
-    return Guess((float(width), 0.0, 0.0), words="")
+    return Numbers((float(width), 0.0, 0.0))
 
 
 _OFFSET, _FOCAL, _FOCALS, _ROLL = map(fitting, (OFFSET, FOCAL, FOCALS, ROLL))
@@ -89,7 +99,7 @@ _BACKWARDS = options(
 )
 
 
-CAMERA_FAULTS = (
+CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "pixel_offset",
         "{words}: ({dx:+.3f}, {dy:+.3f}) px",
@@ -97,35 +107,36 @@ CAMERA_FAULTS = (
         "(i + 1/2, j + 1/2), and the principal point is at half of the width and the height, plus "
         "the shift",
         of_camera(OFFSET.camera),
-        _OFFSET[0],
+        _OFFSET.find,
         ("dx", "dy"),
-        refine=_OFFSET[1],
+        refine=_OFFSET.refine,
         effort=Effort.FILM,
         examples=(
             Example("half_pixel", "rays through the pixels' corners", with_values(0.5, 0.5)),
             Example("one_pixel", "the camera off by a pixel to the right", with_values(1.0, 0.0)),
         ),
+        words="the camera's rays pass beside the pixels' centres",
     ),
     Fault(
         "mirrored_x",
         "the picture is mirrored left to right",
         "check the sign of the camera's right axis, or of x on the film",
         *_MIRRORED_X,
-        examples=(Example("mirrored_x", "the camera mirrored left to right", with_values(0)),),
+        examples=(Example("mirrored_x", "the camera mirrored left to right", with_option(0)),),
     ),
     Fault(
         "mirrored_y",
         "the camera is mirrored upside down",
         "check the sign of the camera's up axis, or of y on the film",
         *_MIRRORED_Y,
-        examples=(Example("mirrored_y", "the camera mirrored upside down", with_values(0)),),
+        examples=(Example("mirrored_y", "the camera mirrored upside down", with_option(0)),),
     ),
     Fault(
         "matrix_transposed",
         "the camera's rotation is transposed",
         "the axes right, up and backward are the columns of world_from_camera",
         *_TRANSPOSED,
-        examples=(Example("camera_transposed", "the camera's rotation inverted", with_values(0)),),
+        examples=(Example("camera_transposed", "the camera's rotation inverted", with_option(0)),),
     ),
     Fault(
         "matrix_inverted",
@@ -139,10 +150,11 @@ CAMERA_FAULTS = (
         "check the lens' unit, the sensor's width, and whether an angle is the whole one or half, "
         "of the width or of the height",
         of_camera(FOCAL.camera),
-        _FOCAL[0],
+        _FOCAL.find,
         ("percent",),
-        refine=_FOCAL[1],
+        refine=_FOCAL.refine,
         effort=Effort.FILM,
+        words="the picture shows less than it should, or more",
     ),
     Fault(
         "focal_lengths",
@@ -150,9 +162,9 @@ CAMERA_FAULTS = (
         "take one focal length for both, in pixels; a pixel is pixel aspect Y / X as high as it is "
         "wide; remove the scale of the camera and its parents",
         of_camera(FOCALS.camera),
-        _FOCALS[0],
+        _FOCALS.find,
         ("across", "up"),
-        refine=_FOCALS[1],
+        refine=_FOCALS.refine,
         effort=Effort.CAMERA,
     ),
     Fault(
@@ -161,37 +173,39 @@ CAMERA_FAULTS = (
         "{forward:+.4g} m forward: by {words} in the world",
         "compare its world matrix with the one that the scene has",
         of_camera(MOVED.camera),
-        _MOVED[0],
+        _MOVED.find,
         ("right", "up", "forward"),
-        refine=_MOVED[1],
+        refine=_MOVED.refine,
         effort=Effort.CAMERA,
         examples=(
             Example("camera_moved", "the camera moved by a pixel to its right", _a_pixel_aside),
         ),
+        words="a vector",
     ),
     Fault(
         "camera_turned",
         "the camera is turned by {words}",
         "compare its world matrix with the one that the scene has, and the order of its angles",
         of_camera(TURNED.camera),
-        _PANNED[0],
+        _PANNED.find,
         ("right", "up", "roll"),
-        refine=_PANNED[1],
+        refine=_PANNED.refine,
         effort=Effort.CAMERA,
         examples=(
             Example(
                 "camera_turned", "the camera turned by half a degree", with_values(0.4, 0.3, 0)
             ),
         ),
+        words="angles to the right, upwards and about its axis",
     ),
     Fault(
         "roll",
         "the camera is rolled by {degrees:+.3f} degrees about its axis",
         "turn it back; a positive angle turns the picture's content clockwise",
         of_camera(ROLL.camera),
-        _ROLL[0],
+        _ROLL.find,
         ("degrees",),
-        refine=_ROLL[1],
+        refine=_ROLL.refine,
         effort=Effort.FILM,
     ),
     Fault(

@@ -1,10 +1,10 @@
-"""Climbs to the numbers of a fault with which the most pixels are right.
+"""Hill climbing: the numbers of a fault with which the most pixels agree.
 
-The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no slope to
-follow. Looked at are the places around the best ones, ever nearer.
+The count is an integer that jumps wherever an edge passes a pixel's centre, so it has no gradient.
+The neighbours of the best place are evaluated, with ever smaller steps.
 
-A pixel that is the same at all the places around one is the same between them, as far as what it
-shows is convex: with steps that are small, only the others are looked at from then on.
+A pixel that is the same at all neighbours of a place is the same between them, as far as what it
+shows is convex: once steps are small, only the other pixels are evaluated.
 """
 
 from __future__ import annotations
@@ -17,46 +17,48 @@ import numpy as np
 from ...arrays import Array, Bools, Floats, Places
 from ...tracer.progress import Work
 from ..evidence import SEED
+from .fault import Values
 
-Values = tuple[float, ...]
-Right = Callable[[Values], Work[Bools | None]]  # which pixels are right; None if no such can be
-Among = Callable[[Places], Right]  # the same of some of the pixels, by their numbers
+Right = Callable[
+    [Values], Work[Bools | None]
+]  # which pixels are right; None if the numbers are impossible
+Among = Callable[[Places], Right]  # the same function of some of the pixels, by index
 
-# How many steps are looked at on each side, by how many numbers there are; 1 otherwise.
+# Neighbours on each side of an axis, by the number of axes; 1 otherwise.
 WIDE = {1: 4, 2: 2}
 NARROW = {1: 2}
-COARSE = 1 / 2  # of a unit: with smaller steps fewer places around are looked at
-ASKEW = 8  # directions besides those of the axes, where there are three numbers
-SMALL = 1 / 8  # of a unit: with larger steps pixels may be others between places where they are not
+COARSE = 1 / 2  # of a unit: smaller steps have fewer neighbours
+ASKEW = 8  # random directions besides those of three axes
+SMALL = 1 / 8  # of a unit: between larger steps, pixels may change and change back
 ROUNDING = 1e-9  # of a step
-FINE = 0.97  # of the pixels: with as many right, each one counts
-FEWER = 1 / 2  # of the pixels that are looked at: with more left, all of these still are
+FINE = 0.97  # of the pixels: with as many right, each wrong one is evaluated, too
+FEWER = 1 / 2  # of the evaluated pixels: with more left, none is dropped
 
 
 @dataclass(frozen=True, eq=False)
 class _Near:
-    """What is known between the places around one."""
+    """Pixels known to stay as they are in the neighbourhood of a place."""
 
     axes: Floats  # what a unit along each adds to the numbers, (m, k)
     units: Floats  # units of numbers, (k, m)
     centre: Floats
     step: float
     known: Bools  # (n,) which pixels are right in the centre
-    changing: Places  # those that may be others between the places
+    changing: Places  # those that may change within a step
     right: Right  # of these
 
     def holds(self, values: Values) -> bool:
-        """Return whether numbers lie between the places: on the axes, and on two at once."""
+        """Return whether numbers lie within a step of the centre, along two axes at most."""
         offset = np.subtract(values, self.centre)
         along = self.units @ offset
-        beside = np.abs(offset - self.axes @ along)  # where no axis leads
+        beside = np.abs(offset - self.axes @ along)  # beside all axes
         away = np.abs(along) / self.step
         between = np.max(away) <= 1 + ROUNDING and np.sum(away) <= 2 + ROUNDING
         return bool(between and np.all(beside <= ROUNDING * np.abs(offset).max()))
 
 
 class Climb:
-    """Places among the numbers of one fault; each is looked at once.
+    """Hill climbing among the numbers of one fault; each place is evaluated once.
 
     Parameters
     ----------
@@ -83,13 +85,15 @@ class Climb:
         self.moves = moves
         self._among = among
         self._known: dict[Values, Bools | None] = {}
-        self._near: list[_Near] = []  # one in the other, the smallest last
+        self._near: list[_Near] = []  # nested, the smallest last
         self._most = 0  # right pixels anywhere so far
-        self._wanted = np.inf  # with as many, numbers are as good as the best: all are looked at
+        self._wanted = (
+            np.inf
+        )  # with as many, a place is as good as the best: all pixels are evaluated
 
     def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
-        """Return the best place that smaller and smaller steps reach, and how many are right."""
-        right = yield from self.right(values)
+        """Climb with ever smaller steps; return the best place and its count of right pixels."""
+        right = yield from self.count(values)
         moves = 0
         while step >= last and right >= 0:
             values, better = yield from self._around(values, step)
@@ -101,8 +105,8 @@ class Climb:
             right = better
         return values, right
 
-    def right(self, values: Values) -> Work[int]:
-        """Return how many pixels are right with these numbers, -1 if there can be no such."""
+    def count(self, values: Values) -> Work[int]:
+        """Return how many pixels are right with these numbers; -1 if they are impossible."""
         if values not in self._known:
             self._known[values] = yield from self._found(values)
         found = self._known[values]
@@ -111,7 +115,7 @@ class Climb:
         return count
 
     def _found(self, values: Values) -> Work[Bools | None]:
-        """Return which pixels are right, None if there can be no such numbers.
+        """Return which pixels are right with these numbers; None if they are impossible.
 
         Beyond what is known, the pixels that change first say whether all others together can make
         it a place that is wanted: if not, they are not looked at, and taken to be right.
@@ -129,7 +133,7 @@ class Climb:
         return (yield from self._right(values))
 
     def _narrow(self, values: Values, step: float) -> None:
-        """From now on, look only at pixels that change a step away from numbers, or nearer."""
+        """Restrict further evaluations to the pixels that change within a step of some numbers."""
         own = self._known[values]
         if self._among is None or step > SMALL or own is None:
             return
@@ -146,15 +150,15 @@ class Climb:
             self._near.append(_Near(self.axes, units, centre, step, own, changing, right))
 
     def _places(self, values: Values, step: float) -> list[Values]:
-        """Return the places a step away in any direction."""
+        """Return the neighbours of a place, a step away."""
         directions = _directions(self.axes.shape[1], WIDE if step >= COARSE else NARROW)
         return [values_of(values + step * self.axes @ direction) for direction in directions]
 
     def _around(self, values: Values, step: float) -> Work[tuple[Values, int]]:
-        """Return the best place a step away in any direction, or this one."""
-        best, most = values, (yield from self.right(values))
+        """Return the best of a place and its neighbours, and its count."""
+        best, most = values, (yield from self.count(values))
         for there in self._places(values, step):
-            found = yield from self.right(there)
+            found = yield from self.count(there)
             if found > most:
                 best, most = there, found
         return best, most
@@ -166,7 +170,7 @@ def values_of(numbers: Floats) -> Values:
 
 
 def _directions(count: int, far: Mapping[int, int]) -> Array:
-    """Return the steps with which is looked around: (m, count), also some that follow no axis."""
+    """Return the directions to the neighbours, (m, count): along axes, and some askew."""
     steps = far.get(count, 1)
     around = np.array(np.meshgrid(*[range(-steps, steps + 1)] * count)).reshape(count, -1).T
     around = around[around.any(axis=1)]

@@ -10,40 +10,72 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import Any, Generic, ParamSpec, TypeVar
 
 from ...arrays import Colors
 from ...causes.case import Case
-from ...pictures.picture import Curve
-from ...scene import Camera, Instance, Scene
+from ...scene import Camera, Instance, Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
+from ..evidence import Evidence
 
-if TYPE_CHECKING:
-    from ..evidence import Evidence
+P = ParamSpec("P")
+T = TypeVar("T")
+G = TypeVar("G", bound="Guess")
+Values = tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Guess:
+    """Which fault it is exactly. The base record says whose it is, and no more."""
+
+    object: str = ""  # that has it; empty where it is the whole scene's, or the picture's
+    words: str = ""  # what else the sentence says
+
+    @property
+    def values(self) -> Values:
+        """The numbers in the sentence, in the order of the fault's `numbers`."""
+        return ()
+
+    @property
+    def low(self) -> Values:
+        """The least of each with which as many pixels agree; empty if not fitted."""
+        return ()
+
+    @property
+    def high(self) -> Values:
+        """The largest of each, likewise."""
+        return ()
 
 
 @dataclass(frozen=True, eq=False)
-class Guess:
-    """Which fault it is exactly: its numbers, the object that has it, or the scene with it."""
+class Numbers(Guess):
+    """A fault of some size."""
 
-    values: tuple[float, ...] = ()  # as the fault's `numbers` name them; more are not told
-    # Between what they may lie, for all pixels to agree as well; empty if they were not fitted.
-    low: tuple[float, ...] = ()
-    high: tuple[float, ...] = ()
-    object: str = ""
-    scene: Scene | None = None  # with a fault that only Blender can make
-    words: str = ""  # what else the sentence says
-    curve: Curve | None = None  # what was done to the picture's colours
-    box: tuple[int, int, int, int] | None = None  # left, bottom, right, top: of some pixels
+    values: Values = ()
+    low: Values = ()
+    high: Values = ()
 
 
-# Return the case with the fault; None where there is nothing to get wrong. The frame is traced of
-# the case.
-Make = Callable[[Case, Frame, Guess], Case | None]
-Find = Callable[["Evidence"], Work[list[Guess]]]
-Refine = Callable[["Evidence", Guess], Work[Guess | None]]
-After = Callable[[Colors, Guess, "Evidence"], Colors]
+@dataclass(frozen=True, eq=False)
+class Option(Guess):
+    """One of several ways to make the fault, by index."""
+
+    number: int
+
+
+@dataclass(frozen=True, eq=False)
+class Pair(Guess):
+    """Two objects that are exchanged in something."""
+
+    first: str
+    second: str
+
+
+Make = Callable[[Case, G], Case | None]  # None where there is nothing to get wrong
+Find = Callable[[Evidence], Work[list[G]]]
+Refine = Callable[[Evidence, G], Work[G | None]]
+After = Callable[[Colors, G, Evidence], Colors]
 Pick = Callable[[Case, Frame], Guess | None]
 
 
@@ -53,60 +85,79 @@ class Example:
 
     name: str  # in JSON
     text: str  # what is wrong, in words
-    pick: Pick = lambda case, frame: Guess()
+    pick: Pick = lambda case, frame: Guess()  # the frame is traced of the case
+    make: Make[Any] | None = None  # puts the fault into the picture, not into the scene
 
 
 def with_values(*values: float) -> Pick:
-    """Return what picks the same numbers in every scene."""
-    return lambda case, frame: Guess(values)
+    """Return a function that picks the same numbers in every scene."""
+    return lambda case, frame: Numbers(values)
 
 
-def once(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the one guess of a fault that has no numbers and is about no object."""
-    return [Guess()]
-    yield
+def with_option(number: int) -> Pick:
+    """Return a function that picks the same option in every scene."""
+    return lambda case, frame: Option(number)
+
+
+def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
+    """Turn a plain function into work without steps."""
+
+    def work(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
+        yield from ()
+        return function(*args, **kwargs)
+
+    return work
+
+
+def always(*guesses: G) -> Find[G]:
+    """Return a function that finds the same guesses in every picture."""
+    return at_once(lambda evidence: [*guesses])
+
+
+ONCE: Find[Any] = always(Guess())  # of a fault that has no numbers and is of no object
 
 
 class Effort(IntEnum):
     """What it takes to find a fault: those of less effort are looked for first."""
 
-    NOTHING = 0  # it has no numbers, or few that are tried
-    FILM = 1  # one or two numbers of where rays pass the film are fitted
-    PIXELS = 2  # pixels, or triangles, are gone through
-    CAMERA = 3  # where the camera stands and looks is fitted
+    NOTHING = 0  # it has no numbers, or few values of them are tried
+    FILM = 1  # one or two numbers of the film are fitted
+    PIXELS = 2  # pixels, or triangles, are searched
+    CAMERA = 3  # the camera's pose is fitted
     SIZE = 4  # a number of an object is fitted
-    PLACE = 5  # where an object is
-    ANYTHING = 6  # what can be made to look like much else
+    PLACE = 5  # an object's place is fitted
+    ANYTHING = 6  # it can be made to look like much else
 
 
 @dataclass(frozen=True)
-class Fault:
+class Fault(Generic[G]):
     """A fault: the comparison's own claim of what is wrong with a picture."""
 
     name: str  # in JSON
     sentence: str  # with the names of `numbers`, {object} and {words}
     advice: str  # what to do, with the same names
-    make: Make
-    find: Find = once  # the guesses that are tried
-    numbers: tuple[str, ...] = ()  # of the guess' values, those that are told
-    # The case with the fault taken out of its picture; by default, the fault is in the scene.
-    put_right: Make | None = None
-    # What the picture's pixels are after that, from those that are traced in the case with the
-    # fault, (h', w', 4); the shape is (h, w).
-    after: After | None = None
-    sampled: bool = True  # whether single pixels can say how good a guess is
-    refine: Refine | None = None  # fits a guess in a finer sample
+    # Return the case that agrees if the picture has the fault: the scene with it, or the picture
+    # without it.
+    assume: Make[G]
+    find: Find[G] = ONCE  # the guesses that are tried
+    numbers: tuple[str, ...] = ()  # names of the guess' values
+    # What is done to the pixels traced of that case, (h', w', 4), to give the picture's, (h, w, 4).
+    after: After[G] | None = None
+    sampled: bool = True  # whether a guess can be scored on single pixels
+    refine: Refine[G] | None = None  # fits a guess on a finer sample
     effort: Effort = Effort.NOTHING
-    sums_up: bool = False  # it says what is seen: faults that do as well are reasons for it
-    everywhere: bool = False  # it is in all pixels: none is looked for beside a fault of an object
-    vague: bool = False  # it allows for more than one picture: what is exact is told in its place
+    sums_up: bool = False  # it says what is visible: faults that do as well are reasons for it
+    everywhere: bool = False  # it is in all pixels: not looked for beside an object's fault
+    vague: bool = False  # it allows for more than one picture: an exact fault is told in its place
+    removes: bool = False  # it says that its object is not visible
     examples: tuple[Example, ...] = ()
+    words: str = ""  # what a guess' words say, in general: for the documents
 
-    def told(self, guess: Guess) -> str:
+    def sentence_of(self, guess: Guess) -> str:
         """Return the sentence with a guess' numbers and names."""
         return self._filled(self.sentence, guess)
 
-    def advised(self, guess: Guess) -> str:
+    def advice_of(self, guess: Guess) -> str:
         """Return the advice with a guess' numbers and names."""
         return self._filled(self.advice, guess)
 
@@ -114,59 +165,78 @@ class Fault:
         numbers = dict(zip(self.numbers, guess.values, strict=False))
         return text.format(object=guess.object, words=guess.words, **numbers)
 
-    def tried(self, case: Case, frame: Frame, guess: Guess) -> Case | None:
-        """Return the case that agrees if the picture has this fault."""
-        if guess.scene is not None:
-            return case.in_scene(guess.scene)
-        return (self.put_right or self.make)(case, frame, guess)
+
+def unchanged(case: Case, guess: Guess) -> Case:
+    """Return the case itself: the fault lies in what is done after tracing."""
+    return case
 
 
-def of_camera(change: Callable[..., Camera | None]) -> Make:
-    """Return what changes the camera of all scenes, by a function of it and the numbers."""
+AnyFault = Fault[Any]  # with guesses of its own kind
 
-    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
+
+def of_camera(change: Callable[..., Camera | None]) -> Make[Guess]:
+    """Return a function that changes the camera, by a function of it and the guess' numbers."""
+
+    def assume(case: Case, guess: Guess) -> Case | None:
         camera = change(case.scene.camera, *guess.values)
         return None if camera is None else case.with_scenes(lambda scene: scene.seen_by(camera))
 
-    return make
+    return assume
 
 
-def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Make, Find]:
-    """Return what makes a fault of the camera that has several forms, and what finds which."""
+def one_of(*makes: Make[Guess]) -> Make[Option]:
+    """Return a function that makes a fault in the way that the option says."""
+    return lambda case, guess: makes[guess.number](case, guess)
 
-    def make(camera: Camera, number: float) -> Camera | None:
-        return changes[int(number)](camera)
 
-    def find(evidence: Evidence) -> Work[list[Guess]]:
-        return [Guess((float(number),)) for number in range(len(changes))]
-        yield
-
-    return of_camera(make), find
+def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Make[Option], Find[Option]]:
+    """Return how a camera's fault is made in several ways, and a function that guesses each."""
+    return one_of(*map(of_camera, changes)), always(*map(Option, range(len(changes))))
 
 
 def instances_named(scene: Scene, name: str) -> list[int]:
-    """Return the instances of the meshes of an object."""
-    return [n for n, i in enumerate(scene.instances) if scene.objects[i.object] == name]
+    """Return the instances of an object's meshes; those of all objects if the name is empty."""
+    return [n for n, i in enumerate(scene.instances) if name in ("", scene.objects[i.object])]
 
 
-def of_object(change: Callable[..., Instance | None]) -> Make:
-    """Return what changes an object's instances in all scenes, by a function of each.
+def of_object(change: Callable[..., Instance | None]) -> Make[Guess]:
+    """Return a function that changes an object's instances, by a function of each.
 
-    It takes the instance and the guess' numbers; without a name, all objects are changed.
+    It takes an instance and the guess' numbers. A guess of no object changes all objects.
     """
 
-    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
-        if guess.object and not instances_named(case.scene, guess.object):
+    def assume(case: Case, guess: Guess) -> Case | None:
+        if not instances_named(case.scene, guess.object):
             return None
+        return case.with_scenes(
+            lambda scene: with_instances(
+                scene, guess.object, lambda instance: change(instance, *guess.values)
+            )
+        )
 
-        def changed(scene: Scene) -> Scene:
-            own = set(instances_named(scene, guess.object))
-            made = [
-                change(instance, *guess.values) if n in own or not guess.object else instance
-                for n, instance in enumerate(scene.instances)
-            ]
-            return replace(scene, instances=tuple(i for i in made if i is not None))
+    return assume
 
-        return case.with_scenes(changed)
 
-    return make
+def with_instances(scene: Scene, name: str, change: Callable[[Instance], Instance | None]) -> Scene:
+    """Return a scene with an object's instances changed, or left out where that gives None."""
+    own = set(instances_named(scene, name))
+    made = (change(i) if n in own else i for n, i in enumerate(scene.instances))
+    return replace(scene, instances=tuple(i for i in made if i is not None))
+
+
+def of_meshes(change: Callable[..., Mesh]) -> Make[Guess]:
+    """Return a function that changes an object's meshes, as :func:`of_object` its instances."""
+
+    def assume(case: Case, guess: Guess) -> Case:
+        return case.with_scenes(
+            lambda scene: with_meshes(scene, guess.object, lambda mesh: change(mesh, *guess.values))
+        )
+
+    return assume
+
+
+def with_meshes(scene: Scene, name: str, change: Callable[[Mesh], Mesh]) -> Scene:
+    """Return a scene with an object's meshes changed."""
+    own = {scene.instances[n].mesh for n in instances_named(scene, name)}
+    meshes = (change(mesh) if n in own else mesh for n, mesh in enumerate(scene.meshes))
+    return replace(scene, meshes=tuple(meshes))

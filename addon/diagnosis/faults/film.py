@@ -1,4 +1,4 @@
-"""Cameras in the same place that are fitted: an offset on the film, focal lengths, a roll."""
+"""Families of cameras in the same place: an offset on the film, focal lengths, a roll."""
 
 from __future__ import annotations
 
@@ -12,15 +12,14 @@ from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, ViewWindow
 from ...tracer.camera import pixel_size
 from ..evidence import Evidence
-from .climbing import Values
-from .fault import Guess
+from .fault import Values
 from .fitting import KEPT, Family
 
 STEP = 4.0  # pixels that the picture's corners move from one start to the next
 
 
 def offset(camera: Camera, dx: float, dy: float) -> Camera:
-    """Return the camera whose rays pass the pixels' centres at (dx, dy), in pixels."""
+    """Return the camera with its rays offset on the film by (dx, dy) pixels."""
     (width, height), w = pixel_size(camera), camera.window
     x, y = dx * width, dy * height
     return replace(camera, window=ViewWindow(w.left + x, w.right + x, w.bottom + y, w.top + y))
@@ -32,7 +31,7 @@ def _zoomed(camera: Camera, percent: float) -> Camera | None:
 
 
 def _stretched(camera: Camera, x: float, y: float) -> Camera | None:
-    """Return the camera with a focal length across, and another one up, changed by percent."""
+    """Return the camera with its focal lengths across and up changed by percent."""
     across, up = 1 + x / 100, 1 + y / 100
     if not camera.projection.is_linear or min(across, up) <= 0:
         return None
@@ -42,7 +41,7 @@ def _stretched(camera: Camera, x: float, y: float) -> Camera | None:
 
 
 def _rolled(camera: Camera, degrees: float) -> Camera:
-    """Return the camera turned about its axis; its content turns the other way."""
+    """Return the camera rolled about its axis; the picture's content turns the other way."""
     angle = np.radians(degrees)
     right, up = camera.right.copy(), camera.up.copy()
     matrix = camera.world_from_camera.copy()
@@ -52,7 +51,7 @@ def _rolled(camera: Camera, degrees: float) -> Camera:
 
 
 def radius(evidence: Evidence) -> float:
-    """Return how far the picture's corners are from its middle, in pixels."""
+    """Return the distance from the picture's centre to its corners, in pixels."""
     region = evidence.case.scene.camera.region
     return float(np.hypot(region.width, region.height)) / 2
 
@@ -63,7 +62,7 @@ def _zooms(evidence: Evidence) -> Iterator[Values]:
 
 
 def _stretches(evidence: Evidence) -> Iterator[Values]:
-    """Yield pairs of focal lengths that differ from the camera's in one of the two."""
+    """Yield changes of one of the two focal lengths."""
     for (percent,) in _zooms(evidence):
         yield percent, 0.0
         yield 0.0, percent
@@ -75,7 +74,7 @@ def _rolls(evidence: Evidence) -> Iterator[Values]:
 
 
 def offsets(evidence: Evidence) -> Sequence[tuple[float, float]]:
-    """Return offsets for which the traced picture and the shown one correlate best, and (0, 0)."""
+    """Return (0, 0) and the offsets with the best cross-correlation of both pictures."""
     if "offsets" not in evidence.known:
         evidence.known["offsets"] = [(0.0, 0.0), *_correlated(evidence)]
     known: Sequence[tuple[float, float]] = evidence.known["offsets"]
@@ -100,18 +99,18 @@ def _correlated(evidence: Evidence) -> Iterator[tuple[float, float]]:
 
 
 def _gray(colors: Array) -> Floats:
-    """Return one number for each colour (h, w, 4), which tells most colours apart; mean 0."""
+    """Project colours (h, w, 4) on one axis that separates most of them; the mean is 0."""
     gray = np.nan_to_num(colors.astype(np.float64), posinf=0, neginf=0) @ (0.31, 0.53, 0.97, 0.41)
     return np.clip(gray - gray.mean(), -4, 4)
 
 
-def _beside(camera: Camera, guess: Guess) -> str:
+def _beside(camera: Camera, dx: float, dy: float) -> str:
     """Say where the rays pass; of an orthographic camera, also where it would stand."""
     words = "the camera's rays pass beside the pixels' centres"
-    if all(abs(v) == 0.5 for v in guess.values):
+    if abs(dx) == abs(dy) == 0.5:
         words = "the camera's rays pass the pixels' corners, not their centres"
     if camera.projection is ORTHOGRAPHIC:
-        right, up = np.multiply(pixel_size(camera), guess.values)
+        right, up = np.multiply(pixel_size(camera), (dx, dy))
         words += (
             f", or it is moved by {right:+.4g} m to its right and {up:+.4g} m upwards, which looks "
             "the same"
@@ -129,9 +128,7 @@ FOCAL = Family(
     _zoomed,
     lambda evidence: (100 / radius(evidence),),
     _zooms,
-    lambda camera, guess: (
-        f"the picture shows {'less' if guess.values[0] > 0 else 'more'} than it should"
-    ),
+    lambda camera, percent: f"the picture shows {'less' if percent > 0 else 'more'} than it should",
 )
 FOCALS = Family(
     _stretched,

@@ -1,4 +1,4 @@
-"""Faults that mix a pixel with what is near it: several samples, a mean of pixels, any filter.
+"""Faults that mix neighbouring colours: several samples a pixel, a mean of pixels, any filter.
 
 A mean is what it is: it is traced, and held against the picture. Of any other filter no more is
 known than how far it reaches, so it is told if no mean does as well.
@@ -7,8 +7,9 @@ known than how far it reaches, so it is told if no mean does as well.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from ...tracer import shading
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import NEAR, Evidence
-from .fault import Effort, Example, Fault, Guess
+from .fault import AnyFault, Effort, Example, Fault, Guess, Numbers, Values, unchanged
 from .sizes import at_size, sampled_right
 
 RADII = (0.5, 0.75, 1.0, 1.5, 2.0)  # of filters that are tried, in pixels
@@ -29,17 +30,24 @@ EDGES = 0.4, 0.8  # the least share of edges that must be mixed: by less than a 
 MIXED = 0.5  # the least share of unexplained pixels that must show no colour of the scene
 MEANS = (2, 3, 4)  # samples, or pixels, each way
 MOST_SAMPLES = 1 << 24  # of a picture that is traced with several a pixel
-# In which values a mean is taken: linear ones, or those of a file.
-VALUES: dict[float, tuple[Callable[[Array], Array], Callable[[Array], Array], str]] = {
-    0.0: (np.asarray, np.asarray, ""),
-    1.0: (encoded, decoded, ", in sRGB values"),
-}
+
+
+class Coding(NamedTuple):
+    """The values in which colours (..., 4) are mixed."""
+
+    into: Callable[[Array], Array]  # from linear, premultiplied ones
+    back: Callable[[Array], Array]
+    words: str
+
+
+SRGB = Coding(encoded, decoded, ", in sRGB values")  # as in a file
+CODINGS = (Coding(np.asarray, np.asarray, ""), SRGB)
 
 
 def _shows_mixes(evidence: Evidence) -> Work[bool]:
-    """Return whether most unexplained pixels show no colour of the scene; looked at once."""
+    """Return whether most unexplained pixels show no colour of the scene (cached)."""
     if "mixes" not in evidence.known:
-        shown = evidence.shown.at(np.flatnonzero(evidence.was_open))
+        shown = evidence.shown.at(np.flatnonzero(evidence.unexplained_sampled))
         pure = np.zeros(len(shown.color), bool)
         colors = np.unique(evidence.case.scene.color_table, axis=0)
         for color in colors if len(colors) <= 64 else ():
@@ -52,39 +60,51 @@ def _shows_mixes(evidence: Evidence) -> Work[bool]:
 # ---- several samples a pixel
 
 
-def _supersampled(case: Case, frame: Frame, guess: Guess) -> Case | None:
+@dataclass(frozen=True, eq=False)
+class Mean(Guess):
+    """A mean of n x n samples or pixels, and in which values it is taken."""
+
+    n: int
+    coding: Coding
+
+    @property
+    def values(self) -> Values:
+        """The count along each axis."""
+        return (float(self.n),)
+
+
+def _supersampled(case: Case, guess: Mean) -> Case | None:
     """Return the case traced at n times its size."""
-    n, region = int(guess.values[0]), case.scene.camera.region
+    n, region = guess.n, case.scene.camera.region
     return None if n * n * region.width * region.height > MOST_SAMPLES else at_size(case, n)
 
 
-def _mean_of_samples(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
+def _mean_of_samples(colors: Colors, guess: Mean, evidence: Evidence) -> Colors:
     """Return the mean of n x n pixels, (h, w, 4), of a picture that is n times as large."""
-    n, (into, back, _) = int(guess.values[0]), VALUES[guess.values[1]]
-    height, width = evidence.open.shape
+    n, (height, width) = guess.n, evidence.unexplained.shape
     total = np.zeros((height, width, 4))
     for y, x in product(range(n), repeat=2):
-        total += into(colors[y::n, x::n])
-    return back(total / n**2).astype(np.float32)
+        total += guess.coding.into(colors[y::n, x::n])
+    return guess.coding.back(total / n**2).astype(np.float32)
 
 
-def _find_samples(evidence: Evidence) -> Work[list[Guess]]:
-    """Return how many samples a pixel shows the mean of, by the sampled pixels."""
+def _find_samples(evidence: Evidence) -> Work[list[Mean]]:
+    """Guess of how many samples each pixel is the mean, by the sampled pixels."""
     if not (yield from _shows_mixes(evidence)):
         return []
     scene, out = evidence.case.scene, []
     probe = yield from evidence.probe(scene, reach=0.75)
     for n in MEANS:
         places = [((i + 0.5) / n - 0.5) for i in range(n)]
-        total = {values: np.zeros((len(evidence.was_open), 4)) for values in VALUES}
+        totals = [np.zeros((len(evidence.unexplained_sampled), 4)) for _ in CODINGS]
         for dx, dy in product(places, repeat=2):
             hits = yield from probe.trace(dx, dy)
             seen = shading.colors(scene, hits)
-            for values, (into, _, _) in VALUES.items():
-                total[values] += into(seen) / n**2
-        for values, (_, back, words) in VALUES.items():
-            if sampled_right(evidence, back(total[values])):
-                out.append(Guess((float(n), values), words=words))
+            for total, coding in zip(totals, CODINGS, strict=True):
+                total += coding.into(seen) / n**2
+        for total, coding in zip(totals, CODINGS, strict=True):
+            if sampled_right(evidence, coding.back(total)):
+                out.append(Mean(n, coding, words=coding.words))
     return out
 
 
@@ -92,7 +112,7 @@ def _find_samples(evidence: Evidence) -> Work[list[Guess]]:
 
 
 def _means(colors: Array, n: int) -> Array:
-    """Return the mean of n x n pixels of (h, w, 4), those at the border repeated beyond it.
+    """Return the n x n box filter of a picture (h, w, 4), with its border repeated.
 
     The result is (h + n - 1, w + n - 1, 4): its first is that of the lower left pixel and what
     lies below and left of it.
@@ -104,60 +124,67 @@ def _means(colors: Array, n: int) -> Array:
     return out
 
 
-def _averaged(colors: Colors, guess: Guess, evidence: Evidence | None = None) -> Colors:
+@dataclass(frozen=True, eq=False)
+class MeanFrom(Mean):
+    """A mean of pixels, of which the first is x to the left and y below."""
+
+    x: int
+    y: int
+
+
+def _averaged(colors: Colors, guess: MeanFrom, evidence: Evidence | None = None) -> Colors:
     """Return what each pixel (h, w, 4) is if it is the mean of n x n pixels."""
-    n, x, y = (int(v) for v in guess.values[:3])
-    into, back, _ = VALUES[guess.values[3]]
     height, width = colors.shape[:2]
-    return back(_means(into(colors), n)[y : y + height, x : x + width]).astype(np.float32)
+    mean = _means(guess.coding.into(colors), guess.n)
+    mean = mean[guess.y : guess.y + height, guess.x : guess.x + width]
+    return guess.coding.back(mean).astype(np.float32)
 
 
-def _find_mean(evidence: Evidence) -> Work[list[Guess]]:
-    """Return of how many pixels each is the mean, and where these begin, by the sampled pixels."""
+def _find_mean(evidence: Evidence) -> Work[list[MeanFrom]]:
+    """Guess the size and place of a box filter, by the sampled pixels."""
     if not (yield from _shows_mixes(evidence)):
         return []
     rows, columns = evidence.sample
     out = []
-    for values, (into, back, words) in VALUES.items():
-        coded = into(evidence.frame.color)
+    for coding in CODINGS:
+        coded = coding.into(evidence.frame.color)
         for n in MEANS:
             mean = _means(coded, n)
             for x, y in product(range(n), repeat=2):
-                if sampled_right(evidence, back(mean[rows + y, columns + x])):
-                    out.append(Guess((float(n), float(x), float(y), values), words=words))
+                if sampled_right(evidence, coding.back(mean[rows + y, columns + x])):
+                    out.append(MeanFrom(n, coding, x, y, words=coding.words))
                 yield 0.0
     return out
 
 
-def _made_of_means(case: Case, frame: Frame, guess: Guess) -> Case:
+def _made_of_means(case: Case, guess: MeanFrom) -> Case:
     picture = case.picture
     return replace(case, picture=replace(picture, color=_averaged(picture.color, guess)))
 
 
-def _two_pixels(case: Case, frame: Frame) -> Guess | None:
-    """Pick a mean of 2 x 2 pixels; nothing where a filter's mixes are excused."""
-    return None if case.picture.filter_radius else Guess((2.0, 0.0, 0.0, 0.0))
+def _two_pixels(case: Case, frame: Frame) -> MeanFrom | None:
+    """Pick a mean of 2 x 2 pixels; None where a filter's mixes are excused."""
+    return None if case.picture.filter_radius else MeanFrom(2, CODINGS[0], 0, 0)
 
 
 # ---- any filter
 
 
-def _filtered(case: Case, frame: Frame, guess: Guess) -> Case:
+def _filtered(case: Case, guess: Numbers) -> Case:
     return replace(case, picture=replace(case.picture, filter_radius=guess.values[0]))
 
 
-def _find_filter(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the radii beyond the picture's own, if most unexplained pixels mix colours."""
+def _find_filter(evidence: Evidence) -> Work[list[Numbers]]:
+    """Guess radii beyond the picture's own, if most unexplained pixels mix colours."""
     if not (yield from _shows_mixes(evidence)):
         return []
     larger = [r for r in RADII if r > evidence.picture.filter_radius]
-    return [
-        Guess((r,), (r,), (r,)) for r in larger if _may_mix(evidence, r) and _edges_mix(evidence, r)
-    ]
+    fits = (r for r in larger if _may_mix(evidence, r) and _edges_mix(evidence, r))
+    return [Numbers((r,), (r,), (r,)) for r in fits]
 
 
 def _edges_mix(evidence: Evidence, radius: float) -> bool:
-    """Return whether enough of the edges are unexplained for all of the picture to be filtered.
+    """Return whether enough edges are unexplained for the whole picture to be filtered.
 
     Of the pixels beside an edge, two wide, a filter of half a pixel mixes about half (44 % in the
     test bed), one of a pixel nearly all. A picture that is blurred in a part has crisp edges, too.
@@ -166,13 +193,13 @@ def _edges_mix(evidence: Evidence, radius: float) -> bool:
         return True  # most are mixed already
     made = evidence.picture.made_of(evidence.frame.color)
     edge = beside_edges(made, 2 * NEAR)
-    return bool(edge.any() and evidence.open[edge].mean() >= EDGES[radius >= 1])
+    return bool(edge.any() and evidence.unexplained[edge].mean() >= EDGES[radius >= 1])
 
 
 def _may_mix(evidence: Evidence, radius: float) -> bool:
-    """Return whether most unexplained pixels lie between the colours that are traced around."""
+    """Return whether most unexplained pixels lie between the colours traced near them."""
     around = int(np.ceil(radius)) + 1
-    at = tuple(v[evidence.was_open] for v in evidence.sample)
+    at = tuple(v[evidence.unexplained_sampled] for v in evidence.sample)
     made = evidence.picture.made_of(evidence.frame.color)
     shown = evidence.picture.color[at][:, : made.shape[-1]]
     inside = np.ones(len(shown), bool)
@@ -183,7 +210,7 @@ def _may_mix(evidence: Evidence, radius: float) -> bool:
     return bool(inside.mean() > MIXED)
 
 
-FILTER_FAULTS = (
+FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "supersampled",
         "each pixel is the mean of {n:.0f} x {n:.0f} samples within it{words}",
@@ -200,14 +227,15 @@ FILTER_FAULTS = (
         "averaged",
         "each pixel is the mean of {n:.0f} x {n:.0f} pixels{words}",
         "compare the picture as it was rendered, before it was blurred",
-        _made_of_means,
+        unchanged,
         _find_mean,
         ("n",),
-        put_right=lambda case, frame, guess: case,
         everywhere=True,
         sampled=False,
         after=_averaged,
-        examples=(Example("averaged", "each pixel the mean of 2 x 2", _two_pixels),),
+        examples=(
+            Example("averaged", "each pixel the mean of 2 x 2", _two_pixels, _made_of_means),
+        ),
         effort=Effort.PIXELS,
     ),
     Fault(
@@ -217,7 +245,6 @@ FILTER_FAULTS = (
         _filtered,
         _find_filter,
         ("radius",),
-        put_right=_filtered,
         everywhere=True,
         sampled=False,
         effort=Effort.ANYTHING,

@@ -1,57 +1,58 @@
 """Fits a camera in a few numbers: an offset on the film, a focal length, where it stands.
 
-First the traced picture itself is looked up where such a camera would have seen it, which needs no
-ray and finds the numbers to within about a pixel. Then rays are traced, in what is left of the
-sample, until the numbers with the most pixels that agree are enclosed.
+First the traced picture is looked up (reprojected) as such a camera would see it: that needs no ray
+and finds the numbers to about a pixel. Then rays are traced in the sampled pixels, until the
+numbers with the most right pixels are enclosed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Places
+from ...arrays import Array, Bools, Floats, Places
 from ...causes.checks.probe import Probe
+from ...pictures.picture import Picture
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import Hits
 from ...tracer.progress import Work
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
-from .climbing import Right, Values
-from .fault import Find, Guess, Refine
+from .climbing import Right
+from .fault import Find, Numbers, Refine, Values
 from .search import Search
 
-REACH = 4.0  # pixels that rays may pass beside where they start; beyond, they start anew
-FINE_REACH = 1.0  # pixels, where a fit is made finer: fewer triangles are near
-PREPARED = 2  # cameras at most, so that none is prepared again where a search goes to and fro
+REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
+FINE_REACH = 1.0  # the same in a refinement: fewer triangles are near
+PREPARED = 2  # cameras with candidates that are kept, as a search goes to and fro
 VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
-KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
+KEPT = 3  # starts that are fitted, at most: no change, and the best by look-up
 LOOKED_UP = 512  # pixels in which the traced picture is looked up
-FINER = 1 / 8  # pixels: the first step where a fit is made finer
+FINER = 1 / 8  # pixels: the first step of a refinement
 ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
-MOVES = 3  # by which a right start is left, with steps of one length: it is a pixel or two away
-BETTER = 0.03  # by how much larger the share of right pixels must be for a start
+MOVES = 3  # with steps of one length, at most: a right start is off by a pixel or two
+BETTER = 0.03  # the least gain of a start in the share of right pixels
 
 
 class Shown(Protocol):
-    """What some sampled pixels show."""
+    """Some sampled pixels of the picture."""
 
     def only(self, some: Places) -> Shown:
-        """Return the same of some of the pixels, by their numbers."""
+        """Return some of the pixels, by index."""
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
-        """Return which of the pixels show the hits of a scene, (n,)."""
+        """Return which of the n pixels agree with the hits of a scene, (n,)."""
 
 
 LookUp = Callable[[Evidence, Camera], float]  # the share of some pixels that is right
 
 
 def looked_up(evidence: Evidence, camera: Camera) -> float:
-    """Return the share of the sample that is right if the traced picture is seen by a camera.
+    """Return the share of the sample that agrees with the traced picture as a camera sees it.
 
     The camera stands where the case's does; what lies outside the traced picture is not known.
     """
@@ -62,18 +63,13 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
         inside, where = _inside(camera, film)
     if inside.mean() < VALID:
         return 0.0
-    shown = evidence.shown.at(few).at(inside)
-    made = shown.made_of(evidence.frame.color[where])
-    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
-    if shown.owner is not None and shown.owners is not None:
-        right &= shown.owners[evidence.frame.instance_index[where]] == shown.owner
-    return float(right.mean())
+    return _share(evidence, evidence.shown.at(few).at(inside), where)
 
 
 def projected(evidence: Evidence, camera: Camera) -> float:
-    """Return the share of what is traced in the sample that a camera anywhere sees as shown.
+    """Return the share of traced points that agree with the picture where a camera projects them.
 
-    What another surface hides is taken to be seen.
+    Occlusion is ignored.
     """
     few = _few(evidence)
     at = tuple(v[few] for v in evidence.sample)
@@ -84,11 +80,15 @@ def projected(evidence: Evidence, camera: Camera) -> float:
     if inside.mean() < VALID:
         return 0.0
     seen = tuple(v[inside] for v in at)
-    shown = evidence.picture.at(where)
-    made = shown.made_of(evidence.frame.color[seen])
+    return _share(evidence, evidence.picture.at(where), seen)
+
+
+def _share(evidence: Evidence, shown: Picture, traced: tuple[Array, ...]) -> float:
+    """Return the share of n pixels that agree with n traced ones, by row and column."""
+    made = shown.made_of(evidence.frame.color[traced])
     right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
     if shown.owner is not None and shown.owners is not None:
-        right &= shown.owners[evidence.frame.instance_index[seen]] == shown.owner
+        right &= shown.owners[evidence.frame.instance_index[traced]] == shown.owner
     return float(right.mean())
 
 
@@ -97,7 +97,7 @@ def _few(evidence: Evidence) -> slice:
 
 
 def _inside(camera: Camera, film: Floats) -> tuple[Bools, tuple[Floats, Floats]]:
-    """Return which film positions (2, n) lie in the picture, and the rows and columns of these."""
+    """Return which film positions (2, n) lie in the picture, and the pixels of these."""
     r = camera.region
     column, row = np.floor(film[0] - r.x0), np.floor(film[1] - r.y0)
     inside = (column >= 0) & (column < r.width) & (row >= 0) & (row < r.height)
@@ -112,19 +112,26 @@ class Family:
     # Changes of the numbers that move the film by about a pixel: (m, k) columns, or of each, (m,).
     axes: Callable[[Evidence], Floats | Values]
     starts: Callable[[Evidence], Iterator[Values]]
-    words: Callable[[Camera, Guess], str] = lambda camera, guess: ""
+    words: Callable[..., str] = lambda camera, *numbers: ""
     look_up: LookUp = looked_up
-    # Of the unexplained pixels: with fewer right, by steps of half a pixel, a fit is given up.
+    # Of the unexplained pixels: a fit with fewer right is given up at steps of half a pixel.
     worth: float = WORTH
-    by_few: bool = False  # whether few pixels say how good numbers are, until they are made finer
-    # Changes of the numbers, (m, j) columns, that change nothing in some pictures.
+    by_few: bool = False  # whether the small sample does, until the refinement
+    # Changes of the numbers, (m, j) columns, that change nothing in the picture.
     unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
 
 
-def fitting(family: Family) -> tuple[Find, Refine]:
-    """Return what finds the numbers of a family in a picture, and what fits them finely."""
+class Fit(NamedTuple):
+    """How the numbers of a fault are fitted to a picture."""
 
-    def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
+    find: Find[Numbers]
+    refine: Refine[Numbers]  # finely
+
+
+def fitting(family: Family) -> Fit:
+    """Return how the numbers of a family are fitted."""
+
+    def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         fine = bool(guess.low)
         traced = Traced(evidence, family.camera, FINE_REACH if fine else REACH)
         search = Search(
@@ -137,15 +144,17 @@ def fitting(family: Family) -> tuple[Find, Refine]:
         )
         step = FINER if fine else 1.0
         found = yield from search.guess([guess.values], step, enclose=fine)
-        words = family.words(evidence.case.scene.camera, found) if found else ""
-        return found and replace(found, words=words)
+        if found is None:
+            return None
+        words = family.words(evidence.case.scene.camera, *found.values)
+        return replace(found, words=words)
 
-    def find(evidence: Evidence) -> Work[list[Guess]]:
+    def find(evidence: Evidence) -> Work[list[Numbers]]:
         if family.by_few:
             evidence = evidence.few
-        out: list[Guess] = []
+        out: list[Numbers] = []
         for start in (yield from _likely(evidence, family)):
-            guess = yield from refine(evidence, Guess(start))
+            guess = yield from refine(evidence, Numbers(start))
             if guess:
                 out.append(guess)
                 right = yield from Traced(evidence, family.camera).right(guess.values)
@@ -153,11 +162,11 @@ def fitting(family: Family) -> tuple[Find, Refine]:
                     break
         return out
 
-    return find, refine
+    return Fit(find, refine)
 
 
 def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
-    """Return the numbers for which looking up gives the most right pixels, the best first."""
+    """Return the starts with the most right pixels by look-up, the best first."""
     camera = evidence.case.scene.camera
     axes = np.asarray(family.axes(evidence))
     units = np.linalg.pinv(np.diag(axes) if axes.ndim == 1 else axes)
@@ -222,7 +231,7 @@ class Traced:
         self.probes: list[Probe] = []  # the last one first
 
     def among(self, some: Places) -> Right:
-        """Return what says so of some of the pixels, by their numbers."""
+        """Return the same function of some of the pixels, by index."""
         evidence, shown = self.evidence.only(some), self.shown.only(some)
         traced = Traced(evidence, self.camera, self.reach, shown)
         traced.guide = self.guide  # the few pixels may all show what is far away

@@ -1,34 +1,47 @@
-"""Faults that only Blender can make: it knows what the scene that was exported came from.
+"""Faults that only Blender can make, as it knows what the exported scene came from.
 
 The scenes with them come as the case's variants; see `blender/variants.py`.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 from ...causes.case import Case
+from ...scene import Scene
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import Example, Fault, Guess
+from .fault import AnyFault, Example, Fault, Guess, always
 
 
-def _nothing(evidence: Evidence) -> Work[list[Guess]]:
-    """Return no guess but the case's variants, which are tried of every fault."""
-    return []
-    yield
+@dataclass(frozen=True, eq=False)
+class Given(Guess):
+    """A scene made with the fault."""
+
+    scene: Scene
 
 
-def _there(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Return the case with the scene that the guess has."""
-    return None if guess.scene is None else case.in_scene(guess.scene)
+def in_its_scene(case: Case, guess: Given) -> Case:
+    """Return the case with the guess' scene."""
+    return case.in_scene(guess.scene)
 
 
-def _a_frame_later(case: Case, frame: Frame) -> Guess | None:
-    return None if case.next_frame is None else Guess(scene=case.next_frame)
+def given(evidence: Evidence, fault: AnyFault) -> list[tuple[AnyFault, Given]]:
+    """Return a fault with a guess for each of the case's variants that have it."""
+    in_scenes = replace(fault, assume=in_its_scene)
+    return [
+        (in_scenes, Given(v.scene, object=v.object, words=v.words))
+        for v in evidence.variants
+        if v.fault == fault.name
+    ]
 
 
-def _given(name: str, sentence: str, advice: str, *examples: Example) -> Fault:
-    return Fault(name, sentence, advice, _there, _nothing, examples=examples)
+def _a_frame_later(case: Case, frame: Frame) -> Given | None:
+    return None if case.next_frame is None else Given(case.next_frame)
+
+
+def _given(name: str, sentence: str, advice: str, *examples: Example) -> Fault[Given]:
+    return Fault(name, sentence, advice, in_its_scene, always(), examples=examples)
 
 
 GIVEN_FAULTS = (

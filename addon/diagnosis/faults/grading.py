@@ -7,7 +7,7 @@ in 8 bits.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,11 +16,10 @@ from ...causes.case import Case
 from ...images import curve, curve_undone
 from ...pictures.bounds import difference
 from ...pictures.curves import FIT, FITTED_SHARE, LEAST_CHANGE, saturated, several, through
-from ...pictures.picture import Curve, Picture, Transform, straight
-from ...tracer.frame import Frame
+from ...pictures.picture import Picture, Transform, straight
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import Example, Fault, Find, Guess, with_values
+from .fault import Example, Fault, Find, Numbers, Values, with_values
 from .recolor import by_curve, of_straight, with_slack
 from .surfaces import agree, surfaces
 
@@ -34,11 +33,20 @@ SPACES: tuple[tuple[Transform, Transform, str], ...] = (
 GREYS = {"Rec. 709": (0.2126, 0.7152, 0.0722), "Rec. 601": (0.299, 0.587, 0.114)}
 SLACKS = (-1.0, 0.0, 1.0)  # levels of 8 bits that grading may be off; below 0: it is not rounded
 
-Grading = Iterator[tuple[tuple[float, ...], Transform, str]]  # the numbers, what it is, in words
+
+@dataclass(frozen=True, eq=False)
+class Graded(Numbers):
+    """A grading of the colours, and its tolerance."""
+
+    of: Transform = LINEAR
+    slack: float = 0.0  # levels, of `SLACKS`
+
+
+Grading = Iterator[tuple[Values, Transform, str]]  # the numbers, what it is, in words
 
 
 def _ends(picture: Picture, shown: Colors) -> tuple[Floats, Floats]:
-    """Return between which straight linear values a picture's rounding leaves (k, 4) colours."""
+    """Return the straight linear values between which rounding leaves colours (k, 4)."""
     _, allowed = difference(shown, shown, False, picture.levels, picture.sums, picture.dither)
     middle = straight(shown)
     if not picture.levels:
@@ -51,7 +59,7 @@ def _ends(picture: Picture, shown: Colors) -> tuple[Floats, Floats]:
 
 
 def _most_covered(low: Floats, high: Floats) -> float:
-    """Return a number that lies in most of n intervals: the middle of where most of them meet."""
+    """Return the middle of where the most of n intervals overlap."""
     places = np.concatenate((low, high))
     step = np.repeat((1, -1), len(low))
     order = np.lexsort((-step, places))
@@ -61,7 +69,7 @@ def _most_covered(low: Floats, high: Floats) -> float:
 
 
 def _balances(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
-    """Yield a factor for each channel, if each has several values to tell it by."""
+    """Yield a factor for each channel, if each has several values to fit it to."""
     for into, back, words in SPACES:
         a, low, high = (into(v) for v in (traced, *ends))
         factors = []
@@ -78,7 +86,7 @@ def _balances(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
 
 
 def _saturations(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
-    """Yield by how much colours lie farther from their grey than they should, or nearer."""
+    """Yield the factor of the colours' distance from their grey, if it is not 1."""
     for into, back, space in SPACES:
         a, low, high = (into(v) for v in (traced, *ends))
         for name, weights in GREYS.items():
@@ -94,14 +102,14 @@ def _saturations(traced: Floats, ends: tuple[Floats, Floats]) -> Grading:
                 yield (share,), of, f"{space}, with the grey of {name}"
 
 
-def _find_graded(gradings: Callable[[Floats, tuple[Floats, Floats]], Grading]) -> Find:
-    """Return what finds a grading by which nearly all surfaces agree: the one with least slack.
+def _find_graded(gradings: Callable[[Floats, tuple[Floats, Floats]], Grading]) -> Find[Graded]:
+    """Return a function that finds the grading with the least slack for nearly all surfaces.
 
     A picture that was graded in 8 bits is rounded twice, or cut off: a level is allowed then,
     unless that alone makes the surfaces agree.
     """
 
-    def find(evidence: Evidence) -> Work[list[Guess]]:
+    def find(evidence: Evidence) -> Work[list[Graded]]:
         found = surfaces(evidence)
         for slack in SLACKS if found else ():
             assert found
@@ -111,18 +119,16 @@ def _find_graded(gradings: Callable[[Floats, tuple[Floats, Floats]], Grading]) -
             ends = _ends(picture, found.shown)
             for values, of, words in gradings(straight(found.traced), ends):
                 if agree(picture, found, of).mean() > FITTED_SHARE:
-                    told = Curve(words, of)
-                    return [Guess((*values, slack), values, values, words=words, curve=told)]
+                    return [Graded(values, values, values, of, slack, words=words)]
             yield 0.0
         return []
 
     return find
 
 
-def _by_grading(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Return the case whose traced colours are graded; the last number is the slack."""
-    picture = with_slack(case.picture, guess.values[-1])
-    return by_curve(replace(case, picture=picture), frame, guess)
+def _by_grading(case: Case, guess: Graded) -> Case:
+    """Return the case whose traced colours are graded."""
+    return by_curve(replace(case, picture=with_slack(case.picture, guess.slack)), guess.of)
 
 
 GRADING_FAULTS = (
@@ -131,20 +137,32 @@ GRADING_FAULTS = (
         "the picture's white balance is another: red times {red:.4g}, green times {green:.4g}, "
         "blue times {blue:.4g}, {words}",
         "switch off white balance and colour grading",
-        of_straight(lambda color, *factors: color * np.array(factors[:3])),
+        _by_grading,
         _find_graded(_balances),
         ("red", "green", "blue"),
-        put_right=_by_grading,
-        examples=(Example("white_balance", "a warmer white balance", with_values(1.1, 1.0, 0.85)),),
+        examples=(
+            Example(
+                "white_balance",
+                "a warmer white balance",
+                with_values(1.1, 1.0, 0.85),
+                of_straight(lambda color, *factors: color * np.array(factors)),
+            ),
+        ),
     ),
     Fault(
         "saturation",
         "the picture's saturation is {saturation:.4g} times what it should be, {words}",
         "switch off colour grading, and filters of the viewer that saved it",
-        of_straight(lambda color, share, *_: saturated(share, GREYS["Rec. 709"])(color)),
+        _by_grading,
         _find_graded(_saturations),
         ("saturation",),
-        put_right=_by_grading,
-        examples=(Example("saturation", "more saturated by a quarter", with_values(1.25)),),
+        examples=(
+            Example(
+                "saturation",
+                "more saturated by a quarter",
+                with_values(1.25),
+                of_straight(lambda color, share: saturated(share, GREYS["Rec. 709"])(color)),
+            ),
+        ),
     ),
 )

@@ -2,52 +2,53 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Bools, Colors, Floats, Index
 from ...pictures.picture import straight
 from ...tracer.progress import Work
 from ..evidence import NEAR, Evidence, spread
-from .fault import Effort, Fault, Guess
-from .filters import VALUES as OF_MIXES
+from .fault import Effort, Fault, Numbers, Values, unchanged
+from .filters import SRGB, Coding
 from .recolor import alpha_divided, alpha_multiplied
 
-Values = tuple[float, ...]
-
-# In which values it is laid over: those of a file, straight linear ones, or premultiplied ones,
+# In which values it is laid over: straight linear ones, those of a file, or premultiplied ones,
 # with an alpha of its own (Porter and Duff's "over").
-VALUES = OF_MIXES | {
-    0.0: (alpha_divided, alpha_multiplied, ""),
-    2.0: (np.asarray, np.asarray, ", premultiplied"),
-}
+CODINGS = (
+    Coding(alpha_divided, alpha_multiplied, ", linear"),
+    SRGB,
+    Coding(np.asarray, np.asarray, ", premultiplied"),
+)
 
-LEAST_SURFACES = 2  # that a colour laid over a picture must cover: else it may be an object's
-LEAST_COVERED = 0.02  # of what is covered, for a surface to count
+LEAST_SURFACES = 2  # that an ink must cover: else it may be an object's colour
+LEAST_COVERED = 0.02  # share of the covered pixels, for a surface to count
 OPACITIES = np.arange(2, 101) / 100  # that are tried
 MOST_INKS = 2  # colours that are laid over
-INK_STEPS = 50  # to which these are told apart
-FAR = 2.0  # beyond which no colour is looked for, nor below its negative
-COVERED = 0.9  # the least share of the unexplained pixels that they must make
-TOGETHER = 0.75  # of the pixels: single ones, like salt, are nothing that is laid over
-MOST_BLENDED = 4096  # pixels that are looked at
+INK_STEPS = 50  # quantisation of a channel, to count equal inks
+FAR = 2.0  # the largest absolute value of a channel of an ink
+COVERED = 0.9  # the least share of the unexplained pixels that the inks must explain
+TOGETHER = 0.75  # the least share of pixels with neighbours: salt noise is no overlay
+MOST_BLENDED = 4096  # sampled pixels
 
 
-def _in_box(shape: tuple[int, ...], guess: Guess) -> Bools:
-    assert guess.box
-    left, bottom, right, top = guess.box
-    out = np.zeros(shape, bool)
-    out[bottom:top, left:right] = True
-    return out
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Overlay(Numbers):
+    """What is laid over a picture; its numbers are the opacity and the first colour."""
+
+    inks: Floats  # (k, 3) its colours
+    where: Bools  # (h, w)
+    coding: Coding
 
 
-def _laid_over(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return a picture with colours laid over it, wherever it is unexplained in the guess' box."""
-    opacity, *held, values = guess.values
-    inks, (into, back, _) = np.reshape(held, (-1, 3)), VALUES[values]
-    where = _in_box(evidence.open.shape, guess) & evidence.open
+def _laid_over(colors: Colors, guess: Overlay, evidence: Evidence) -> Colors:
+    """Lay the colours over a picture, in each pixel the one that comes nearest."""
+    opacity, where = guess.values[0], guess.where
+    into, back, _ = guess.coding
     shown = into(evidence.picture.color[where].astype(np.float64))
     under = into(colors[where].astype(np.float64))[:, None, :3]
-    made = (1 - opacity) * under + opacity * inks
+    made = (1 - opacity) * under + opacity * guess.inks
     best = np.abs(made - shown[:, None, :3]).max(axis=-1).argmin(axis=1)
     out = colors.copy()
     mixed = made[np.arange(len(best)), best]
@@ -55,27 +56,27 @@ def _laid_over(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
     return out
 
 
-def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
-    """Return an opacity and few colours that make the unexplained pixels.
+def _find_overlay(evidence: Evidence) -> Work[list[Overlay]]:
+    """Guess an opacity and few colours that make the unexplained pixels.
 
     They lie over several surfaces, or two of them fill a box, as a stamp's do. They may be mixed in
     linear values, or in those of a file.
     """
-    if not _hangs_together(evidence.open):
+    if not _hangs_together(evidence.unexplained):
         return []
     found = []
-    for values in VALUES:
-        found += _in_values(evidence, values)
+    for coding in CODINGS:
+        found += _in_values(evidence, coding)
         yield 0.0
     return found
 
 
-def _in_values(evidence: Evidence, values: float) -> list[Guess]:
-    rows, columns = np.nonzero(evidence.open)
+def _in_values(evidence: Evidence, coding: Coding) -> list[Overlay]:
+    rows, columns = np.nonzero(evidence.unexplained)
     (left, right), (bottom, top) = ((int(np.min(v)), int(np.max(v)) + 1) for v in (columns, rows))
     some = spread(np.ones(len(rows), bool), MOST_BLENDED)
     at = rows[some], columns[some]
-    into, back, words = VALUES[values]
+    into, back, words = coding
     pictures = evidence.frame.color, evidence.picture.color
     traced, shown = (into(v[at].astype(np.float64))[:, :3] for v in pictures)
     if not np.isfinite(shown).all():
@@ -95,20 +96,22 @@ def _in_values(evidence: Evidence, values: float) -> list[Guess]:
         own = opacity > 1 - NEAR and _of_scene(evidence, linear(inks)).any()
     if covered < COVERED or own:
         return []
-    numbers = (opacity, *inks.ravel().tolist())
+    numbers = (opacity, *inks[0].tolist())
     low, high = _as_likely(traced, shown, numbers)
-    box = left, bottom, right, top
-    return [Guess((*numbers, values), low, high, words=words or ", linear", box=box)]
+    made = Overlay(
+        numbers, low, high, inks=inks, where=evidence.unexplained, coding=coding, words=words
+    )
+    return [made]
 
 
 def _as_likely(traced: Floats, shown: Floats, values: Values) -> tuple[Values, Values]:
-    """Return from where to where the opacity and the first colour may lie.
+    """Return the range of the opacity and of the first colour.
 
     Over one surface, an ink is as likely to be a stronger one that covers less.
     """
     if len(np.unique(traced, axis=0)) > 1:
-        return values[:4], values[:4]
-    under, ink = traced[0], np.array(values[1:4])
+        return values, values
+    under, ink = traced[0], np.array(values[1:])
     darker = 1 - shown / np.maximum(under, 1e-12)
     brighter = (shown - under) / np.maximum(1 - under, 1e-12)
     least = float(np.clip(np.maximum(darker, brighter).max(), NEAR, 1.0))
@@ -118,7 +121,7 @@ def _as_likely(traced: Floats, shown: Floats, values: Values) -> tuple[Values, V
 
 
 def _hangs_together(where: Bools) -> bool:
-    """Return whether most of some pixels (h, w) have two beside them, as what is drawn has."""
+    """Return whether most pixels of a mask (h, w) have two neighbours, as in a drawing."""
     beside = -where.astype(np.int32)
     padded = np.pad(where, 1).astype(np.int32)
     for y in range(3):
@@ -130,10 +133,10 @@ def _hangs_together(where: Bools) -> bool:
 def _inks(
     traced: Floats, shown: Floats, under: Index, opacity: float, surfaces: int = LEAST_SURFACES
 ) -> tuple[float, float, Floats]:
-    """Return the share of n pixels that few colours explain if laid over with an opacity.
+    """Return the share of n pixels that few inks explain if laid over with an opacity.
 
-    And the opacity, fitted, and the colours (k, 3). Each of them must lie over some surfaces, of
-    which `under` (n,) are the numbers.
+    Also return the fitted opacity, and the inks (k, 3). Each must cover several surfaces; `under`
+    (n,) numbers the surface beneath each pixel.
     """
     ink = (shown - (1 - opacity) * traced) / opacity
     step = np.rint(INK_STEPS * np.clip(ink, -FAR, FAR))
@@ -152,7 +155,7 @@ def _inks(
             owned.append(own)
     if not owned:
         return 0.0, opacity, np.empty((0, 3))
-    # What is seen of the surfaces beneath, by least squares, is what the inks let through.
+    # The transparency, by least squares: how much of the surfaces beneath shows through.
     below, above = (
         np.concatenate([v[o] - v[o].mean(axis=0) for o in owned]) for v in (traced, shown)
     )
@@ -167,7 +170,7 @@ def _inks(
 
 
 def _of_scene(evidence: Evidence, inks: Floats) -> Bools:
-    """Return which of k colours (k, 3) an object of the scene may have, (k,)."""
+    """Return which of k colours (k, 3) occur in the scene, (k,)."""
     table = straight(evidence.case.scene.color_table)[:, None]
     return (np.abs(table - inks).max(axis=-1) <= NEAR).any(axis=0)
 
@@ -177,10 +180,9 @@ LAID_OVER = Fault(
     "something is laid over the picture: opacity {opacity:.2f}, "
     "colour ({red:.3f}, {green:.3f}, {blue:.3f}){words}",
     "switch off stamps, overlays, watermarks and cursors",
-    lambda case, frame, guess: case,
+    unchanged,
     _find_overlay,
     ("opacity", "red", "green", "blue"),
-    put_right=lambda case, frame, guess: case,
     effort=Effort.ANYTHING,
     sampled=False,
     vague=True,

@@ -1,4 +1,4 @@
-"""Faults of the lens: which part of the film each pixel sees."""
+"""Faults of the lens: the part of the film that each pixel covers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Region, ViewWindow
 from ...tracer.camera import pixel_size
-from .fault import Example, Fault, options, with_values
+from .fault import Example, Fault, Option, options, with_option
 
 Change = Callable[[Camera], Camera | None]
 
@@ -32,19 +32,19 @@ def centre(camera: Camera) -> tuple[float, float]:
 
 
 def _scaled(x: float, y: float, camera: Camera) -> Camera:
-    """Scale the view window, and its distance from the axis, too."""
+    """Scale the view window about the axis."""
     cx, cy = centre(camera)
     return window(camera, x, y, (x * cx, y * cy))
 
 
 def _aspect(camera: Camera) -> float:
-    """Return the width of the view window in heights."""
+    """Return the aspect ratio of the view window, width / height."""
     w = camera.window
     return (w.right - w.left) / (w.top - w.bottom)
 
 
 def _fits(power: float, shifted: bool) -> Change:
-    """Return what fits the lens to the other side of the picture; the shift goes with it or not."""
+    """Return a function that fits the lens to the other side, with the shift scaled or kept."""
 
     def change(camera: Camera) -> Camera | None:
         factor = _aspect(camera) ** power
@@ -62,7 +62,7 @@ def _about_centre(camera: Camera, factor: float) -> Camera | None:
 
 
 def _shifts(of: Callable[[Camera, float, float], tuple[float, float]]) -> Change:
-    """Return what gives the view window another centre; None where it has none to get wrong."""
+    """Return a function that moves the centre of the view window; None if it stays."""
 
     def change(camera: Camera) -> Camera | None:
         own = centre(camera)
@@ -73,7 +73,7 @@ def _shifts(of: Callable[[Camera, float, float], tuple[float, float]]) -> Change
 
 
 def _square(by_width: bool, shifted: bool) -> Change:
-    """Return what takes pixels for squares, as wide or as high as they are.
+    """Return a function that makes pixels square, with their own width or height.
 
     The window's distance from the axis is in pixels, too, or is kept.
     """
@@ -89,7 +89,7 @@ def _square(by_width: bool, shifted: bool) -> Change:
 
 
 def _spanned(across: bool, up: bool) -> Callable[[Camera], Camera | None]:
-    """Return what spans the picture from the first pixel's centre to the last one's."""
+    """Return a function that spans the view from the first pixel's centre to the last one's."""
 
     def change(camera: Camera) -> Camera | None:
         w, h = camera.width, camera.height
@@ -102,7 +102,7 @@ def _spanned(across: bool, up: bool) -> Callable[[Camera], Camera | None]:
 
 
 def _in_length(factor: Callable[[Camera], float]) -> Change:
-    """Return what multiplies both shifts, as those of another unit."""
+    """Return a function that multiplies both shifts, as with another unit of length."""
     return _shifts(lambda camera, x, y: (factor(camera) * x, factor(camera) * y))
 
 
@@ -122,7 +122,7 @@ def _orthographic(factor: Callable[[Camera], float]) -> Change:
 
 
 def _part(scale: float, top: bool) -> Callable[[Camera], Camera]:
-    """Return what sees the lower left of the picture, or the upper left, `scale` of its size."""
+    """Return a function that crops the view to `scale` of it, at the lower or upper left."""
 
     def change(camera: Camera) -> Camera:
         w = camera.window
@@ -134,7 +134,7 @@ def _part(scale: float, top: bool) -> Callable[[Camera], Camera]:
 
 
 def _whole_view(camera: Camera) -> Camera | None:
-    """See the whole view in the pixels of the border's region."""
+    """Render the whole view into the border's region."""
     r = camera.region
     if (r.width, r.height) == (camera.width, camera.height):
         return None
@@ -143,7 +143,7 @@ def _whole_view(camera: Camera) -> Camera | None:
 
 
 def _other_border(camera: Camera) -> Camera | None:
-    """See the border's region counted from the other side: its rows from the top."""
+    """Count the rows of the border's region from the top."""
     r = camera.region
     rows = camera.height - r.y1, camera.height - r.y0
     if rows == (r.y0, r.y1):
@@ -194,7 +194,7 @@ _SCALE = options(
 _BORDER = options(_whole_view, _other_border)
 
 
-LENS_FAULTS = (
+LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "sensor_fit",
         "the lens is fitted to the other side of the picture (sensor fit)",
@@ -202,7 +202,7 @@ LENS_FAULTS = (
         "aspect included",
         *_FIT,
         examples=(
-            Example("sensor_fit", "the lens fitted to the picture's other side", with_values(0)),
+            Example("sensor_fit", "the lens fitted to the picture's other side", with_option(0)),
         ),
     ),
     Fault("shift_left_out", "the camera's shift is left out", "add shift X and Y", *_LEFT_OUT),
@@ -233,7 +233,7 @@ LENS_FAULTS = (
         "the edge of the view is the edge of the outer pixels: u = (i + 1/2) / width",
         *_SPANNED,
         examples=(
-            Example("last_pixel", "width - 1 and height - 1 in place of both", with_values(0)),
+            Example("last_pixel", "width - 1 and height - 1 in place of both", with_option(0)),
         ),
     ),
     Fault(

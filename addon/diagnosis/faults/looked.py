@@ -1,4 +1,4 @@
-"""An object in a picture: where it is traced, where it is shown, and what is behind it.
+"""An object in the picture: where it is traced, where it is shown, and what is behind it.
 
 What is behind is traced once, without the object; then the object alone, for each guess.
 """
@@ -21,20 +21,20 @@ from ...tracer.vector import transform_points
 from ..evidence import WORTH, Evidence, shows_colors, spread
 from .fault import instances_named
 
-VERTICES = 64  # of an object, about, that say how far it moves
-AROUND = 6  # pixels around the object, on both sides, in which it is looked at, too
+VERTICES = 64  # of an object, about, that are tracked to say how far it moves
+AROUND = 6  # pixels around the object, on both sides, that are looked at, too
 
 
 @dataclass(frozen=True, eq=False)
 class Looked:
-    """An object in a picture: the pixels in which it is looked for, and what is behind it."""
+    """An object in the picture: the pixels in which it is looked for, and what is behind it."""
 
     evidence: Evidence
     name: str
     at: tuple[Places, Places]  # rows and columns of the n pixels
     picture: Picture  # of these
-    behind: Hits  # what is hit there without the object
-    rest: Scene  # without it
+    behind: Hits  # of these, without the object
+    rest: Scene  # without the object
     seen: Bools  # (h, w) where it is traced
     shown: Bools  # (h, w) where the picture shows it, as far as is known
     depth: float  # of the object, metres
@@ -42,14 +42,14 @@ class Looked:
 
     @classmethod
     def of(cls, evidence: Evidence, name: str, kept: bool = False) -> Work[Looked | None]:
-        """Look at an object; None if it is not seen or not shown, or can settle few pixels."""
+        """Gather what is known of an object; None if it is unseen, or can settle few pixels."""
         scene, frame = evidence.case.scene, evidence.frame
         own = instances_named(scene, name)
         if not own:  # an infinite plane
             return None
         those = set(own)
         seen = np.isin(frame.instance_index, own)
-        shown = _shown(evidence, own) & (evidence.open | seen)
+        shown = _shown(evidence, own) & (evidence.unexplained | seen)
         if kept:
             shown &= ~seen
         if not seen.any() or not shown.any():
@@ -57,7 +57,7 @@ class Looked:
         around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
         chosen = np.zeros_like(seen)
         around &= evidence.beside_edges if evidence.fine else True
-        for some in (around & evidence.open, around & ~evidence.open):
+        for some in (around & evidence.unexplained, around & ~evidence.unexplained):
             chosen.flat[spread(some, evidence.size // 2)] = True
         rows, columns = np.nonzero(chosen)
         at = rows, columns
@@ -68,10 +68,10 @@ class Looked:
         out = cls(evidence, name, at, picture, Hits.none(0), rest, seen, shown, depth, kept)
         behind = yield from out.traced(rest)
         out = replace(out, behind=behind)
-        return out if out._may_settle >= WORTH * evidence.open.sum() else None
+        return out if out._may_settle >= WORTH * evidence.unexplained.sum() else None
 
     def traced(self, scene: Scene) -> Work[Hits]:
-        """Return what the n pixels see of a scene."""
+        """Trace a scene in the n pixels."""
         return (yield from self.evidence.trace(scene, self.at))
 
     @property
@@ -82,17 +82,17 @@ class Looked:
         return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())
 
     def only(self, some: Places) -> Looked:
-        """Return the same of some of the n pixels, by their numbers."""
+        """Return the same for some of the n pixels, by index."""
         rows, columns = self.at
         at, behind = (rows[some], columns[some]), self.behind.take(some)
         return replace(self, at=at, picture=self.picture.at(some), behind=behind)
 
     def right(self, changed: Scene) -> Work[Bools]:
-        """Return which of the n pixels are right with the object as a scene has it alone, (n,)."""
+        """Return which of the n pixels are right with the object as a scene has it, (n,)."""
         return self.agrees(changed, (yield from self.traced(changed)))
 
     def agrees(self, changed: Scene, hits: Hits) -> Bools:
-        """Return which of the n pixels show the hits of a scene with the object alone, (n,)."""
+        """Return which of the n pixels agree with the hits of a scene of the object alone, (n,)."""
         before = (hits.instance != NOTHING) & (hits.t < self.behind.t)
         return (self._beneath & ~before) | self._agree(changed, hits, before)
 
@@ -115,19 +115,19 @@ class Looked:
 
     @property
     def _may_settle(self) -> float:
-        """How many unexplained pixels can agree, wherever the object is: others show neither."""
-        open_, may = self.evidence.open[self.at], self._beneath | self.shown[self.at]
+        """How many unexplained pixels may agree: they show the object, or what is behind it."""
+        unexplained, may = self.evidence.unexplained[self.at], self._beneath | self.shown[self.at]
         around = largest_within((self.seen | self.shown).astype(np.int8), AROUND) > 0
-        share = float(np.mean(may[open_])) if open_.any() else 0.0
-        return share * int((around & self.evidence.open).sum())
+        share = float(np.mean(may[unexplained])) if unexplained.any() else 0.0
+        return share * int((around & self.evidence.unexplained).sum())
 
     @cached_property
     def _beneath(self) -> Bools:
-        """Which of the n pixels show what is seen without the object."""
+        """Which of the n pixels show what is behind the object."""
         return self._agree(self.rest, self.behind, np.ones(len(self.behind), bool))
 
     def _agree(self, scene: Scene, hits: Hits, where: Bools) -> Bools:
-        """Return which of the n pixels, of those where it is seen, show the hits of a scene."""
+        """Return which of the n pixels are in a mask and agree with the hits of a scene."""
         out = np.zeros(len(where), bool)
         here = np.flatnonzero(where)
         case = self.evidence.case.in_scene(scene)
@@ -140,8 +140,8 @@ class Looked:
     @property
     def least_right(self) -> float:
         """How many of the n pixels must be right for a guess to be worth a closer look."""
-        open_ = self.evidence.open[self.at]
-        return float((~open_).sum() + WORTH * open_.sum())
+        unexplained = self.evidence.unexplained[self.at]
+        return float((~unexplained).sum() + WORTH * unexplained.sum())
 
     @property
     def pixel(self) -> float:
@@ -151,11 +151,11 @@ class Looked:
 
     @property
     def growth(self) -> float:
-        """How many times as wide the object is shown as it is traced."""
+        """The width of the object as shown, relative to that as traced."""
         return float(np.sqrt(int(self.shown.sum()) / int(self.seen.sum())))
 
     def start(self) -> Floats:
-        """Return about where the object is shown: right, up, forward, in units of pixels."""
+        """Estimate the object's displacement right, up, forward, in units of about a pixel."""
         rows, columns = (np.mean(v) for v in np.nonzero(self.shown))
         own_rows, own_columns = (np.mean(v) for v in np.nonzero(self.seen))
         forward = (1 / self.growth - 1) * self._depth_units
@@ -163,7 +163,7 @@ class Looked:
 
     @property
     def width(self) -> float:
-        """About how wide the object is seen, in pixels."""
+        """The approximate width of the object in the traced picture, in pixels."""
         return float(np.sqrt(self.seen.sum()))
 
     @property
@@ -172,7 +172,7 @@ class Looked:
         return max(self.width / 2, 1.0)
 
     def axes(self) -> Floats:
-        """Return what a unit of right, up and away is in world space, (3, 3) columns.
+        """Return the units right, up and away in world space, (3, 3) columns.
 
         Away is along the ray through the object's middle, so that it changes the size alone.
         """
@@ -185,7 +185,7 @@ class Looked:
 
 
 def _shown(evidence: Evidence, own: list[int]) -> Bools:
-    """Return where (h, w) a picture shows some instances, by their object or their colours."""
+    """Return which pixels (h, w) of a picture show some instances, by object or colour."""
     picture, scene = evidence.picture, evidence.case.scene
     if picture.owner is not None and picture.owners is not None:
         return np.isin(picture.owner, picture.owners[own])

@@ -2,28 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 
+from ...arrays import Floats
 from ...causes.case import Case
 from ...scene import Instance, Scene
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import Effort, Example, Fault, Guess, instances_named, of_object
-from .pose import DISPLACED, MOVED, SCALED, TWICE, copied, inflated, moved, scaled
+from .climbing import values_of
+from .fault import (
+    AnyFault,
+    Effort,
+    Example,
+    Fault,
+    Guess,
+    Make,
+    Numbers,
+    Option,
+    Pair,
+    always,
+    at_once,
+    instances_named,
+    of_meshes,
+    of_object,
+    one_of,
+)
+from .pose import DISPLACED, MOVED, SCALED, TWICE, copied, displaced, moved, scaled
 from .suspects import largest, seen_instances, suspects
 
 SHEARED = 1e-6  # of the longest axis' square: products of axes below are rounding
 UNITS = (0.01, 100.0, 0.001, 1000.0, 0.1, 10.0, 0.0254, 1 / 0.0254, 0.3048, 1 / 0.3048)
 
 
-def _a_pixel_to_the_right(case: Case, frame: Frame) -> Guess | None:
-    """Pick the object that is seen in the most pixels, moved by a pixel of them."""
+def _a_pixel_to_the_right(case: Case, frame: Frame) -> Numbers | None:
+    """Pick the object visible in the most pixels, moved by a pixel to the right."""
     seen = seen_instances(case, frame)
     if not seen:
         return None
@@ -31,47 +49,45 @@ def _a_pixel_to_the_right(case: Case, frame: Frame) -> Guess | None:
     depth = float(np.median(frame.t[frame.instance_index == seen[0]]))
     move = pixel_size(camera)[0] * camera.projection.scale(depth) * camera.right
     name = case.scene.objects[case.scene.instances[seen[0]].object]
-    return Guess(tuple(float(v) for v in move), object=name)
+    return Numbers(values_of(move), object=name)
 
 
-def _without_parts(instance: Instance, part: float) -> Instance:
-    """Leave out an instance's transform, or the rotation, scale or place in it."""
-    matrix = instance.world_from_object
-    axes, lengths = matrix[:3, :3], np.linalg.norm(matrix[:3, :3], axis=0)
-    lengths = np.where(lengths > 0, lengths, 1)
-    other = matrix.copy()
-    if part == 0:
-        other = np.eye(4)
-    elif part == 1:
-        other[:3, :3] = np.diag(lengths)
-    elif part == 2:
-        other[:3, :3] = axes / lengths
-    else:
-        other[:3, 3] = 0
-    return replace(instance, world_from_object=other)
+def _with_axes(change: Callable[[Floats, Floats], Floats]) -> Make[Guess]:
+    """Return a function that changes the axes of an object's instances, by a function of them.
 
-
-def _unsheared(instance: Instance, way: float) -> Instance:
-    """Make a matrix of its own place, rotation and scale, which can hold no shear.
-
-    The scale is the length of the axes. The rotation is that of the first axis and the plane of the
-    first two, or that nearest to all three (polar decomposition: Higham 1986).
+    It takes unit axes, (3, 3) columns, and their lengths, (3,).
     """
+
+    def changed(instance: Instance) -> Instance:
+        matrix = instance.world_from_object.copy()
+        lengths = np.linalg.norm(matrix[:3, :3], axis=0)
+        matrix[:3, :3] = change(matrix[:3, :3] / np.where(lengths > 0, lengths, 1), lengths)
+        return replace(instance, world_from_object=matrix)
+
+    return of_object(changed)
+
+
+def _at_origin(instance: Instance) -> Instance:
     matrix = instance.world_from_object.copy()
-    lengths = np.linalg.norm(matrix[:3, :3], axis=0)
-    axes = matrix[:3, :3] / np.where(lengths > 0, lengths, 1)
-    if way:
-        u, _, v = np.linalg.svd(axes)
-        rotation = u @ v
-    else:
-        q, r = np.linalg.qr(axes)
-        rotation = q * np.where(np.diag(r) < 0, -1, 1)
-    matrix[:3, :3] = rotation * lengths
+    matrix[:3, 3] = 0
     return replace(instance, world_from_object=matrix)
 
 
-def _sheared(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the suspects whose axes are not at right angles, in both ways."""
+def _rotation(axes: Floats) -> Floats:
+    """Return the rotation of the first axis and the plane of the first two, (3, 3)."""
+    q, r = np.linalg.qr(axes)
+    return q * np.where(np.diag(r) < 0, -1, 1)
+
+
+def _nearest_rotation(axes: Floats) -> Floats:
+    """Return the rotation nearest to all three axes (polar decomposition: Higham 1986), (3, 3)."""
+    u, _, v = np.linalg.svd(axes)
+    return u @ v
+
+
+@at_once
+def _sheared(evidence: Evidence) -> list[Option]:
+    """Guess both options for each suspect whose axes are not orthogonal."""
     scene = evidence.case.scene
     found = []
     for name in evidence.suspects:
@@ -79,17 +95,15 @@ def _sheared(evidence: Evidence) -> Work[list[Guess]]:
             axes = scene.instances[n].world_from_object[:3, :3]
             products = (axes.T @ axes)[np.triu_indices(3, 1)]
             if np.abs(products).max() > SHEARED * np.abs(axes).max() ** 2:
-                found += [Guess((way,), object=name) for way in (0.0, 1.0)]
+                found += [Option(way, object=name) for way in (0, 1)]
     return found
-    yield
 
 
-def _exchanged(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Return the case with two objects at each other's places; the values are their numbers."""
-    names = [case.scene.objects[int(v)] for v in guess.values]
+def _exchanged(case: Case, guess: Pair) -> Case:
+    """Return the case with two objects at each other's places."""
 
     def exchanged(scene: Scene) -> Scene:
-        own = [instances_named(scene, name) for name in names]  # numbered otherwise elsewhere
+        own = [instances_named(scene, name) for name in (guess.first, guess.second)]
         if any(len(some) != 1 for some in own):
             return scene
         instances = list(scene.instances)
@@ -102,33 +116,28 @@ def _exchanged(case: Case, frame: Frame, guess: Guess) -> Case | None:
     return case.with_scenes(exchanged)
 
 
-def _exchange(scene: Scene, first: str, second: str) -> Guess:
-    numbers = (float(scene.objects.index(name)) for name in (first, second))
-    return Guess(tuple(numbers), words=f"'{first}' and '{second}'")
+@at_once
+def _pairs(evidence: Evidence) -> list[Pair]:
+    """Guess each pair of suspects with one instance."""
+    names = _single(evidence.case.scene, evidence.suspects)
+    return [Pair(a, b, words=f"'{a}' and '{b}'") for a, b in combinations(names, 2)]
 
 
-def _pairs(evidence: Evidence) -> Work[list[Guess]]:
-    """Return each two of the suspects that have one instance."""
-    scene = evidence.case.scene
-    return [_exchange(scene, a, b) for a, b in combinations(_single(scene, evidence.suspects), 2)]
-    yield
-
-
-def _two(case: Case, frame: Frame) -> Guess | None:
-    """Pick the two that are seen in the most pixels, of those with one instance."""
+def _two(case: Case, frame: Frame) -> Pair | None:
+    """Pick the two objects visible in the most pixels, of those with one instance."""
     scene = case.scene
     seen = (scene.objects[scene.instances[n].object] for n in seen_instances(case, frame))
     names = _single(scene, dict.fromkeys(seen))[:2]
-    return _exchange(scene, *names) if len(names) == 2 else None
+    return Pair(*names) if len(names) == 2 else None
 
 
 def _single(scene: Scene, names: Iterable[str]) -> list[str]:
     return [name for name in names if len(instances_named(scene, name)) == 1]
 
 
-def _units_or_fitted(evidence: Evidence) -> Work[list[Guess]]:
-    """Return factors between units for each object that is suspected, and one that is fitted."""
-    fitted = yield from SCALED[0](evidence)
+def _units_or_fitted(evidence: Evidence) -> Work[list[Numbers]]:
+    """Guess factors between units, and a fitted one, for each suspect."""
+    fitted = yield from SCALED.find(evidence)
     return [*(yield from suspects(*UNITS)(evidence)), *fitted]
 
 
@@ -139,19 +148,12 @@ def _whole(instance: Instance, factor: float) -> Instance:
     return replace(instance, world_from_object=matrix)
 
 
-def _units(evidence: Evidence) -> Work[list[Guess]]:
-    return [Guess((factor,)) for factor in UNITS]
-    yield
-
-
-OBJECT_FAULTS = (
+OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "nothing_shown",
         "nothing of the scene is in the picture",
         "check where the camera is and looks, and whether anything is rendered",
-        lambda case, frame, guess: case.with_scenes(
-            lambda scene: replace(scene, instances=(), planes=())
-        ),
+        lambda case, guess: case.with_scenes(lambda scene: replace(scene, instances=(), planes=())),
         sums_up=True,
     ),
     Fault(
@@ -160,41 +162,45 @@ OBJECT_FAULTS = (
         "check why it was not exported, or is hidden",
         of_object(lambda instance: None),
         suspects(),
+        removes=True,
         examples=(Example("dropped_instance", "the largest object left out", largest),),
     ),
     Fault(
         "transform_left_out",
         "the transform of '{object}' is left out",
         "multiply its vertices by its world matrix",
-        of_object(lambda instance: _without_parts(instance, 0)),
+        of_object(lambda instance: replace(instance, world_from_object=np.eye(4))),
         suspects(),
     ),
     Fault(
         "rotation_left_out",
         "the rotation of '{object}' is left out",
         "multiply its vertices by its whole world matrix",
-        of_object(lambda instance: _without_parts(instance, 1)),
+        _with_axes(lambda axes, lengths: np.diag(np.where(lengths > 0, lengths, 1))),
         suspects(),
     ),
     Fault(
         "scale_left_out",
         "the scale of '{object}' is left out",
         "multiply its vertices by its whole world matrix",
-        of_object(lambda instance: _without_parts(instance, 2)),
+        _with_axes(lambda axes, lengths: axes),
         suspects(),
     ),
     Fault(
         "place_left_out",
         "'{object}' is at the world's origin",
         "multiply its vertices by its whole world matrix",
-        of_object(lambda instance: _without_parts(instance, 3)),
+        of_object(_at_origin),
         suspects(),
     ),
     Fault(
         "shear_left_out",
         "the shear of '{object}' is left out: it has the location, rotation and scale alone",
         "a child that is turned in a parent with a scale is sheared: store its whole world matrix",
-        of_object(_unsheared),
+        one_of(  # the scale is the length of the axes
+            _with_axes(lambda axes, lengths: _rotation(axes) * lengths),
+            _with_axes(lambda axes, lengths: _nearest_rotation(axes) * lengths),
+        ),
         _sheared,
     ),
     Fault(
@@ -204,6 +210,7 @@ OBJECT_FAULTS = (
         _exchanged,
         _pairs,
         examples=(Example("swapped_transforms", "two objects at each other's places", _two),),
+        words="two objects",
     ),
     Fault(
         "object_scaled",
@@ -212,15 +219,15 @@ OBJECT_FAULTS = (
         of_object(scaled),
         _units_or_fitted,
         ("factor",),
-        refine=SCALED[1],
+        refine=SCALED.refine,
         effort=Effort.SIZE,
     ),
     Fault(
         "scene_scaled",
         "all objects are {factor:.4g} times as large, and the camera is not",
         "use the same unit for the meshes and the camera",
-        of_object(lambda instance, factor: _whole(instance, factor)),
-        lambda evidence: _units(evidence),
+        of_object(_whole),
+        always(*(Numbers((factor,)) for factor in UNITS)),
         ("factor",),
     ),
     Fault(
@@ -228,9 +235,9 @@ OBJECT_FAULTS = (
         "'{object}' is moved by ({x:+.4g}, {y:+.4g}, {z:+.4g}) m",
         "compare its world matrix with the one that the scene has",
         of_object(moved),
-        MOVED[0],
+        MOVED.find,
         ("x", "y", "z"),
-        refine=MOVED[1],
+        refine=MOVED.refine,
         effort=Effort.PLACE,
         examples=(
             Example("moved_object", "the largest object moved by a pixel", _a_pixel_to_the_right),
@@ -241,19 +248,19 @@ OBJECT_FAULTS = (
         "'{object}' is there twice: again at ({x:+.4g}, {y:+.4g}, {z:+.4g}) m from its place",
         "look for a second export of it, as an instance or a duplicate",
         copied,
-        TWICE[0],
+        TWICE.find,
         ("x", "y", "z"),
-        refine=TWICE[1],
+        refine=TWICE.refine,
         effort=Effort.ANYTHING,
     ),
     Fault(
         "smooth_displaced",
         "the vertices of '{object}' are displaced along their normals by {distance:+.4g} m",
         "check a displacement's strength and midlevel, and whether normals are smooth",
-        inflated,
-        DISPLACED[0],
+        of_meshes(displaced),
+        DISPLACED.find,
         ("distance",),
-        refine=DISPLACED[1],
+        refine=DISPLACED.refine,
         effort=Effort.SIZE,
     ),
 )

@@ -1,4 +1,4 @@
-"""Faults of what is drawn over what, and of the whole picture's orientation."""
+"""Faults of the order in which surfaces are drawn, and of the picture's orientation."""
 
 from __future__ import annotations
 
@@ -11,21 +11,20 @@ from ...arrays import Colors, Floats
 from ...causes.case import Case
 from ...causes.checks.probe import SOUND, Probe
 from ...scene import Scene
-from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
 from ...tracer.progress import Work, result_of
 from ...tracer.shading import colors as colors_of
 from ..evidence import Evidence
-from .fault import Effort, Example, Fault, Guess, with_values
+from .fault import AnyFault, Effort, Example, Fault, Option, always, unchanged, with_option
 
-LAYERS = 64  # surfaces behind one another that are looked at, at most
-MOST = 2  # orders that are tried on the whole picture
+LAYERS = 64  # surfaces along a ray, at most
+MOST = 2  # guesses, at most
 BLOCK = 1 << 14  # pixels that are drawn together
 
 
 def _quarter_turned(case: Case, quarters: int) -> Case | None:
-    """Return the case with its picture turned anticlockwise; None if it is not the same size."""
+    """Rotate the picture of a case anticlockwise; None if its size would change."""
     height, width = case.picture.color.shape[:2]
     if quarters % 2 and height != width:
         return None
@@ -35,27 +34,12 @@ def _quarter_turned(case: Case, quarters: int) -> Case | None:
     return replace(case, picture=case.picture.at(where))
 
 
-def _turned(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    return _quarter_turned(case, int(guess.values[0]))
-
-
-def _turned_back(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    return _quarter_turned(case, -int(guess.values[0]))
-
-
-def _quarters(evidence: Evidence) -> Work[list[Guess]]:
-    words = {1: "90 degrees anticlockwise", 2: "180 degrees", 3: "90 degrees clockwise"}
-    return [Guess((float(n),), words=text) for n, text in words.items()]
-    yield
-
-
-def _same(case: Case, frame: Frame, guess: Guess) -> Case:
-    """Return the case: of its surfaces only others are seen."""
-    return replace(case)
+# Quarters of a turn anticlockwise.
+_QUARTERS = {1: "90 degrees anticlockwise", 2: "180 degrees", 3: "90 degrees clockwise"}
 
 
 def _middles(scene: Scene) -> Floats:
-    """Return the middles of the instances' boxes, (k, 3)."""
+    """Return the centres of the instances' bounding boxes, (k, 3)."""
     out = []
     for instance in scene.instances:
         v = scene.meshes[instance.mesh].vertices
@@ -65,7 +49,7 @@ def _middles(scene: Scene) -> Floats:
 
 
 def _nearness(scene: Scene) -> Floats:
-    """Return how near the instances' origins are, then their middles, their depths, (3, k)."""
+    """Return the nearness of the instances' origins, of their centres, and in depth, (3, k)."""
     origins = np.array([i.world_from_object[:3, 3] for i in scene.instances]).reshape(-1, 3)
     eye = scene.camera.origin
     origins, middles = origins - eye, _middles(scene) - eye
@@ -73,7 +57,7 @@ def _nearness(scene: Scene) -> Floats:
     return -np.array([*distances, origins @ scene.camera.forward])
 
 
-# How instances may be ordered, from which each is drawn over those before; the first has none.
+# Orders of drawing (painter's algorithm), each instance over those before; the first has no ranks.
 ORDERS = (
     "the farthest surface is seen, not the nearest",
     "objects are drawn one over the other, by the distances of their origins",
@@ -85,7 +69,7 @@ ORDERS = (
 
 
 def _ranks(scene: Scene, order: int) -> Floats | None:
-    """Return the rank of each instance, then of planes and nothing, which are drawn first."""
+    """Return the rank of each instance, then of planes and background, which are drawn first."""
     if order == 0:
         return None
     listed = np.arange(len(scene.instances), dtype=np.float64)
@@ -94,7 +78,7 @@ def _ranks(scene: Scene, order: int) -> Floats | None:
 
 
 def _seen(probe: Probe, ranks: Sequence[Floats | None]) -> Work[list[Colors]]:
-    """Return the colours of n pixels for some orders; without ranks, the farthest surface's."""
+    """Return the colours of n pixels in some orders; without ranks, of the farthest surface."""
     scene = probe.scene
     hits = yield from probe.trace()
     colors = colors_of(scene, hits)
@@ -114,8 +98,8 @@ def _seen(probe: Probe, ranks: Sequence[Floats | None]) -> Work[list[Colors]]:
     return out
 
 
-def _orders(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the orders with which unexplained pixels of the sample have the right colours."""
+def _orders(evidence: Evidence) -> Work[list[Option]]:
+    """Guess the orders with which unexplained pixels of the sample have the right colours."""
     scene = evidence.case.scene
     probe = yield from evidence.probe(scene)
     every = yield from _seen(probe, [_ranks(scene, n) for n in range(len(ORDERS))])
@@ -124,14 +108,14 @@ def _orders(evidence: Evidence) -> Work[list[Guess]]:
         right = ~evidence.shown.other_color(colors)
         if right.sum() >= evidence.least_right():
             score = evidence.scored(right)
-            out.append((score.gain, Guess((float(number),), words=ORDERS[number])))
+            out.append((score.gain, Option(number, words=ORDERS[number])))
     return [guess for _, guess in sorted(out, key=lambda pair: -pair[0])[:MOST]]
 
 
-def _drawn(traced: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return the whole picture in another order, (h, w, 4)."""
+def _drawn(traced: Colors, guess: Option, evidence: Evidence) -> Colors:
+    """Draw the whole picture in another order, (h, w, 4)."""
     scene = evidence.case.scene
-    region, ranks = scene.camera.region, _ranks(scene, int(guess.values[0]))
+    region, ranks = scene.camera.region, _ranks(scene, guess.number)
     made = result_of(plan(scene, SOUND, 0.0))
     rows = max(1, BLOCK // region.width)
     out = []
@@ -143,24 +127,32 @@ def _drawn(traced: Colors, guess: Guess, evidence: Evidence) -> Colors:
     return np.concatenate(out)
 
 
-ORDER_FAULTS = (
+ORDER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "picture_turned",
         "the picture is turned by {words}",
         "check the order of its rows and columns: both are reversed, or one is taken for the other",
-        _turned,
-        _quarters,
-        put_right=_turned_back,
-        examples=(Example("turned_picture", "the picture upside down", with_values(2.0)),),
+        lambda case, guess: _quarter_turned(case, -guess.number),
+        always(*(Option(n, words=words) for n, words in _QUARTERS.items())),
+        examples=(
+            Example(
+                "turned_picture",
+                "the picture upside down",
+                with_option(2),
+                lambda case, guess: _quarter_turned(case, guess.number),
+            ),
+        ),
+        words="90 or 180 degrees",
     ),
     Fault(
         "depth_order",
         "{words}",
         "keep the nearest depth of every pixel: what is nearer than that is drawn, nothing else",
-        _same,
+        unchanged,
         _orders,
         after=_drawn,
         sampled=False,
         effort=Effort.PIXELS,
+        words="the farthest surface is seen, or objects are drawn one over the other in some order",
     ),
 )

@@ -12,13 +12,12 @@ from ...arrays import Bools, Floats, Places
 from ...causes.case import Case
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Instance, Mesh, Scene
-from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ...tracer.vector import cross
 from ..evidence import Evidence
-from .climbing import Among, Right, Values
-from .fault import Find, Guess, Refine, instances_named
-from .fitting import FINE_REACH, FINER, Traced
+from .climbing import Among, Right
+from .fault import Numbers, Values, instances_named, with_instances, with_meshes
+from .fitting import FINE_REACH, FINER, Fit, Traced
 from .looked import Looked
 from .search import Search
 
@@ -29,21 +28,21 @@ TRIED = 2  # objects that are fitted
 
 
 def moved(instance: Instance, x: float, y: float, z: float) -> Instance:
-    """Return an instance at another place, (x, y, z) m away in world space."""
+    """Translate an instance by (x, y, z) m in world space."""
     matrix = instance.world_from_object.copy()
     matrix[:3, 3] += (x, y, z)
     return replace(instance, world_from_object=matrix)
 
 
 def scaled(instance: Instance, factor: float) -> Instance:
-    """Return an instance as many times as large, about its object's origin."""
+    """Scale an instance about its object's origin."""
     matrix = instance.world_from_object.copy()
     matrix[:3, :3] *= factor
     return replace(instance, world_from_object=matrix)
 
 
-def copied(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Return the case with an object's instances a second time, somewhere else."""
+def copied(case: Case, guess: Numbers) -> Case:
+    """Return the case with a translated copy of an object's instances."""
 
     def twice(scene: Scene) -> Scene:
         own = instances_named(scene, guess.object)
@@ -53,22 +52,8 @@ def copied(case: Case, frame: Frame, guess: Guess) -> Case | None:
     return case.with_scenes(twice)
 
 
-def inflated(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Return the case with an object's vertices displaced along their smooth normals."""
-
-    def displaced(scene: Scene) -> Scene:
-        own = {scene.instances[n].mesh for n in instances_named(scene, guess.object)}
-        meshes = [
-            _displaced(mesh, *guess.values) if n in own else mesh
-            for n, mesh in enumerate(scene.meshes)
-        ]
-        return replace(scene, meshes=tuple(meshes))
-
-    return case.with_scenes(displaced)
-
-
-def _displaced(mesh: Mesh, distance: float) -> Mesh:
-    """Displace vertices along the mean of their triangles' normals, each weighed by its area."""
+def displaced(mesh: Mesh, distance: float) -> Mesh:
+    """Displace vertices along their area-weighted normals."""
     vertices = mesh.vertices.astype(np.float64)
     a, b, c = (vertices[mesh.triangles[:, k]].T for k in range(3))
     normals = np.zeros_like(vertices)
@@ -80,24 +65,24 @@ def _displaced(mesh: Mesh, distance: float) -> Mesh:
 
 @dataclass(frozen=True)
 class Pose:
-    """What is fitted of an object: a change of it in a few numbers."""
+    """A change of an object in a few numbers, to be fitted."""
 
     change: Callable[[Scene, Values], Scene | None]  # of a scene with the object alone
-    axes: Floats  # the numbers that a unit, about a pixel, of each stands for, (m, k) columns
+    axes: Floats  # changes of the numbers that move the object by about a pixel, (m, k) columns
     starts: list[Values]
-    unseen: Floats | None = None  # the same of what cannot be seen, (m, j) columns
-    # The camera that sees the object alone as it is seen after the change.
+    unseen: Floats | None = None  # changes of the numbers that change nothing, (m, j) columns
+    # The camera that sees the unchanged object as it looks after the change.
     camera: Callable[..., Camera] | None = None
 
 
 def _placed(looked: Looked) -> Pose:
-    """Return the object at another place; its numbers are along the world's axes."""
+    """Return the translation of an object, along the world's axes."""
     axes, start, unseen = looked.axes(), looked.start(), None
     if looked.evidence.case.scene.camera.projection is ORTHOGRAPHIC:  # nearer looks the same
         axes, start, unseen = axes[:, :2], start[:2], axes[:, 2:]
 
     def change(scene: Scene, values: Values) -> Scene:
-        return replace(scene, instances=tuple(moved(i, *values) for i in scene.instances))
+        return with_instances(scene, "", lambda instance: moved(instance, *values))
 
     beside = np.append(start[:2], 0)[: len(start)]
     starts = [start, beside]
@@ -108,26 +93,26 @@ def _placed(looked: Looked) -> Pose:
 
 
 def _moved_against(camera: Camera, *by: float) -> Camera:
-    """Return a camera that sees the world as if it were moved by (x, y, z) m."""
+    """Translate a camera against (x, y, z) m, as if the world moved by it."""
     matrix = camera.world_from_camera.copy()
     matrix[:3, 3] -= by
     return replace(camera, world_from_camera=matrix)
 
 
 def _sized(looked: Looked) -> Pose:
-    """Return the object as many times as large."""
+    """Return the scale of an object."""
     unit = 2 / max(looked.width, 2.0)
 
     def change(scene: Scene, values: Values) -> Scene | None:
         if values[0] <= 0:
             return None
-        return replace(scene, instances=tuple(scaled(i, *values) for i in scene.instances))
+        return with_instances(scene, "", lambda instance: scaled(instance, *values))
 
     return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)])
 
 
 def _inflated(looked: Looked) -> Pose:
-    """Return the object with a displaced surface."""
+    """Return the displacement of an object's surface."""
     scene = looked.evidence.case.scene
     matrix = scene.instances[instances_named(scene, looked.name)[0]].world_from_object
     size = float(np.cbrt(abs(np.linalg.det(matrix[:3, :3])))) or 1.0
@@ -135,25 +120,19 @@ def _inflated(looked: Looked) -> Pose:
     start = (looked.growth - 1) * looked.width / 2 * unit
 
     def change(scene: Scene, values: Values) -> Scene:
-        used = {i.mesh for i in scene.instances}
-        meshes = [_displaced(m, *values) if n in used else m for n, m in enumerate(scene.meshes)]
-        return replace(scene, meshes=tuple(meshes))
+        return with_meshes(scene, "", lambda mesh: displaced(mesh, *values))
 
     return Pose(change, np.array([[unit]]), [(start,), (0.0,)])
 
 
-def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refine]:
-    """Return what finds how objects that are suspected are shown, and what fits it finely.
+def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
+    """Return how a pose of each suspect is fitted; with `kept`, of a second copy of it."""
 
-    `kept` says that each object stays at its place, too.
-    """
-
-    def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
+    def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         looked = yield from Looked.of(evidence, guess.object, kept)
         if looked is None:
             return None
         pose = of(looked)
-
         alone = looked.alone
 
         def right_among(some: Places) -> Right:
@@ -178,15 +157,15 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> tuple[Find, Refi
         search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
-    def find(evidence: Evidence) -> Work[list[Guess]]:
+    def find(evidence: Evidence) -> Work[list[Numbers]]:
         out = []
         for name in evidence.suspects[:TRIED]:
-            guess = yield from refine(evidence, Guess(object=name))
+            guess = yield from refine(evidence, Numbers(object=name))
             if guess:
                 out.append(guess)
         return out
 
-    return find, refine
+    return Fit(find, refine)
 
 
 MOVED, TWICE = posing(_placed), posing(_placed, kept=True)

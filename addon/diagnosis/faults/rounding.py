@@ -13,10 +13,8 @@ from ...arrays import Array
 from ...causes.case import Case
 from ...images import EIGHT_BITS, curve, curve_undone
 from ...pictures.curves import FITTED_SHARE
-from ...tracer.frame import Frame
-from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import Example, Fault, Guess, with_values
+from .fault import Example, Fault, Numbers, at_once, with_values
 from .recolor import of_straight, with_slack
 from .surfaces import Surfaces, surfaces
 
@@ -24,33 +22,33 @@ MOST_NOISE = 2  # levels that dithering adds, at most
 _SEED = 27
 
 
-def _of_levels(case: Case, frame: Frame, guess: Guess) -> Case:
-    """Allow for some levels of 8 bits."""
+def _of_levels(case: Case, guess: Numbers) -> Case:
+    """Allow a tolerance of some levels of 8 bits."""
     return replace(case, picture=with_slack(case.picture, guess.values[0]))
 
 
 def _is_noisy(found: Surfaces | None) -> bool:
-    """Return whether nearly all surfaces are, of those that can be measured."""
+    """Return whether nearly all measured surfaces are noisy."""
     if found is None or not found.measured.any():
         return False
     return bool(found.noisy[found.measured].mean() > FITTED_SHARE)
 
 
-def _find_rounding(evidence: Evidence) -> Work[list[Guess]]:
-    """Return how many levels rounding is off, if each surface is shown in one colour."""
+@at_once
+def _find_rounding(evidence: Evidence) -> list[Numbers]:
+    """Guess the levels by which rounding is off, if each surface is shown in one colour."""
     if _is_noisy(surfaces(evidence)):
         return []
-    more = Guess((1.0,), words=", and up to one level more off")
-    return [more] if evidence.picture.levels else [Guess((0.0,)), more]
-    yield
+    more = Numbers((1.0,), words=", and up to one level more off")
+    return [more] if evidence.picture.levels else [Numbers((0.0,)), more]
 
 
-def _find_noise(evidence: Evidence) -> Work[list[Guess]]:
-    """Return how many levels of noise there are, if all surfaces have it."""
+@at_once
+def _find_noise(evidence: Evidence) -> list[Numbers]:
+    """Guess the levels of noise, if all surfaces have it."""
     if not _is_noisy(surfaces(evidence)):
         return []
-    return [Guess((float(n),), words="s" if n > 1 else "") for n in range(1, MOST_NOISE + 1)]
-    yield
+    return [Numbers((float(n),), words="s" if n > 1 else "") for n in range(1, MOST_NOISE + 1)]
 
 
 def _dithered(color: Array, levels: float) -> Array:
@@ -68,18 +66,24 @@ ROUNDING_FAULTS = (
         _of_levels,
         _find_rounding,
         ("levels",),
-        put_right=_of_levels,
         vague=True,
     ),
     Fault(
         "dithered",
         "noise of up to {levels:.0f} level{words} of 8 bits lies over the picture, as of dithering",
         "switch dithering off, or compare a PNG with --dither {levels:.0f}",
-        of_straight(_dithered),
+        _of_levels,
         _find_noise,
         ("levels",),
-        put_right=_of_levels,
         vague=True,
-        examples=(Example("dithered", "noise of two levels, as of dithering", with_values(2.0)),),
+        examples=(
+            Example(
+                "dithered",
+                "noise of two levels, as of dithering",
+                with_values(2.0),
+                of_straight(_dithered),
+            ),
+        ),
+        words="s",
     ),
 )

@@ -1,7 +1,7 @@
-"""Finds the numbers of a fault with which the most pixels of a sample are right, and their range.
+"""Finds the numbers of a fault with which the most sampled pixels are right, and their range.
 
-The best place is climbed to (`climbing.py`). Then the region around it is enclosed in which as many
-are right: all numbers in it agree as well.
+Hill climbing leads to the best place (`climbing.py`). Then the region around it is enclosed in
+which as many pixels are right: all numbers in it agree as well.
 """
 
 from __future__ import annotations
@@ -13,24 +13,24 @@ import numpy as np
 from ...arrays import Floats
 from ...tracer.progress import Work
 from ..evidence import SEED
-from .climbing import COARSE, Among, Climb, Right, Values, values_of
-from .fault import Guess
+from .climbing import COARSE, Among, Climb, Right, values_of
+from .fault import Numbers, Values
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
-ROUGH = 1 / 32  # of a unit: the last step where a finer fit follows
-FARTHEST = 256.0  # units to which a number is enclosed, at most
-ROUNDS = 5  # in which a region of several numbers is enclosed, at most
-GROWN = 1.2  # times as large after a round: then there is another one
-PUSHES = 8  # in which a region is enclosed farther along each number, at most
-PUSHED = 1.02  # times as large after one: then there is another one
-LED = 4  # differences that are followed
-INSIDE = 1 / 4  # of the way to the middle: where they begin
-CLOSE = 1 / 8  # of the region's half width: how finely its ends are looked for
-WIDER = 1.3  # times as wide as what was reached: the region's corners lie beyond
+ROUGH = 1 / 32  # of a unit: the last step if a refinement follows
+FARTHEST = 256.0  # units: the largest distance of an end
+ROUNDS = 5  # of enclosing a region of several numbers, at most
+GROWN = 1.2  # growth in a round that leads to another one
+PUSHES = 8  # of a region along each number, at most
+PUSHED = 1.02  # growth in a push that leads to another one
+LED = 4  # random directions of a push
+INSIDE = 1 / 4  # of the way to the middle: where a push starts
+CLOSE = 1 / 8  # of the region's half width: the precision of its ends
+WIDER = 1.3  # safety factor of the box: the region's corners lie beyond its known ends
 ANEW = 4  # times that a region is left for a better place beside it, at most
-BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units: how far from it these are looked for
-LOTS = 24  # places at each of these distances
-DIGITS = range(-1, 5)  # that a number is told with, beside those of its interval
+BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units from a region: where better places are looked for
+LOTS = 24  # random places at each of these distances
+DIGITS = range(-1, 5)  # digits of a number beyond those that its range fixes
 
 
 class Search(Climb):
@@ -68,8 +68,8 @@ class Search(Climb):
 
     def guess(
         self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
-    ) -> Work[Guess | None]:
-        """Return the best numbers near some starts, with what encloses them; steps are in units.
+    ) -> Work[Numbers | None]:
+        """Return the best numbers near some starts, with their range; steps are in units.
 
         What will be fitted more finely need not be enclosed yet.
         """
@@ -80,12 +80,12 @@ class Search(Climb):
                 best, most = values, right
         if most < max(self.least, 0):
             return None
-        # What stopped on a ridge goes on from there with larger steps, once.
+        # It may have stopped on a ridge: climb once more from there, with larger steps.
         best, _ = yield from self.climbed(best, step / 2, COARSE)
         last = self.finest if enclose else ROUGH
         best, right = yield from self.climbed(best, min(step, COARSE), last)
         if not enclose:
-            return Guess(best, best, best, object=name)
+            return Numbers(best, best, best, object=name)
         for number in range(ANEW + 1):
             places = yield from self._region([np.array(best)], right)
             beside = yield from self._beside(np.array(best))
@@ -94,17 +94,17 @@ class Search(Climb):
                 break  # `places` are those around `best`
             there = next(place for place, found in beside.items() if found == better)
             best, right = yield from self.climbed(there, COARSE / 2, self.finest)
-        # As many are right there, too, with fewer between.
+        # They are as good, though places between may not be.
         as_good = [place for place, found in beside.items() if found == right]
         places = np.array([*places, *as_good])
-        told = yield from self._told(best, places, right)
+        simple = yield from self._simple_numbers(best, places, right)
         if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
-            places = yield from self._region([np.array(told), *places], right)
-        low, high = self._box(np.array([told, *places]))  # its last digit may lie just outside
-        return Guess(told, values_of(low), values_of(high), object=name)
+            places = yield from self._region([np.array(simple), *places], right)
+        low, high = self._box(np.array([simple, *places]))  # its last digit may lie just outside
+        return Numbers(simple, values_of(low), values_of(high), object=name)
 
     def _box(self, places: Floats) -> tuple[Floats, Floats]:
-        """Return a box around places; what is nearer than the finest step is not told apart.
+        """Return a box around places, wider by the finest step.
 
         A region of several numbers has corners beyond the places.
         """
@@ -114,7 +114,7 @@ class Search(Climb):
         return low - beyond, high + beyond
 
     def _region(self, known: list[Floats], right: int) -> Work[Floats]:
-        """Return the ends of the region around a place in which as many are right, (n, m).
+        """Return points on the border of the region in which as many pixels are right, (n, m).
 
         The place is the first of those that are known to lie in it. The region is convex, as far as
         edges are straight and move in proportion to the numbers, and may be long and thin in any
@@ -137,7 +137,7 @@ class Search(Climb):
             axes = self._own_axes(np.array(ends))
             first, far = CLOSE, 4.0
             mean: Floats = np.array(ends).mean(axis=0)
-            if (yield from self.right(values_of(mean))) >= right:
+            if (yield from self.count(values_of(mean))) >= right:
                 centre = mean
             if (number or len(known) > 1) and _size(ends) < GROWN * size:
                 break
@@ -147,7 +147,7 @@ class Search(Climb):
         return np.array(ends)
 
     def _push(self, ends: list[Floats], right: int) -> Work[None]:
-        """Add places of a region that lie farther along each number than those that are known.
+        """Extend the known places of a region farther along each number.
 
         The region may be a needle askew to all axes. So the differences of known places lead on,
         from a little inside the farthest one.
@@ -171,17 +171,17 @@ class Search(Climb):
                 return
 
     def _beside(self, centre: Floats) -> Work[dict[Values, int]]:
-        """Return how many are right at some places near a region, drawn by lot."""
+        """Count the right pixels at some random places near a region."""
         rng = np.random.default_rng(SEED)
         out = {}
         for far in BESIDE:
             for direction in rng.normal(size=(LOTS, self.axes.shape[1])):
                 there = values_of(centre + far * self.axes @ direction)
-                out[there] = yield from self.right(there)
+                out[there] = yield from self.count(there)
         return out
 
     def _own_axes(self, ends: Floats) -> Floats:
-        """Return half the region of some places (n, m) along each of its own axes, (m, k)."""
+        """Return the half axes of the region of some places (n, m), as columns (m, k)."""
         units = (ends - ends.mean(axis=0)) @ self._units.T
         _, _, own = np.linalg.svd(units, full_matrices=False)
         reach = np.maximum(np.abs(units @ own.T).max(axis=0), self.finest / 4)
@@ -190,27 +190,27 @@ class Search(Climb):
     def _end(
         self, centre: Floats, along: Floats, right: int, first: float, far: float, close: float
     ) -> Work[Floats]:
-        """Return the last place along a direction (m,) before fewer pixels are right."""
+        """Return the last place in a direction (m,) with as many right pixels (bisection)."""
         far = min(far, self._farthest(centre, along))
         good, bad = 0.0, min(first, far)
-        while bad < far and (yield from self.right(values_of(centre + bad * along))) >= right:
+        while bad < far and (yield from self.count(values_of(centre + bad * along))) >= right:
             good, bad = bad, 2 * bad
         while bad - good > max(first / 4, close * good):
             between = (good + bad) / 2
-            if (yield from self.right(values_of(centre + between * along))) >= right:
+            if (yield from self.count(values_of(centre + between * along))) >= right:
                 good = between
             else:
                 bad = between
         return centre + good * along
 
     def _farthest(self, centre: Floats, along: Floats) -> float:
-        """Return how often a direction (m,) can be gone until a number is as far as is looked."""
+        """Return how many times a direction (m,) fits before a number is too far away."""
         begun, step = self._units @ (centre - self._middle), self._units @ along
         with np.errstate(divide="ignore", invalid="ignore"):
             return max(0.0, float(np.nanmin((FARTHEST - np.sign(step) * begun) / np.abs(step))))
 
-    def _told(self, best: Values, ends: Floats, right: int) -> Work[Values]:
-        """Return the numbers that are told: the simplest of those that are as good.
+    def _simple_numbers(self, best: Values, ends: Floats, right: int) -> Work[Values]:
+        """Return the simplest of the numbers that are as good.
 
         Along the widest axis of the region they may be anything: first those are tried with which
         another number is 0, then the least ones.
@@ -229,24 +229,24 @@ class Search(Climb):
         return min(found, key=lambda v: (-v.count(0.0), np.linalg.norm(v)), default=best)
 
     def _rounded(self, place: Floats, width: Floats, right: int) -> Work[Values | None]:
-        """Return numbers with as few digits as they need, None if they are not as good."""
+        """Round numbers to as few digits as are as good; None if none are."""
         known = np.clip(np.floor(-np.log10(np.maximum(width, 1e-12))), -6, 12)
         for more in DIGITS:
             near = tuple(
                 round(float(v), int(d) + more) + 0.0 for v, d in zip(place, known, strict=True)
             )
-            if (yield from self.right(near)) >= right:
+            if (yield from self.count(near)) >= right:
                 return near
         return None
 
 
 def _size(ends: Sequence[Floats]) -> float:
-    """Return how large the box around some places is, by the sum of its sides."""
+    """Return the sum of the sides of the box around some places."""
     return float(np.ptp(ends, axis=0).sum())
 
 
 def _simplest(start: Floats, along: Floats) -> Iterator[Floats]:
-    """Yield places on a line (m,): where a number is 0, that nearest to 0, the start."""
+    """Yield the simplest places on a line: where a number is 0, nearest to 0, the start."""
     for k in np.flatnonzero(np.abs(along) > 1e-3 * np.linalg.norm(along)):
         yield start - start[k] / along[k] * along
     if along.any():
@@ -255,7 +255,7 @@ def _simplest(start: Floats, along: Floats) -> Iterator[Floats]:
 
 
 def _spokes(count: int) -> Floats:
-    """Return the directions in which a region's ends are looked for, (n, count) unit vectors."""
+    """Return the directions in which a region's border is looked for, (n, count) unit vectors."""
     if count == 1:
         return np.eye(1)
     askew = np.random.default_rng(SEED).normal(size=(count, count))

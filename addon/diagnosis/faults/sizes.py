@@ -6,7 +6,8 @@ are tried that are right in most of the sampled pixels.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from enum import StrEnum
 from itertools import product
 
 import numpy as np
@@ -17,7 +18,7 @@ from ...scene import Region, ViewWindow
 from ...tracer import shading
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import Effort, Fault, Guess
+from .fault import AnyFault, Effort, Fault, Guess, Values, unchanged
 
 # Of what may have been resampled, and how they are called. Larger ones are means of several
 # samples, or, by the nearest pixel, offsets of the camera.
@@ -31,19 +32,25 @@ SIZES = {
     3 / 4: "three quarters of",
 }
 SHARES = {2: "half", 3: "a third of", 4: "a quarter of"}  # to which a picture may be shrunk
-NEAREST, LINEAR, MEAN = 0.0, 1.0, 2.0
-WAYS = {NEAREST: "by the nearest pixel", LINEAR: "linearly", MEAN: "by the mean of pixels"}
 RIGHT = 0.8  # of the sampled pixels that are unexplained, for a guess to be tried
 
 
+class Way(StrEnum):
+    """How a picture is resampled, in words."""
+
+    NEAREST = "by the nearest pixel"
+    LINEAR = "linearly"
+    MEAN = "by the mean of pixels"
+
+
 def sampled_right(evidence: Evidence, colors: Array) -> bool:
-    """Return whether most of the n sampled pixels that are unexplained show (n, 4) colours."""
+    """Return whether most sampled pixels, and most unexplained ones, show colours (n, 4)."""
     right = ~evidence.shown.other_color(colors)
-    return bool(right[evidence.was_open].mean() > RIGHT and right.mean() > RIGHT)
+    return bool(right[evidence.unexplained_sampled].mean() > RIGHT and right.mean() > RIGHT)
 
 
 def at_size(case: Case, size: float) -> Case:
-    """Return the case with what the picture shows, be it a border's, traced at another size."""
+    """Return the case with its region, which may be a border's, traced at another size."""
     camera = case.scene.camera
     r, w = camera.region, camera.window
     across, up = (w.right - w.left) / camera.width, (w.top - w.bottom) / camera.height
@@ -59,26 +66,39 @@ def at_size(case: Case, size: float) -> Case:
 # ---- rendered at another size
 
 
+@dataclass(frozen=True, eq=False)
+class Resampled(Guess):
+    """A picture rendered at another size, relative to the one compared."""
+
+    size: float
+    way: Way
+
+    @property
+    def values(self) -> Values:
+        """The size."""
+        return (self.size,)
+
+
 Mix = list[tuple[Places, Floats]]  # for each of n places, which pixels are taken, and their weights
 
 
-def _mix(have: int, size: int, way: float) -> Mix:
-    """Return, for each pixel of a row of `size`, the pixels of a row of `have` that make it."""
+def _mix(have: int, size: int, way: Way) -> Mix:
+    """Return the weights with which a row of `have` pixels is resampled to `size` pixels."""
     place = (np.arange(size) + 0.5) * have / size - 0.5
-    if way == NEAREST:
+    if way is Way.NEAREST:
         return [(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), np.ones(size))]
     low = np.clip(np.floor(place), 0, have - 1).astype(int)
     share = np.clip(place - low, 0, 1)
     return [(low, 1 - share), (np.minimum(low + 1, have - 1), share)]
 
 
-def _resampled(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return a picture (h', w', 4) at the size of the evidence's."""
-    return resized(colors, evidence.open.shape, guess.values[1])
+def _resampled(colors: Colors, guess: Resampled, evidence: Evidence) -> Colors:
+    """Resample a picture (h', w', 4) to the size of the evidence's."""
+    return resized(colors, evidence.unexplained.shape, guess.way)
 
 
-def resized(colors: Array, shape: tuple[int, ...], way: float) -> Colors:
-    """Return a picture (h', w', 4) at another size (h, w), in one of the ways."""
+def resized(colors: Array, shape: tuple[int, ...], way: Way) -> Colors:
+    """Resample a picture (h', w', 4) to another size (h, w)."""
     out: Array = np.asarray(colors, np.float64)
     for axis, size in enumerate(shape):
         shares = [-1 if n == axis else 1 for n in range(out.ndim)]
@@ -87,8 +107,8 @@ def resized(colors: Array, shape: tuple[int, ...], way: float) -> Colors:
     return out.astype(np.float32)
 
 
-def _find_size(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the sizes and ways that are right in most sampled pixels, where rays are traced.
+def _find_size(evidence: Evidence) -> Work[list[Resampled]]:
+    """Guess the sizes and ways that are right in most sampled pixels, by tracing these.
 
     A pixel of the other size is a ray beside the centre of one of the sampled pixels.
     """
@@ -96,7 +116,7 @@ def _find_size(evidence: Evidence) -> Work[list[Guess]]:
     rows, columns = evidence.sample
     probe = yield from evidence.probe(scene, reach=np.sqrt(2) / min(SIZES))
     out = []
-    for (size, name), way in product(SIZES.items(), (NEAREST, LINEAR)):
+    for (size, name), way in product(SIZES.items(), (Way.NEAREST, Way.LINEAR)):
         wide, high = (max(1, round(size * n)) for n in (region.width, region.height))
         total = np.zeros((len(rows), 4))
         for (y, up), (x, across) in product(
@@ -108,21 +128,36 @@ def _find_size(evidence: Evidence) -> Work[list[Guess]]:
             weight = (up[rows] * across[columns])[:, None]
             total += weight * shading.colors(scene, hits)
         if sampled_right(evidence, total):
-            out.append(Guess((size, way), words=f"{name} its size, and resampled {WAYS[way]}"))
+            out.append(Resampled(size, way, words=f"{name} its size, and resampled {way}"))
     return out
 
 
 # ---- shrunk, and enlarged again
 
 
-def _shrunk(colors: Array, guess: Guess) -> Array:
-    """Return one pixel of each n x n of (h, w, 4), counted from above, or their mean."""
-    n, down, y, x = (int(v) for v in guess.values[:4])
+@dataclass(frozen=True, eq=False)
+class Shrunk(Guess):
+    """A picture shrunk by a factor of n, and enlarged again."""
+
+    n: int
+    down: Way
+    up: Way
+    corner: tuple[int, int]  # which pixel of each n x n is taken if one is: row, column
+
+    @property
+    def values(self) -> Values:
+        """The factor."""
+        return (float(self.n),)
+
+
+def _shrunk(colors: Array, guess: Shrunk) -> Array:
+    """Shrink a picture (h, w, 4) by n, from its top row: one pixel of each n x n, or the mean."""
+    n = guess.n
     out = np.asarray(colors, np.float64)[::-1]
-    if down == NEAREST:
+    if guess.down is Way.NEAREST:
         rows, columns = (
             np.minimum(np.arange(0, size, n) + at, size - 1)
-            for size, at in zip(out.shape[:2], (y, x), strict=True)
+            for size, at in zip(out.shape[:2], guess.corner, strict=True)
         )
         return out[rows][:, columns][::-1]
     for axis in (0, 1):
@@ -133,54 +168,56 @@ def _shrunk(colors: Array, guess: Guess) -> Array:
     return out[::-1]
 
 
-def _enlarged(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return a picture (h, w, 4) shrunk and enlarged again."""
-    small, n = _shrunk(colors, guess), int(guess.values[0])
+def _enlarged(colors: Colors, guess: Shrunk, evidence: Evidence) -> Colors:
+    """Shrink a picture (h, w, 4) and enlarge it again."""
+    small, n = _shrunk(colors, guess), guess.n
     height, width = colors.shape[:2]
-    if guess.values[4] == NEAREST:  # counted from above: a last block may be smaller
+    if guess.up is Way.NEAREST:  # counted from above: a last block may be smaller
         rows = small.shape[0] - 1 - np.arange(height)[::-1] // n
         return small[rows][:, np.arange(width) // n].astype(np.float32)
-    return resized(small, (height, width), LINEAR)
+    return resized(small, (height, width), Way.LINEAR)
 
 
-def _find_shrunk(evidence: Evidence) -> Work[list[Guess]]:
-    """Return to what size the picture was shrunk, and how, by the sampled pixels."""
+def _find_shrunk(evidence: Evidence) -> Work[list[Shrunk]]:
+    """Guess by what factor the picture was shrunk, and how, by the sampled pixels."""
     at, out = evidence.sample, []
     for n, name in SHARES.items():
-        corners = product(sorted({0, n // 2, n - 1}), repeat=2)
-        downs = [(NEAREST, float(y), float(x)) for y, x in corners] + [(MEAN, 0.0, 0.0)]
-        for down, up in product(downs, (NEAREST, LINEAR)):
-            words = f"{name} its size {WAYS[down[0]]}, and enlarged again {WAYS[up]}"
-            guess = Guess((float(n), *down, up), words=words)
+        places = sorted({0, n // 2, n - 1})
+        downs = [*((Way.NEAREST, corner) for corner in product(places, places)), (Way.MEAN, (0, 0))]
+        for (down, corner), up in product(downs, (Way.NEAREST, Way.LINEAR)):
+            words = f"{name} its size {down}, and enlarged again {up}"
+            guess = Shrunk(n, down, up, corner, words=words)
             if sampled_right(evidence, _enlarged(evidence.frame.color, guess, evidence)[at]):
                 out.append(guess)
             yield 0.0
     return out
 
 
-SIZE_FAULTS = (
+SIZE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "resampled",
         "the picture was rendered at {words}",
         "render it at the size at which it is compared",
-        lambda case, frame, guess: at_size(case, guess.values[0]),
+        lambda case, guess: at_size(case, guess.size),
         _find_size,
         ("size",),
         everywhere=True,
         sampled=False,
         after=_resampled,
         effort=Effort.PIXELS,
+        words="another size, and resampled",
     ),
     Fault(
         "shrunk",
         "the picture was shrunk to {words}",
         "compare the picture as it was rendered",
-        lambda case, frame, guess: case,
+        unchanged,
         _find_shrunk,
         ("n",),
         everywhere=True,
         sampled=False,
         after=_enlarged,
         effort=Effort.PIXELS,
+        words="a part of its size, and enlarged again",
     ),
 )

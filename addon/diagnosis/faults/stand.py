@@ -1,4 +1,4 @@
-"""Cameras elsewhere that are fitted: moved along their own axes, turned about them, or both."""
+"""Families of cameras elsewhere: moved along their own axes, or turned about them."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from ...arrays import Bools, Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
 from ...tracer.camera import pixel_size
-from ...tracer.progress import Work, result_of
+from ...tracer.progress import result_of
 from ..evidence import Evidence
-from .climbing import Climb, Values
-from .fault import Guess
+from .climbing import Climb
+from .fault import Values, at_once
 from .film import offsets, radius
 from .fitting import LOOKED_UP, Family, projected
 
 FIRST = 8.0  # pixels: the first step of looking up
 LAST = 1 / 4  # pixels: the last one
-LEAST = 1e-4  # of the largest number: what is less is told as 0
+NEGLIGIBLE = 1e-4  # of the largest number: what is less is told as 0
 # Of the unexplained pixels: three numbers settle a part of them by chance, and the right ones most.
 WORTH = 0.4
 _SIDES = ("to the right", "to the left"), ("upwards", "downwards"), ("anticlockwise", "clockwise")
@@ -51,39 +51,39 @@ def turned(camera: Camera, right: float, up: float, roll: float) -> Camera:
 
 
 def _depth(evidence: Evidence) -> float:
-    """Return how deep what is seen lies, in metres."""
+    """Return the median depth of the visible surfaces, in metres."""
     t = evidence.frame.t
     return float(np.median(t[np.isfinite(t)])) if np.isfinite(t).any() else 1.0
 
 
 def _metres(evidence: Evidence) -> Floats:
-    """Return how far a camera moves for its film to move by a pixel: right, up, forward, (3, 3)."""
+    """Return the moves right, up, forward that shift the picture by a pixel, (3, 3) metres."""
     camera, depth = evidence.case.scene.camera, _depth(evidence)
     width, height = (v * camera.projection.scale(depth) for v in pixel_size(camera))
     return np.diag((width, height, depth / radius(evidence)))
 
 
 def _seen(evidence: Evidence) -> Floats:
-    """Return those along which the picture changes: an orthographic one does not by the last."""
+    """Return the moves that change the picture; forward changes no orthographic one."""
     parallel = evidence.case.scene.camera.projection is ORTHOGRAPHIC
     return _metres(evidence)[:, : 2 if parallel else 3]
 
 
 def _unseen(evidence: Evidence) -> Floats | None:
-    """Return the others."""
+    """Return the moves that do not."""
     seen = _seen(evidence).shape[1]
     return _metres(evidence)[:, seen:] if seen < 3 else None
 
 
 def _degrees(evidence: Evidence) -> Values:
-    """Return by how much a camera turns for its film to move by a pixel."""
+    """Return the turns right, up, roll that shift the picture by a pixel, in degrees."""
     camera, depth = evidence.case.scene.camera, _depth(evidence)
     width, height = (v * camera.projection.scale(depth) / depth for v in pixel_size(camera))
     return tuple(float(np.degrees(v)) for v in (width, height, 1 / radius(evidence)))
 
 
 def _places(evidence: Evidence) -> Iterator[Values]:
-    """Yield places from which what is traced would be seen as it is shown."""
+    """Yield moves with which the traced surfaces would look as the picture shows them."""
     axes, depth = _seen(evidence), _depth(evidence)
     nearer = NEARER[: 1 if axes.shape[1] < 3 else None]
     starts = []
@@ -94,7 +94,7 @@ def _places(evidence: Evidence) -> Iterator[Values]:
 
 
 def _turns(evidence: Evidence) -> Iterator[Values]:
-    """Yield turns with which what is traced would be seen as it is shown."""
+    """Yield turns with which the traced surfaces would look as the picture shows them."""
     units = _degrees(evidence)
     starts = [(x * units[0], y * units[1], 0.0) for x, y in offsets(evidence)]
     yield from _climbed(evidence, turned, units, starts)
@@ -106,13 +106,13 @@ def _climbed(
     axes: Floats | Values,
     starts: Sequence[Values],
 ) -> Iterator[Values]:
-    """Yield where looking up leads from each start, in ever smaller steps."""
+    """Yield where climbing leads from each start, by looking up the traced picture."""
     own = evidence.case.scene.camera
 
-    def right(values: Values) -> Work[Bools | None]:
+    @at_once
+    def right(values: Values) -> Bools | None:
         share = projected(evidence, of(own, *values))
         return np.arange(LOOKED_UP) < round(LOOKED_UP * share)
-        yield
 
     climb = Climb(right, axes)
     units = np.linalg.pinv(np.diag(axes) if np.ndim(axes) == 1 else axes)
@@ -124,18 +124,18 @@ def _climbed(
             yield guess[0]
 
 
-def _in_the_world(camera: Camera, guess: Guess) -> str:
-    by = moved(camera, *guess.values).origin - camera.origin
-    x, y, z = (0.0 if abs(v) < LEAST * np.abs(by).max() else v for v in by)
+def _in_the_world(camera: Camera, *metres: float) -> str:
+    by = moved(camera, *metres).origin - camera.origin
+    x, y, z = (0.0 if abs(v) < NEGLIGIBLE * np.abs(by).max() else v for v in by)
     return f"({x:+.4g}, {y:+.4g}, {z:+.4g}) m"
 
 
-def _in_degrees(camera: Camera, guess: Guess) -> str:
-    """Return by how much it is turned, and to which side, without what it is not."""
-    least = LEAST * max(map(abs, guess.values))
+def _in_degrees(camera: Camera, *degrees: float) -> str:
+    """Say by how much the camera is turned, and to which side; angles of 0 are left out."""
+    least = NEGLIGIBLE * max(map(abs, degrees))
     return ", ".join(
         f"{abs(v):.4g} degrees {ahead if v > 0 else back}"
-        for v, (ahead, back) in zip(guess.values, _SIDES, strict=True)
+        for v, (ahead, back) in zip(degrees, _SIDES, strict=True)
         if abs(v) > least
     )
 

@@ -18,30 +18,30 @@ from ...pictures.picture import Picture, Transform
 from ...tracer.hits import NOTHING
 from ..evidence import Evidence, spread
 
-MOST = 1 << 14  # pixels of surfaces that are looked at
-FLAT = 0.3  # levels: the least deviation within a surface that noise has
-ENOUGH = 32  # pixels of a surface to measure it
+MOST = 1 << 14  # sampled pixels of surfaces
+FLAT = 0.3  # levels of 8 bits: the least standard deviation of noise within a surface
+ENOUGH = 32  # pixels, at least, for a surface to be measured
 
 
 class Surfaces(NamedTuple):
-    """What k surfaces of one colour each are traced and shown in, away from edges."""
+    """The traced and shown colours of k surfaces of one colour each, away from edges."""
 
     traced: Colors  # (k, 4)
     shown: Colors  # (k, 4) the median of its pixels
     wrong: Bools  # (k,) most of its pixels are unexplained
-    noisy: Bools  # (k,) its pixels differ from one another by more than rounding
-    measured: Bools  # (k,) enough pixels are seen of it to say so
+    noisy: Bools  # (k,) its pixels deviate by more than rounding
+    measured: Bools  # (k,) it has enough pixels to say so
 
 
 def inside(evidence: Evidence) -> Bools:
-    """Return the pixels (h, w) of surfaces that are away from edges and can be judged."""
+    """Return which pixels (h, w) show a surface away from edges, and can be judged."""
     inside = ~boundary(evidence.frame) & (evidence.causes.blind < 0)
-    inside &= evidence.open | evidence.judged
+    inside &= evidence.unexplained | evidence.judged
     return inside & (evidence.frame.instance_index != NOTHING)
 
 
 def surfaces(evidence: Evidence) -> Surfaces | None:
-    """Return the surfaces, looked at once; None where colours say nothing, or none are wrong."""
+    """Return the surfaces (cached); None where colours say nothing, or none is wrong."""
     if "surfaces" not in evidence.known:
         evidence.known["surfaces"] = _looked_at(evidence)
     found: Surfaces | None = evidence.known["surfaces"]
@@ -58,7 +58,7 @@ def _looked_at(evidence: Evidence) -> Surfaces | None:
     group = groups(np.column_stack((evidence.frame.instance_index.ravel()[some], traced)))
     first, middle = medians(shown, group)
     count = np.bincount(group)
-    wrong = np.bincount(group, evidence.open.ravel()[some]) > count / 2
+    wrong = np.bincount(group, evidence.unexplained.ravel()[some]) > count / 2
     if not wrong.any():
         return None
     levels = EIGHT_BITS * encoded(shown)[:, :3]
@@ -69,6 +69,6 @@ def _looked_at(evidence: Evidence) -> Surfaces | None:
 
 
 def agree(picture: Picture, found: Surfaces, of: Transform | None) -> Bools:
-    """Return which of the k surfaces agree by a transform of the traced colours, (k,)."""
+    """Return which of k surfaces agree after a transform of the traced colours, (k,)."""
     one = replace(picture, color=found.shown.astype(np.float32), owner=None)
     return ~replace(one, transform=of).other_color(found.traced)

@@ -1,4 +1,4 @@
-"""Which objects a fault is looked for in, and which ones the self-check makes it of."""
+"""Which objects a fault is looked for in, and which the self-check gives it to."""
 
 from __future__ import annotations
 
@@ -6,24 +6,21 @@ import numpy as np
 
 from ...causes.case import Case
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
-from ..evidence import Evidence
-from .fault import Find, Guess
+from .fault import Find, Guess, Numbers, Values, at_once
 
 
-def suspects(*values: float) -> Find:
-    """Return what suspects each object that is seen in unexplained pixels, with some numbers."""
-
-    def find(evidence: Evidence) -> Work[list[Guess]]:
-        chosen: list[tuple[float, ...]] = [(value,) for value in values] or [()]
-        return [Guess(some, object=name) for name in evidence.suspects for some in chosen]
-        yield
-
-    return find
+def suspects(*values: float) -> Find[Numbers]:
+    """Return a function that guesses each suspected object with each of some numbers."""
+    chosen: list[Values] = [(value,) for value in values] or [()]
+    return at_once(
+        lambda evidence: [
+            Numbers(some, object=name) for name in evidence.suspects for some in chosen
+        ]
+    )
 
 
 def largest(case: Case, frame: Frame) -> Guess | None:
-    """Pick the object whose instance is seen in the most pixels."""
+    """Pick the object of the instance visible in the most pixels."""
     seen = seen_instances(case, frame)
     if not seen:
         return None
@@ -31,7 +28,7 @@ def largest(case: Case, frame: Frame) -> Guess | None:
 
 
 def seen_instances(case: Case, frame: Frame) -> list[int]:
-    """Return the instances of meshes that are seen, those of the most pixels first."""
+    """Return the visible instances, those with the most pixels first."""
     index = frame.instance_index
     index = index[(index >= 0) & (index < len(case.scene.instances))]
     found, count = np.unique(index, return_counts=True)

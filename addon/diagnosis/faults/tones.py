@@ -1,8 +1,9 @@
-"""Faults of all colours of a picture by a curve: gamma, exposure, channels, two roundings..."""
+"""Faults of all colours of a picture by a transform: gamma, exposure, channels, roundings."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,7 +12,6 @@ from ...causes.case import Case
 from ...causes.checks.color import find_transform
 from ...pictures.curves import FITTED_SHARE, KEYS, ROUNDED, ROUNDED_ONCE
 from ...pictures.picture import Curve
-from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
 from .fault import Example, Fault, Find, Guess, Make
@@ -29,7 +29,7 @@ def _gamma(color: Array) -> Array:
 
 
 def _curve_of(evidence: Evidence) -> Work[Curve | None]:
-    """Return the transform that makes most unexplained surfaces agree; it is looked for once."""
+    """Return the transform that makes most unexplained surfaces agree (cached)."""
     picture = evidence.picture
     if "curve" not in evidence.known and picture.transform is None and not picture.lit:
         more = evidence.case.curves or ()
@@ -39,9 +39,9 @@ def _curve_of(evidence: Evidence) -> Work[Curve | None]:
 
 
 def _rounded(evidence: Evidence) -> Sequence[Curve]:
-    """Return the transforms with a rounding to 8 bits that say more than a plain one does.
+    """Return the transforms with roundings to 8 bits that explain more than one rounding.
 
-    Where all that is shown is what one rounding gives, it may not be said to be of two.
+    Where one rounding explains all, two must not be told.
     """
     found = surfaces(evidence)
     if found is None:
@@ -58,48 +58,59 @@ def _rounded(evidence: Evidence) -> Sequence[Curve]:
     return rounded
 
 
-def _find_curve(key: str) -> Find:
-    def find(evidence: Evidence) -> Work[list[Guess]]:
+@dataclass(frozen=True, eq=False)
+class OfCurve(Guess):
+    """A transform of the picture's colours."""
+
+    curve: Curve
+
+
+def _through(case: Case, guess: OfCurve) -> Case:
+    return by_curve(case, guess.curve.of)
+
+
+def _find_curve(key: str) -> Find[OfCurve]:
+    def find(evidence: Evidence) -> Work[list[OfCurve]]:
         best = yield from _curve_of(evidence)
         found = (*([best] if best else []), *_rounded(evidence))
-        return [Guess(words=c.name, curve=c) for c in found if c.key == key]
+        return [OfCurve(c, words=c.name) for c in found if c.key == key]
 
     return find
 
 
-def _nothing(case: Case, frame: Frame, guess: Guess) -> None:
-    """Make nothing: what a curve does to a picture is found of pictures that have it."""
-
-
-def _colors(key: str, make: Make = _nothing, *examples: Example) -> Fault:
+def _colors(key: str) -> Fault[OfCurve]:
     return Fault(
         key,
         "the picture's colours: {words}",
         "check the colour space of each file, and what is applied when it is saved or loaded",
-        make,
+        _through,
         _find_curve(key),
-        put_right=by_curve,
-        examples=examples,
+        examples=EXAMPLES.get(key, ()),
+        words=KEYS[key],
     )
 
 
-_OWN = {
-    "gamma": (recolored(_gamma), Example("gamma", "a gamma of 2.2 applied to the picture")),
-    "channels": (
-        recolored(lambda color: color[..., _BGRA]),
-        Example("channels", "red and blue swapped"),
+def _example(name: str, text: str, make: Make[Guess]) -> tuple[Example, ...]:
+    return (Example(name, text, make=make),)
+
+
+EXAMPLES = {
+    "gamma": _example("gamma", "a gamma of 2.2 applied to the picture", recolored(_gamma)),
+    "channels": _example(
+        "channels", "red and blue swapped", recolored(lambda color: color[..., _BGRA])
     ),
 }
 
 CURVE_FAULTS = (
-    *(_colors(key, *_OWN.get(key, ())) for key in KEYS),
+    *map(_colors, KEYS),
     Fault(
         "twice_rounded",
         "the picture's colours were rounded to 8 bits more than once: {words}",
         "convert colours as floats, and round them once, when the file is written",
-        of_straight(_TWICE.of),
+        _through,
         _find_curve("twice_rounded"),
-        put_right=by_curve,
-        examples=(Example("twice_rounded", "colours rounded to 8 bits twice"),),
+        examples=_example(
+            "twice_rounded", "colours rounded to 8 bits twice", of_straight(_TWICE.of)
+        ),
     ),
 )

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...arrays import Array, Bools
+from ...arrays import Array, Bools, Places
 from ...causes.case import Case
 from ...causes.checks.probe import SOUND
 from ...projections import ORTHOGRAPHIC
@@ -16,32 +15,15 @@ from ...scene import Camera, Instance, Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import Effort, Example, Fault, Guess, instances_named
+from .fault import AnyFault, Effort, Example, Fault, Guess, Values, instances_named, of_meshes
 from .suspects import seen_instances
 
 
 def with_triangles(mesh: Mesh, left: Bools | slice, corners: slice = slice(None)) -> Mesh:
-    """Return the mesh of some of the triangles, with their corners in some order."""
+    """Return a mesh with some of its triangles, and their corners reordered."""
     colors = None if mesh.corner_colors is None else mesh.corner_colors[left][:, corners]
     triangles = mesh.triangles[left][:, corners]
     return replace(mesh, triangles=triangles, slots=mesh.slots[left], corner_colors=colors)
-
-
-def _meshes(change: Callable[[Mesh], Mesh]) -> Callable[[Case, Frame, Guess], Case | None]:
-    """Return what changes the meshes of an object, or of all objects where none is named."""
-
-    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
-        def changed(scene: Scene) -> Scene:
-            own = {scene.instances[n].mesh for n in instances_named(scene, guess.object)}
-            meshes = [
-                change(mesh) if n in own or not guess.object else mesh
-                for n, mesh in enumerate(scene.meshes)
-            ]
-            return replace(scene, meshes=tuple(meshes))
-
-        return case.with_scenes(changed)
-
-    return make
 
 
 def _flipped(mesh: Mesh) -> Mesh:
@@ -64,8 +46,8 @@ def _other_diagonal(mesh: Mesh) -> Mesh:
     return replace(mesh, triangles=triangles)
 
 
-def _culled(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Leave out the triangles whose backs the camera sees."""
+def _culled(case: Case, guess: Guess) -> Case:
+    """Leave out the back faces."""
 
     def culled(scene: Scene) -> Scene:
         meshes: list[Mesh] = []
@@ -85,12 +67,25 @@ def _culled(case: Case, frame: Frame, guess: Guess) -> Case | None:
 
 
 def _towards(camera: Camera, points: Array, normals: Array) -> Array:
-    """Return a positive number where a normal (n, 3) points towards the camera."""
+    """Return the dot product of normals (n, 3) with the vector to the camera, (n,)."""
     back = -camera.forward if camera.projection is ORTHOGRAPHIC else camera.origin - points
     return (normals * back).sum(axis=1)
 
 
-def _largest_triangle(case: Case, frame: Frame) -> Guess | None:
+@dataclass(frozen=True, eq=False)
+class Triangles(Guess):
+    """The triangles that an instance lacks, by index."""
+
+    rank: int  # among the object's instances: another scene may number them otherwise
+    missing: Places
+
+    @property
+    def values(self) -> Values:
+        """How many there are."""
+        return (float(len(self.missing)),)
+
+
+def _largest_triangle(case: Case, frame: Frame) -> Triangles | None:
     if not seen_instances(case, frame):
         return None
     names = np.stack((frame.instance_index, frame.triangle_index), axis=-1)
@@ -98,22 +93,19 @@ def _largest_triangle(case: Case, frame: Frame) -> Guess | None:
     instance, triangle = (int(n) for n in found[np.argmax(count)])
     name = case.scene.objects[case.scene.instances[instance].object]
     rank = instances_named(case.scene, name).index(instance)
-    return Guess((1.0, float(rank), float(triangle)), object=name)
+    return Triangles(rank, np.array([triangle]), object=name)
 
 
-def _without_triangles(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Drop triangles of an instance: the values are their count, its rank, and their numbers.
-
-    The rank is that among the object's instances: another scene may number them otherwise.
-    """
-    rank, *triangles = (int(v) for v in guess.values[1:])
+def _without_triangles(case: Case, guess: Triangles) -> Case:
+    """Drop the missing triangles of an instance."""
+    rank = guess.rank
 
     def less(scene: Scene) -> Scene:
         own = instances_named(scene, guess.object)
         if rank >= len(own):
             return scene
         mesh = scene.meshes[scene.instances[own[rank]].mesh]
-        left = ~np.isin(np.arange(len(mesh.triangles)), triangles)
+        left = ~np.isin(np.arange(len(mesh.triangles)), guess.missing)
         instances = list(scene.instances)
         instances[own[rank]] = replace(instances[own[rank]], mesh=len(scene.meshes))
         meshes = (*scene.meshes, with_triangles(mesh, left))
@@ -129,12 +121,12 @@ MOST_TRIANGLES = 4096  # of an instance that may be missing
 PIXELS_PER_TRIANGLE = 4  # else any shape is a sum of triangles
 
 
-def _missing_triangles(evidence: Evidence) -> Work[list[Guess]]:
-    """Return, for each object, the triangles in which it is unexplained, one behind another.
+def _missing_triangles(evidence: Evidence) -> Work[list[Triangles]]:
+    """Guess the missing triangles of each suspect, layer by layer.
 
     Of its instances, those with the most unexplained pixels are looked at.
     """
-    seen = evidence.frame.instance_index[evidence.open]
+    seen = evidence.frame.instance_index[evidence.unexplained]
     count = np.bincount(seen[seen >= 0], minlength=len(evidence.case.scene.instance_objects))
     out = []
     for name in evidence.suspects:
@@ -147,13 +139,13 @@ def _missing_triangles(evidence: Evidence) -> Work[list[Guess]]:
     return out
 
 
-def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Guess | None]:
-    """Drop an instance's triangles that are wrong, then those behind them that are, and so on."""
+def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Triangles | None]:
+    """Drop an instance's wrong triangles, then the wrong ones behind them, and so on."""
     case, frame = evidence.case, evidence.frame
-    gone: set[int] = set()
-    wrong = evidence.open
+    wrong = evidence.unexplained
     mesh = case.scene.meshes[case.scene.instances[instance].mesh]
-    left = np.arange(len(mesh.triangles))  # their numbers in the scene as it is
+    every = np.arange(len(mesh.triangles))
+    left, guess = every, None  # by their numbers in the scene as it is
     for _ in range(MOST_LAYERS):
         found = frame.triangle_index[wrong & (frame.instance_index == instance)]
         # A triangle that is there is nowhere wrong, but for what another fault does at its rim.
@@ -161,25 +153,25 @@ def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Gue
         more = left[number[count >= LEAST_WRONG]]
         if not len(more):
             break
-        gone |= set(more.tolist())
         left = np.setdiff1d(left, more)
-        values = (float(len(gone)), float(rank), *map(float, sorted(gone)))
-        guess = Guess(values, object=name)
-        if len(gone) * PIXELS_PER_TRIANGLE > evidence.open.sum() or len(gone) > MOST_TRIANGLES:
+        gone = np.setdiff1d(every, left)
+        guess = Triangles(rank, gone, object=name)
+        most = min(MOST_TRIANGLES, int(evidence.unexplained.sum()) / PIXELS_PER_TRIANGLE)
+        if len(gone) > most:
             return None
-        other = _without_triangles(case, evidence.frame, guess)
-        if other is None or (yield from evidence.score(other)).gain < 0:
+        other = _without_triangles(case, guess)
+        if (yield from evidence.score(other)).gain < 0:
             return None  # where they are missing, they break nothing that agrees
         frame = Frame.empty(other.scene)
         yield from steps(other.scene, SOUND, frame)
         shown = evidence.picture.alike(other.scene, frame.instance_index, frame.color)
-        wrong = evidence.open & ~shown
+        wrong = evidence.unexplained & ~shown
     if not (frame.instance_index == instance).any():
         return None  # all that is seen of it is gone: the object is missing
-    return guess if gone else None
+    return guess
 
 
-TRIANGLE_FAULTS = (
+TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "culled",
         "back faces are left out (culled)",
@@ -191,14 +183,14 @@ TRIANGLE_FAULTS = (
         "flipped_winding",
         "all normals are turned over",
         "keep the order of each triangle's corners",
-        _meshes(_flipped),
+        of_meshes(_flipped),
         examples=(Example("flipped_winding", "all normals turned over"),),
     ),
     Fault(
         "other_diagonal",
         "quads are cut along their other diagonal",
         "cut each quad as Blender's loop triangles do",
-        _meshes(_other_diagonal),
+        of_meshes(_other_diagonal),
     ),
     Fault(
         "triangles_missing",

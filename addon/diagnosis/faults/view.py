@@ -1,4 +1,4 @@
-"""Faults of what the camera lets be seen: its clip range, and how it projects."""
+"""Faults of the camera's clip range."""
 
 from __future__ import annotations
 
@@ -13,15 +13,14 @@ from ...scene import Camera
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .climbing import Values
-from .fault import Example, Fault, Guess, of_camera
+from .fault import Example, Fault, Numbers, Values, of_camera
 from .search import Search
 
 FEW = (0.0, 0.001, 0.01, 0.05)  # shares of unexplained pixels that may have another cause
-STEPS = 32  # of the depths that are seen: the first step of a fit
+STEPS = 32  # first steps of a fit in the range of visible depths
 BESIDE = 2.0**-40  # of a depth: before what is clipped
 LEFT_OUT = "left out: nothing is clipped"
-FAR = 1e6  # how many times farther is looked for what should have been clipped
+FAR = 1e6  # factor by which a clip distance is moved to clip nothing
 
 
 def _start(camera: Camera, start: float) -> Camera | None:
@@ -32,42 +31,42 @@ def _end(camera: Camera, end: float) -> Camera | None:
     return replace(camera, clip_end=end) if end > camera.clip_start else None
 
 
-def _halfway(case: Case, frame: Frame) -> Guess | None:
-    """Pick a clip start halfway between the nearest and the farthest surface that is seen."""
+def _halfway(case: Case, frame: Frame) -> Numbers | None:
+    """Pick a clip start halfway between the nearest and the farthest visible surface."""
     t = frame.t[np.isfinite(frame.t)]
     if not len(t) or np.ptp(t) == 0:
         return None
-    return Guess((float(np.min(t) + np.max(t)) / 2,))
+    return Numbers((float(np.min(t) + np.max(t)) / 2,))
 
 
-def _find_start(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the clip start for which the most pixels are right, and none."""
+def _find_start(evidence: Evidence) -> Work[list[Numbers]]:
+    """Guess the clip start with the most right pixels, and none."""
     camera = evidence.case.scene.camera
     least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
     fitted = yield from _fitted(evidence, _start, least, -1.0)
-    return [*fitted, Guess((least,), words=LEFT_OUT)]
+    return [*fitted, Numbers((least,), words=LEFT_OUT)]
 
 
-def _find_end(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the clip end for which the most pixels are right, and none."""
+def _find_end(evidence: Evidence) -> Work[list[Numbers]]:
+    """Guess the clip end with the most right pixels, and none."""
     most = evidence.case.scene.camera.clip_end * FAR
     fitted = yield from _fitted(evidence, _end, most, 1.0)
-    return [*fitted, Guess((most,), words=LEFT_OUT)]
+    return [*fitted, Numbers((most,), words=LEFT_OUT)]
 
 
 def _fitted(
     evidence: Evidence, changed: Callable[[Camera, float], Camera | None], none: float, sign: float
-) -> Work[list[Guess]]:
-    """Return the best depth near those that part unexplained pixels from the others.
+) -> Work[list[Numbers]]:
+    """Guess the best depth near those that separate unexplained pixels from the others.
 
-    `none` is the depth with which nothing is clipped.
+    With the depth `none`, nothing is clipped.
     """
     camera = evidence.case.scene.camera
     widest = changed(camera, none)
     t = evidence.frame.t[np.isfinite(evidence.frame.t)]
     if widest is None or not len(t) or not np.ptp(t):
         return []
-    # The pixels' rays are the same with each depth: what may be on them is looked for once.
+    # The rays are the same with each clip depth: their candidates are found once.
     probe = yield from evidence.probe(evidence.case.scene.seen_by(widest))
 
     def right(values: Values) -> Work[Bools | None]:
@@ -80,7 +79,7 @@ def _fitted(
 
     starts = []
     for depth in _parting(evidence, sign):
-        # It parts the pixels already: if most are wrong with it, so they are beside it.
+        # If most pixels are wrong with it, so they are with depths near it.
         found = yield from right(depth)
         if found is not None and found.sum() >= evidence.least_right():
             starts.append(depth)
@@ -96,13 +95,13 @@ def _fitted(
 
 
 def _parting(evidence: Evidence, sign: float) -> list[Values]:
-    """Return depths beyond which (sign 1), or before which (-1), the unexplained pixels lie.
+    """Return depths beyond which (sign 1), or before which (-1), nearly all unexplained pixels lie.
 
-    All of them do, or nearly all: some may have another cause. Pixels that agree may lie there,
-    too, as they show what is behind in the same colour.
+    Some may have another cause. Pixels that agree may lie there, too: what is behind may have the
+    same colour.
     """
     t = sign * evidence.frame.t
-    wrong = np.sort(t[np.isfinite(t) & evidence.open])
+    wrong = np.sort(t[np.isfinite(t) & evidence.unexplained])
     found = {float(wrong[int(share * len(wrong))]) for share in FEW if len(wrong)}
     return [(abs(nearest) * (1 - sign * BESIDE),) for nearest in sorted(found)]
 
@@ -116,6 +115,7 @@ VIEW_FAULTS = (
         _find_start,
         ("start",),
         examples=(Example("clip_start", "the clip start halfway into the scene", _halfway),),
+        words="at another depth, or left out",
     ),
     Fault(
         "clip_end",
@@ -124,5 +124,6 @@ VIEW_FAULTS = (
         of_camera(_end),
         _find_end,
         ("end",),
+        words="at another depth, or left out",
     ),
 )

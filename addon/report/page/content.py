@@ -87,7 +87,7 @@ def _causes(comparison: Comparison) -> list[dict[str, object]]:
             "sentence": cause.sentence,
             "unit": cause.unit,
             "pixels": count[cause.key],
-            "color": None if cause.color is None else _hex(cause.color),
+            "color": None if cause.color is None else hex_color(cause.color),
         }
         for cause in CAUSES
     ]
@@ -97,7 +97,8 @@ def _words(name: str) -> str:
     return name.replace("_", " ").capitalize()
 
 
-def _hex(linear: Sequence[float]) -> str:
+def hex_color(linear: Sequence[float]) -> str:
+    """Return a linear RGB as #rrggbb of sRGB."""
     r, g, b, _ = to_display(np.array([[[*linear, 1.0]]]))[0, 0]
     return f"#{r:02x}{g:02x}{b:02x}"
 

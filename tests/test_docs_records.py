@@ -1,0 +1,46 @@
+"""What the documents say of causes, faults and methods is what their records say."""
+
+import sys
+from pathlib import Path
+
+import pytest
+from reference_tracer.causes.explain import CAUSES
+from reference_tracer.diagnosis.faults import EXAMPLES, FAULTS
+from reference_tracer.methods import Method
+
+PROJECT = Path(__file__).parent.parent
+sys.path.insert(0, str(PROJECT / "tools"))
+from documents import records  # noqa: E402
+from documents.markers import refreshed  # noqa: E402
+
+sys.path.pop(0)
+PAGES = {"causes": "causes.md", "faults": "faults.md", "methods": "accuracy.md"}
+VALUES = records.values()
+
+
+@pytest.mark.parametrize("part", PAGES)
+def test_a_page_has_what_the_records_say(part):
+    text = (PROJECT / "docs" / PAGES[part]).read_text(encoding="utf-8")
+    start = text.index(f"<!-- {part} -->")
+    made = text[start : text.index("<!-- / -->", start) + len("<!-- / -->")]
+    assert refreshed(made, lambda command: "", VALUES) == made
+
+
+def test_every_record_is_told_once():
+    for cause in CAUSES[1:]:
+        assert VALUES["causes"].count(f"`{cause.key}`, {cause.number} in") == 1
+    for fault in FAULTS:
+        assert VALUES["faults"].count(f"\n| `{fault.name}` |") == 1
+    assert all(example.text in VALUES["faults"] for _, example in EXAMPLES)
+    assert all(VALUES["methods"].count(f"\n| `{method}`, ") == 1 for method in Method)
+
+
+def test_a_cause_that_excuses_says_why_and_what_to_do():
+    for cause in CAUSES:
+        if cause.explains or cause.warns:
+            assert cause.why and cause.check and cause.never and cause.advice, cause.key
+
+
+def test_no_sentence_is_left_without_words():
+    """A fault whose sentence is all words says in its record what they may be."""
+    assert "| … |" not in VALUES["faults"] and "{" not in VALUES["faults"]

@@ -1,0 +1,104 @@
+"""What the records of causes, faults and methods say of themselves: Markdown."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+
+from reference_tracer.causes.cause import Cause
+from reference_tracer.causes.explain import CAUSES
+from reference_tracer.diagnosis import faults
+from reference_tracer.diagnosis.faults import FAULTS
+from reference_tracer.diagnosis.faults.fault import AnyFault
+from reference_tracer.methods import Method
+from reference_tracer.report.page.content import hex_color
+
+PROJECT = Path(__file__).resolve().parents[2]
+
+
+class _Name(str):
+    """A number's name, which stands in a text where the number would, in whatever format."""
+
+    def __format__(self, spec: str) -> str:
+        return "*" + self + "*"
+
+
+def values() -> dict[str, str]:
+    """Return each part by its name."""
+    parts = {"causes": causes(), "faults": faults_by_family(), "methods": methods()}
+    return {name: f"\n\n{part}\n\n" for name, part in parts.items()}  # blocks of their own
+
+
+def methods() -> str:
+    """Return a table of the methods by which a ray meets a triangle."""
+    rows = ["| method | what it is | what it guarantees of a picture |", "|---|---|---|"]
+    for method in Method:
+        of = method.record
+        rows.append(f"| `{method}`, *{of.label}* | {of.description} | {of.guarantees} |")
+    return "\n".join(rows)
+
+
+def causes() -> str:
+    """Return a section for each cause of a pixel that differs, in the order of the legend."""
+    sys.path.insert(0, str(PROJECT))
+    attacks = import_module("tests.attacks").withstood()
+    sys.path.remove(str(PROJECT))
+    parts = (_cause(c, attacks.get(c, ())) for c in CAUSES if c.why)
+    return "\n\n".join(line for part in parts for line in part)
+
+
+def _cause(cause: Cause, attacks: tuple[str, ...]) -> Iterator[str]:
+    """Yield a cause's section; `attacks` are those that it withstands."""
+    yield f"### {cause.label.capitalize()}"
+    numbers = {name: _Name(name) for name in ("figure", "allowed", "name")}
+    color = f", `{hex_color(cause.color)}` on the map" if cause.color else ""
+    known = f"`{cause.key}`, {cause.number} in `frame.npz`{color}"
+    yield f"“{cause.sentence.format(**numbers)}” ({known})"
+    lines = {
+        "Why": cause.why,
+        "The check": cause.check,
+        "Never excused": cause.never,
+        "Withstands": "; ".join(attacks),
+        "What to do": cause.advice,
+    }
+    yield "\n".join(
+        f"- **{name}**: {text[0].upper()}{text[1:].rstrip('.')}."
+        for name, text in lines.items()
+        if text
+    )
+
+
+def faults_by_family() -> str:
+    """Return a section and a table for each file's faults, in the order in which they are told."""
+    families = []
+    for node in ast.parse(inspect.getsource(faults)).body:
+        if isinstance(node, ast.ImportFrom) and node.names[0].name.endswith("_FAULTS"):
+            module = import_module(f".{node.module}", faults.__name__)
+            families.append((getattr(faults, node.names[0].name), inspect.getdoc(module) or ""))
+    families.sort(key=lambda family: FAULTS.index(family[0][0]))
+    return "\n\n".join(_family(*family) for family in families)
+
+
+def _family(of: tuple[AnyFault, ...], said: str) -> str:
+    """Return a section of faults, with what their file says of them."""
+    title, _, rest = said.split("\n")[0].rstrip(".").partition(": ")
+    head = "| name | what is said | what to do | the self-check makes |"
+    told = {first.advice: first for first in reversed(of)}
+    rows = (_row(fault, told[fault.advice]) for fault in of)
+    lead = [rest[0].upper() + rest[1:] + "."] if rest else []
+    return "\n\n".join([f"## {title}", *lead, "\n".join([head, "|---|---|---|---|", *rows])])
+
+
+def _row(fault: AnyFault, told: AnyFault) -> str:
+    """Return a fault's row; `told` is the first whose advice is the same."""
+    given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
+        "words": fault.words or "…"
+    }
+    said, advice = (text.format(**given) for text in (fault.sentence, fault.advice))
+    advice = advice if fault is told else f"as for `{told.name}`"
+    made = "; ".join(example.text for example in fault.examples)
+    return f"| `{fault.name}` | {said} | {advice} | {made} |"
