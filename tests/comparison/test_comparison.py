@@ -31,7 +31,7 @@ from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from .cases import MANIFEST, case_of
+from ..cases import MANIFEST, case_of
 
 BLENDER = {
     "version": "5.2.3",

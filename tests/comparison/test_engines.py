@@ -18,7 +18,7 @@ from reference_tracer.rendering import render
 from reference_tracer.report.engines import lines, write
 from reference_tracer.tracer.progress import result_of
 
-from .cases import case_of
+from ..cases import case_of
 
 
 @pytest.fixture

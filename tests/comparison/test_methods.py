@@ -15,7 +15,7 @@ from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from .cases import case_of
+from ..cases import case_of
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
-from ..comparison.cases import case_of
+from ..cases import case_of
 
 BY_NAME = {fault.name: fault for fault in FAULTS}
 

@@ -27,7 +27,7 @@ from reference_tracer.rendering import render
 from reference_tracer.scene import Instance
 from reference_tracer.tracer.progress import result_of
 
-from ..comparison.cases import case_of
+from ..cases import case_of
 
 LOOKED_FOR = [f for f in FAULTS if f in (*COLOR_FAULTS, *PICTURE_FAULTS)]
 SEED = 27

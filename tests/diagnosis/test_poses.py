@@ -18,7 +18,7 @@ from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
 from reference_tracer.tracer.progress import result_of
 
-from ..comparison.cases import case_of
+from ..cases import case_of
 from .diagnosing import pictured, told
 
 

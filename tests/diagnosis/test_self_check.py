@@ -20,7 +20,7 @@ from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from ..comparison.cases import case_of
+from ..cases import case_of
 
 # Constant shading has no normals; behind a solid's triangle is another of its colour; no frame;
 # all objects have the same transform.

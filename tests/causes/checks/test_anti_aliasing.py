@@ -12,11 +12,11 @@ from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from ..cases import find_causes
+from ...cases import find_causes, shifted
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 9])
-def test_every_mix_is_found(count, rng):
+def test_every_mix_is_found(rng, count):
     points = rng.random((count, 300, 4))
     weights = rng.dirichlet(np.full(count, 0.4), 300).T[..., None]
     assert result_of(is_mix((weights * points).sum(axis=0), points)).all()
@@ -84,7 +84,7 @@ def test_a_filter_excuses_no_fault_inside(room):
 
 
 @pytest.mark.slow
-def test_a_shift_is_found_through_a_filter(room, shifted):
+def test_a_shift_is_found_through_a_filter(room):
     from dataclasses import replace
 
     moved = replace(room, camera=shifted(room.camera, 4, 0))

@@ -13,7 +13,7 @@ from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh
 from reference_tracer.tracer.progress import result_of
 
-from .cases import case_of
+from ..cases import case_of
 
 LIMIT = 1e6
 

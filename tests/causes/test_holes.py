@@ -14,7 +14,7 @@ from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh
 from reference_tracer.tracer.progress import result_of
 
-from .cases import case_of
+from ..cases import case_of
 
 FILTER = 1.5
 

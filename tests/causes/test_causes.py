@@ -28,12 +28,12 @@ from reference_tracer.tracer.camera import film_of, pixel_size
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from .cases import find_causes
+from ..cases import count, explained, find_causes
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
-def test_the_same_picture_agrees(room, explained):
+def test_the_same_picture_agrees(room):
     assert (explained(room, render(room).color).cause == AGREE).all()
 
 
@@ -99,14 +99,14 @@ def faults():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("fault", [f for _, f in faults()], ids=[name for name, _ in faults()])
-def test_a_fault_is_unexplained(room, fault, explained, count):
+def test_a_fault_is_unexplained(room, fault):
     picture = np.ascontiguousarray(fault(room))
     found = explained(room, picture)
     differ = differing(render(room).color, picture).sum()
     assert count(found, UNEXPLAINED) > max(10, 0.8 * differ)
 
 
-def test_what_is_not_modelled_explains_only_its_own_place(room, explained):
+def test_what_is_not_modelled_explains_only_its_own_place(room):
     bounds = np.array([(0.3, -0.8, -0.9), (1.1, 0.1, 0.3)])
     inside = covered(room.camera, bounds)
     assert 20 < inside.sum() < 0.5 * inside.size
@@ -148,7 +148,7 @@ def test_boxes_around_behind_and_beyond(room):
     assert not at(-2).any() and not at(2000).any()
 
 
-def test_far_from_the_origin_nothing_is_decided(room, make, explained):
+def test_far_from_the_origin_nothing_is_decided(room, make):
     far = np.eye(4)
     far[:3, 3] = (3e7, -2e7, 1e7)
     scene = replace(
@@ -164,7 +164,7 @@ def test_far_from_the_origin_nothing_is_decided(room, make, explained):
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-def test_what_is_not_finite_differs(room, value, explained, count):
+def test_what_is_not_finite_differs(room, value):
     picture = render(room).color.copy()
     picture[20, 30, 1] = picture[2, 3, 3] = value
     found = explained(room, picture)
@@ -184,7 +184,7 @@ def test_rows_that_were_not_traced(room, monkeypatch):
     assert (found.cause[frame.rows_done] == AGREE).all()
 
 
-def test_an_empty_scene_agrees_with_its_background(make, explained):
+def test_an_empty_scene_agrees_with_its_background(make):
     scene = make.scene(make.camera(8, 6), background=(0.2, 0.3, 0.4, 1))
     assert (explained(scene, render(scene).color).cause == AGREE).all()
     assert (explained(scene, render(scene).color * 0).cause == UNEXPLAINED).all()
@@ -197,14 +197,14 @@ def test_progress_rises(room):
 
 
 @pytest.mark.parametrize("bounds", [np.nan, np.inf])
-def test_bounds_that_are_not_finite_explain_nothing(room, bounds, explained, count):
+def test_bounds_that_are_not_finite_explain_nothing(room, bounds):
     """An object with a matrix that is not finite has no place in the picture."""
     hair = Unmodelled("Hair", "hair", bounds=np.full((2, 3), bounds) * [[-1], [1]])
     found = explained(room, 0 * render(room).color, [hair])
     assert count(found, UNEXPLAINED) > 100 and count(found, NOT_MODELLED) == 0
 
 
-def test_a_border_has_the_causes_of_the_whole(room, explained):
+def test_a_border_has_the_causes_of_the_whole(room):
     """Away from its rim, where a pixel's neighbours are not there."""
     picture = render(room).color.copy()
     picture[::2] = WHITE

@@ -11,6 +11,8 @@ from reference_tracer.pictures.bounds import depth_step
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Mesh
 
+from ...cases import explained
+
 
 def wall(make, camera: Camera, depth: float):
     """A wall across the view at a depth, and one far behind it; no edge is in the picture."""
@@ -23,7 +25,7 @@ def wall(make, camera: Camera, depth: float):
 
 @pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("side", [-1, 1])
-def test_a_wall_at_the_clip_start(make, explained, orthographic, side):
+def test_a_wall_at_the_clip_start(make, orthographic, side):
     """Blender draws it or not; the tracer, a hair off, the other way."""
     camera = make.camera(clip_start=2.0, clip_end=100.0, orthographic=orthographic)
     off = 0.2 * float(depth_step(camera, np.array(2.0)))
@@ -37,7 +39,7 @@ def test_a_wall_at_the_clip_start(make, explained, orthographic, side):
 
 
 @pytest.mark.parametrize("side", [-1, 1])
-def test_a_wall_at_the_clip_start_behind_the_eye(make, explained, side):
+def test_a_wall_at_the_clip_start_behind_the_eye(make, side):
     """As an orthographic view has it, which looks both ways."""
     camera = make.camera(clip_start=-50.0, clip_end=50.0, orthographic=True)
     off = 0.2 * float(depth_step(camera, np.array(-50.0)))
@@ -48,7 +50,7 @@ def test_a_wall_at_the_clip_start_behind_the_eye(make, explained, side):
 
 
 @pytest.mark.parametrize("side", [-1, 1])
-def test_a_wall_at_the_clip_end(make, explained, side):
+def test_a_wall_at_the_clip_end(make, side):
     camera = make.camera(clip_start=0.5, clip_end=5.0)
     off = 0.2 * float(depth_step(camera, np.array(5.0)))
     scene = wall(make, camera, 5.0 + side * off)
@@ -57,7 +59,7 @@ def test_a_wall_at_the_clip_end(make, explained, side):
     assert (found.cause == CLIP_PLANE).all()
 
 
-def test_farther_off_it_is_unexplained(make, explained):
+def test_farther_off_it_is_unexplained(make):
     camera = make.camera(clip_start=2.0, clip_end=100.0)
     off = 1e-3  # metres
     scene = wall(make, camera, 2.0 + off)
@@ -65,14 +67,14 @@ def test_farther_off_it_is_unexplained(make, explained):
     assert (explained(scene, other).cause == UNEXPLAINED).all()
 
 
-def test_another_clip_range_is_a_fault(make, explained):
+def test_another_clip_range_is_a_fault(make):
     camera = make.camera(clip_start=0.5, clip_end=100.0)
     scene = wall(make, camera, 3.0)
     other = render(replace(scene, camera=replace(camera, clip_start=3.5))).color
     assert (explained(scene, other).cause == UNEXPLAINED).all()
 
 
-def test_what_is_at_the_clip_explains_only_what_lies_behind_it(make, explained):
+def test_what_is_at_the_clip_explains_only_what_lies_behind_it(make):
     """Not any other colour."""
     camera = make.camera(clip_start=2.0, clip_end=100.0)
     scene = wall(make, camera, 2.0)

@@ -18,7 +18,7 @@ from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from ..cases import case_of
+from ...cases import case_of
 
 BOUNDS = {"pairs": 256, "numbers": 1 << 16, "pixels": 256}
 

@@ -15,7 +15,7 @@ from reference_tracer.pictures.picture import Picture, numbered
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
-from ..cases import find_causes
+from ...cases import find_causes
 
 WHY = "hidden in the viewport"
 

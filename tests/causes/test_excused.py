@@ -11,7 +11,7 @@ from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
-from .cases import case_of
+from ..cases import case_of
 
 
 def compared(scene, shown):

@@ -18,8 +18,8 @@ from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import cross, dot
 
+from ..cases import find_causes
 from ..tracer.rational import rational
-from .cases import find_causes
 
 F = np.float32
 FOREIGN = Source(file="theirs.exr")

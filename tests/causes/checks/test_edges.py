@@ -21,12 +21,12 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from ..cases import find_causes
+from ...cases import count, explained, find_causes, shifted
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
-def test_a_shift_within_the_snapping_is_all_edges(stripes, explained, shifted, count):
+def test_a_shift_within_the_snapping_is_all_edges(stripes):
     picture = render(replace(stripes, camera=shifted(stripes.camera, 1 / 300, -1 / 300))).color
     found = explained(stripes, picture)
     assert count(found, EDGE) > 20
@@ -36,7 +36,7 @@ def test_a_shift_within_the_snapping_is_all_edges(stripes, explained, shifted, c
 
 
 @pytest.mark.parametrize("shift", [(0.5, 0), (-0.5, 0.5), (0.05, 0.02)])
-def test_a_larger_shift_is_unexplained(stripes, shift, explained, shifted, count):
+def test_a_larger_shift_is_unexplained(stripes, shift):
     picture = render(replace(stripes, camera=shifted(stripes.camera, *shift))).color
     found = explained(stripes, picture)
     edges, unexplained = count(found, EDGE), count(found, UNEXPLAINED)
@@ -45,7 +45,7 @@ def test_a_larger_shift_is_unexplained(stripes, shift, explained, shifted, count
 
 @pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("gap, cause", [(1e-5, DEPTH_TIE), (2e-2, UNEXPLAINED)])
-def test_surfaces_nearer_than_the_depth_buffer_resolves(make, orthographic, gap, cause, explained):
+def test_surfaces_nearer_than_the_depth_buffer_resolves(make, orthographic, gap, cause):
     camera = make.camera(20, 15, orthographic=orthographic)
     front, back = make.quad(-50, 50, -50, 50, -10), make.quad(-50, 50, -50, 50, -10 - gap)
     scene = make.scene(camera, front, back)
@@ -56,27 +56,27 @@ def test_surfaces_nearer_than_the_depth_buffer_resolves(make, orthographic, gap,
         assert np.allclose(found.figure, gap, rtol=1e-3)
 
 
-def test_a_tie_some_layers_behind(make, explained):
+def test_a_tie_some_layers_behind(make):
     quads = [make.quad(-50, 70, -50, 90, -10 - k * 1e-6) for k in range(4)]
     scene = make.scene(make.camera(8, 6), *quads)
     last = render(replace(scene, instances=[scene.instances[3]])).color
     assert (explained(scene, last).cause == DEPTH_TIE).all()
 
 
-def test_coincident_surfaces_tie(make, explained):
+def test_coincident_surfaces_tie(make):
     scene = make.scene(make.camera(8, 6), make.quad(-9, 9, -9, 9, -2), make.quad(-9, 9, -9, 9, -2))
     found = explained(scene, render(replace(scene, instances=[scene.instances[1]])).color)
     assert (found.cause == DEPTH_TIE).all() and not found.figure.any()
 
 
-def test_a_sample_radius_widens_the_band(stripes, explained, shifted, count):
+def test_a_sample_radius_widens_the_band(stripes):
     picture = render(replace(stripes, camera=shifted(stripes.camera, 0.2, 0))).color
     assert count(explained(stripes, picture), UNEXPLAINED) > 50
     assert count(explained(stripes, picture, sample_radius=0.25), UNEXPLAINED) == 0
 
 
 @pytest.mark.parametrize("behind", [False, True])
-def test_a_sliver_that_no_sample_meets(make, behind, explained):
+def test_a_sliver_that_no_sample_meets(make, behind):
     """Ten thousandths of a pixel wide: an edge where it is in front, a fault where it is hidden."""
     camera = make.camera(8, 6, half=3, orthographic=True, eye=(4, 3, 0))
     thin = Mesh([(4.50165, -9, -2), (4.50165, 99, -2), (4.50175, 45, -2)], [[0, 1, 2]])
@@ -89,7 +89,7 @@ def test_a_sliver_that_no_sample_meets(make, behind, explained):
         assert np.allclose(found.figure[:, 4], 0.0017, rtol=0, atol=2e-4)
 
 
-def test_a_long_sliver_keeps_within_what_is_allowed(make, explained):
+def test_a_long_sliver_keeps_within_what_is_allowed(make):
     camera = make.camera(8, 6, half=3, orthographic=True, eye=(4, 3, 0))
     thin = Mesh([(4.50365, -3e4, -2), (4.50365, 9e4, -2), (4.50375, 3e4, -2)], [[0, 1, 2]])
     scene = make.scene(camera, thin, make.quad(-9, 9, -9, 9, -3))
@@ -99,7 +99,7 @@ def test_a_long_sliver_keeps_within_what_is_allowed(make, explained):
 
 
 @pytest.mark.parametrize("radius", [0.0, 0.2])
-def test_a_fine_mesh_hides_no_fault(make, radius, explained):
+def test_a_fine_mesh_hides_no_fault(make, radius):
     """Every centre is near some triangle's edge; that the mesh is missing stays a fault."""
     small = radius == 0.0
     ball = trimesh.creation.icosphere(6 if small else 5, radius=2.1 if small else 60.0)
@@ -118,7 +118,7 @@ def test_a_fine_mesh_hides_no_fault(make, radius, explained):
 
 
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-def test_what_the_literal_method_loses_is_no_edge(make, precision, explained, count):
+def test_what_the_literal_method_loses_is_no_edge(make, precision):
     """A third of a wall is lost; that is the tracer's doing, and must not pass as an edge."""
     turn = trimesh.transformations.rotation_matrix(0.7, (1, 2, 3))
     wall = trimesh.creation.box((40, 40, 0.1)).apply_transform(turn).apply_translation((0, 0, -9))
@@ -130,7 +130,7 @@ def test_what_the_literal_method_loses_is_no_edge(make, precision, explained, co
 
 
 @pytest.mark.slow
-def test_the_division_of_the_work_does_not_matter(room, monkeypatch, shifted):
+def test_the_division_of_the_work_does_not_matter(room, monkeypatch):
     """Smaller parts give smaller steps, and the same causes."""
     tested, results, longest = [0], [], []
 
@@ -161,7 +161,7 @@ def test_the_division_of_the_work_does_not_matter(room, monkeypatch, shifted):
             assert np.array_equal(getattr(other, name), getattr(results[0], name), equal_nan=True)
 
 
-def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, shifted, rng):
+def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, rng):
     """Nobody's colours, and other owners or none that are known: the causes stay the same."""
     frame = render(stripes)
     moved = render(replace(stripes, camera=shifted(stripes.camera, 1 / 300, -1 / 300)))
@@ -192,7 +192,7 @@ def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, shifted
 @pytest.mark.parametrize(
     "first, second", [("textbook", "moller_trumbore"), ("moller_trumbore", "textbook")]
 )
-def test_edges_through_the_centres_are_edges(make, rng, explained, count, first, second):
+def test_edges_through_the_centres_are_edges(make, rng, first, second):
     """Where rounding alone decides, two right methods differ; no fault lies in that."""
     edges = 0
     for _ in range(12):
@@ -215,7 +215,7 @@ def test_edges_through_the_centres_are_edges(make, rng, explained, count, first,
 
 @pytest.mark.slow
 @pytest.mark.parametrize("needles, radius", [(20_000, 0.0), (200, 0.3)])
-def test_a_fan_of_needles_hides_no_fault(make, explained, needles, radius):
+def test_a_fan_of_needles_hides_no_fault(make, needles, radius):
     """Long triangles, but thin ones: every centre is near an edge, as in a fine mesh."""
     angle = np.linspace(0, 2 * np.pi, needles, endpoint=False)
     rim = np.stack((6 * np.cos(angle), 6 * np.sin(angle), np.full(needles, -5.0)), axis=1)
@@ -231,7 +231,7 @@ def test_a_fan_of_needles_hides_no_fault(make, explained, needles, radius):
     assert (found.cause[inside] == UNEXPLAINED).mean() > 0.8
 
 
-def test_a_mean_of_samples_is_no_depth_tie(stripes, count):
+def test_a_mean_of_samples_is_no_depth_tie(stripes):
     """The picture shows what the centre sees; the traced colour is another, on one surface."""
     settings = Settings(samples=4)
     picture = render(stripes).color

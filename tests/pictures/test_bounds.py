@@ -27,6 +27,8 @@ from reference_tracer.tracer.nearest import Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import transform_points
 
+from ..cases import explained
+
 F = np.float32
 
 
@@ -164,7 +166,7 @@ def test_errors_of_the_surfaces_add_to_the_resolution(make):
         assert np.allclose(renderer.resolution(camera, depth, np.array([0.0, 0.5])) - plain, [0, 1])
 
 
-def test_half_float_colours_agree(room, explained):
+def test_half_float_colours_agree(room):
     """Cut off to half floats, with three units in the last place missing; not with six."""
     traced = render(room).color
     cut = traced.astype(np.float16)

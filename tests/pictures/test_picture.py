@@ -22,7 +22,7 @@ from reference_tracer.pictures.picture import Picture, numbered
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
-from .cases import case_of, find_causes
+from ..cases import case_of, find_causes
 
 LIGHT = Unmodelled("scene 'Scene'", "studio light", effect=Effect.LIGHT)
 

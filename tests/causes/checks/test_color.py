@@ -13,7 +13,7 @@ from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
-from ..cases import find_causes
+from ...cases import find_causes
 
 
 @pytest.fixture
