@@ -14,6 +14,7 @@ from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
 from .tracer.vector import transform_points
 
 ANGLE = 50.0  # vertical angle of view, degrees
+FRAMED = "framing"  # the name of a camera that is placed so that it sees all
 SIZE = 960, 540  # of a mesh's picture, pixels
 FILLED = 0.9  # share of the picture's width or height that is filled by what is framed
 # From what is framed towards the eye: the front, the right and above, as of a new Blender scene.
@@ -69,7 +70,7 @@ def framing(
         PERSPECTIVE,
         clip_start=(near - eye) / 2,
         clip_end=(far - eye) * 2,
-        name="framing",
+        name=FRAMED,
     )
 
 

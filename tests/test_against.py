@@ -265,3 +265,27 @@ def test_whose_rounding_excuses_is_chosen_and_said(make, against, tmp_path):
     assert code == 1 and found["blender"]["renderer"] == "raster"
     assert found["pixels"]["unexplained"] == 0 and found["excused"]["share"] > 0.02
     assert "float32 rasterisation with a depth buffer of 24 bits" in text
+
+
+def test_a_mesh_says_in_which_colours_and_from_where_it_is_to_be_drawn(tmp_path, capsys):
+    """Its colours are written without a picture; then only the camera is left to be named."""
+    (tmp_path / "two.obj").write_text(
+        "o A\nv -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\no B\nv -1 0 1\nv 1 0 1\nv 0 -2 1\nf 4 5 6\n"
+    )
+    mesh, colors = str(tmp_path / "two.obj"), str(tmp_path / "colors.json")
+    out = ["--out", str(tmp_path / "out")]
+    assert main(["compare", mesh, "--colors", "object", "--colors-out", colors, *out]) == 0
+    assert not (tmp_path / "out").exists()
+    wanted = {
+        o["name"]: o["slots"][0]["linear"]
+        for o in json.loads(Path(colors).read_text(encoding="utf-8"))["objects"]
+    }
+    assert len({tuple(color) for color in wanted.values()}) == len(wanted) == 2
+    eye = ["--eye", "4", "-5", "3"]
+    for camera, is_placed in ((eye, False), ([], True)):
+        size = [*camera, "--width", "64", "--height", "36"]
+        picture = str(tmp_path / "picture.png")
+        main(["trace", mesh, *size, "--out", picture])
+        capsys.readouterr()
+        main(["compare", mesh, *size, "--against", picture, "--no-diagnosis", *out])
+        assert ("--eye, --target and --angle name" in capsys.readouterr().out) == is_placed

@@ -8,6 +8,8 @@ from reference_tracer.causes.explain import CAUSES
 from reference_tracer.diagnosis.faults import EXAMPLES, FAULTS
 from reference_tracer.methods import Method
 
+from .attacks import withstood
+
 PROJECT = Path(__file__).parent.parent
 sys.path.insert(0, str(PROJECT / "tools"))
 from documents import records  # noqa: E402
@@ -39,6 +41,11 @@ def test_a_cause_that_excuses_says_why_and_what_to_do():
     for cause in CAUSES:
         if cause.explains or cause.warns:
             assert cause.why and cause.check and cause.never and cause.advice, cause.key
+
+
+def test_a_cause_that_excuses_withstands_an_attack():
+    for cause, attacks in withstood().items():
+        assert attacks, f"no attack in tests/attacks.py imitates '{cause.key}'"
 
 
 def test_no_sentence_is_left_without_words():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +15,7 @@ from ...comparison import engines
 from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
+from ...framing import FRAMED
 from ...pictures import colors_file
 from ...pictures.colors_file import in_colors
 from ...pictures.given import Making, picture_of_file
@@ -23,13 +24,18 @@ from ...report import animation as frames_report
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
-from ...scene import SceneError
+from ...scene import Scene, SceneError
 from ...tracer.progress import Work, result_of
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
 from ..opening import import_trimesh, open_blend, open_file
-from ..parser import EXIT_CODES_HELP, Parser
+from ..parser import AGREE, EXIT_CODES_HELP, Parser
 from ..running import progress_bar
+
+_FRAMED = (
+    "the camera is none of the mesh's: it was placed to see all of it; "
+    "--eye, --target and --angle name that of the picture"
+)
 
 
 def add(parser: Parser) -> None:
@@ -51,6 +57,8 @@ def compare(options: CompareOptions) -> int:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
             )
+    if options.colors_out and options.against is None and not is_blend(options.scene):
+        return _only_colors(options, options.colors_out)
     written = comparison_report.failure_written(options.out)  # but for an animation
     with (
         folders.made(options.out),
@@ -150,14 +158,25 @@ def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) 
 
 def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
     if options.colors_out:
-        text = colors_file.text(comparison.scene, comparison.manifest.owners)
-        with (
-            folders.made_for_file(options.colors_out),
-            folders.replacing_file(options.colors_out) as new,
-        ):
-            new.write_text(text, encoding="utf-8")
+        _write_colors(options.colors_out, comparison.scene, comparison.manifest.owners)
     print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
     return _told(options, comparison.verdict, options.out / page.NAME)
+
+
+def _only_colors(options: CompareOptions, path: Path) -> int:
+    """Write what a picture of a mesh or a .npz should show that is yet to be drawn."""
+    scene, manifest, _ = open_file(options.scene, options.choice)
+    scene, notes = in_colors(scene, _colors(options) or By.AUTOMATIC)
+    _write_colors(path, scene, manifest.owners)
+    manifest = replace(manifest, notes=(*manifest.notes, *notes))
+    print(*manifest.lines(), f"written to {path}", sep="\n")
+    return AGREE
+
+
+def _write_colors(path: Path, scene: Scene, owners: Sequence[str]) -> None:
+    text = colors_file.text(scene, owners)
+    with folders.made_for_file(path), folders.replacing_file(path) as new:
+        new.write_text(text, encoding="utf-8")
 
 
 def _told(options: CompareOptions, verdict: Verdict, *pages: Path) -> int:
@@ -192,6 +211,8 @@ def _file(
 ) -> Work[Comparison]:
     scene, manifest, stored = open_file(options.scene, options.choice)
     scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
+    if scene.camera.name == FRAMED:
+        notes = (*notes, _FRAMED)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))
     shown = picture_of_file(picture, scene.camera, _making(options))
     settings, checked = options.settings.over(stored), bool(options.self_check)

@@ -132,7 +132,8 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "recolored",
         "'{object}' is shown in another colour: ({red:.3f}, {green:.3f}, {blue:.3f}), linear",
-        "check its material, and in which colour space its colour is stored",
+        "check its material, and in which colour space its colour is stored; a mesh is grey unless "
+        "--colors names its colours",
         of_object(_in_color),
         _shown_color,
         ("red", "green", "blue"),
