@@ -250,7 +250,8 @@ def watermark(coded: bool) -> Fault:
         letters = (np.abs(y - height // 2) < 12) & (np.abs(x - width // 2) < width // 3)
         letters &= (x % 11 < 4) | ((y - height // 2) % 9 < 3)
         out = in_code(picture) if coded else picture.astype(np.float64)
-        out[letters, :3] = (out[letters, :3] + out[letters, 3:]) / 2
+        white = 1 if coded else out[letters, 3:]  # coded ones are straight
+        out[letters, :3] = (out[letters, :3] + white) / 2
         return out_of_code(out) if coded else out
 
     label = f"a watermark, {'coded' if coded else 'linear'}"
