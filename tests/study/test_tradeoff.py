@@ -13,8 +13,6 @@ from reference_tracer.rendering import render
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.study import tradeoff
 from reference_tracer.study.tradeoff import (
-    MORE_REPEATS,
-    REPEATS,
     at_width,
     converged,
     coverage_error,
@@ -33,6 +31,14 @@ pytestmark = pytest.mark.slow
 
 LADDER = {(m.value, p.value) for m in Method if m.is_plain for p in Precision}
 LADDER |= {("certified", "float64")}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def few_rounds():
+    """Time each row seldom: that takes most of the time."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tradeoff, "MORE_REPEATS", 4)
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +69,7 @@ def test_every_choice_has_its_row(trade):
 
 def test_every_row_is_whole(trade):
     for r in trade.rows:
-        assert REPEATS <= len(r.rounds) <= MORE_REPEATS
+        assert tradeoff.REPEATS <= len(r.rounds) <= tradeoff.MORE_REPEATS
         assert 0 < r.fastest <= r.seconds <= r.slowest
         assert r.seconds == np.median(r.rounds)
         assert 0 <= r.wrong_pixels <= r.pixels == r.width * r.height
@@ -301,4 +307,6 @@ def test_short_rows_are_repeated_more(ball, monkeypatch):
 
     monkeypatch.setattr(tradeoff, "_repeat", timed)
     for row in result_of(measure(ball, 8, 1)).rows:
-        assert len(row.rounds) == (REPEATS if row.precision == "float64" else MORE_REPEATS)
+        assert len(row.rounds) == (
+            tradeoff.REPEATS if row.precision == "float64" else tradeoff.MORE_REPEATS
+        )
