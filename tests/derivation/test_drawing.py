@@ -183,7 +183,7 @@ def test_points_in_one_place_share_a_label():
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.torture)])
 @pytest.mark.parametrize("width", [390, 1280])
 def test_no_words_overlap_in_a_browser(chromium, ball_scene, tmp_path, scheme, width):
     path = tmp_path / "explained.html"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import struct
+from itertools import product
 
 import numpy as np
 import pytest
@@ -16,6 +17,8 @@ from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.world import world_corners
 
 pytestmark = pytest.mark.browser
+
+FLOATS = "float64", "float32"
 
 # All pixels with the surface that each sees: t, s1, s2, s3, whether literal and repaired accept it.
 DERIVE_ALL = """precision => {
@@ -54,9 +57,14 @@ def expected_bits(comparison, dtype):
     return out
 
 
-@pytest.mark.parametrize("precision", ["float64", "float32"])
-@pytest.mark.parametrize("projection", PROJECTIONS)
-@pytest.mark.parametrize("stored", ["float64", "float32"])
+@pytest.mark.parametrize(
+    ("precision", "projection", "stored"),
+    [
+        # Every day each value of each once.
+        pytest.param(*way, marks=() if n in (0, 5, 9) else pytest.mark.torture)
+        for n, way in enumerate(product(FLOATS, PROJECTIONS, FLOATS))
+    ],
+)
 def test_derivations_have_the_tracers_bits(show, room, compared, precision, projection, stored):
     comparison = compared(room(projection=projection, float32=stored == "float32"))
     tab = show(comparison)

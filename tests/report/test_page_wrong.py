@@ -256,7 +256,15 @@ LONG = "/home/someone/projects/2026/a very long folder's name/shots/scene_with_a
 
 @pytest.mark.browser
 @pytest.mark.parametrize(
-    "size", [(1280, 800), (1280, 720), (1366, 768), (1024, 700), (1920, 1080), (390, 844)]
+    "size",
+    [
+        (1280, 800),
+        (390, 844),
+        *(
+            pytest.param(size, marks=pytest.mark.torture)
+            for size in ((1280, 720), (1366, 768), (1024, 700), (1920, 1080))
+        ),
+    ],
 )
 @pytest.mark.parametrize("large", [False, True])
 def test_nothing_in_the_header_overlaps(show, wrong, size, large):
