@@ -138,7 +138,7 @@ def _written(stream: TextIO, text: str) -> OSError | None:
 def heard() -> Iterator[None]:
     """Remember every signal of SIGNALS until the block ends, so that :func:`check` can answer it.
 
-    A handler that someone else has set, and all that is not the main thread, is left alone.
+    So nothing is printed of a KeyboardInterrupt that Python swallows, as in a destructor. A handler that someone else has set, and all that is not the main thread, is left alone.
     """
     before = {}
     with suppress(ValueError):  # outside the main thread
@@ -151,12 +151,26 @@ def heard() -> Iterator[None]:
         yield
         return
     answered()
+    told, sys.unraisablehook = sys.unraisablehook, _unless_heard(sys.unraisablehook)
     try:
         yield
     finally:
+        sys.unraisablehook = told
         for number, handler in before.items():
             signal.signal(number, handler)
         answered()  # what comes later is not meant
+
+
+def _unless_heard(
+    told: Callable[[sys.UnraisableHookArgs], object],
+) -> Callable[[sys.UnraisableHookArgs], object]:
+    """Return what tells of an exception that was swallowed, but for that of a signal."""
+
+    def hook(swallowed: sys.UnraisableHookArgs) -> None:
+        if not issubclass(swallowed.exc_type, KeyboardInterrupt):
+            told(swallowed)
+
+    return hook
 
 
 def check() -> None:

@@ -111,3 +111,24 @@ def test_outside_the_main_thread_nothing_is_taken_over():
 
     with ThreadPoolExecutor() as pool:
         assert pool.submit(work).result() is signal.default_int_handler
+
+
+def test_a_signal_in_a_destructor_is_answered_and_nothing_is_printed(monkeypatch):
+    class Last:
+        def __del__(self):
+            signal.raise_signal(signal.SIGINT)
+
+    class Broken:
+        def __del__(self):
+            raise ValueError
+
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda swallowed: told.append(swallowed.exc_type))
+    with pytest.raises(KeyboardInterrupt), running.heard():
+        Last()
+        assert told == []
+        Broken()
+        assert told == [ValueError]
+        running.check()
+    Broken()
+    assert told == [ValueError, ValueError]  # as before
