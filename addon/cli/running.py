@@ -138,7 +138,8 @@ def _written(stream: TextIO, text: str) -> OSError | None:
 def heard() -> Iterator[None]:
     """Remember every signal of SIGNALS until the block ends, so that :func:`check` can answer it.
 
-    So nothing is printed of a KeyboardInterrupt that Python swallows, as in a destructor. A handler that someone else has set, and all that is not the main thread, is left alone.
+    Nothing is printed then of a KeyboardInterrupt that Python swallows, as in a destructor. A
+    handler that someone else has set, and all that is not the main thread, is left alone.
     """
     before = {}
     with suppress(ValueError):  # outside the main thread
