@@ -50,7 +50,7 @@ def test_an_orthographic_camera_that_turns_leaves_what_was_near_its_rays(few):
     ],
 )
 def test_a_camera_is_told_and_no_object(few, name, values, rivals):
-    scene = few()
+    scene = few(48, 30)
     found = told(scene, pictured(scene, name, Numbers(values)), name, *rivals)
     assert list(found) == [name]
 
