@@ -12,6 +12,9 @@ import pytest
 import trimesh
 from reference_tracer import exr, images
 from reference_tracer.cli.main import main
+from reference_tracer.manifest import Effect, Manifest, Unmodelled
+from reference_tracer.pictures.colors_file import in_colors
+from reference_tracer.pictures.palette import By
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region
 from reference_tracer.scene_files import save_scene
@@ -289,3 +292,26 @@ def test_a_mesh_says_in_which_colours_and_from_where_it_is_to_be_drawn(tmp_path,
         capsys.readouterr()
         main(["compare", mesh, *size, "--against", picture, "--no-diagnosis", *out])
         assert ("--eye, --target and --angle name" in capsys.readouterr().out) == is_placed
+
+
+def test_what_a_file_says_of_unknown_colours_excuses_none_that_are_given(scene, tmp_path, capsys):
+    """Of glass the colour is not known; drawn in a palette it is."""
+    glass = Unmodelled("Box", "transparency", effect=Effect.COLOR)
+    manifest = Manifest("a", "a", "", 0, "FILE", "", unmodelled=(glass,))
+    save_scene(tmp_path / "scene.npz", scene, manifest)
+    argv = [
+        "compare",
+        str(tmp_path / "scene.npz"),
+        "--no-diagnosis",
+        "--out",
+        str(tmp_path / "out"),
+    ]
+    argv += ["--against", str(tmp_path / "picture.png")]
+    for colors, verdict in (("viewport", "warnings"), ("object", "differences")):
+        shown, _ = in_colors(scene, By(colors))
+        frame = render(shown)
+        color = frame.color.copy()
+        color[frame.object_index == scene.objects.index("Box")] = (0.3, 0.9, 0.2, 1)
+        images.save_png(tmp_path / "picture.png", images.to_display(color))
+        main([*argv, "--colors", colors])
+        assert f"verdict: {verdict}" in capsys.readouterr().out

@@ -24,7 +24,7 @@ _LEVEL = 6  # of zlib's compression: 9 takes several times as long for a few per
 
 _DEPTHS = {GREY: (1, 2, 4, 8, 16), RGB: (8, 16), PALETTE: (1, 2, 4, 8)}
 _TEXTS = b"tEXt", b"zTXt", b"iTXt"  # each begins with a keyword (11.3.3)
-_SEVERAL = {b"IDAT", b"sPLT", *_TEXTS}  # chunks of which there may be more than one (5.6)
+_SEVERAL = {b"IDAT", b"sPLT", *_TEXTS}  # chunks that may be there more than once (5.6)
 
 
 @dataclass(frozen=True, eq=False)

@@ -94,7 +94,9 @@ def gather_case(context: Any, **choices: Any) -> Case:
     """
     chosen = Choices.of(context.scene, choices)
     plan = _planned(context, chosen)
-    user, layer, judge = plan.scene, plan.layer, plan.judge
+    user = plan.scene
+    layer = plan.layer
+    judge = plan.judge
     is_automatic = plan.like_for_like and chosen.colors == By.AUTOMATIC
     with _exported(plan, is_automatic) as (tmp, used, drawing, certificate):
         there = _names(user)

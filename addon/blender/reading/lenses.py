@@ -21,7 +21,7 @@ class Lens(NamedTuple):
 
     projection: Projection
     kind: str  # its type; of a panorama, that of the panorama
-    # The window of a `bpy.types.Camera`, whose sensor's fitted side is so long, millimetres.
+    # The window of a `bpy.types.Camera`, by the length of the sensor's fitted side in millimetres.
     window: Callable[[Any, float, Around], Edges]
     # What to set of a camera with a horizontal sensor, for a window.
     settings: Callable[[Edges], dict[str, Any]]

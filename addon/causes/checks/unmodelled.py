@@ -44,7 +44,7 @@ NOT_MODELLED = Cause(
     check="First, whether it is seen in this very pixel; where only its colours are not known, the "
     "object must still be the right one. Then objects that are not drawn, cut a hole, or are drawn "
     "in front of others: the scene is traced so, and must give what the picture shows. At last "
-    "what may change a picture as it is anywhere: light, of which only the colour is excused; "
+    "what may change a picture as it is anywhere: light, which excuses the colour alone; "
     "x-ray, backface culling, depth of field.",
     never="Damage beside it, or beneath hair; another object where only the colour is not known.",
     advice="hide it, or compare like for like",

@@ -16,6 +16,7 @@ from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
 from ...framing import FRAMED
+from ...manifest import Effect
 from ...pictures import colors_file
 from ...pictures.colors_file import in_colors
 from ...pictures.given import Making, picture_of_file
@@ -210,7 +211,11 @@ def _file(
     options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> Work[Comparison]:
     scene, manifest, stored = open_file(options.scene, options.choice)
-    scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
+    own = scene
+    scene, notes = in_colors(own, _colors(options) or By.VIEWPORT)
+    if scene is not own:  # in given colours none is unknown
+        known = tuple(u for u in manifest.unmodelled if u.effect is not Effect.COLOR)
+        manifest = replace(manifest, unmodelled=known)
     if scene.camera.name == FRAMED:
         notes = (*notes, _FRAMED)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))

@@ -126,7 +126,7 @@ def _means(colors: Array, n: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class MeanFrom(Mean):
-    """A mean of pixels, of which the first is x to the left and y below."""
+    """A mean of pixels; the first one lies x to the left and y below."""
 
     x: int
     y: int
