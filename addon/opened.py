@@ -29,7 +29,8 @@ def open_scene(path: Path, choice: Choice | None = None) -> Opened:
         If there is no such scene, or it cannot be read.
     """
     if path.suffix.lower() == ".npz":
-        return Opened(scene := load_scene(path), file_manifest(path, scene, load_account(path)))
+        scene = load_scene(path)
+        return Opened(scene, file_manifest(path, scene, load_account(path)))
     choice = choice or Choice()
     contents = load_meshes(path, choice.up)
     missing = tuple(Unmodelled(path.name, m, effect=Effect.UNPLACED) for m in contents.missing)
@@ -49,8 +50,17 @@ def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
 def file_manifest(path: Path, scene: Scene, said: Account) -> Manifest:
     """Return the account of a scene that is opened without Blender."""
     entries = tuple(_entry(scene, number, name) for number, name in enumerate(scene.objects))
-    camera, about = scene.camera.name, (entries, said.lacks, said.notes)
-    return Manifest(path.name, path.stem, "", 0, "FILE", camera, *about)
+    return Manifest(
+        path.name,
+        path.stem,
+        view_layer="",
+        frame=0,
+        evaluation="FILE",
+        camera=scene.camera.name,
+        objects=entries,
+        unmodelled=said.lacks,
+        notes=said.notes,
+    )
 
 
 def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
