@@ -16,13 +16,15 @@ from .checks import Checks
 from .examples import Example, find_examples
 from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults
+from .known import Floats
+from .matching import Match, Questions, Replies
 from .names import distinct
 from .picture import Look, look
 from .shared_edges import SharedEdges, try_edges
 from .student import Limits, Student
 from .student_error import StudentError
 from .subject import Subject
-from .tally import Tally, score_of
+from .tally import COST, Tally, score_of
 
 CHECKS = "the checks"  # where an error happened
 
@@ -35,6 +37,7 @@ class Judgement:
     name: str  # what a reader calls it
     checks: Tally | None = None  # None: not finished
     faults: list[Fault] = field(default_factory=list)
+    alike: Match | None = None  # the wrong program that gives the same answers, everywhere
     edges: SharedEdges | None = None  # None: it failed before
     scenes: list[str] = field(default_factory=list)  # the names of all
     looks: list[Look] = field(default_factory=list)  # of those that were finished
@@ -52,9 +55,20 @@ class Judgement:
         return [self.checks, *(of.get(name) for name in self.scenes)]
 
     @property
-    def score(self) -> float:
+    def as_is(self) -> float:
         """0 to 100: the mean of the checks and every scene; what has failed counts as 0."""
         return score_of(self.tallies)
+
+    @property
+    def score(self) -> float:
+        """0 to 100: the file as it is, or with the mistakes put right, each at a cost.
+
+        They are put right only if they are all that is wrong: if the wrong program that they make
+        gives the file's own answers to the checks and in every scene.
+        """
+        if self.alike is None or self.errors:
+            return self.as_is
+        return max(self.as_is, 100 - COST * len(self.faults))
 
     @property
     def leaks(self) -> str:
@@ -116,7 +130,9 @@ def _on_checks(out: Judgement, student: Student, checks: Checks) -> None:
     student.new_scene()
     t, s = student.ask(checks.origins, checks.directions, checks.triangles)
     answers = Answers(checks, t, s)
-    out.faults = find_faults(answers) + dependence(checks, answers, student.ask)
+    out.faults, out.alike = find_faults(answers)
+    if depends := dependence(checks, answers, student.ask):
+        out.faults, out.alike = [*out.faults, *depends], None
     out.edges = try_edges(student.ask)
     wrong, known = answers.hit != checks.known.hit, checks.known
     out.checks = Tally.of(
@@ -131,8 +147,15 @@ def _on_checks(out: Judgement, student: Student, checks: Checks) -> None:
 
 def _on_scene(out: Judgement, student: Student, subject: Subject) -> Work[None]:
     student.new_scene()
+
+    def ask(*rays: Floats) -> tuple[Floats, Floats]:
+        t, s = student.ask(*rays)
+        if out.alike and not out.alike.agrees(Questions(*rays), Replies(t, s)):
+            out.alike = None
+        return t, s
+
     try:
-        found = yield from look(subject, student.ask, lambda: student.seconds)
+        found = yield from look(subject, ask, lambda: student.seconds)
         out.examples[subject.name] = find_examples(found, student.ask)
         out.looks.append(found)
     except StudentError as error:

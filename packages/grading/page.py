@@ -18,7 +18,18 @@ from .examples import Example
 from .judging import Judgement
 from .picture import Look, Mark
 from .student_error import StudentError
-from .tables import HEAD, MARKS, NO_BOUNDARY, VERDICTS, dashed, explain, held_rows, row, tallies
+from .tables import (
+    HEAD,
+    MARKS,
+    NO_BOUNDARY,
+    VERDICTS,
+    dashed,
+    explain,
+    held_rows,
+    put_right,
+    row,
+    tallies,
+)
 
 _STYLE = Path(__file__).with_name("page.css")
 MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe and Ito)
@@ -87,6 +98,7 @@ def _student(number: int, j: Judgement) -> str:
     name = escape(j.name)
     parts = [f'<section id="s{number}"><h2>{name}</h2>']
     parts.append(f'<p><span class="score">{j.score:.1f}</span> of 100 {_verdict(j)}</p>')
+    parts += [f"<p>{put_right(j)}.</p>"] * (j.score > j.as_is)
     parts += [_error(where, error) for where, error in j.errors]
     if j.faults:
         parts.append("<h3>What is wrong</h3><ul>")

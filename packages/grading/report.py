@@ -24,7 +24,9 @@ SCHEMA = "reference_tracer.judge/1"
 JSON, PAGE = "judge.json", "judge.html"
 
 _UNITS = {
-    "score": "0 to 100: the mean over the checks and all scenes of the weighted shares",
+    "score": "0 to 100: score_as_is, or what the file would get with its mistakes put right, less "
+    "20 for each, where they explain all of its answers",
+    "score_as_is": "the mean over the checks and all scenes of the weighted shares",
     "total": "of the interior: pixels (checks: pairs) where a triangle is, or is said to be, seen",
     "surface": "of those, with the right triangle",
     "t": "of those, with the right t, within the rounding of float64",
@@ -68,6 +70,7 @@ def _student(j: Judgement) -> dict[str, Any]:
         "file": j.name,
         "verdict": j.verdict,
         "score": j.score,
+        "score_as_is": j.as_is,
         "seconds": round(j.seconds, 6),
         "printed_bytes": j.printed,
         "printed": j.said,

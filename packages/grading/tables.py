@@ -18,7 +18,7 @@ from .extremes import held
 from .judging import CHECKS, Judgement
 from .picture import EXCUSED, Mark
 from .subject import Subject
-from .tally import Tally
+from .tally import COST, Tally
 
 VERDICTS = {
     "right": "all right",
@@ -57,6 +57,8 @@ def explain(subject: Subject, example: Example) -> str:
 def lines(j: Judgement) -> list[str]:
     """Return what a student wants to know, a fact a line."""
     out = [f"{j.name}: {VERDICTS[j.verdict]}, score {j.score:.1f} of 100"]
+    if j.score > j.as_is:
+        out += wrapped(put_right(j))
     for where, error in j.errors:
         out += wrapped(f"its own error, in {where}: {error.message}")
         out += dict.fromkeys(f"    {file}, line {n}: {text}" for file, n, _, text in error.trace)
@@ -82,6 +84,12 @@ _YARDS = "student", "not by rounding", "textbook", "Möller–T."
 def wrapped(text: str) -> list[str]:
     """Return a fact in lines that a terminal has room for."""
     return textwrap.wrap(text, 96, initial_indent="  ", subsequent_indent="    ")
+
+
+def put_right(j: Judgement) -> str:
+    """Return why a file has more points than its answers."""
+    mistakes = count_of(len(j.faults), "mistake")
+    return f"{j.as_is:.1f} as it is: with {mistakes} put right all is right, less {COST:g} for each"
 
 
 def held_rows(j: Judgement) -> list[tuple[str, ...]]:
