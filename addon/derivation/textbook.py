@@ -48,6 +48,7 @@ class Arithmetic(StrEnum):
 
 FLOATS = Arithmetic.FLOAT32, Arithmetic.FLOAT64
 
+
 @np.errstate(all="ignore")
 def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
     """Return the values of formulas by their keys, exact ones up to where one would divide by 0.
