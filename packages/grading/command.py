@@ -30,6 +30,9 @@ from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.progress import Work, result_of, scaled
+from reference_tracer.wording import say
+
+from .external import EXCHANGES, Run, sandbox
 
 if TYPE_CHECKING:
     from .judging import Judgement
@@ -60,7 +63,7 @@ _MEMORY = number(
 class JudgeOptions:
     """The options of `reftrace judge`."""
 
-    students: tuple[Path, ...]
+    students: tuple[Path | Run, ...]
     scenes: tuple[tuple[Path, Choice], ...]  # none for the exercise's own
     camera_options: tuple[str, ...]  # those that were given, as they are typed
     out: Path | None
@@ -79,17 +82,23 @@ class JudgeOptions:
             If no student's file is named, one is not there, or an option has no effect.
         """
         files = dict.fromkeys(given.files)  # each once
-        students = tuple(file for file in files if file.suffix == ".py")
         scenes = tuple(file for file in files if file.suffix != ".py")
-        if not students:
-            raise SceneError("name a student's file (.py), or --template FILE to make one")
+        students: list[Path | Run] = [file for file in files if file.suffix == ".py"]
         for path in students:
             if not path.is_file():
                 raise SceneError(f"there is no file '{path}'")
+        if not given.programs:
+            refuse(given, ("exchange",), "is for --run")
+        students += _runs(given)
+        if not students:
+            raise SceneError(
+                "name a student's file (.py), --run for a program in another language, or "
+                "--template FILE to make a file"
+            )
         if not scenes:
             refuse(given, CAMERA_OPTIONS, "is for scenes of your own: name one")
         return cls(
-            students=students,
+            students=tuple(students),
             scenes=tuple((path, choice_from(given, path)) for path in scenes),
             camera_options=_camera_options(given),
             out=given.out,
@@ -114,6 +123,19 @@ def add(parser: Parser) -> None:
         type=Path,
         metavar="FILE",
         help=f"students' files (.py), then scenes: {SOURCES}; default: the exercise's four scenes",
+    )
+    parser.add_argument(
+        "--run",
+        dest="programs",
+        action="append",
+        metavar="COMMAND",
+        help="judge a program in any language: a command in which {rays} and {answers} stand for "
+        "the files that it reads and writes; may be given several times",
+    )
+    parser.add_argument(
+        "--exchange",
+        choices=tuple(EXCHANGES),
+        help="what these files hold: csv, lines of numbers (default), or raw, float64",
     )
     parser.add_argument(
         "--template", type=parser.path, metavar="FILE", help="write a file to begin with"
@@ -160,6 +182,8 @@ def judge(options: JudgeOptions) -> int:
     from . import report
     from . import tables as judge_table
 
+    if any(isinstance(s, Run) for s in options.students) and not sandbox():
+        say("programs are not kept from the network or from your files: bubblewrap is missing")
     with folders.made(options.out) if options.out else nullcontext():
         opened = _opened(options.scenes) or built_in()
         with progress_bar() as progress:
@@ -221,6 +245,23 @@ def _camera_options(given: Namespace) -> tuple[str, ...]:
             values = value if isinstance(value, list) else [value]
             out += [typed(name), *map(str, values)]
     return tuple(out)
+
+
+def _runs(given: Namespace) -> list[Run]:
+    """Return the programs that are to be run.
+
+    Raises
+    ------
+    SceneError
+        If a command is none.
+    """
+    runs = []
+    for command in dict.fromkeys(given.programs or ()):
+        try:
+            runs.append(Run.parsed(command, given.exchange or "csv"))
+        except ValueError as error:
+            raise SceneError(f"--run {command!r}: {error}") from error
+    return runs
 
 
 def _write_template(path: Path) -> int:

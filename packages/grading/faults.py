@@ -113,8 +113,8 @@ def dependence(checks: Checks, answers: Answers, ask: Ask) -> list[Fault]:
     at a time. Where rounding may have it either way, it may have it otherwise in each call.
     """
     unsure = checks.known.doubt | checks.of(Group.BESIDE)
-    some = np.concatenate([np.flatnonzero(checks.of(g))[:6] for g in Group])
     for size in ALONE:
+        some = np.concatenate([np.flatnonzero(checks.of(g))[:size] for g in Group])
         for first in range(0, len(some), size):
             rows = some[first : first + size]
             t, s = ask(checks.origins[rows], checks.directions[rows], checks.triangles[rows])

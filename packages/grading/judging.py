@@ -9,11 +9,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from reference_tracer.cli.running import printable
 from reference_tracer.tracer.progress import Work, scaled
 
 from .answers import Answers
 from .checks import Checks
 from .examples import Example, find_examples
+from .external import Program, Run
 from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults
 from .known import Floats
@@ -33,7 +35,6 @@ CHECKS = "the checks"  # where an error happened
 class Judgement:
     """What is said of one file."""
 
-    path: Path
     name: str  # what a reader calls it
     checks: Tally | None = None  # None: not finished
     faults: list[Fault] = field(default_factory=list)
@@ -86,18 +87,19 @@ class Judgement:
 
 
 def judge(
-    path: Path,
+    submission: Path | Run,
     checks: Checks,
     subjects: Sequence[Subject],
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
     name: str = "",
 ) -> Work[Judgement]:
-    """Judge one file; yields the share of the work done.
+    """Judge one file or program; yields the share of the work done.
 
     Parameters
     ----------
-    path : Path
+    submission : Path or Run
+        A Python file, or how a program of any language is started.
     checks : Checks
     subjects : sequence of Subject
     extremes : sequence of ExtremeScene
@@ -105,11 +107,10 @@ def judge(
     limits : Limits, optional
         The time is that of each scene, and of the checks.
     name : str, optional
-        What a reader calls it; by default the file's name.
+        What a reader calls it; by default the file's name, or the command.
     """
-    path = Path(path)
-    out = Judgement(path, name or distinct([path])[0], scenes=[s.name for s in subjects])
-    with Student(path, limits) as student:
+    out = Judgement(name or names([submission])[0], scenes=[s.name for s in subjects])
+    with _started(submission, limits) as student:
         try:
             _on_checks(out, student, checks)
         except StudentError as error:
@@ -126,7 +127,19 @@ def judge(
     return out
 
 
-def _on_checks(out: Judgement, student: Student, checks: Checks) -> None:
+def _started(submission: Path | Run, limits: Limits | None) -> Student | Program:
+    if isinstance(submission, Run):
+        return Program(submission, limits)
+    return Student(submission, limits)
+
+
+def names(submissions: Sequence[Path | Run]) -> list[str]:
+    """Return what a reader calls each: a file's name, or a command."""
+    files = iter(distinct([s for s in submissions if isinstance(s, Path)]))
+    return [printable(s.command) if isinstance(s, Run) else next(files) for s in submissions]
+
+
+def _on_checks(out: Judgement, student: Student | Program, checks: Checks) -> None:
     student.new_scene()
     t, s = student.ask(checks.origins, checks.directions, checks.triangles)
     answers = Answers(checks, t, s)
@@ -145,7 +158,7 @@ def _on_checks(out: Judgement, student: Student, checks: Checks) -> None:
     )
 
 
-def _on_scene(out: Judgement, student: Student, subject: Subject) -> Work[None]:
+def _on_scene(out: Judgement, student: Student | Program, subject: Subject) -> Work[None]:
     student.new_scene()
 
     def ask(*rays: Floats) -> tuple[Floats, Floats]:
@@ -162,7 +175,9 @@ def _on_scene(out: Judgement, student: Student, subject: Subject) -> Work[None]:
         out.errors.append((subject.name, error))
 
 
-def _on_extremes(out: Judgement, student: Student, scenes: Sequence[ExtremeScene]) -> Work[None]:
+def _on_extremes(
+    out: Judgement, student: Student | Program, scenes: Sequence[ExtremeScene]
+) -> Work[None]:
     try:
         out.extremes = yield from try_extremes(scenes, student.ask, student.new_scene)
     except StudentError as error:
@@ -170,15 +185,16 @@ def _on_extremes(out: Judgement, student: Student, scenes: Sequence[ExtremeScene
 
 
 def judge_all(
-    paths: Sequence[Path],
+    submissions: Sequence[Path | Run],
     checks: Checks,
     subjects: Sequence[Subject],
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
 ) -> Work[list[Judgement]]:
-    """Judge several files, each by itself."""
+    """Judge several, each by itself."""
     out = []
-    for k, (path, name) in enumerate(zip(paths, distinct(paths), strict=True)):
-        work = judge(path, checks, subjects, extremes, limits, name)
-        out.append((yield from scaled(work, k / len(paths), 1 / len(paths))))
+    share = 1 / max(len(submissions), 1)
+    for k, (each, name) in enumerate(zip(submissions, names(submissions), strict=True)):
+        work = judge(each, checks, subjects, extremes, limits, name)
+        out.append((yield from scaled(work, k * share, share)))
     return out

@@ -60,7 +60,7 @@ def judged(make, tmp_path_factory):
     extremes = result_of(extreme_scenes([s for s in SCENARIOS if s.name == "tiny"]))
     paths = [folder / name for name in FILES]
     work = judge_all(paths, make_checks(), [subject], extremes, Limits(seconds=3))
-    return {j.path.name: j for j in result_of(work)}
+    return {j.name: j for j in result_of(work)}
 
 
 @pytest.fixture(scope="module")
