@@ -5,9 +5,10 @@ Whatever the file does wrong is in the `Judgement`: it is never an error of ours
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
 from reference_tracer.cli.running import printable
 from reference_tracer.tracer.progress import Work, scaled
@@ -27,6 +28,8 @@ from .student import Limits, Student
 from .student_error import StudentError
 from .subject import Subject
 from .tally import COST, Tally, score_of
+
+T = TypeVar("T")
 
 CHECKS = "the checks"  # where an error happened
 
@@ -185,16 +188,21 @@ def _on_extremes(
 
 
 def judge_all(
-    submissions: Sequence[Path | Run],
+    submissions: Mapping[str, Path | Run],
     checks: Checks,
     subjects: Sequence[Subject],
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
-) -> Work[list[Judgement]]:
-    """Judge several, each by itself."""
-    out = []
+    *,
+    told: Callable[[Judgement], T],
+) -> Work[dict[str, T]]:
+    """Judge several, each by itself, by what a reader calls them.
+
+    Returns what is made of each judgement once it is there: it holds pictures, and is not kept.
+    """
+    out = {}
     share = 1 / max(len(submissions), 1)
-    for k, (each, name) in enumerate(zip(submissions, names(submissions), strict=True)):
+    for k, (name, each) in enumerate(submissions.items()):
         work = judge(each, checks, subjects, extremes, limits, name)
-        out.append((yield from scaled(work, k * share, share)))
+        out[name] = told((yield from scaled(work, k * share, share)))
     return out

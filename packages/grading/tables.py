@@ -6,8 +6,9 @@ import os
 import shlex
 import subprocess
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from reference_tracer.report.tables import columns, percent
 from reference_tracer.study.extremes import written
@@ -144,12 +145,15 @@ def _one_each(examples: Sequence[Example]) -> list[Example]:
     return list({e.mark: e for e in reversed(examples)}.values())[::-1]
 
 
-def class_table(judgements: Sequence[Judgement]) -> list[str]:
-    """Return a row for each of several files."""
+def wrong_names(s: Mapping[str, Any]) -> list[str]:
+    """Return the names of what is wrong with a student, as `judge.json` has him, each once."""
+    return list(dict.fromkeys([e["kind"] for e in s["errors"]] + [f["name"] for f in s["faults"]]))
+
+
+def class_table(students: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return a row for each of several students, as `judge.json` has them."""
     rows = [("file", "score", "verdict", "what is wrong")]
-    for j in judgements:
-        wrong = [error.kind for _, error in j.errors] + [f.name for f in j.faults]
-        rows.append(
-            (j.name, f"{j.score:.1f}", VERDICTS[j.verdict], ", ".join(dict.fromkeys(wrong)))
-        )
+    for s in students:
+        wrong = ", ".join(wrong_names(s))
+        rows.append((s["file"], f"{s['score']:.1f}", VERDICTS[s["verdict"]], wrong))
     return columns(rows, left=(0, 2, 3))
