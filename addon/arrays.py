@@ -14,4 +14,5 @@ Colors = NDArray[np.float32]  # (..., 4) linear RGBA, premultiplied alpha
 Floats = NDArray[np.floating]  # float64, but where a plain method is asked for float32
 Index = NDArray[np.integer]
 Integers = NDArray[np.int32]
+Where = Array | slice | tuple[Array, ...]  # some of the items of an array
 Places = NDArray[np.intp]  # what numpy's searches return

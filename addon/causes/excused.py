@@ -149,8 +149,8 @@ def _unjudged(
     any_cause = np.any(list(where.values()), axis=0)
     found: dict[str, tuple[Bools, int]] = {}
     sides = [(case.scene.objects, frame.object_index)]
-    if case.picture.owner is not None:
-        sides.append((case.picture.names, case.picture.owner))
+    if owners := case.picture.owners:
+        sides.append((owners.names, owners.pixels))
     for names, seen in sides:
         for number, total in _mostly(seen, any_cause):
             found.setdefault(names[number], ((seen == number) & any_cause, total))

@@ -16,7 +16,6 @@ from ..diagnosis.diagnosis import diagnose
 from ..diagnosis.guessing import STEPS
 from ..diagnosis.self_check import FaultRow, self_check
 from ..mesh_diagnosis import diagnosed as with_mesh_faults
-from ..pictures.identity import Identity
 from ..pictures.metrics import boundary, image_metrics
 from ..rendering import steps
 from ..tracer.frame import Frame
@@ -143,10 +142,7 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     pair = traced.color[..., channels], picture.color[..., channels]
     measuring = called(image_metrics(*pair), "measuring differences")
     measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
-    identity = None
-    if picture.owner is not None and picture.owners is not None:
-        own = picture.owners[traced.instance_index]
-        identity = Identity(picture.names, own, picture.owner)
+    identity = picture.identity(traced.instance_index)
     yield rest
     at_boundary = boundary(traced)
     yield rest

@@ -14,7 +14,6 @@ from typing import Any
 from ..arrays import Colors
 from ..causes.case import Case
 from ..causes.cause import Causes
-from ..pictures.identity import Identity
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..wording import count_of
@@ -209,10 +208,7 @@ def diagnose(
 def _regions(evidence: Evidence) -> tuple[Region, ...]:
     """Return the regions of what is unexplained, with the objects in them."""
     case, frame = evidence.case, evidence.frame
-    identity, picture = None, case.picture
-    if picture.owner is not None and picture.owners is not None:
-        own = picture.owners[frame.instance_index]
-        identity = Identity(picture.names, own, picture.owner)
+    identity = case.picture.identity(frame.instance_index)
     return tuple(regions(evidence.unexplained, sides(case.scene, frame, identity)))
 
 

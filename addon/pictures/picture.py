@@ -6,24 +6,23 @@ is looked at by itself: the right colour excuses no wrong object, an edge nearby
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array, Bools, Colors, Floats, Index, Integers
+from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where
 from ..runs import by_runs
 from ..scene import Scene, SceneError
 from ..tracer import shading
 from ..tracer.hits import Hits
 from .bounds import DECIDABLE, SNAPPING, difference, differing
-from .identity import NOTHING, UNKNOWN
+from .identity import Identity, Owners
 from .renderers import RASTER, Renderer
 
 D = TypeVar("D", bound=np.generic)
-Where = Array | slice | tuple[Array, ...]
 Transform = Callable[[Floats], Floats]  # of straight linear RGB
 MAJORITY = 0.5  # the share of what a known curve changes that it must make agree
 
@@ -78,11 +77,7 @@ class Picture:
 
     color: Colors  # (..., 4) linear RGBA, alpha premultiplied
     source: Source = Source()
-    # (...) which object is shown: an index into `names`, NOTHING or UNKNOWN.
-    owner: Integers | None = None
-    # (k + 1,) the object of each instance of the traced scene, then of each plane; last NOTHING.
-    owners: Integers | None = None
-    names: tuple[str, ...] = ()  # of the objects that may be shown
+    owners: Owners | None = None  # whose surface each pixel shows, if that is known of any
     sample_radius: float = 0.0  # pixels: how far from a pixel's centre it is sampled on purpose
     # Pixels: how far the filter reaches that mixes several samples of a pixel; 0 for one sample.
     filter_radius: float = 0.0
@@ -96,7 +91,7 @@ class Picture:
     # Metres: Embree drew it, which takes triangles with a coordinate beyond for invalid; else inf.
     farthest: float = np.inf
     snapping: float = SNAPPING  # pixels: the step to which its rasteriser rounds triangles' corners
-    # Both (k + 1,) as `owners`, last False.
+    # Both (k + 1,): of each instance of the traced scene, then of each plane; last False.
     colorless: Bools | None = None  # the tracer does not know the instance's colours
     holes: Bools | None = None  # the instance is shown as if nothing were there
     # (...) the index of the unmodelled feature that draws itself over what is traced, or NOTHING.
@@ -150,16 +145,17 @@ class Picture:
         return replace(
             self,
             color=self.color[where],
-            owner=some(self.owner, where),
+            owners=self.owners and self.owners.at(where),
             drawn=some(self.drawn, where),
             beneath=some(self.beneath, where),
         )
 
     def of_instances(self, some_of: Bools) -> Picture:
         """Return the picture as it is of some of the traced scene's instances and planes."""
+        owners = self.owners
         return replace(
             self,
-            owners=some(self.owners, some_of),
+            owners=owners and replace(owners, instances=owners.instances[some_of]),
             colorless=some(self.colorless, some_of),
             holes=some(self.holes, some_of),
         )
@@ -229,13 +225,15 @@ class Picture:
 
     def known(self, instance: Index) -> Bools:
         """Return where it is known which object is shown, in the shape of `instance`."""
-        return np.zeros(instance.shape, bool) if self.owner is None else self.owner != UNKNOWN
+        return self.owners.known if self.owners else np.zeros(instance.shape, bool)
+
+    def identity(self, instance: Index) -> Identity | None:
+        """Return which object each side shows, where instances (...) are traced, if it is known."""
+        return self.owners.identity(instance) if self.owners else None
 
     def same_object(self, instance: Index) -> Bools:
         """Return where the object of the instances (...) is known to be shown."""
-        if self.owner is None or self.owners is None:
-            return np.zeros(instance.shape, bool)
-        return self.owner == self.owners[instance]
+        return self.owners.same(instance) if self.owners else np.zeros(instance.shape, bool)
 
 
 def some(values: NDArray[D] | None, where: Where) -> NDArray[D] | None:
@@ -247,12 +245,3 @@ def straight(colors: Array) -> Floats:
     """Return the straight RGB (..., 3) of premultiplied RGBA (..., 4)."""
     colors = np.asarray(colors, np.float64)
     return colors[..., :3] / np.where(colors[..., 3:] > 0, colors[..., 3:], 1)
-
-
-def numbered(names: Sequence[str], owners: Sequence[str]) -> Integers:
-    """Return the index in `names` of each owner, (k,), and NOTHING at the end: (k + 1,) int32.
-
-    An owner that is not among the names gets an index that no pixel has.
-    """
-    number = {name: n for n, name in enumerate(names)}
-    return np.array([*(number.get(o, len(names)) for o in owners), NOTHING], np.int32)

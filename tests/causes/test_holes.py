@@ -9,12 +9,12 @@ import pytest
 from reference_tracer.causes.case import Alternative, without
 from reference_tracer.causes.explain import UNEXPLAINED, explain
 from reference_tracer.pictures.metrics import boundary
-from reference_tracer.pictures.picture import Picture, numbered
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh
 from reference_tracer.tracer.progress import result_of
 
-from ..cases import case_of
+from ..cases import case_of, owners_of
 
 FILTER = 1.5
 
@@ -26,10 +26,8 @@ def named(room):
 
 def known(scene, frame, color=None, **options):
     """Return a picture that is known to show what was traced, but for its colours."""
-    owners = numbered(scene.objects, scene.objects)
-    owner = owners[frame.instance_index]
     color = frame.color.copy() if color is None else color
-    return Picture(color, owner=owner, owners=owners, names=scene.objects, **options)
+    return Picture(color, owners=owners_of(scene.objects, frame), **options)
 
 
 def unexplained(scene, frame, picture, **options):
@@ -46,7 +44,7 @@ def test_another_object_of_the_same_colour_is_no_anti_aliasing(named):
     frame = render(named)
     picture = known(named, frame, filter_radius=FILTER)
     wrong = inside(frame, 0)
-    picture.owner[wrong] = 2
+    picture.owners.pixels[wrong] = 2
     assert wrong.sum() > 50
     assert (unexplained(named, frame, picture) == wrong).all()
 

@@ -18,9 +18,9 @@ import numpy as np
 from ...arrays import Colors, Integers
 from ...causes.checks.unmodelled import covered
 from ...manifest import Effect, Manifest, Unmodelled
-from ...pictures.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
+from ...pictures.identity import MOST_OBJECTS, NOTHING, UNKNOWN, Owners, colors_of, decode
 from ...pictures.palette import VIEWPORT, Palette
-from ...pictures.picture import Picture, numbered
+from ...pictures.picture import Picture
 from ...scene import Scene, SceneError
 from ..engine import export_for_judge
 from ..reading.unmodelled import HAIR, is_hair
@@ -211,4 +211,4 @@ def with_identity(drawing: Drawing, shown: Picture) -> Picture:
     if own_colors:  # these objects show their own colours, which may be other objects' numbers
         of_animated = decode(np.array([own_colors], np.float32), len(names))
         owner[np.isin(owner, of_animated[of_animated >= 0])] = UNKNOWN
-    return replace(shown, owner=owner, owners=numbered(names, manifest.owners), names=names)
+    return replace(shown, owners=Owners.of(names, owner, manifest.owners))

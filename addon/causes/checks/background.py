@@ -91,7 +91,7 @@ def find_background(
     surface, made = interior & ~nothing, replace(picture, transform=transform)
     if not (yield from _apart(frame, made, color, surface)):
         return None
-    one = replace(picture, color=color[None].astype(np.float32), owner=None, transform=transform)
+    one = replace(picture, color=color[None].astype(np.float32), owners=None, transform=transform)
     if not one.other_color(own[None])[0]:
         return None
     shown = frame.instance_index == NOTHING

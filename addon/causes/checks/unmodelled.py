@@ -125,8 +125,9 @@ def check_otherwise(pixels: OpenPixels) -> Work[None]:
     past = np.maximum(unseen, holes)
     if pixels.open.any() and (past != NOTHING).any():
         owners = picture.owners
-        if owners is not None:
-            owners = np.where(holes != NOTHING, np.int32(NOTHING), owners)
+        if owners:
+            instances = np.where(holes != NOTHING, np.int32(NOTHING), owners.instances)
+            owners = replace(owners, instances=instances)
         shown = replace(picture, owners=owners, holes=holes != NOTHING)
         yield from scaled(_see(pixels, shown, unseen == NOTHING, past), 0.0, 0.5)
     if pixels.open.any() and (front != NOTHING).any():
