@@ -19,7 +19,7 @@ from ..scene import Scene, SceneError
 from ..tracer import shading
 from ..tracer.hits import Hits
 from .bounds import DECIDABLE, SNAPPING, difference, differing
-from .identity import Identity, Owners
+from .identity import NOTHING, Identity, Owners
 from .renderers import RASTER, Renderer
 
 D = TypeVar("D", bound=np.generic)
@@ -72,6 +72,30 @@ class Source:
 
 
 @dataclass(frozen=True, eq=False)
+class DrawnOver:
+    """What draws itself over what is traced, as hair does: where, and what lies beneath."""
+
+    feature: Integers  # (...) its index among the unmodelled features, or NOTHING
+    beneath: Colors | None = None  # (..., 4) the colour without these; NaN: not known
+
+    @property
+    def known(self) -> Integers:
+        """Which feature each pixel shows over what is known to lie beneath, (...), or NOTHING."""
+        known = self.beneath is not None and np.isfinite(self.beneath).all(axis=-1)
+        return np.where(known, self.feature, np.int32(NOTHING))
+
+    def taken_off(self, color: Colors) -> Colors:
+        """Return colours (..., 4) with those beneath in place of them, where they are known."""
+        if self.beneath is None:
+            return color
+        return np.where((self.known != NOTHING)[..., None], self.beneath, color)
+
+    def at(self, where: Where) -> DrawnOver:
+        """Return some of the pixels."""
+        return DrawnOver(self.feature[where], some(self.beneath, where))
+
+
+@dataclass(frozen=True, eq=False)
 class Picture:
     """The pixels (...) of the other side's picture, or some of them."""
 
@@ -94,9 +118,7 @@ class Picture:
     # Both (k + 1,): of each instance of the traced scene, then of each plane; last False.
     colorless: Bools | None = None  # the tracer does not know the instance's colours
     holes: Bools | None = None  # the instance is shown as if nothing were there
-    # (...) the index of the unmodelled feature that draws itself over what is traced, or NOTHING.
-    drawn: Integers | None = None
-    beneath: Colors | None = None  # (..., 4) the colour without these features; NaN: not known
+    drawn: DrawnOver | None = None  # what draws itself, if anything does
     renderer: Renderer = RASTER  # whose rounding excuses a pixel
 
     def to_dict(self) -> dict[str, object]:
@@ -146,8 +168,7 @@ class Picture:
             self,
             color=self.color[where],
             owners=self.owners and self.owners.at(where),
-            drawn=some(self.drawn, where),
-            beneath=some(self.beneath, where),
+            drawn=self.drawn and self.drawn.at(where),
         )
 
     def of_instances(self, some_of: Bools) -> Picture:

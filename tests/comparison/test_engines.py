@@ -14,7 +14,7 @@ from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.pictures.identity import Owners
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import DrawnOver, Picture, Source
 from reference_tracer.rendering import render
 from reference_tracer.report.engines import lines, write
 from reference_tracer.tracer.progress import result_of
@@ -71,7 +71,7 @@ def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room)
     drawn, beneath = np.where(hair, np.int32(1), np.int32(-1)), frame.color.copy()
     beneath[~hair] = np.nan
     shown = Picture(color, Source("workbench", "5.2.3"), owners)
-    shown = replace(shown, drawn=drawn, beneath=beneath)
+    shown = replace(shown, drawn=DrawnOver(drawn, beneath))
     glass = Unmodelled("Pane", "transparency", effect=Effect.NONE)
     case = case_of(room, shown, [glass, Unmodelled("Head", "hair")], self_check=True)
     row = EngineRow.of(result_of(compare(case, frame)))

@@ -29,8 +29,10 @@ def recolored(change: Callable[[Array], Array]) -> Make[Guess]:
 
     def make(case: Case, guess: Guess) -> Case:
         picture = case.picture
-        beneath = None if picture.beneath is None else change(picture.beneath)
-        changed = replace(picture, color=change(picture.color), beneath=beneath)
+        drawn = picture.drawn
+        if drawn and drawn.beneath is not None:
+            drawn = replace(drawn, beneath=change(drawn.beneath))
+        changed = replace(picture, color=change(picture.color), drawn=drawn)
         case = replace(case, picture=changed)
         return case if picture.background is None else case.before(change(picture.background))
 
