@@ -536,8 +536,10 @@ def _clipped(end: bool) -> Make:
 
 def _filtered(made: Attacked) -> Attacked:
     """Say of a wrong picture that it was anti-aliased."""
-    case = made.case
-    return made._replace(case=replace(case, picture=replace(case.picture, filter_radius=FILTER)))
+    picture = made.case.picture
+    sampling = replace(picture.sampling, filter_radius=FILTER)
+    case = replace(made.case, picture=replace(picture, sampling=sampling))
+    return made._replace(case=case)
 
 
 def _outside(subject: Subject, color: NDArray) -> NDArray[np.bool_]:
@@ -568,9 +570,7 @@ def _no_mix(subject: Subject, color: NDArray, where: NDArray[np.bool_]) -> Attac
     owner = subject.owner
     owner = None if owner is None else np.where(where, UNKNOWN, owner)
     color = np.where(where[..., None], color, subject.picture.color)
-    made = damaged(subject, color, owner)
-    case = made.case
-    return made._replace(case=replace(case, picture=replace(case.picture, filter_radius=FILTER)))
+    return _filtered(damaged(subject, color, owner))
 
 
 def overshot(subject: Subject) -> Attacked | None:

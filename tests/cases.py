@@ -50,7 +50,8 @@ def find_causes(
     """Return the work of finding the causes of what was traced already."""
     case = case_of(scene, picture, unmodelled, **known)
     radii = {"sample_radius": sample_radius, "filter_radius": filter_radius}
-    return causes.find_causes(replace(case, picture=replace(case.picture, **radii)), frame)
+    picture = replace(case.picture, sampling=replace(case.picture.sampling, **radii))
+    return causes.find_causes(replace(case, picture=picture), frame)
 
 
 def explained(scene, picture, unmodelled=(), settings=None, sample_radius=0.0):

@@ -22,7 +22,7 @@ from ..tracer.vector import transform_points
 
 U32 = 2.0**-24  # the rounding unit of float32
 # Pixels: rasterisers keep eight bits of a vertex' position below the pixel. Where the machine's was
-# measured to keep less, the comparison adds what is missing: see `Picture.snapping`.
+# measured to keep less, the comparison adds what is missing: see `Sampling.snapping`.
 SNAPPING = 1 / 256
 
 # A vertex goes through three float32 products: model, view, projection. The model's rounds each

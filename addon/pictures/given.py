@@ -12,6 +12,7 @@ from ..scene import Camera
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from .picture import Picture, Source, check_size
 from .renderers import RENDERERS, Renderer, renderer_of
+from .sampling import Sampling
 
 
 @dataclass(frozen=True)
@@ -69,11 +70,10 @@ def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Pictur
     return Picture(
         color,
         Source(file=file.path.name, known=known, remarks=remarks),
-        filter_radius=making.filter_radius,
+        sampling=Sampling(filter_radius=making.filter_radius, renderer=renderer),
         levels=stored.levels,
         dither=dither,
         opaque=stored.opaque,
-        renderer=renderer,
     )
 
 
@@ -117,8 +117,7 @@ def picture_of_array(color: ArrayLike, camera: Camera, making: Making) -> Pictur
     return Picture(
         given,
         Source(file="array", known=known),
-        filter_radius=making.filter_radius,
+        sampling=Sampling(filter_radius=making.filter_radius, renderer=renderer),
         dither=making.dither or 0.0,
         opaque=opaque,
-        renderer=renderer,
     )

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where
 from ..runs import by_runs
-from ..scene import Scene, SceneError
+from ..scene import Scene
 from ..tracer import shading
 from ..tracer.hits import Hits
-from .bounds import DECIDABLE, SNAPPING, difference, differing
+from .bounds import difference, differing
 from .identity import NOTHING, Identity, Owners
-from .renderers import RASTER, Renderer
+from .sampling import AT_CENTERS, Sampling
 
 D = TypeVar("D", bound=np.generic)
 Transform = Callable[[Floats], Floats]  # of straight linear RGB
@@ -102,9 +102,7 @@ class Picture:
     color: Colors  # (..., 4) linear RGBA, alpha premultiplied
     source: Source = Source()
     owners: Owners | None = None  # whose surface each pixel shows, if that is known of any
-    sample_radius: float = 0.0  # pixels: how far from a pixel's centre it is sampled on purpose
-    # Pixels: how far the filter reaches that mixes several samples of a pixel; 0 for one sample.
-    filter_radius: float = 0.0
+    sampling: Sampling = AT_CENTERS
     levels: int = 0  # of a file that stores sRGB's curve in integers, those above 0: 255 for a PNG
     dither: float = 0.0  # noise that was added, in levels
     sums: int = 0  # how many samples were added up in half floats; 0 for one
@@ -112,14 +110,10 @@ class Picture:
     lit: bool = False  # by a light that the tracer does not have: colours prove nothing
     transform: Transform | None = None  # turns traced colours into the picture's
     background: Colors | None = None  # (4,) its own, linear RGBA, not transformed
-    # Metres: Embree drew it, which takes triangles with a coordinate beyond for invalid; else inf.
-    farthest: float = np.inf
-    snapping: float = SNAPPING  # pixels: the step to which its rasteriser rounds triangles' corners
     # Both (k + 1,): of each instance of the traced scene, then of each plane; last False.
     colorless: Bools | None = None  # the tracer does not know the instance's colours
     holes: Bools | None = None  # the instance is shown as if nothing were there
     drawn: DrawnOver | None = None  # what draws itself, if anything does
-    renderer: Renderer = RASTER  # whose rounding excuses a pixel
 
     def to_dict(self) -> dict[str, object]:
         """Return who made it and how, as JSON can hold it."""
@@ -127,10 +121,7 @@ class Picture:
         out: dict[str, object] = {
             "version": source.version,
             "source": source.name,
-            "sample_radius": self.sample_radius,
-            "renderer": self.renderer.name,
-            "snapping": self.snapping,
-            "filter_radius": self.filter_radius,
+            **self.sampling.to_dict(),
             "settings": source.settings,
         }
         if source.file:
@@ -138,11 +129,6 @@ class Picture:
         if source.known:
             out["renderer_known"] = source.known
         return out
-
-    @property
-    def off_center(self) -> float:
-        """How far from the pixel's centre a sample may lie, beyond SNAPPING, in pixels."""
-        return self.sample_radius + max(self.snapping - SNAPPING, 0.0)
 
     def check(self, shape: tuple[int, ...]) -> None:
         """Refuse a picture that cannot be compared with a traced one of a shape (h, w, 4).
@@ -155,12 +141,7 @@ class Picture:
             If its samples lie so far from the pixels' centres that nothing could be decided.
         """
         check_size(self.color.shape, shape)
-        if SNAPPING + self.off_center >= DECIDABLE:
-            raise SceneError(
-                f"{self.source} cannot be compared: it is sampled up to {self.sample_radius:.3g} "
-                f"px from the pixels' centres, and corners are rounded to {self.snapping:.3g} px. "
-                f"Together these must be less than {DECIDABLE} px."
-            )
+        self.sampling.check(self.source)
 
     def at(self, where: Where) -> Picture:
         """Return some of the pixels: rows by a slice, those of a mask, or by their indices."""

@@ -24,6 +24,7 @@ from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.pictures.metrics import boundary
 from reference_tracer.pictures.picture import Picture, SizeError, Source
+from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.coloring import Color
@@ -229,7 +230,7 @@ def test_sizes_must_match(scene, shape):
 )
 def test_samples_far_from_the_centres_are_refused(scene, sampling, told):
     """No pixel could be decided: the fault is the judge's, not the scene's."""
-    picture = Picture(render(scene).color, Source("draft", "5.2.3"), **sampling)
+    picture = Picture(render(scene).color, Source("draft", "5.2.3"), sampling=Sampling(**sampling))
     with pytest.raises(SceneError, match=f"Blender's draft picture cannot be compared.*{told}"):
         result_of(trace_and_compare(case_of(scene, picture)))
     with pytest.raises(SceneError, match=told):

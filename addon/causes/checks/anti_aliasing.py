@@ -67,7 +67,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
     Their figure is the radius of the smallest ring that is enough.
     """
-    radius = pixels.picture.filter_radius
+    radius = pixels.picture.sampling.filter_radius
     if not pixels.open.any() or radius <= 0 or pixels.picture.lit:
         return
     made = yield from plan(pixels.case.scene, SOUND, reach=np.sqrt(2) * radius)

@@ -28,7 +28,7 @@ def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
     """
     picture, scene = case.picture, case.scene
     owners = picture.owners
-    if not owners or picture.lit or picture.filter_radius > 0:
+    if not owners or picture.lit or picture.sampling.filter_radius > 0:
         return case
     pixels = owners.pixels.copy()
     unclear = case.colorless | shading.interpolated(scene, np.arange(len(owners.instances)))

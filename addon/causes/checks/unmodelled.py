@@ -74,7 +74,7 @@ def drawn_over(picture: Picture) -> Integers:
 def blind(case: Case, frame: Frame) -> Integers:
     """Return which feature keeps each pixel from being judged, (h, w): its index, or NOTHING."""
     features, picture = list(enumerate(case.manifest.unmodelled)), case.picture
-    filtered = int(np.ceil(picture.filter_radius))
+    filtered = int(np.ceil(picture.sampling.filter_radius))
     out = np.full(frame.shape, NOTHING, np.int32)
     if not picture.drawn:  # nobody drew the scene without it: all that it may cover
         for number, feature in features:
