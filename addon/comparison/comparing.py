@@ -138,7 +138,7 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     explaining = called(explain(case, frame), "looking for causes")
     found = yield from scaled(explaining, 0.0, rest * _CAUSES)
     traced, picture = found.frame, found.case.picture  # both before the picture's own background
-    channels = slice(3 if picture.opaque else 4)  # an opaque picture says nothing of alpha
+    channels = slice(3 if picture.storage.opaque else 4)  # an opaque picture says nothing of alpha
     pair = traced.color[..., channels], picture.color[..., channels]
     measuring = called(image_metrics(*pair), "measuring differences")
     measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))

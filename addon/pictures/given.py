@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..images import PictureFile
 from ..scene import Camera
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
+from .bounds import Storage
 from .picture import Picture, Source, check_size
 from .renderers import RENDERERS, Renderer, renderer_of
 from .sampling import Sampling
@@ -71,9 +72,7 @@ def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Pictur
         color,
         Source(file=file.path.name, known=known, remarks=remarks),
         sampling=Sampling(filter_radius=making.filter_radius, renderer=renderer),
-        levels=stored.levels,
-        dither=dither,
-        opaque=stored.opaque,
+        storage=Storage(stored.levels, dither, opaque=stored.opaque),
     )
 
 
@@ -118,6 +117,5 @@ def picture_of_array(color: ArrayLike, camera: Camera, making: Making) -> Pictur
         given,
         Source(file="array", known=known),
         sampling=Sampling(filter_radius=making.filter_radius, renderer=renderer),
-        dither=making.dither or 0.0,
-        opaque=opaque,
+        storage=Storage(dither=making.dither or 0.0, opaque=opaque),
     )

@@ -18,7 +18,7 @@ from ..runs import by_runs
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.hits import Hits
-from .bounds import difference, differing
+from .bounds import FLOATS, Storage, difference, differing
 from .identity import NOTHING, Identity, Owners
 from .sampling import AT_CENTERS, Sampling
 
@@ -103,10 +103,7 @@ class Picture:
     source: Source = Source()
     owners: Owners | None = None  # whose surface each pixel shows, if that is known of any
     sampling: Sampling = AT_CENTERS
-    levels: int = 0  # of a file that stores sRGB's curve in integers, those above 0: 255 for a PNG
-    dither: float = 0.0  # noise that was added, in levels
-    sums: int = 0  # how many samples were added up in half floats; 0 for one
-    opaque: bool = False  # the picture has no alpha: it is not compared
+    storage: Storage = FLOATS
     lit: bool = False  # by a light that the tracer does not have: colours prove nothing
     transform: Transform | None = None  # turns traced colours into the picture's
     background: Colors | None = None  # (4,) its own, linear RGBA, not transformed
@@ -173,7 +170,7 @@ class Picture:
 
         def differ(traced: Array, own: Array, between: Array) -> Bools:
             first, second = self._sides(traced, own)
-            return differing(first, second, between, self.levels, self.sums, self.dither)
+            return differing(first, second, between, self.storage)
 
         between = np.broadcast_to(interpolated, shape).ravel()
         return by_runs(differ, *flat, between).reshape(shape)
@@ -184,7 +181,7 @@ class Picture:
         Both are of the channel in which a pixel is nearest to differing, or differs most.
         """
         traced, own = self._sides(colors, self.color)
-        apart, allowed = difference(traced, own, False, self.levels, self.sums, self.dither)
+        apart, allowed = difference(traced, own, stored=self.storage)
         worst = np.argmax(np.nan_to_num(apart - allowed), axis=-1)[..., None]
         apart, allowed = (np.take_along_axis(v, worst, -1)[..., 0] for v in (apart, allowed))
         return apart, allowed
@@ -203,7 +200,7 @@ class Picture:
             if self.background is not None:
                 own = (colors == self.background).all(axis=-1, keepdims=True)
                 made = np.where(own, colors, made)
-        return made[..., : 3 if self.opaque else 4]
+        return made[..., : 3 if self.storage.opaque else 4]
 
     def other_object(self, instance: Index) -> Bools:
         """Return where another object is known to be shown than that of the instances (...)."""

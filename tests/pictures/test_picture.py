@@ -17,6 +17,7 @@ from reference_tracer.causes.explain import (
 )
 from reference_tracer.images import decoded, to_display
 from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.identity import UNKNOWN
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
@@ -133,7 +134,7 @@ def test_bytes_may_be_half_a_level_off(room, seen):
     for off, cause in ((0.0, AGREE), (1.0, UNEXPLAINED)):
         moved = stored.copy()
         moved[..., :3] += off * (stored[..., 3:] > 0) * (1 - 2 * (stored[..., :3] > 200))
-        shown = Picture(decoded(moved / 255).astype(np.float32), levels=255)
+        shown = Picture(decoded(moved / 255).astype(np.float32), storage=Storage(255))
         found = causes(room, frame, shown).cause
         assert (found[frame.instance_index >= 0] == cause).all()
 
@@ -142,5 +143,5 @@ def test_an_opaque_picture_has_no_alpha_to_compare(room, seen):
     frame, _ = seen
     color = frame.color.copy()
     color[..., 3] = 1
-    assert (causes(room, frame, Picture(color, opaque=True)).cause == AGREE).all()
+    assert (causes(room, frame, Picture(color, storage=Storage(opaque=True))).cause == AGREE).all()
     assert (causes(room, frame, Picture(color)).cause == UNEXPLAINED).any()

@@ -19,6 +19,7 @@ from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
 from ...manifest import Manifest
+from ...pictures.bounds import Storage
 from ...pictures.certificate import CameraCertificate
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Picture, Source
@@ -187,7 +188,7 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
             judge.farthest,
             EMBREE if judge.traces_rays else RASTER,
         ),
-        sums=int(smooth) if smooth.isdigit() else 0,
+        storage=Storage(sums=int(smooth) if smooth.isdigit() else 0),
     )
 
 

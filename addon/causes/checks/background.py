@@ -97,7 +97,7 @@ def find_background(
     shown = frame.instance_index == NOTHING
     shown &= ~(yield from other_color(picture, color))
     colors_of_both = tuple(map(float, color)), tuple(map(float, own))
-    return Background(*colors_of_both, picture.opaque, int(shown.sum()), shown.size)
+    return Background(*colors_of_both, picture.storage.opaque, int(shown.sum()), shown.size)
 
 
 def _apart(frame: Frame, picture: Picture, color: Colors, surface: Bools) -> Work[bool]:

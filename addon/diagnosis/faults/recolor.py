@@ -61,4 +61,5 @@ def with_slack(picture: Picture, slack: float) -> Picture:
     """Return a picture with a tolerance of some levels of 8 bits beyond its own rounding."""
     if slack < 0:
         return picture
-    return replace(picture, levels=picture.levels or EIGHT_BITS, dither=picture.dither + slack)
+    levels, dither = picture.storage.levels or EIGHT_BITS, picture.storage.dither + slack
+    return replace(picture, storage=replace(picture.storage, levels=levels, dither=dither))

@@ -40,7 +40,7 @@ def _find_rounding(evidence: Evidence) -> list[Numbers]:
     if _is_noisy(surfaces(evidence)):
         return []
     more = Numbers((1.0,), words=", and up to one level more off")
-    return [more] if evidence.picture.levels else [Numbers((0.0,)), more]
+    return [more] if evidence.picture.storage.levels else [Numbers((0.0,)), more]
 
 
 @at_once
