@@ -97,6 +97,10 @@ def _measure_scene(
             share * case.cost,
         )
         start += share * case.cost
+        for (settings, what), runner in timing.runners.items():
+            bench.keep(f"{case.title}: {settings.method.value}, {what}", runner.seconds.values())
+        for name, runner in peers.items():
+            bench.keep(f"{case.title}: {name}", runner.seconds.values())
         field.tell(peers, case)
         rows = [timing.row(settings, peers, peaks) for settings in METHODS]
         bench.rows += [field.completed(row, timing.certified) for row in rows]
