@@ -25,7 +25,7 @@ from .tracer.camera import Rays
 from .tracer.frame import Frame
 from .tracer.hits import Hits, Statistics
 from .tracer.nearest import TraceBand
-from .tracer.progress import Work, result_of
+from .tracer.progress import Work, at_once, result_of
 from .tracer.render import Tracer, bands
 from .tracer.settings import Precision, Settings
 from .tracer.world import refused
@@ -33,16 +33,16 @@ from .tracer.world import refused
 TraceRays = Callable[[Scene, Rays, Settings, Statistics], Work[Hits]]
 
 
+@at_once
 def certified_tracer(
     scene: Scene, settings: Settings, reach: float, statistics: Statistics
-) -> Work[TraceBand]:
-    """Prepare to trace bands of a picture with proof; yields nothing, as nothing is traced yet."""
+) -> TraceBand:
+    """Prepare to trace bands of a picture with proof: nothing is traced yet."""
     statistics.refused = refused(scene)
     statistics.rounding = str(rounding(scene))
     find = sweep if scene.camera.projection.is_linear else plain.plain
     memory = settings.memory // 2
     return lambda band, dx, dy: find(scene, band, memory, dx, dy, statistics)
-    yield  # never reached: it makes this function a generator, as `nearest.tracer` is
 
 
 # By method: what traces a picture's bands, and what traces any rays.

@@ -43,6 +43,32 @@ class ViewWindow:
     bottom: float
     top: float
 
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height."""
+        return self.right - self.left, self.top - self.bottom
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """The point in its middle."""
+        return (self.left + self.right) / 2, (self.bottom + self.top) / 2
+
+    def moved(self, x: float, y: float) -> ViewWindow:
+        """Return it moved to the right and up."""
+        return ViewWindow(self.left + x, self.right + x, self.bottom + y, self.top + y)
+
+    def scaled(self, x: float, y: float) -> ViewWindow:
+        """Return it scaled about the axis; a negative factor mirrors it."""
+        left, right = sorted((x * self.left, x * self.right))
+        bottom, top = sorted((y * self.bottom, y * self.top))
+        return ViewWindow(left, right, bottom, top)
+
+    def about(self, centre: tuple[float, float], x: float = 1.0, y: float = 1.0) -> ViewWindow:
+        """Return one about another centre, of its size times x and y."""
+        (cx, cy), (width, height) = centre, self.size
+        half_x, half_y = x * width / 2, y * height / 2
+        return ViewWindow(cx - half_x, cx + half_x, cy - half_y, cy + half_y)
+
 
 @dataclass(frozen=True)
 class Region:
@@ -136,7 +162,7 @@ class Camera:
         reach = max(map(abs, (w.left, w.right, w.bottom, w.top)))
         with np.errstate(all="ignore"):
             farthest = np.abs(self.world_from_camera[:3]) @ (reach, reach, 1.0, 1.0)
-            size = w.right - w.left, w.top - w.bottom
+            size = w.size
         known = np.isfinite([reach, *farthest, *size]).all() and reach <= self.projection.farthest
         if not (known and min(size) > 0):
             raise SceneError(

@@ -20,7 +20,7 @@ from ..tracer import shading
 from ..tracer.hits import Hits
 from .bounds import FLOATS, Storage, difference, differing
 from .identity import NOTHING, Identity, Owners
-from .sampling import AT_CENTERS, Sampling
+from .sampling import AT_CENTRES, Sampling
 
 D = TypeVar("D", bound=np.generic)
 Transform = Callable[[Floats], Floats]  # of straight linear RGB
@@ -102,7 +102,7 @@ class Picture:
     color: Colors  # (..., 4) linear RGBA, alpha premultiplied
     source: Source = Source()
     owners: Owners | None = None  # whose surface each pixel shows, if that is known of any
-    sampling: Sampling = AT_CENTERS
+    sampling: Sampling = AT_CENTRES
     storage: Storage = FLOATS
     lit: bool = False  # by a light that the tracer does not have: colours prove nothing
     transform: Transform | None = None  # turns traced colours into the picture's

@@ -53,4 +53,4 @@ class Sampling:
             )
 
 
-AT_CENTERS = Sampling()  # one sample a pixel, at its centre, of a rasteriser
+AT_CENTRES = Sampling()  # one sample a pixel, at its centre, of a rasteriser

@@ -13,8 +13,9 @@ from ...arrays import Array
 from ...causes.case import Case
 from ...images import EIGHT_BITS, curve, curve_undone
 from ...pictures.curves import FITTED_SHARE
+from ...tracer.progress import at_once
 from ..evidence import Evidence
-from .fault import Example, Fault, Numbers, at_once, with_values
+from .fault import Example, Fault, Numbers, with_values
 from .recolor import of_straight, with_slack
 from .surfaces import Surfaces, surfaces
 
