@@ -7,6 +7,7 @@ World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cached_property
@@ -321,6 +322,16 @@ class Scene:
             if not 0 <= shown.object < len(self.objects):
                 what = "infinite plane" if isinstance(shown, Plane) else "instance"
                 raise SceneError(f"An {what} names object {shown.object} of {len(self.objects)}.")
+
+    def with_meshes(self, others: Mapping[int, Mesh]) -> Scene:
+        """Return the same with other meshes of some instances, which may share one, by number."""
+        new = {id(mesh): mesh for mesh in others.values()}
+        number = {key: k for k, key in enumerate(new, len(self.meshes))}
+        instances = tuple(
+            replace(i, mesh=number[id(others[n])]) if n in others else i
+            for n, i in enumerate(self.instances)
+        )
+        return replace(self, meshes=(*self.meshes, *new.values()), instances=instances)
 
     def seen_by(self, camera: Camera) -> Scene:
         """Return the same scene with another camera; what is known of it stays known."""
