@@ -181,12 +181,13 @@ def diagnose(
         return Diagnosis()
     began = time.monotonic()
     guessing = Guessing(faults, steps)
-    evidence = yield from with_variants(evidence)
+    evidence = yield from scaled(with_variants(evidence), 0.0, 0.0)
     at_first = evidence.unexplained
     told: list[Told] = []
     for number in range(ROUNDS):
         finding = accounting(guessing, evidence)
-        chain = yield from scaled(finding, number / ROUNDS, 1 / ROUNDS)
+        half = 0.5**number  # of the work that is left: most ends in the first round
+        chain = yield from scaled(finding, 1 - half, half / 2)
         if not chain:
             break
         for trials in chain:
