@@ -52,7 +52,7 @@ def _find_jpeg(evidence: Evidence) -> Work[list[Jpeg]]:
     """Guess the quality whose errors come nearest to the picture's, if it has 8 bits."""
     try:
         import PIL.Image  # noqa: F401
-    except ImportError:  # an extra, which Blender lacks: nobody stores a reference as a JPEG
+    except ImportError:  # the extra `jpeg`, which Blender lacks
         return []
     if evidence.picture.storage.levels not in (0, 255):
         return []
