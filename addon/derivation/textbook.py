@@ -28,7 +28,7 @@ from .formulas import CAMERA, Formula, Rejection, ray_formulas
 Number = np.float32 | np.float64 | Fraction
 Vector = NDArray[Any]  # (3,), float32 or float64, which round after every operation, or fractions
 Value = Any  # a number or a vector of one arithmetic
-Values = dict[str, Value]  # by their keys or labels
+Labelled = dict[str, Value]  # by their keys or labels
 
 
 class Arithmetic(StrEnum):
@@ -83,7 +83,7 @@ def _sine(angle: Value, quarters: int) -> Value:
     return Fraction(total, _UNIT)
 
 
-def evaluate(text: str, names: Values) -> Value:
+def evaluate(text: str, names: Labelled) -> Value:
     """Return the number or vector that a formula gives; `names` has the value of each letter.
 
     Raises
@@ -94,7 +94,7 @@ def evaluate(text: str, names: Values) -> Value:
     return _evaluate([*reversed(_TOKEN.findall(text))], names)
 
 
-def _evaluate(tokens: list[str], names: Values, binding: int = 0) -> Value:
+def _evaluate(tokens: list[str], names: Labelled, binding: int = 0) -> Value:
     """Take tokens off the end of the list, as far as operators bind more strongly."""
     value = _operand(tokens, names)
     while tokens and tokens[-1] != ")":
@@ -109,7 +109,7 @@ def _evaluate(tokens: list[str], names: Values, binding: int = 0) -> Value:
     return value
 
 
-def _operand(tokens: list[str], names: Values) -> Value:
+def _operand(tokens: list[str], names: Labelled) -> Value:
     token = tokens.pop()
     if token == "−":
         return -_operand(tokens, names)
@@ -123,7 +123,7 @@ def _operand(tokens: list[str], names: Values) -> Value:
 
 
 @np.errstate(all="ignore")
-def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
+def evaluate_all(formulas: Mapping[str, Formula], given: Labelled) -> Labelled:
     """Return the values of formulas by their keys, exact ones up to where one would divide by 0.
 
     Parameters
@@ -144,7 +144,7 @@ def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
     return out
 
 
-def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
+def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Labelled:
     """Return the steps from a pixel to the ray through its centre.
 
     Parameters
@@ -161,12 +161,14 @@ def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
         numbers |= zip("wh", pixel_size(camera), strict=True)
     vectors = {"right": camera.right, "up": camera.up, "forward": camera.forward}
     vectors["e"] = camera.origin
-    given: Values = {label: kind.number(value) for label, value in numbers.items()}
+    given: Labelled = {label: kind.number(value) for label, value in numbers.items()}
     given |= {label: kind.vector(value) for label, value in vectors.items()}
     return evaluate_all(CAMERA | ray_formulas(camera.projection), given)
 
 
-def surface_steps(formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector) -> Values:
+def surface_steps(
+    formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector
+) -> Labelled:
     """Return the steps of a ray with a triangle (three corners) or a plane (point and normal)."""
     labels = [formula.label for formula in formulas.values()]
     return evaluate_all(formulas, {"o": o, "d": d, **dict(zip(labels, points, strict=False))})
@@ -183,7 +185,7 @@ class Judgement(NamedTuple):
     literal: bool | None = None
 
 
-def judge(found: Values, camera: Camera) -> Judgement:
+def judge(found: Labelled, camera: Camera) -> Judgement:
     """Judge the steps of a plane or a triangle by the textbook's conditions and the clip range."""
     undefined = _undefined(found)
     if undefined:
@@ -193,7 +195,7 @@ def judge(found: Values, camera: Camera) -> Judgement:
     return Judgement(not reasons, tuple(reasons), literal)
 
 
-def _undefined(found: Values) -> Rejection | None:
+def _undefined(found: Labelled) -> Rejection | None:
     """Return why t means nothing, where it does; floats have one by the rules for inf."""
     if not any(found["n"]):
         return Rejection.DEGENERATE
@@ -205,7 +207,7 @@ def _undefined(found: Values) -> Rejection | None:
     return None
 
 
-def _inside(found: Values) -> list[Rejection]:
+def _inside(found: Labelled) -> list[Rejection]:
     if "s1" not in found:
         return []
     outside = [

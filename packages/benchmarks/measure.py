@@ -119,7 +119,7 @@ def _measure_memory(cases: list[Case], cache: Path, quick: bool) -> Work[Peaks]:
 
 
 def _took_too_long(peaks: Peaks, case: Case, settings: Settings, what: str) -> bool:
-    """Whether a plain method's memory was not found out, but certified's was."""
+    """Whether an unproven method's memory was not found out, but certified's was."""
     plain, proven = (peaks.get(_job(case, s, what), 0) for s in (settings, CERTIFIED))
     return plain is None and proven is not None
 
