@@ -32,8 +32,8 @@ def test_every_record_is_told_once():
     for cause in CAUSES[1:]:
         assert VALUES["causes"].count(f"`{cause.key}`, {cause.number} in") == 1
     for fault in FAULTS:
-        assert VALUES["faults"].count(f"\n| `{fault.name}` |") == 1
-    assert all(example.text in VALUES["faults"] for _, example in EXAMPLES)
+        assert VALUES["faults"].count(f"\n### `{fault.name}`\n") == 1 and fault.why
+    assert all(example.text[1:] in VALUES["faults"] for _, example in EXAMPLES)
     assert all(VALUES["methods"].count(f"\n| `{method}`, ") == 1 for method in Method)
 
 
@@ -50,4 +50,4 @@ def test_a_cause_that_excuses_withstands_an_attack():
 
 def test_no_sentence_is_left_without_words():
     """A fault whose sentence is all words says in its record what they may be."""
-    assert "| … |" not in VALUES["faults"] and "{" not in VALUES["faults"]
+    assert "“…”" not in VALUES["faults"] and "{" not in VALUES["faults"]

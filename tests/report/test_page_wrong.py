@@ -43,7 +43,13 @@ def wrong(compared, room):
 BLOCKS = (slice(4, 8), slice(30, 40)), (slice(20, 22), slice(5, 7)), (slice(34, 35), slice(44, 45))
 
 
-FAULT = Fault("pixel_offset", SENTENCE, "Add half a pixel.", of_camera(lambda camera: None))
+FAULT = Fault(
+    "pixel_offset",
+    SENTENCE,
+    "Corners are taken for centres.",
+    "Add half a pixel.",
+    of_camera(lambda camera: None),
+)
 
 
 def diagnosed(comparison, told=1, side="traced", **changed):

@@ -58,22 +58,24 @@ def _cause(cause: Cause, attacks: tuple[str, ...]) -> Iterator[str]:
     color = f", `{hex_color(cause.color)}` on the map" if cause.color else ""
     known = f"`{cause.key}`, {cause.number} in `frame.npz`{color}"
     yield f"“{cause.sentence.format(**numbers)}” ({known})"
-    lines = {
-        "Why": cause.why,
-        "The check": cause.check,
-        "Never excused": cause.never,
-        "Withstands": "; ".join(attacks),
-        "What to do": cause.advice,
-    }
-    yield "\n".join(
-        f"- **{name}**: {text[0].upper()}{text[1:].rstrip('.')}."
-        for name, text in lines.items()
-        if text
+    yield _list(
+        ("Why", cause.why),
+        ("The check", cause.check),
+        ("Never excused", cause.never),
+        ("Withstands", "; ".join(attacks)),
+        ("What to do", cause.advice),
+    )
+
+
+def _list(*lines: tuple[str, str]) -> str:
+    """Return texts with their names as a list, without those that are empty."""
+    return "\n".join(
+        f"- **{name}**: {text[0].upper()}{text[1:].rstrip('.')}." for name, text in lines if text
     )
 
 
 def faults_by_family() -> str:
-    """Return a section and a table for each file's faults, in the order in which they are told."""
+    """Return a section for each file's faults, in the order in which they are told."""
     families = []
     for node in ast.parse(inspect.getsource(faults)).body:
         if isinstance(node, ast.ImportFrom) and node.names[0].name.endswith("_FAULTS"):
@@ -86,19 +88,18 @@ def faults_by_family() -> str:
 def _family(of: tuple[AnyFault, ...], said: str) -> str:
     """Return a section of faults, with what their file says of them."""
     title, _, rest = said.split("\n")[0].rstrip(".").partition(": ")
-    head = "| name | what is said | what to do | the self-check makes |"
-    told = {first.advice: first for first in reversed(of)}
-    rows = (_row(fault, told[fault.advice]) for fault in of)
     lead = [rest[0].upper() + rest[1:] + "."] if rest else []
-    return "\n\n".join([f"## {title}", *lead, "\n".join([head, "|---|---|---|---|", *rows])])
+    return "\n\n".join([f"## {title}", *lead, *map(_fault, of)])
 
 
-def _row(fault: AnyFault, told: AnyFault) -> str:
-    """Return a fault's row; `told` is the first whose advice is the same."""
+def _fault(fault: AnyFault) -> str:
+    """Return a fault's section."""
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
-    said, advice = (text.format(**given) for text in (fault.sentence, fault.advice))
-    advice = advice if fault is told else f"as for `{told.name}`"
-    made = "; ".join(example.text for example in fault.examples)
-    return f"| `{fault.name}` | {said} | {advice} | {made} |"
+    told = _list(
+        ("Why", fault.why),
+        ("What to do", fault.advice.format(**given)),
+        ("The self-check makes", "; ".join(example.text for example in fault.examples)),
+    )
+    return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{told}"

@@ -135,7 +135,8 @@ class Fault(Generic[G]):
 
     name: str  # in JSON
     sentence: str  # with the names of `numbers`, {object} and {words}
-    advice: str  # what to do, with the same names
+    why: str  # who makes it, and how: for the documents
+    advice: str  # what to do, with the names of `sentence`
     # Return the case that agrees if the picture has the fault: the scene with it, or the picture
     # without it.
     assume: Make[G]
