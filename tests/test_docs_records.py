@@ -13,10 +13,16 @@ from .attacks import withstood
 PROJECT = Path(__file__).parent.parent
 sys.path.insert(0, str(PROJECT / "tools"))
 from documents import records  # noqa: E402
+from documents.causes import EXAMPLES as EXAMPLE_OF  # noqa: E402
 from documents.markers import refreshed  # noqa: E402
 
 sys.path.pop(0)
-PAGES = {"causes": "causes.md", "faults": "faults.md", "methods": "accuracy.md"}
+PAGES = {
+    "causes": "causes.md",
+    "checks": "causes.md",
+    "faults": "faults.md",
+    "methods": "accuracy.md",
+}
 VALUES = records.values()
 
 
@@ -41,6 +47,22 @@ def test_a_cause_that_excuses_says_why_and_what_to_do():
     for cause in CAUSES:
         if cause.explains or cause.warns:
             assert cause.why and cause.check and cause.never and cause.advice, cause.key
+
+
+def test_every_cause_has_a_small_picture():
+    shown = {cause.key for cause in CAUSES if cause.why}
+    assert set(EXAMPLE_OF) == shown == {cause.key for cause in CAUSES[1:]}
+    for key in shown:
+        path = PROJECT / "docs" / "images" / "causes" / f"{key}.png"
+        assert f"](images/causes/{key}.png)" in VALUES["causes"]
+        assert path.stat().st_size < 10_000, "run `make docs`"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cause", CAUSES[1:], ids=[c.key for c in CAUSES[1:]])
+def test_the_picture_of_a_cause_shows_it(cause):
+    *_, causes = EXAMPLE_OF[cause.key]().shown()
+    assert (causes == cause).sum() >= 10
 
 
 def test_a_cause_that_excuses_withstands_an_attack():

@@ -10,7 +10,8 @@ from importlib import import_module
 from pathlib import Path
 
 from reference_tracer.causes.cause import Cause
-from reference_tracer.causes.explain import CAUSES
+from reference_tracer.causes.checks import unmodelled
+from reference_tracer.causes.explain import CAUSES, CHECKS
 from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault
@@ -29,7 +30,12 @@ class _Name(str):
 
 def values() -> dict[str, str]:
     """Return each part by its name."""
-    parts = {"causes": causes(), "faults": faults_by_family(), "methods": methods()}
+    parts = {
+        "causes": causes(),
+        "checks": checks(),
+        "faults": faults_by_family(),
+        "methods": methods(),
+    }
     return {name: f"\n\n{part}\n\n" for name, part in parts.items()}  # blocks of their own
 
 
@@ -39,6 +45,16 @@ def methods() -> str:
     for method in Method:
         of = method.record
         rows.append(f"| `{method}`, *{of.label}* | {of.description} | {of.guarantees} |")
+    return "\n".join(rows)
+
+
+def checks() -> str:
+    """Return the checks in their order, a line each: what they say of the pixels that they find."""
+    rows = []
+    for check in (unmodelled.check_in_place, *(check for check, _ in CHECKS)):
+        said = (inspect.getdoc(check) or "").split("\n")[0].removeprefix("Find open pixels ")
+        file = check.__module__.split(".")[-1] + ".py"
+        rows.append(f"1. {said.rstrip('.')} ([{file}](../addon/causes/checks/{file}))")
     return "\n".join(rows)
 
 
@@ -58,6 +74,7 @@ def _cause(cause: Cause, attacks: tuple[str, ...]) -> Iterator[str]:
     color = f", `{hex_color(cause.color)}` on the map" if cause.color else ""
     known = f"`{cause.key}`, {cause.number} in `frame.npz`{color}"
     yield f"“{cause.sentence.format(**numbers)}” ({known})"
+    yield f"![Traced, the other picture, and the causes](images/causes/{cause.key}.png)"
     yield _list(
         ("Why", cause.why),
         ("The check", cause.check),

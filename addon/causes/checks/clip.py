@@ -39,7 +39,7 @@ WIDENED = 64
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels at the clip planes, a part of the picture at a time."""
+    """Find open pixels at which a surface lies on a clip plane."""
     if pixels.open.any():
         scene = pixels.case.scene
         wide = replace(scene, camera=_widened(scene.camera, pixels.picture.renderer))

@@ -72,7 +72,7 @@ OFFSETS = (
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels at edges and depth ties, a part of the picture at a time."""
+    """Find open pixels at depth ties and at edges."""
     if pixels.open.any():
         reach = float(np.max(pixels.band[pixels.open]))
         yield from near_surfaces(pixels, pixels.case.scene, reach, _look)

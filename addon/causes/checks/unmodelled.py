@@ -99,7 +99,7 @@ def blind(case: Case, frame: Frame) -> Integers:
 
 
 def check_in_place(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels in which a feature is drawn, or the colour of a surface is not known."""
+    """Find open pixels in which a feature is drawn, or a surface has an unknown colour."""
     number, seen = pixels.out.blind, pixels.frame.instance_index
     effects = [*(u.effect for u in pixels.case.manifest.unmodelled), None]
     is_drawn, is_recolored = (
@@ -158,7 +158,7 @@ def _some(things: Sequence[T], left: Bools) -> tuple[T, ...]:
 
 
 def check_everywhere(pixels: OpenPixels) -> Work[None]:
-    """Give their cause to open pixels that a feature may change wherever they are."""
+    """Find open pixels that a feature may change wherever they are."""
     for number, feature in enumerate(pixels.case.manifest.unmodelled):
         if feature.effect.everywhere:
             where = pixels.open
