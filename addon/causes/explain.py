@@ -51,8 +51,8 @@ CAUSES: tuple[Cause, ...] = (
 )
 BY_NUMBER = {cause.number: cause for cause in CAUSES}
 
-# The checks in the order in which a pixel is asked, and the share of each in the work, roughly. The
-# first check that accounts for a pixel gives it its cause; if none does, it is unexplained.
+# The checks in the order in which a pixel is asked: the first that accounts for it gives its cause.
+# If none does, it is unexplained. With the share of each in the work, roughly.
 CHECKS: list[tuple[Callable[[OpenPixels], Work[None]], float]] = [
     (color.check, 0.02),
     (anti_aliasing.check, 0.1),

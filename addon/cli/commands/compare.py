@@ -73,6 +73,7 @@ def compare(options: CompareOptions) -> int:
 
 
 def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
+    """Compare a .blend with what Blender draws of it; return the exit code."""
     if not is_blend(options.scene):
         raise SceneError(
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
@@ -158,6 +159,7 @@ def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) 
 
 
 def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
+    """Print a comparison; return the exit code."""
     if options.colors_out:
         _write_colors(options.colors_out, comparison.scene, comparison.manifest.owners)
     print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
