@@ -130,7 +130,7 @@ class Make:
             camera,
             meshes,
             tuple(Instance(k, k, np.eye(4), [rgba[k]]) for k in range(count)),
-            tuple(Plane(count + k, *p, rgba[count + k]) for k, p in enumerate(planes)),
+            tuple(Plane(count + k, *p, color=rgba[count + k]) for k, p in enumerate(planes)),
             np.array(background),
             (*(m.name for m in meshes), *(f"Plane {k}" for k in range(len(planes)))),
         )

@@ -44,11 +44,12 @@ def bench(options: BenchOptions) -> int:
     """Measure, and print the table."""
     from . import report
     from .run import run
+    from .tables import table
 
     with folders.made(options.out):
         with progress_bar() as progress:
             measured, baseline = run(options, progress)
-        print(report.table(measured, baseline))
+        print(table(measured, baseline))
         report.write(options.out, measured, baseline)
         print(f"written to {options.out}")
     return measured.interrupted

@@ -24,7 +24,7 @@ _STAGES = (
     *("#4d4d4d", "#b8a9d9", "#8fd3bd"),
 )
 _OTHER = "#d9d9d9"
-_SHAPES = {  # of marks that are not round, of radius 1
+_SHAPES: dict[str, list[tuple[float, float]]] = {  # of marks that are not round, of radius 1
     "s": [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
     "^": [(0, -1.1), (1, 0.8), (-1, 0.8)],
     "v": [(0, 1.1), (1, -0.8), (-1, -0.8)],

@@ -66,7 +66,7 @@ class Judgement:
         """Failed, wrong, boundary (where float64 may have it otherwise, it has) or right."""
         if self.errors:
             return "failed"
-        if self.faults or not all(t.all_right for t in self.tallies):
+        if self.faults or not all(t and t.all_right for t in self.tallies):
             return "wrong"
         return "boundary" if any(k.lost for k in self.looks) else "right"
 

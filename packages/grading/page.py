@@ -18,6 +18,7 @@ from .examples import Example
 from .judging import Judgement
 from .picture import Look, Mark
 from .student_error import StudentError
+from .subject import Subject
 from .tables import HEAD, MARKS, NO_BOUNDARY, VERDICTS, dashed, explain, held_rows, row, tallies
 
 _STYLE = Path(__file__).with_name("page.css")
@@ -157,7 +158,7 @@ def marked(found: Look) -> NDArray[np.uint8]:
     return out
 
 
-def _example(subject, e: Example) -> str:
+def _example(subject: Subject, e: Example) -> str:
     true_t, true_s = e.true
     t, s = e.answer
     numbers = (

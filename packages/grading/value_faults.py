@@ -8,10 +8,10 @@ from __future__ import annotations
 from itertools import permutations
 
 import numpy as np
+from reference_tracer.arrays import Floats
 
 from .answers import MOST, Answers, Found, Mask
 from .checks import ORDINARY
-from .known import Floats
 
 FLOAT32 = 2.0**-24  # its rounding unit
 LOSSY = 300  # of those: as far as ordinary pairs may be off that were computed in float32
@@ -59,7 +59,8 @@ def _off(a: Answers) -> Floats:
 def is_single(a: Answers) -> bool:
     """Return whether t has the digits of float32."""
     off = _off(a)
-    return _fits(a, a.wrong_t, off < LOSSY * FLOAT32) and np.median(off[a.wrong_t]) > LEAST
+    fits = _fits(a, a.wrong_t, off < LOSSY * FLOAT32)
+    return fits and bool(np.median(off[a.wrong_t]) > LEAST)
 
 
 def single_t(a: Answers) -> Found:
