@@ -78,6 +78,17 @@ def not_numbers(a: Answers) -> Found:
         yield "barycentrics_not_finite", "barycentrics of a hit are NaN or infinite", broken
 
 
+def zeros(a: Answers) -> Found:
+    """See whether hits have barycentrics of 0 alone, which no point of the plane has."""
+    none = ~a.s.any(axis=1)
+    if _fits(a, a.wrong_s, none):
+        text = (
+            "the barycentrics of hits are all 0, as the file that --template writes has them at "
+            "first: return s_i = (n . n_si) / |n|^2, whose sum is 1"
+        )
+        yield "barycentrics_zero", text, none
+
+
 def order(a: Answers) -> Found:
     """See whether they are those of other corners, as the textbook prints them."""
     for turn in permutations(range(3)):
@@ -127,4 +138,4 @@ _SINGLE = (
     "{} is off by {:.0e}: computed in float32, which keeps 7 digits of the 16 that float64 has"
 )
 T_TESTS = distance, negative_t, single_t
-S_TESTS = not_numbers, order, scale, single_s
+S_TESTS = not_numbers, zeros, order, scale, single_s
