@@ -66,7 +66,7 @@ _OPENING = 0.1  # of the work, before the checks
 
 
 class Explained(NamedTuple):
-    """A comparison's pixels with their causes, before the picture's own background."""
+    """The causes of a comparison, and the case and frame on the picture's own background."""
 
     case: Case
     frame: Frame
@@ -92,7 +92,7 @@ def explain(case: Case, frame: Frame, at_most: int | None = None) -> Work[Explai
 
 
 def _before(case: Case, frame: Frame) -> Work[Frame]:
-    """Return a traced frame before the case's background; traced again if its colours are mixed."""
+    """Put a traced frame on the case's background; trace again if pixels mix several samples."""
     color = frame.color.copy()
     color[frame.instance_index == NOTHING] = case.scene.background
     if case.settings.samples > 1:
@@ -134,7 +134,7 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
 
 
 def _open(pixels: OpenPixels) -> Work[None]:
-    """Find the band, and open the pixels that differ and can be decided."""
+    """Compute the band, and open the pixels that differ and are decidable."""
     scene = pixels.case.scene
     frame = pixels.frame
     seen = frame.instance_index

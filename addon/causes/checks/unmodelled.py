@@ -57,7 +57,7 @@ _FINAL = (UNEXPLAINED, NOT_TRACED, NOT_DECIDABLE)  # they stay, whatever is draw
 
 
 def as_known(case: Case) -> Picture:
-    """Return the case's picture with what is known of its colours, and with what lies beneath."""
+    """Return the picture beneath what is drawn over it, without the colours that are unknown."""
     picture = case.picture
     lit = picture.lit or any(u.effect is Effect.LIGHT for u in case.manifest.unmodelled)
     picture = replace(picture, lit=lit, colorless=case.colorless)
@@ -68,7 +68,7 @@ def as_known(case: Case) -> Picture:
 
 
 def drawn_over(picture: Picture) -> Integers:
-    """Return which feature draws itself over what is known to lie beneath, (h, w), or NOTHING."""
+    """Return which feature is drawn over pixels known beneath it, (h, w), or NOTHING."""
     if picture.drawn is None or picture.beneath is None:
         return np.full(picture.color.shape[:-1], NOTHING, np.int32)
     known = np.isfinite(picture.beneath).all(axis=-1)
@@ -169,7 +169,7 @@ def check_everywhere(pixels: OpenPixels) -> Work[None]:
 
 
 def name_drawn(pixels: OpenPixels) -> Work[None]:
-    """Name what draws itself over pixels that were judged, and found to be right, beneath it."""
+    """Name the feature drawn over pixels that are right beneath it."""
     own = pixels.case.picture
     out = pixels.out
     if own.beneath is not None:

@@ -27,7 +27,7 @@ Values = tuple[float, ...]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Guess:
-    """Which fault it is exactly. The base record says whose it is, and no more."""
+    """A guess of what a fault is exactly. The base record names its object, if it has one."""
 
     object: str = ""  # that has it; empty where it is the whole scene's, or the picture's
     words: str = ""  # what else the sentence says
