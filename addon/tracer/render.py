@@ -98,6 +98,7 @@ def rays_in_order(camera: Camera, settings: Settings) -> Iterator[tuple[Region, 
 
 
 def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> Iterator[float]:
+    """Trace a scene band by band, in each of its rounds."""
     statistics = frame.statistics
     statistics.method = settings.method.value
     statistics.triangles = scene.triangle_count

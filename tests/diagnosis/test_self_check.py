@@ -98,7 +98,7 @@ def test_a_fault_within_rounding_is_none(stripes, pixels, result):
         return replace(case, scene=replace(case.scene, camera=camera))
 
     case = case_of(stripes, render(stripes).color)
-    fault = Fault("nudge", "hardly anything", "nothing", nudge)
+    fault = Fault("nudge", "hardly anything", "Nobody knows.", "nothing", nudge)
     row = checked(case, examples=[(fault, Example("nudge", "hardly anything"))])["nudge"]
     assert row.result == result and (row.unexplained > 0) == (result == "caught")
     assert FaultRow("a", "b", 5, 5, 5, 0).missed and not FaultRow("a", "b", 5, 5, 5, 1).missed

@@ -24,7 +24,7 @@ from reference_tracer.pictures.renderers import RENDERERS
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of
-from reference_tracer.tracer.nearest import Hits
+from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import transform_points
 

@@ -14,11 +14,10 @@ from reference_tracer.rendering import render, steps
 from reference_tracer.scene import Region
 from reference_tracer.tracer import candidates
 from reference_tracer.tracer import render as rendering
-from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.render import sample_offsets, tiles
 from reference_tracer.tracer.settings import Precision, Settings
 from reference_tracer.tracer.triangle import TESTS, textbook
