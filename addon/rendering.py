@@ -17,7 +17,7 @@ from functools import partial
 from .certified import any_rays, plain
 from .certified.arithmetic import AssumptionError, check_assumptions
 from .certified.rounding import rounding
-from .certified.samples import at_once
+from .certified.samples import traced_together
 from .certified.sweep.sweep import sweep
 from .methods import UNPROVEN, Method
 from .scene import Scene
@@ -47,13 +47,13 @@ def certified_tracer(
     return lambda band, dx, dy: find(scene, band, memory, dx, dy, statistics)
 
 
-def certified_at_once(
+def certified_samples(
     scene: Scene, settings: Settings, reach: float, statistics: Statistics
 ) -> Work[TraceBand]:
-    """Prepare as :func:`certified_tracer`, where `tracer.render.at_once` says that this can be."""
+    """Prepare as :func:`certified_tracer`, all samples at once: see `samples_together`."""
     centre = yield from certified_tracer(scene, settings, reach, statistics)
     find = partial(sweep, memory=settings.memory // 2, statistics=statistics)
-    return at_once(centre, find, scene, settings.samples)
+    return traced_together(centre, find, scene, settings.samples)
 
 
 # By method: what traces a picture's bands, and what traces any rays.
@@ -106,7 +106,7 @@ def steps(
 ) -> Work[None]:
     """Trace a scene into an empty frame, as `tracer.render.steps`, by any method."""
     settings = resolved(settings, frame.statistics)
-    own = certified_at_once if loop.at_once(scene.camera, settings) else None
+    own = certified_samples if loop.samples_together(scene.camera, settings) else None
     yield from loop.steps(scene, settings, frame, tracer or own or TRACERS[Method(settings.method)])
 
 

@@ -162,7 +162,7 @@ def differing(
 
     What is not finite differs from everything.
     """
-    if levels:
+    if stored.levels:
         alike = (first == second) & np.isfinite(first)
     else:  # as much is always allowed, and mostly they are nearer; NaN and infinity are not less
         with np.errstate(invalid="ignore", over="ignore"):

@@ -196,27 +196,22 @@ def bands(camera: Camera, settings: Settings) -> list[Region]:
     the wish to see the picture grow where a pixel has many samples or every triangle is tested.
     """
     pixels = settings.memory // BYTES_PER_PIXEL
-<<<<<<< HEAD
     is_slow = not settings.method.is_proven or not camera.projection.is_linear
-    if settings.samples > 1 or is_slow:
-=======
-    is_slow = settings.method.is_plain or not camera.projection.is_linear
-    if at_once(camera, settings):
+    if samples_together(camera, settings):
         pixels //= settings.samples**2
     elif settings.samples > 1 or is_slow:
->>>>>>> wait
         rays = SLOW_PIXELS if is_slow else RAYS
         pixels = min(pixels, max(PIXELS, rays // settings.samples**2))
     return _rows(camera.region, max(1, pixels // camera.region.width))
 
 
-def at_once(camera: Camera, settings: Settings) -> bool:
+def samples_together(camera: Camera, settings: Settings) -> bool:
     """Return whether a pixel's samples can be traced as pixels of a picture so many times as large.
 
     Their number a direction is a power of two, so that no ray is rounded otherwise.
     """
     n = settings.samples
-    is_proven = not settings.method.is_plain and camera.projection.is_linear
+    is_proven = settings.method.is_proven and camera.projection.is_linear
     fits = n * max(camera.width, camera.height) <= FINEST
     return is_proven and fits and n > 1 and n & (n - 1) == 0
 

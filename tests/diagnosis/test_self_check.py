@@ -119,7 +119,7 @@ def test_more_pixels_are_looked_at_where_few_show_nothing(stripes, monkeypatch, 
 
     monkeypatch.setattr(self_checking, "SAMPLES", samples)
     case = case_of(stripes, render(stripes).color)
-    fault = Fault("stretch", "too tall", "nothing", stretch)
+    fault = Fault("stretch", "too tall", "a wrong aspect", "nothing", stretch)
     row = checked(case, examples=[(fault, Example("stretch", "too tall"))])["stretch"]
     assert row.result == result and (row.looked_at == 1) == (samples == (1,))
 
