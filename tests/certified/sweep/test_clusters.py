@@ -170,6 +170,15 @@ def test_one_pixel_that_is_seen_keeps_a_cluster(make, rng, orthographic, monkeyp
     assert not clusters_in(beside).in_view.any() and clusters_in(edge).in_view.all()
 
 
+def test_what_begins_behind_the_eye_is_kept(make):
+    """Most of a floor is behind the camera, and the rest is seen."""
+    floor = Mesh([(-99, -1, -9), (99, -1, -9), (0, -1, 999)], [[0, 1, 2]])
+    found = clusters_in(make.scene(make.camera(32, 24, half=0.5), floor))
+    assert found.in_view.all() and (found.nearest == np.inf).all()
+    behind = Mesh([(-99, -1, 1e-3), (99, -1, 1e-3), (0, -1, 999)], [[0, 1, 2]])
+    assert not clusters_in(make.scene(make.camera(32, 24, half=0.5), behind)).in_view.any()
+
+
 def test_bands_and_samples_share_them(sphere, make):
     matrix = np.eye(4)
     matrix[2, 3] = -5
