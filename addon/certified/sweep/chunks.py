@@ -14,7 +14,7 @@ import numpy as np
 from ...arrays import Bools, Floats, Index, Integers, Places
 from ...scene import Mesh, Scene
 from ...tracer.progress import Steps
-from ...tracer.vector import Vectors, gather, grouped, groups, occurring, parts, transform_points
+from ...tracer.vector import Vectors, gather, groups, occurring, parts, transform_points
 from .film import Film, Vertices
 from .small_triangles import SmallTriangles, Triangles
 
@@ -80,10 +80,9 @@ class Numbering:
             return self._names[0].of(surface)
         out = np.empty((2, len(surface)), np.int32)
         chunk = np.searchsorted(self._starts, surface, side="right") - 1
-        in_chunk = grouped(chunk.astype(np.uint16), len(self._names))
-        for names, own, start in zip(self._names, in_chunk, self._starts.tolist(), strict=False):
-            if len(own):
-                out[:, own] = names.of(surface[own] - start)
+        for k in np.flatnonzero(np.bincount(chunk)).tolist():
+            own = np.flatnonzero(chunk == k)
+            out[0, own], out[1, own] = self._names[k].of(gather(surface, own) - self._starts[k])
         return out[0], out[1]
 
 
