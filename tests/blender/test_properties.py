@@ -24,7 +24,7 @@ STORED = {
         "auto": 5,
     },
     "precision": {"float64": 0, "float32": 1},
-    "judge": {"AUTO": 0, "WORKBENCH": 1, "CYCLES": 2},
+    "judge": {"AUTO": 0, "WORKBENCH": 1, "CYCLES": 2, "EEVEE": 3},
     "shading": {"LIKE_FOR_LIKE": 0, "AS_IS": 1},
     "color": {"object": 0, "normal": 1, "facing": 2, "depth": 3},
     "show": {

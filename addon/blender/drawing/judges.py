@@ -7,13 +7,14 @@ it if it needs one, and list it in `JUDGES`.
 from __future__ import annotations
 
 from .cycles import CYCLES
+from .eevee import EEVEE
 from .judge import Judge
 from .viewport import VIEWPORT
 from .workbench import WORKBENCH
 
 AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
-JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES)}
+JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES, EEVEE)}
 
 
 def choices() -> dict[str, Judge]:
