@@ -47,14 +47,14 @@ MOST_COLORS = 4096
 
 def gather_against(
     context: Any,
-    picture: Picture,
+    picture: Picture | Callable[[Drawing], Picture],
     settings: Settings,
     self_check: bool = False,
     colors: By | GivenColors = By.VIEWPORT,
 ) -> Case:
     """Export the context's scene as a render has it, for a picture of unknown origin.
 
-    The picture was drawn in these colours.
+    The picture was drawn in these colours, or is made of a drawing of what is exported.
 
     Raises
     ------
@@ -70,12 +70,13 @@ def gather_against(
     manifest = noted(palette, scene, manifest)
     judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
     layer = context.view_layer.name
-    plan = Plan(context.scene, layer, judge, palette=palette)
+    drawing = Drawing.of(Plan(context.scene, layer, judge, palette=palette), scene, manifest)
+    shown = picture if isinstance(picture, Picture) else picture(drawing)
     return Case(
         scene,
         manifest,
         settings,
-        replace(picture, drawn=drawn_by_others(Drawing.of(plan, scene, manifest))),
+        replace(shown, drawn=drawn_by_others(drawing)),
         alternatives=alternatives(context, scene, manifest, palette),
         curves=view_transforms(context.scene, scene),
         self_check=self_check,
