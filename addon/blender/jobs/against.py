@@ -61,13 +61,7 @@ def gather_against(
     SceneError
         If the scene cannot be traced.
     """
-    palette = palette_by(context.scene, colors)
-    scene, manifest, _ = export_open_file(context, palette=palette)
-    if colors == By.AUTOMATIC:
-        palette = automatic(context.scene, scene, manifest)
-        if palette.by != By.VIEWPORT:
-            scene, manifest, _ = export_open_file(context, palette=palette)
-    manifest = noted(palette, scene, manifest)
+    palette, scene, manifest = exported_in(context, colors)
     judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
     layer = context.view_layer.name
     drawing = Drawing.of(Plan(context.scene, layer, judge, palette=palette), scene, manifest)
@@ -82,6 +76,23 @@ def gather_against(
         self_check=self_check,
         variants=partial(variants, context.scene.name_full, layer, judge.ignores, palette),
     )
+
+
+def exported_in(context: Any, colors: By | GivenColors) -> tuple[Palette, Scene, Manifest]:
+    """Export the context's scene as a render has it, in colours; return these, too.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced, or lacks a colour.
+    """
+    palette = palette_by(context.scene, colors)
+    scene, manifest, _ = export_open_file(context, palette=palette)
+    if colors == By.AUTOMATIC:
+        palette = automatic(context.scene, scene, manifest)
+        if palette.by != By.VIEWPORT:
+            scene, manifest, _ = export_open_file(context, palette=palette)
+    return palette, scene, noted(palette, scene, manifest)
 
 
 def alternatives(

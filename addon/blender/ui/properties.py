@@ -152,6 +152,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         if self.judge in (judges.IMAGE, judges.ENGINE, judges.RENDER_RESULT):
             layout.prop(self, "renderer")
             layout.prop(self, "filter")
+            layout.operator("reference_tracer.write_colors", icon="COLOR")
 
     def settings(self) -> Settings:
         """Return what the tracer is to use; a precision that is greyed out does not count."""
