@@ -7,8 +7,6 @@ to the last bit, and a test holds them to it. A `Judgement` names every conditio
 
 from __future__ import annotations
 
-import operator
-import re
 from collections.abc import Iterable, Mapping
 from enum import StrEnum
 from fractions import Fraction
@@ -17,17 +15,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..projections.sine import sine
 from ..scene import Camera
 from ..tracer.camera import pixel_size
 from ..tracer.nearest import within_clip
 from ..tracer.triangle import SUM_TOLERANCE
-from ..tracer.vector import cross, dot
+from .expressions import Value, evaluate, parse
 from .formulas import CAMERA, Formula, Rejection, ray_formulas
 
 Number = np.float32 | np.float64 | Fraction
 Vector = NDArray[Any]  # (3,), float32 or float64, which round after every operation, or fractions
-Value = Any  # a number or a vector of one arithmetic
 Values = dict[str, Value]  # by their keys or labels
 
 
@@ -52,75 +48,6 @@ class Arithmetic(StrEnum):
 
 FLOATS = Arithmetic.FLOAT32, Arithmetic.FLOAT64
 
-_TOKEN = re.compile(r"‖n‖²|[A-Za-z]+[ₛ₁₂₃]*(?:_[a-z]+)?|\S")
-_OPERATIONS = {
-    "+": (1, operator.add),
-    "−": (1, operator.sub),
-    "·": (2, dot),
-    "×": (2, cross),
-    "/": (2, operator.truediv),
-}
-
-
-_SINES = {"sin": 0, "cos": 1}  # of an angle plus so many right angles
-_UNIT = 1 << 2048  # of sines in integers: the series' terms are below 2^1500 of it
-
-
-def _sine(angle: Value, quarters: int) -> Value:
-    """Return a sine, or a cosine; the exact one of a fraction to far more digits than are shown."""
-    if not isinstance(angle, Fraction):
-        return sine(angle, quarters)
-    size = abs(angle.numerator) * _UNIT // angle.denominator
-    term = _UNIT if quarters else size
-    sign = -1 if angle < 0 and not quarters else 1
-    total = 0
-    k = 2 - quarters
-    while term:
-        total += sign * term
-        term = term * size * size // (_UNIT * _UNIT * k * (k + 1))
-        sign = -sign
-        k += 2
-    return Fraction(total, _UNIT)
-
-
-def evaluate(text: str, names: Values) -> Value:
-    """Return the number or vector that a formula gives; `names` has the value of each letter.
-
-    Raises
-    ------
-    ZeroDivisionError
-        If a fraction would be divided by 0; floats have inf or NaN for that.
-    """
-    return _evaluate([*reversed(_TOKEN.findall(text))], names)
-
-
-def _evaluate(tokens: list[str], names: Values, binding: int = 0) -> Value:
-    """Take tokens off the end of the list, as far as operators bind more strongly."""
-    value = _operand(tokens, names)
-    while tokens and tokens[-1] != ")":
-        if tokens[-1] not in _OPERATIONS:  # side by side: a product
-            value = value * _operand(tokens, names)
-            continue
-        strength, operation = _OPERATIONS[tokens[-1]]
-        if strength <= binding:
-            break
-        tokens.pop()
-        value = operation(value, _evaluate(tokens, names, strength))
-    return value
-
-
-def _operand(tokens: list[str], names: Values) -> Value:
-    token = tokens.pop()
-    if token == "−":
-        return -_operand(tokens, names)
-    if token in _SINES:
-        return _sine(_operand(tokens, names), _SINES[token])
-    if token != "(":
-        return names[token]
-    value = _evaluate(tokens, names)
-    tokens.pop()  # the closing bracket
-    return value
-
 
 @np.errstate(all="ignore")
 def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
@@ -137,7 +64,7 @@ def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
     for key, formula in formulas.items():
         if formula.label not in names:
             try:
-                names[formula.label] = evaluate(formula.right or formula.label, names)
+                names[formula.label] = evaluate(parse(formula.right or formula.label), names)
             except ZeroDivisionError:
                 break
         out[key] = names[formula.label]
