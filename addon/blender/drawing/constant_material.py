@@ -144,12 +144,14 @@ def _add_what_nodes_make(slots: _Slots, scene: Any, layer: str, made: set[Any]) 
     modifiers = (m for obj in made for m in obj.modifiers if m.type == "NODES")
     if "GeometryNodeIsViewport" in nodes or any(m.show_viewport < m.show_render for m in modifiers):
         return False
-    scene.view_layers[layer].update()
+    shown = scene.view_layers[layer]
+    shown.update()
     seen = set()
-    for instance in scene.view_layers[layer].depsgraph.object_instances:
+    for instance in shown.depsgraph.object_instances:
         seen |= {o.original for o in (instance.object, instance.parent) if o}
         slots.add(instance.object)
-    return made <= seen
+    makers = {o for o in shown.objects if o in made or o.instance_type != "NONE"}
+    return makers <= seen
 
 
 def _material_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:

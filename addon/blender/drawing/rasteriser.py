@@ -70,6 +70,7 @@ def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
     looking = add_camera(scene, camera).data
     try:
         prepare_scene(scene, True)
+        scene.display.shading.color_type = "SINGLE"  # whatever else the file holds
         shown = picture(scene, scene.view_layers[0].name, judge, camera, True)
     finally:
         bpy.data.batch_remove([*scene.collection.objects, scene, mesh, looking])
