@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
-from ..drawing.judges import JUDGES
+from ..drawing.judges import JUDGES, label_of
 from ..engine import ENGINE
 from . import operators, results
 from .findings import draw_findings
@@ -58,6 +58,8 @@ class _Main(Part):
             row = column.row()
             row.enabled = name != "colors" or stored.shading == "LIKE_FOR_LIKE"
             row.prop(stored, name)
+            if name == "judge":
+                stored.draw_given(column)
         layout.operator(operators.REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
         if found := results.content(Kind.ENGINES, context.scene):
             _draw_engines(layout.box(), found)
@@ -146,7 +148,7 @@ def _measures(comparison: Comparison) -> list[tuple[str, str]]:
         ("PSNR", f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"),
         ("SSIM", f"{metrics.ssim:.6f}"),
         ("Largest Difference", f"{largest.value:.3g} at ({x}, {y})"),
-        ("Compared With", JUDGES[comparison.case.picture.source.name].label),
+        ("Compared With", label_of(comparison.case.picture.source)),
         ("Traced In", f"{comparison.frame.statistics.seconds:.2f} s"),
     ]
 
