@@ -21,6 +21,7 @@ import house_stories
 import inspector_stories
 import interruption_stories
 import page_stories
+import seen_stories
 import stories
 import study_stories
 import viewport_stories
@@ -36,6 +37,7 @@ STORIES = {
         inspector_stories,
         interruption_stories,
         page_stories,
+        seen_stories,
         study_stories,
         viewport_stories,
     )

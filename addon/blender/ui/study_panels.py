@@ -132,7 +132,7 @@ def _draw_measured(layout: Any, context: Any, kind: Kind) -> None:
     """Draw what a study found in one sentence, and a button that opens its plot."""
     if found := results.latest(kind, context.scene):
         wrapped(layout, context, found.lines[0], "INFO")
-        layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
+        layout.operator("wm.url_open", text="Open Plot").url = found.page
 
 
 CLASSES = (
