@@ -60,6 +60,13 @@ def certainty_map(color: Colors, certainty: Bytes) -> Colors:
     return out
 
 
+def difference_map(first: Colors, second: Colors) -> Colors:
+    """Return how far apart two pictures' colours are, in each channel."""
+    out = np.ones(first.shape, np.float32)
+    np.abs(first[..., :3] - second[..., :3], out=out[..., :3])
+    return np.nan_to_num(out, copy=False, nan=1.0, posinf=1.0)
+
+
 def ringed(color: Colors, where: Bools) -> Colors:
     """Return a picture with a ring around each of a few pixels (h, w), in the pixel's colour."""
     y, x = np.nonzero(where)

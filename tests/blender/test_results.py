@@ -1,11 +1,16 @@
-"""The latest comparison and its three images: ours are written again, the user's never."""
+"""The latest comparison and its images: ours are written again, the user's never."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
+import pytest
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
+from reference_tracer.causes.cause import AGREE, UNEXPLAINED
+from reference_tracer.causes.checks.edges import EDGE
 
 PICTURE = np.ones((4, 6, 4), np.float32)
 
@@ -37,6 +42,27 @@ def test_an_image_that_the_user_saved_is_the_users(tmp_path):
     for _ in range(3):
         assert results.show(results.TRACED, 0 * PICTURE) != saved
     assert len(named()) == 2 and saved.pixels[0] > 0.99
+
+
+def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compare):
+    build.scene()
+    build.solids()
+    build.corner_camera()
+    own = compare()
+    cause = own.causes.cause.copy()
+    cause[:] = AGREE
+    cause[2:6, 3:5] = cause[2, 40] = EDGE
+    told = replace(own, causes=replace(own.causes, cause=cause))
+    found = results.keep_comparison(bpy.context, told).regions
+    assert [r.pixels for r in found] == [8, 1]
+    cause[20, 40:43] = UNEXPLAINED  # then these alone are
+    found = results.keep_comparison(bpy.context, told).regions
+    assert [(r.left, r.bottom, r.pixels) for r in found] == [(40, 20, 3)]
+    assert bpy.ops.reference_tracer.frame_region(number=0) == {"FINISHED"}
+    assert [o.name for o in bpy.context.selected_objects] == [found[0].objects[0]]
+    with pytest.raises(RuntimeError, match="has 1 regions"):
+        bpy.ops.reference_tracer.frame_region(number=1)
+    assert not bpy.ops.reference_tracer.show_image.poll()  # there is no editor
 
 
 def test_another_file_has_no_result(build, compare):

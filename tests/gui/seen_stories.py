@@ -3,11 +3,15 @@
 import subprocess
 
 import bpy
+import numpy as np
 from drawn import cut, noting, scale
 from story import (
+    OUT,
     compared,
+    module,
     noted,
     press_compare,
+    result,
     running,
     screenshot,
     show_panel,
@@ -101,5 +105,158 @@ def panel():
     yield from resized(*size)
 
 
+def editor():
+    """The first Image Editor, with its window."""
+    for each in bpy.context.window_manager.windows:
+        for area in each.screen.areas:
+            if area.type == "IMAGE_EDITOR":
+                return each, area
+    return None, None
+
+
+def opened():
+    """What is open: the editors of each window, and the image that the first Image Editor shows."""
+    areas = [sorted(a.type for a in w.screen.areas) for w in bpy.context.window_manager.windows]
+    _, area = editor()
+    return areas, area and area.spaces.active.image.name
+
+
+def pressed(mode):
+    """Press the button with a preference for where renders are shown."""
+    view = bpy.context.preferences.view
+    before = view.render_display_type, bpy.context.preferences.is_dirty
+    view.render_display_type = mode
+    press_compare()
+    yield from until(at_rest, 60)
+    yield 0.7
+    view.render_display_type, bpy.context.preferences.is_dirty = before
+
+
+def shown():
+    """Where the button shows its result, for each choice of where F12 shows its own; Esc; again."""
+    window().scene.render.resolution_percentage = 20
+    before = opened()[0]
+    for mode in ("NONE", "AREA", "SCREEN"):
+        yield from pressed(mode)
+        once = opened()
+        yield from pressed(mode)
+        found = noted[mode] = {"once": once, "again": opened() == once}
+        screenshot(f"shown_{mode.lower()}")
+        where, area = editor()
+        if area:
+            x, y = area.x + area.width // 4, where.height - area.y - area.height // 4
+            keys = ["mousemove", str(x), str(y), "key", "Escape"]
+            subprocess.run(["xdotool", *keys], check=True)
+            yield 0.7
+        found["back"] = opened()[0] == before
+    noted["images"] = sorted(i.name for i in bpy.data.images)
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.reference_tracer.compare("EXEC_DEFAULT")  # as a script calls it
+    yield 0.7
+    noted["by_script"] = opened()[0] == before
+    yield from pressed("WINDOW")
+    noted["WINDOW"] = opened()
+    screenshot("shown_window")
+    where, area = editor()
+    with bpy.context.temp_override(window=where):
+        bpy.ops.wm.window_close()
+    yield 0.5
+
+
+def colors_at(name, area, places):
+    """The colours of a screenshot at places of an editor's image, 0 to 1, by rows."""
+    region = next(r for r in area.regions if r.type == "WINDOW")
+    screenshot(name)
+    image = bpy.data.images.load(str(OUT / f"{name}.png"))
+    width, height = image.size
+    pixels = np.array(image.pixels[:]).reshape(height, width, 4)[..., :3]
+    bpy.data.images.remove(image)
+    at = module("blender.ui.split").place_of(region, 0)
+    x = (region.x + at.left + places[:, 0] * (at.right - at.left)).astype(int)
+    y = (region.y + at.bottom + places[:, 1] * (at.top - at.bottom)).astype(int)
+    return pixels[y, x]
+
+
+def compared_images():
+    """The switch, the line between both pictures, dragged by hand, and the regions."""
+    scene = window().scene
+    scene.render.resolution_percentage = 50
+    scene.display.shading.color_type = "RANDOM"
+    yield from pressed("AREA")
+    where, area = editor()
+    region = next(r for r in area.regions if r.type == "WINDOW")
+    yield from front("IMAGE_EDITOR")
+    with bpy.context.temp_override(window=where, area=area, region=region):
+        bpy.ops.image.view_zoom_ratio(ratio=1)
+    other = bpy.data.images["Reference Tracer Blender"]
+    pixels = np.array(other.pixels[:]).reshape(-1, 4)
+    pixels[:, :3] = pixels[:, 1::-1].repeat(2, axis=1)[:, :3]  # so that it is seen whose they are
+    other.pixels.foreach_set(pixels.astype(np.float32).ravel())
+    other.update()
+    places = np.random.default_rng(7).uniform(0.02, 0.98, (400, 2))
+    seen = {}
+    for image in ("DIFFERENCE", "CAUSES", "TRACED", "OTHER", "BOTH"):
+        with bpy.context.temp_override(window=where, area=area):
+            bpy.ops.reference_tracer.show_image(image=image)
+        yield 0.5
+        seen[image] = colors_at(f"image_{image.lower()}", area, places)
+    manager = bpy.context.window_manager.reference_tracer
+    width, height = other.size
+    x, y = (places * (width, height)).astype(int).T
+    opaque = pixels.reshape(height, width, 4)[y, x, 3]
+    far = (abs(places[:, 0] - manager.split) > 0.02) & (opaque == 1)
+    left = far & (places[:, 0] < manager.split)
+    right = far & ~left
+    noted["both"] = {
+        # The share of places that are other there, by more than rounding.
+        "left": float((abs(seen["BOTH"] - seen["TRACED"])[left] > 0.03).any(axis=1).mean()),
+        "right": float((abs(seen["BOTH"] - seen["OTHER"])[right] > 0.03).any(axis=1).mean()),
+        "apart": float((abs(seen["TRACED"] - seen["OTHER"])[right] > 0.03).any(axis=1).mean()),
+    }
+    at = module("blender.ui.split").place_of(region, manager.split)
+    y = where.height - 1 - region.y - int((at.bottom + at.top) / 2)
+    x = int(region.x + at.line)
+    for action in (
+        ["mousemove", str(x), str(y)],
+        ["mousedown", "1"],
+        ["mousemove", str(x + 40), str(y)],
+        ["mousemove", str(x + 96), str(y)],
+        ["mouseup", "1"],
+    ):
+        subprocess.run(["xdotool", *action], check=True)
+        yield 0.3
+    noted["dragged"] = [manager.split, 0.5 + 96 / (at.right - at.left)]
+    screenshot("image_dragged")
+    regions = result().regions
+    noted["regions"] = [[r.pixels, list(r.objects)] for r in regions]
+    differ = result().content.counts.differ
+    noted["differ"] = differ
+    view = region.view2d
+    with bpy.context.temp_override(window=window()):
+        noted["framed"] = list(bpy.ops.reference_tracer.frame_region(number=0))
+    yield 0.5
+    screenshot("image_framed")
+    low = view.region_to_view(0, 0)
+    high = view.region_to_view(region.width, region.height)
+    first = regions[0]
+    noted["inside"] = [
+        low[0] * width <= first.left,
+        low[1] * height <= first.bottom,
+        first.left + first.width <= high[0] * width,
+        first.top + 1 <= high[1] * height,
+    ]
+    noted["across"] = [(high[0] - low[0]) * width, first.width]
+    noted["selected"] = [o.name for o in window().view_layer.objects if o.select_get()]
+    area.type = "VIEW_3D"
+    views = area.spaces.active.region_3d
+    views.view_perspective = "PERSP"
+    before = views.view_location.copy()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.reference_tracer.frame_region(number=0)
+    yield 0.7
+    noted["moved"] = (views.view_location - before).length
+    screenshot("view_framed")
+
+
 SCENE = "suzanne"
-STORIES = (panel,)
+STORIES = (panel, shown, compared_images)

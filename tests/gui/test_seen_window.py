@@ -30,3 +30,39 @@ def test_nothing_is_cut_at_any_size(noted):
 def test_no_two_buttons_have_one_icon(noted):
     assert len(noted["icons"]) > 5
     assert len(set(noted["icons"])) == len(noted["icons"])
+
+
+OURS = [f"Reference Tracer {name}" for name in ("Blender", "Causes", "Difference", "Traced")]
+
+
+@pytest.mark.story("shown")
+def test_the_result_opens_as_a_render_does_and_esc_goes_back(noted):
+    [none, shows_none] = noted["NONE"]["once"]
+    assert shows_none is None and "IMAGE_EDITOR" not in none[0]
+    [areas], image = noted["AREA"]["once"]
+    assert areas.count("IMAGE_EDITOR") == 1 and len(areas) == len(none[0])
+    assert image == "Reference Tracer Difference"
+    assert noted["SCREEN"]["once"] == [[["IMAGE_EDITOR"]], image]
+    assert noted["WINDOW"] == [[none[0], ["IMAGE_EDITOR"]], image]
+    for mode in ("NONE", "AREA", "SCREEN"):
+        assert noted[mode]["again"] and noted[mode]["back"], mode
+    assert noted["by_script"]  # opens nothing
+    assert noted["images"] == OURS
+
+
+@pytest.mark.story("compared_images")
+def test_the_line_divides_the_traced_picture_from_the_other(noted):
+    both = noted["both"]
+    assert both["apart"] > 0.8  # so it is seen whose each pixel is
+    assert both["left"] < 0.02 and both["right"] < 0.02
+    assert noted["dragged"][0] == pytest.approx(noted["dragged"][1], abs=0.005)
+
+
+@pytest.mark.story("compared_images")
+def test_a_region_is_framed_in_the_picture_and_in_the_view(noted):
+    pixels = [n for n, _ in noted["regions"]]
+    assert sum(pixels) == noted["differ"] > 0 and pixels == sorted(pixels, reverse=True)
+    assert noted["framed"] == ["FINISHED"] and all(noted["inside"])
+    across, width = noted["across"]
+    assert across < 40 * (width + 16)  # enlarged
+    assert noted["selected"] == noted["regions"][0][1][:1] and noted["moved"] > 0.1

@@ -6,7 +6,7 @@ pytestmark = pytest.mark.gui
 
 
 @pytest.mark.story("compare")
-def test_button_leaves_three_images_and_nothing_else(noted):
+def test_button_leaves_four_images_and_nothing_else(noted):
     comparison = noted["comparison"]
     assert comparison["blender"]["source"] == "viewport"
     assert comparison["pixels"]["unexplained"] == 0
@@ -15,6 +15,7 @@ def test_button_leaves_three_images_and_nothing_else(noted):
         "Reference Tracer Traced",
         "Reference Tracer Blender",
         "Reference Tracer Difference",
+        "Reference Tracer Causes",
     }
     assert all(size == [960, 540] and spread > 0 for size, spread in noted["images"].values())
     assert noted["changed"] == {}

@@ -68,6 +68,7 @@ class LongWork(Mixin):
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
     doing: str = ""  # now, where the label does not say it
+    pressed: bool = False  # by a user, who is to see the result
 
     directory: StringProperty(
         name="Folder",
@@ -118,6 +119,7 @@ class LongWork(Mixin):
         self._began = time.monotonic()
         self._shown = self._began
         LongWork.running = self.bl_label
+        self.pressed = True
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Any, event: Any) -> Answer:

@@ -14,6 +14,7 @@ from bl_ui.utils import PresetPanel
 
 from .long_work import named
 from .properties import ReferenceTracerScene
+from .shown import draw_switch
 
 _GROUP = ReferenceTracerScene.__name__
 _SHIPPED = str(Path(__file__).parent)  # has presets/reference_tracer/
@@ -72,6 +73,10 @@ def _draw_in_export(menu: Any, context: Any) -> None:
     _add(menu, "export", "Reference Tracer (.npz)")
 
 
+def _draw_in_header(header: Any, context: Any) -> None:
+    draw_switch(header.layout.row(align=True), context.space_data)
+
+
 MENUS = {
     "TOPBAR_MT_render": _draw_in_render,
     "IMAGE_MT_image": _draw_in_image,
@@ -85,11 +90,13 @@ def register() -> None:
     bpy.utils.register_preset_path(_SHIPPED)
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).append(draw)
+    bpy.types.IMAGE_HT_header.prepend(_draw_in_header)  # a small window shows the first of it
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).remove(draw)
+    bpy.types.IMAGE_HT_header.remove(_draw_in_header)
     bpy.utils.unregister_preset_path(_SHIPPED)
     bpy.utils.unregister_class(REFERENCE_TRACER_PT_presets)

@@ -15,6 +15,7 @@ from ...wording import count_of, say
 from . import results
 from .long_work import Answer, LongWork, named, with_ending
 from .results import Kind, redraw
+from .shown import open_as_render, show_where_shown
 
 
 @named
@@ -25,6 +26,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         "picture. The textbook's formulas and the proven picture are listed side by side"
     )
     needs_camera = True
+    _is_shown = False
 
     def begin(self, context: Any) -> Work[Any]:
         """Have Blender draw the scene at once; return the work that is left."""
@@ -32,7 +34,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
         def told(comparison: Any) -> None:
             """Show the comparison: Esc ends no more than the search for what is wrong with it."""
-            results.keep_comparison(context, comparison)
+            self._show(context, comparison)
             self.left = rpt_("the comparison stays, without a diagnosis")
             count = comparison.counts.unexplained
             self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
@@ -41,9 +43,18 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         return compare_open_file(context, str(self.folder() or ""), told=told)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        lines = results.keep_comparison(context, result).lines
+        lines = self._show(context, result).lines
         say(*result.manifest.lines(), *lines)
         return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
+
+    def _show(self, context: Any, comparison: Any) -> results.Result:
+        """Keep a comparison, and show the user the difference, once."""
+        found = results.keep_comparison(context, comparison)
+        if not self._is_shown:
+            show = open_as_render if self.pressed else show_where_shown
+            show(context, results.ours(results.DIFFERENCE))
+            self._is_shown = True
+        return found
 
 
 @named

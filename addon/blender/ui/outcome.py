@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..drawing.judges import JUDGES
 from . import operators
+from .differing import draw_regions
 from .findings import draw_findings
 from .layout import draw_facts, short_name, wrapped
 
@@ -28,6 +29,7 @@ def draw_outcome(layout: Any, context: Any, comparison: Comparison) -> None:
         wrapped(layout, context, line.strip(), "ERROR")
     draw_findings(layout, context, comparison)
     draw_facts(layout, _of_pixels(counts))
+    draw_regions(layout, context)
 
 
 def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:

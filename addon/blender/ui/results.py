@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cache
 from pathlib import Path
@@ -20,6 +20,7 @@ from ...methods import Method
 if TYPE_CHECKING:
     from ...arrays import Colors
     from ...comparison.comparison import Comparison
+    from ...diagnosis.regions import Region
     from ...study.extremes import ExtremesRow
     from ...study.trade import Trade
 
@@ -28,6 +29,7 @@ Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES")
 TRACED = "Reference Tracer Traced"
 BLENDER = "Reference Tracer Blender"
 DIFFERENCE = "Reference Tracer Difference"
+CAUSES = "Reference Tracer Causes"
 MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
 
 
@@ -40,20 +42,23 @@ class Result:
     lines: tuple[str, ...]  # sentences; a panel shows the first
     scene: str | None = None  # None: of no scene
     page: str = ""  # the address of its plots
+    regions: tuple[Region, ...] = ()  # where it differs, the largest first
 
 
 _latest: dict[Kind, Result] = {}
 
 
 def keep_comparison(context: Any, comparison: Comparison) -> Result:
-    """Remember a comparison, and put its three pictures into images of Blender's."""
-    from ...report.comparison import difference_picture
+    """Remember a comparison, and put its pictures into images of Blender's."""
+    from ...report.comparison import cause_picture, difference_picture, differing_regions
 
     show(TRACED, comparison.frame.color)
     show(BLENDER, comparison.picture)
-    shown = show(DIFFERENCE, difference_picture(comparison))
-    show_in_editor(context, shown)
-    return keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
+    show(DIFFERENCE, difference_picture(comparison))
+    show(CAUSES, cause_picture(comparison))
+    found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
+    _latest[Kind.COMPARISON] = replace(found, regions=tuple(differing_regions(comparison)))
+    return _latest[Kind.COMPARISON]
 
 
 def keep_trade(trade: Trade) -> Result:
@@ -131,6 +136,11 @@ def show(name: str, color: Colors) -> Any:
     return image
 
 
+def ours(name: str) -> Any:
+    """Return our image of a name, or None."""
+    return next((i for i in bpy.data.images if i.get(MARK) == name), None)
+
+
 def _ours(blocks: Any, name: str, is_saved: Callable[[Any], object]) -> Any:
     """Return our image or text of a name, or None. One that the user has saved is theirs now."""
     found = next((b for b in blocks if b.get(MARK) == name), None)
@@ -138,13 +148,6 @@ def _ours(blocks: Any, name: str, is_saved: Callable[[Any], object]) -> Any:
         del found[MARK]
         return None
     return found
-
-
-def show_in_editor(context: Any, image: Any) -> None:
-    """Show an image in the window's first image editor, if there is one."""
-    spaces = (area.spaces.active for area in areas(context, "IMAGE_EDITOR"))
-    if space := next((s for s in spaces if s.mode == "VIEW"), None):
-        space.image = image
 
 
 def show_text(context: Any, name: str, content: str) -> Any:

@@ -11,6 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
 from . import explain, results, studies
+from .differing import IMAGE_PT_reference_tracer_shown
 from .inspector import REFERENCE_TRACER_OT_inspect
 from .layout import Part, both, wrapped
 from .results import Kind
@@ -138,6 +139,7 @@ def _draw_measured(layout: Any, context: Any, kind: Kind) -> None:
 CLASSES = (
     *both(_Inspector, "_inspector", bl_options={"DEFAULT_CLOSED"}),
     IMAGE_PT_reference_tracer_inspector,
+    IMAGE_PT_reference_tracer_shown,
     *both(_Trade, "_trade"),
     *both(_Extremes, "_extremes"),
 )
