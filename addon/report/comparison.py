@@ -12,9 +12,9 @@ import numpy as np
 from .. import images
 from ..arrays import Array, Colors
 from ..causes.case import Case
-from ..causes.cause import AGREE, UNEXPLAINED
+from ..causes.cause import UNEXPLAINED
 from ..causes.explain import CAUSES
-from ..causes.maps import cause_map, difference_map, ringed
+from ..causes.maps import cause_map
 from ..comparison.comparing import compared
 from ..comparison.comparison import SCHEMA, Comparison
 from ..comparison.extras import Extras
@@ -107,12 +107,6 @@ def _write_arrays(path: Path, arrays: Iterable[tuple[str, Array]]) -> Work[None]
 def cause_picture(comparison: Comparison) -> Colors:
     """Return the map of causes over the dimmed traced picture, (h, w, 4) linear RGBA."""
     return cause_map(comparison.frame.color, comparison.causes.cause)
-
-
-def difference_picture(comparison: Comparison) -> Colors:
-    """Return how far apart both pictures' colours are, (h, w, 4) linear RGBA, opaque."""
-    pair = comparison.frame.color, comparison.picture
-    return ringed(difference_map(*pair), comparison.causes.cause != AGREE)
 
 
 def differing_regions(comparison: Comparison) -> list[Region]:

@@ -8,12 +8,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Generator, MutableMapping
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from ..arrays import Array
 
 A = TypeVar("A")
 B = TypeVar("B")
 T = TypeVar("T")
 Work = Generator[float, None, T]
+ROWS = 128  # a step, of work on the rows of a picture
 Steps = Generator[str, None, T]  # each step yields the name of its stage of the work
 
 
@@ -68,6 +72,18 @@ def scaled(work: Work[T], start: float, size: float) -> Work[T]:
         return Share(whole, share.doing) if isinstance(share, Share) else whole
 
     return mapped(work, of_whole)
+
+
+def by_rows(of: Callable[..., Array], *pictures: Array) -> Work[Array]:
+    """Return what a function makes of pictures (h, w, ...) row by row, some rows a step."""
+    import numpy as np  # late: Blender registers the add-on without numpy
+
+    made = []
+    height = len(pictures[0])
+    for bottom in range(0, height, ROWS):
+        made.append(of(*(p[bottom : bottom + ROWS] for p in pictures)))
+        yield bottom / height
+    return np.concatenate(made)
 
 
 def timed(steps: Steps[T], stages: MutableMapping[str, float], share: float = 0.0) -> Work[T]:

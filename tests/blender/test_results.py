@@ -11,6 +11,7 @@ from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.causes.cause import AGREE, UNEXPLAINED
 from reference_tracer.causes.checks.edges import EDGE
+from reference_tracer.tracer.progress import result_of
 
 PICTURE = np.ones((4, 6, 4), np.float32)
 
@@ -53,10 +54,10 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
     cause[:] = AGREE
     cause[2:6, 3:5] = cause[2, 40] = EDGE
     told = replace(own, causes=replace(own.causes, cause=cause))
-    found = results.keep_comparison(bpy.context, told).regions
+    found = result_of(results.keep_comparison(told)).regions
     assert [r.pixels for r in found] == [8, 1]
     cause[20, 40:43] = UNEXPLAINED  # then these alone are
-    found = results.keep_comparison(bpy.context, told).regions
+    found = result_of(results.keep_comparison(told)).regions
     assert [(r.left, r.bottom, r.pixels) for r in found] == [(40, 20, 3)]
     assert bpy.ops.reference_tracer.frame_region(number=0) == {"FINISHED"}
     assert [o.name for o in bpy.context.selected_objects] == [found[0].objects[0]]
@@ -69,7 +70,7 @@ def test_another_file_has_no_result(build, compare):
     build.scene()
     build.solids()
     build.corner_camera()
-    results.keep_comparison(bpy.context, compare())
+    result_of(results.keep_comparison(compare()))
     assert results.latest(Kind.COMPARISON, bpy.context.scene)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     assert results.latest(Kind.COMPARISON, bpy.context.scene) is None

@@ -10,6 +10,7 @@ from story import (
     compared,
     module,
     noted,
+    press,
     press_compare,
     result,
     running,
@@ -258,5 +259,55 @@ def compared_images():
     screenshot("view_framed")
 
 
+def said():
+    """What the status bar says, by workspace."""
+    return [w.name for w in bpy.data.workspaces if status.get(w.name)]
+
+
+status = {}  # what was said last in each workspace, else None
+
+
+def listened():
+    """Have noted what is said in the status bar, at once."""
+    kind = type(window().workspace)
+    real, heard = kind.status_text_set, []
+
+    def noting_text(workspace, text):
+        status[workspace.name] = text
+        heard.append(text)
+        real(workspace, text)
+
+    kind.status_text_set = noting_text
+    return heard, lambda: setattr(kind, "status_text_set", real)
+
+
+def status_bar():
+    """What is said while it runs, and what is left of it: at the end, by Esc, by an error."""
+    scene = window().scene
+    scene.render.resolution_percentage = 100
+    heard, stop = listened()
+    press_compare()
+    noted["at_once"] = heard[-1]
+    yield 0.02
+    screenshot("status_drawing")
+    yield from until(at_rest, 100)
+    noted["heard"] = [text for text in heard if text]
+    noted["left"] = said()
+    press_compare()
+    yield 2
+    other = next(w for w in bpy.data.workspaces if w != window().workspace)
+    window().workspace = other
+    yield 1.5
+    noted["moved"] = said()
+    press("Escape")
+    yield 1
+    noted["after_escape"] = [running(), said()]
+    scene.camera.data.type = "PANO"
+    press_compare()
+    yield 1
+    noted["after_error"] = [running(), said()]
+    stop()
+
+
 SCENE = "suzanne"
-STORIES = (panel, shown, compared_images)
+STORIES = (panel, shown, compared_images, status_bar)

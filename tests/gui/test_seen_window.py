@@ -1,5 +1,7 @@
 """What is seen before and after the button. Screenshots are left in out/gui."""
 
+import re
+
 import pytest
 
 pytestmark = pytest.mark.gui
@@ -66,3 +68,15 @@ def test_a_region_is_framed_in_the_picture_and_in_the_view(noted):
     across, width = noted["across"]
     assert across < 40 * (width + 16)  # enlarged
     assert noted["selected"] == noted["regions"][0][1][:1] and noted["moved"] > 0.1
+
+
+@pytest.mark.story("status_bar")
+def test_the_status_bar_says_what_is_done_and_is_cleared_however_it_ends(noted):
+    assert noted["at_once"] == "Trace and Compare, Blender draws the scene  (Esc: cancel)"
+    shares = [int(m[1]) for m in (re.search(r": (\d+) %", t) for t in noted["heard"]) if m]
+    assert len(shares) > 2 and shares == sorted(shares) and shares[-1] <= 100
+    assert all("Esc" in text for text in noted["heard"])
+    assert any(", tracing" in text for text in noted["heard"])
+    assert noted["left"] == []
+    assert noted["moved"]  # it was still at work
+    assert noted["after_escape"] == noted["after_error"] == [[], []]

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ...methods import Method
+from ...tracer.progress import Work, by_rows, scaled
 
 if TYPE_CHECKING:
     from ...arrays import Colors
@@ -48,16 +49,28 @@ class Result:
 _latest: dict[Kind, Result] = {}
 
 
-def keep_comparison(context: Any, comparison: Comparison) -> Result:
-    """Remember a comparison, and put its pictures into images of Blender's."""
-    from ...report.comparison import cause_picture, difference_picture, differing_regions
+def keep_comparison(comparison: Comparison) -> Work[Result]:
+    """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
+    from ...causes.cause import AGREE
+    from ...causes.maps import cause_map, difference_map, ringed
+    from ...report.comparison import differing_regions
 
-    show(TRACED, comparison.frame.color)
+    traced = comparison.frame.color
+    cause = comparison.causes.cause
+    show(TRACED, traced)
+    yield 0.1
     show(BLENDER, comparison.picture)
-    show(DIFFERENCE, difference_picture(comparison))
-    show(CAUSES, cause_picture(comparison))
+    yield 0.2
+    pair = traced, comparison.picture
+    apart = yield from scaled(by_rows(difference_map, *pair), 0.2, 0.3)
+    show(DIFFERENCE, ringed(apart, cause != AGREE))
+    yield 0.5
+    show(CAUSES, (yield from scaled(by_rows(cause_map, traced, cause), 0.5, 0.3)))
+    yield 0.9
+    regions = tuple(differing_regions(comparison))
+    yield 1.0
     found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
-    _latest[Kind.COMPARISON] = replace(found, regions=tuple(differing_regions(comparison)))
+    _latest[Kind.COMPARISON] = replace(found, regions=regions)
     return _latest[Kind.COMPARISON]
 
 
