@@ -56,8 +56,14 @@ class _Main(Part):
             draw_outcome(layout, context, comparison)
         else:
             wrapped(layout, context, _FIRST)
+        stored = context.scene.reference_tracer
+        if stored.show == "WRONG" and not stored.has_precision:
+            wrapped(layout, context, "No pixel of a proven method is wrong", "INFO")
+            button = layout.operator("wm.context_set_enum", text="Show the Textbook's Wrong Pixels")
+            button.data_path = "scene.reference_tracer.method"
+            button.value = "textbook"
         if body := folded(layout, "settings", "Settings"):
-            _draw_settings(body, context.scene.reference_tracer)
+            _draw_settings(body, stored)
         if comparison and (body := folded(layout, "figures", "Figures")):
             draw_figures(body, context, comparison)
         if body := folded(layout, "more", "More Comparisons"):
