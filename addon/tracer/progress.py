@@ -78,12 +78,15 @@ def by_rows(of: Callable[..., Array], *pictures: Array) -> Work[Array]:
     """Return what a function makes of pictures (h, w, ...) row by row, some rows a step."""
     import numpy as np  # late: Blender registers the add-on without numpy
 
-    made = []
     height = len(pictures[0])
     for bottom in range(0, height, ROWS):
-        made.append(of(*(p[bottom : bottom + ROWS] for p in pictures)))
+        rows = slice(bottom, bottom + ROWS)
+        found = of(*(p[rows] for p in pictures))
+        if bottom == 0:
+            made = np.empty((height, *found.shape[1:]), found.dtype)
+        made[rows] = found
         yield bottom / height
-    return np.concatenate(made)
+    return made
 
 
 def timed(steps: Steps[T], stages: MutableMapping[str, float], share: float = 0.0) -> Work[T]:

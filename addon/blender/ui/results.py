@@ -63,9 +63,12 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     yield 0.2
     pair = traced, comparison.picture
     apart = yield from scaled(by_rows(difference_map, *pair), 0.2, 0.3)
-    show(DIFFERENCE, ringed(apart, cause != AGREE))
+    apart = ringed(apart, cause != AGREE)
     yield 0.5
-    show(CAUSES, (yield from scaled(by_rows(cause_map, traced, cause), 0.5, 0.3)))
+    show(DIFFERENCE, apart)
+    yield 0.6
+    causes = yield from scaled(by_rows(cause_map, traced, cause), 0.6, 0.2)
+    show(CAUSES, causes)
     yield 0.9
     regions = tuple(differing_regions(comparison))
     yield 1.0
