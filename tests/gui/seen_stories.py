@@ -309,5 +309,87 @@ def status_bar():
     stop()
 
 
+def ours():
+    """Our images, by name, with how many editors show each."""
+    editors = [
+        a.spaces.active
+        for w in bpy.context.window_manager.windows
+        for a in w.screen.areas
+        if a.type == "IMAGE_EDITOR"
+    ]
+    return {
+        i.name: sum(e.image == i for e in editors) for i in bpy.data.images if i.source != "VIEWER"
+    }
+
+
+def step(name):
+    with bpy.context.temp_override(window=window()):
+        getattr(bpy.ops.ed, name)()
+    yield 0.5
+
+
+def left_behind():
+    """What undo, redo, a second run, and closing the editor leave of the images."""
+    window().scene.render.resolution_percentage = 20
+    yield from pressed("AREA")
+    noted["once"] = ours()
+    window().scene.objects["Cone"].location.x += 0.2
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo_push(message="Move")
+    yield from pressed("AREA")
+    noted["twice"] = ours()
+    noted["undone"] = []
+    for name in ("undo", "undo", "undo", "redo"):
+        yield from step(name)
+        noted["undone"].append(ours())
+    screenshot("undone")
+    yield from pressed("AREA")
+    noted["again"] = ours()
+    _, area = editor()
+    area.type = "VIEW_3D"  # the editor is closed
+    yield 0.3
+    yield from pressed("AREA")
+    noted["reopened"] = ours()
+    path = OUT / "saved.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    yield 1
+    noted["loaded"] = ours()
+
+
+def sample():
+    """Open a sample scene as the menu does: as a new file, and not over unsaved changes."""
+    files = module("blender.ui.samples").scenes()
+    noted["files"] = [f.name for f in files]
+    area = window().screen.areas[0]
+    with bpy.context.temp_override(window=window(), area=area):
+        bpy.ops.wm.call_menu(name="TOPBAR_MT_file_new")
+    yield 0.7
+    screenshot("file_new")
+    press("Escape")
+    yield 0.3
+    scene = next(f for f in files if f.name == "exercise_triangle.blend")
+
+    def choose():
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.wm.read_homefile("INVOKE_DEFAULT", filepath=str(scene))
+
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.ed.undo_push(message="Add")
+    noted["dirty"] = bpy.data.is_dirty
+    choose()
+    yield 1
+    screenshot("unsaved")
+    noted["kept"] = [window().scene.name, bpy.data.filepath != ""]
+    press("Escape")
+    yield 0.5
+    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+    yield 1
+    choose()
+    yield 1
+    noted["opened"] = [window().scene.name, bpy.data.filepath]
+    screenshot("sample")
+
+
 SCENE = "suzanne"
-STORIES = (panel, shown, compared_images, status_bar)
+STORIES = (panel, shown, compared_images, status_bar, left_behind, sample)

@@ -80,3 +80,10 @@ def test_the_status_bar_says_what_is_done_and_is_cleared_however_it_ends(noted):
     assert noted["left"] == []
     assert noted["moved"]  # it was still at work
     assert noted["after_escape"] == noted["after_error"] == [[], []]
+
+
+@pytest.mark.story("sample")
+def test_a_sample_scene_is_opened_as_a_new_file_and_not_over_unsaved_changes(noted):
+    assert "exercise_triangle.blend" in noted["files"] and len(noted["files"]) >= 10
+    assert noted["dirty"] and noted["kept"] == ["Suzanne", True]
+    assert noted["opened"] == ["Exercise: Triangle", ""]

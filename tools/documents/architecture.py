@@ -45,8 +45,9 @@ blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
       comparison/comparing.py diagnosed
         diagnosis/diagnosis.py diagnose
           diagnosis/guessing.py accounting
-blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish
+blender/ui/operators.py REFERENCE_TRACER_OT_compare._show
   blender/ui/results.py keep_comparison
+blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish
   comparison/comparison.py Comparison.verdict
 """,
     "The command `reftrace compare scene.blend`": """

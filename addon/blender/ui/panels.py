@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_iface as iface_
 
 from ..drawing.judges import JUDGES
 from ..engine import ENGINE
-from . import operators, results
+from . import operators, results, samples
 from .layout import Part, both, draw_facts, folded, wrapped
 from .menus import REFERENCE_TRACER_PT_presets
 from .outcome import draw_figures, draw_outcome
@@ -68,6 +68,8 @@ class _Main(Part):
             draw_figures(body, context, comparison)
         if body := folded(layout, "more", "More Comparisons"):
             _draw_more(body, context)
+        if samples.scenes() and (body := folded(layout, "samples", samples.TITLE)):
+            samples.draw_scenes(body.column(align=True))
 
 
 def _draw_settings(layout: Any, stored: Any) -> None:
