@@ -74,3 +74,15 @@ def test_another_file_has_no_result(build, compare):
     assert results.latest(Kind.COMPARISON, bpy.context.scene)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     assert results.latest(Kind.COMPARISON, bpy.context.scene) is None
+
+
+def test_a_file_that_was_saved_while_an_image_was_shown_has_none_when_it_is_opened(tmp_path):
+    """Blender stores that there was an image, and not what was in it; what was saved stays."""
+    shown = results.show(results.DIFFERENCE, PICTURE)
+    own = results.show(results.TRACED, PICTURE)
+    own.pack()  # as by "Save 1 modified image"
+    shown.use_fake_user = own.use_fake_user = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    assert named() == [results.TRACED]
+    assert bpy.data.images[results.TRACED].pixels[0] == 1.0

@@ -136,6 +136,13 @@ def forget() -> None:
     _latest.clear()
 
 
+def remove_stale_images() -> None:
+    """Remove our images from a file that was just opened: what was shown of them was not stored."""
+    for image in bpy.data.images[:]:
+        if image.get(MARK) and image.source == "GENERATED":
+            bpy.data.images.remove(image)
+
+
 def show(name: str, color: Colors) -> Any:
     """Put linear RGBA (h, w, 4) into our image of this name; make it if there is none."""
     import numpy as np
