@@ -47,7 +47,7 @@ DEPTH_TIE = Cause(
     "depth_tie",
     "depth tie",
     "what the picture shows lies {figure:.3g} m behind what the tracer sees "
-    "(what lies {allowed:.3g} m apart is told apart there)",
+    "(surfaces {allowed:.3g} m apart are told apart there)",
     "m",
     (0.0, 0.7, 1.0),
     explains=True,
