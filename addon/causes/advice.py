@@ -47,7 +47,7 @@ def _of_depths(
     case: Case, frame: Frame, causes: Causes, where: Mapping[Cause, Bools], allowed: float
 ) -> Iterator[str]:
     """Yield the clip range that separates the depths; else how far apart surfaces must be."""
-    camera, renderer = case.scene.camera, case.picture.renderer
+    camera, renderer = case.scene.camera, case.picture.sampling.renderer
     depths = _Depths(camera, renderer, frame, causes, where)
     for other in _cameras(camera, frame):
         if depths.left(other) <= allowed:

@@ -121,30 +121,9 @@ class Case:
         if behind:
             rest = without(scene, behind.left_out)
             behind = replace(behind, case=behind.case.in_scene(rest))
-        picture = replace(self.picture, owners=self._owners_in(scene))
+        owners = self.picture.owners
+        picture = replace(self.picture, owners=owners and owners.in_scene(scene, self.scene))
         return replace(self, scene=scene, picture=picture, behind=behind)
-
-    def _owners_in(self, scene: Scene) -> Integers | None:
-        """Return the owners of another scene's instances and planes, by their objects' names.
-
-        None if an object of this name has several owners here: whose it is there is not known.
-        """
-        owners, own = self.picture.owners, self.scene
-        if owners is None or scene is own:
-            return owners
-        if (
-            np.array_equal(scene.instance_objects, own.instance_objects)
-            and scene.objects == own.objects
-        ):
-            return owners
-        of_name: dict[str, int] = {}
-        for number, owner in zip(own.instance_objects[:-1], owners, strict=False):
-            if of_name.setdefault(own.objects[number], int(owner)) != owner:
-                return None
-        names = self.picture.names
-        other = {name: names.index(name) if name in names else len(names) for name in scene.objects}
-        numbers = [(other | of_name)[scene.objects[n]] for n in scene.instance_objects[:-1]]
-        return np.array([*numbers, NOTHING], np.int32)
 
     def before(self, background: Colors) -> Case:
         """Return the case with all scenes, and the picture, on a background, linear RGBA."""

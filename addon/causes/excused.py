@@ -31,7 +31,7 @@ COMPARABLE = 0.5  # the largest share of a picture, or of an object, in which no
 # probability p, half of them do with one of at most (4 p)^(n/2). In the forest p is 0.36 % at
 # boundaries; where float32 moves edges by 0.1 px, which is far, a tenth: 3e-10 for 48 pixels. It is
 # a guide and no bound, as the pixels along one edge do so together.
-LEAST = 48
+LEAST_PIXELS = 48
 _TOLD = 3  # of such objects, those with most pixels; the others are counted
 
 
@@ -149,8 +149,8 @@ def _unjudged(
     any_cause = np.any(list(where.values()), axis=0)
     found: dict[str, tuple[Bools, int]] = {}
     sides = [(case.scene.objects, frame.object_index)]
-    if case.picture.owner is not None:
-        sides.append((case.picture.names, case.picture.owner))
+    if owners := case.picture.owners:
+        sides.append((owners.names, owners.pixels))
     for names, seen in sides:
         for number, total in _mostly(seen, any_cause):
             found.setdefault(names[number], ((seen == number) & any_cause, total))
@@ -166,7 +166,7 @@ def _mostly(seen: Integers, where: Bools) -> Iterator[tuple[int, int]]:
     is_object = seen >= 0
     total = np.bincount(seen[is_object])
     own = np.bincount(seen[is_object & where], minlength=len(total))
-    for number in np.flatnonzero((own > COMPARABLE * total) & (total >= LEAST)):
+    for number in np.flatnonzero((own > COMPARABLE * total) & (total >= LEAST_PIXELS)):
         yield int(number), int(total[number])
 
 

@@ -138,10 +138,11 @@ def _open(pixels: OpenPixels) -> Work[None]:
     scene = pixels.case.scene
     frame = pixels.frame
     seen = frame.instance_index
-    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape), pixels.picture.renderer)
-    pixels.band += pixels.picture.off_center
-    if pixels.picture.farthest < np.inf:
-        pixels.band[not_decidable(scene, frame, pixels.picture.farthest)] = np.inf
+    sampling = pixels.picture.sampling
+    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape), sampling.renderer)
+    pixels.band += sampling.off_center
+    if sampling.farthest < np.inf:
+        pixels.band[not_decidable(scene, frame, sampling.farthest)] = np.inf
     ramp = shading.interpolated(scene, seen)
     finding = other_color(pixels.picture, frame.color, ramp)
     differ = yield from scaled(finding, 1.0, 0.0)

@@ -223,7 +223,7 @@ class Comparison:
             f"{rim.total:,} boundary pixels differ"
         )
         if self.case.picture.source.file:
-            words, known = self.case.picture.renderer.words, self.case.picture.source.known
+            words, known = self.case.picture.sampling.renderer.words, self.case.picture.source.known
             why = f", {known}" if known else ""
             yield f"a pixel may differ by the rounding of {words}{why} (--renderer)"
         if self.background:

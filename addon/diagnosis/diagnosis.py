@@ -14,7 +14,6 @@ from typing import Any
 from ..arrays import Colors
 from ..causes.case import Case
 from ..causes.cause import Causes
-from ..pictures.identity import Identity
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..wording import count_of
@@ -182,12 +181,13 @@ def diagnose(
         return Diagnosis()
     began = time.monotonic()
     guessing = Guessing(faults, steps)
-    evidence = yield from with_variants(evidence)
+    evidence = yield from scaled(with_variants(evidence), 0.0, 0.0)
     at_first = evidence.unexplained
     told: list[Told] = []
     for number in range(ROUNDS):
         finding = accounting(guessing, evidence)
-        chain = yield from scaled(finding, number / ROUNDS, 1 / ROUNDS)
+        half = 0.5**number  # of the work that is left: most ends in the first round
+        chain = yield from scaled(finding, 1 - half, half / 2)
         if not chain:
             break
         for trials in chain:
@@ -209,10 +209,7 @@ def diagnose(
 def _regions(evidence: Evidence) -> tuple[Region, ...]:
     """Return the regions of what is unexplained, with the objects in them."""
     case, frame = evidence.case, evidence.frame
-    identity, picture = None, case.picture
-    if picture.owner is not None and picture.owners is not None:
-        own = picture.owners[frame.instance_index]
-        identity = Identity(picture.names, own, picture.owner)
+    identity = case.picture.identity(frame.instance_index)
     return tuple(regions(evidence.unexplained, sides(case.scene, frame, identity)))
 
 

@@ -1,6 +1,6 @@
 """Tests rays with triangles: by the textbook, by it literally, Möller–Trumbore, watertight.
 
-`nearest.py` calls these tests for the plain methods; `certified` has its own, in `certified/`.
+`nearest.py` calls these tests for the unproven methods; `certified` has its own, in `certified/`.
 Each function takes n rays and n triangles, pair by pair, and returns
     hit : (n,) bool      whether the ray's line meets the triangle
     t   : (n,)           ray parameter where it does

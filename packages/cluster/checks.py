@@ -29,7 +29,7 @@ _PIXELS = 1 << 15  # that are checked together
 def plain_hits(
     scene: Scene, region: Region, dx: float, dy: float, claim: Claim, settings: Settings
 ) -> Work[Hits]:
-    """Return what a plain method makes of the claimed owners, and of all planes."""
+    """Return what an unproven method makes of the claimed owners, and of all planes."""
     found, dtype = [], settings.precision.dtype
     for part in parts(len(claim.certainty), _PIXELS):
         rays = _rays(scene, region, dx, dy, part, dtype)

@@ -118,7 +118,7 @@ class Picture:
             claim.count_in(self.statistics)
             claims.append(claim)
             given = self.scene, part, dx, dy, claim
-            if self.settings.method.is_plain:
+            if not self.settings.method.is_proven:
                 plain.append((yield from checks.plain_hits(*given, self.settings)))
                 right = np.array_equal(claim.names, (plain[-1].instance, plain[-1].triangle))
             else:
@@ -135,7 +135,7 @@ class Picture:
 
     def _claim(self, asked: Asked, region: Region) -> Work[tuple[Claim, str]]:
         data, worker = yield from self.cluster.answer(asked)
-        certified = not self.settings.method.is_plain
+        certified = self.settings.method.is_proven
         try:
             return Claim.read(data, self.scene, region.width * region.height, certified), worker
         except Exception as error:  # whatever it is made to be

@@ -54,6 +54,11 @@ class Answers:
         """Where a hit is right, and a barycentric is off by more than float64 may be."""
         return self.both & ~self.are_s(self.s)
 
+    @property
+    def wrong(self) -> Mask:
+        """Where any of the three is wrong."""
+        return self.wrong_hit | self.wrong_t | self.wrong_s
+
     def is_t(self, t: Floats) -> Mask:
         """Return where t (n,) is the true one."""
         known = self.checks.known

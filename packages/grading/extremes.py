@@ -87,7 +87,7 @@ def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[Extre
 
 
 def plain(method: Method) -> Ask:
-    """Return one of the tracer's own plain methods as a student would have written it."""
+    """Return one of the tracer's own unproven methods as a student would have written it."""
     test = TESTS[method]
 
     def intersect(origins: Floats, directions: Floats, triangles: Floats) -> tuple[Floats, Floats]:

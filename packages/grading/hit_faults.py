@@ -34,7 +34,7 @@ def sign_of_t(a: Answers) -> Found:
     turned = a.hit & np.isclose(a.t, -a.checks.known.t)
     if a.share(turned, Group.BEHIND) > MOST and a.share(a.hit, *ORDINARY) < FEW:
         text = "t has the wrong sign: what is behind the ray's origin is hit, what is before it not"
-        yield "sign_of_t", text, behind | ~a.hit
+        yield "t_sign", text, behind | ~a.hit
 
 
 def culling(a: Answers) -> Found:

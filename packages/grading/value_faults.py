@@ -48,7 +48,7 @@ def distance(a: Answers) -> Found:
 def negative_t(a: Answers) -> Found:
     """See whether t has the other sign, and nobody asks for t > 0."""
     if _fits(a, a.wrong_t, a.is_t(-a.t)):
-        yield "sign_of_t", "t has the wrong sign: a hit before the origin has t > 0", a.is_t(-a.t)
+        yield "t_sign", "t has the wrong sign: a hit before the origin has t > 0", a.is_t(-a.t)
 
 
 def _off(a: Answers) -> Floats:

@@ -25,7 +25,7 @@ from ..oracle import scene_sights
 from .pictures import names_of
 from .rational import t_of_pixels
 
-PLAIN = [Settings(m, p) for m in Method if m.is_plain for p in ("float64", "float32")]
+PLAIN = [Settings(m, p) for m in Method if not m.is_proven for p in ("float64", "float32")]
 PROVEN = [Settings("certified"), Settings("auto")]
 
 

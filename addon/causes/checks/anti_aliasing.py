@@ -67,7 +67,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
     Their figure is the radius of the smallest ring that is enough.
     """
-    radius = pixels.picture.filter_radius
+    radius = pixels.picture.sampling.filter_radius
     if not pixels.open.any() or radius <= 0 or pixels.picture.lit:
         return
     made = yield from plan(pixels.case.scene, SOUND, reach=np.sqrt(2) * radius)
@@ -94,7 +94,9 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
         rest = np.flatnonzero(~found & owner & (seen != seen[0]).any(axis=(0, 2)))
         seen = seen[:, rest]
         color = picture.color[rest, : seen.shape[-1]]
-        found[rest] = yield from is_mix(color, seen, picture.sums, np.arange(len(mixed)) ^ 1)
+        found[rest] = yield from is_mix(
+            color, seen, picture.storage.sums, np.arange(len(mixed)) ^ 1
+        )
         part.give(found, ANTI_ALIASING, reach, radius)
     if density == DENSITIES[-1] and not found.all():
         left = np.flatnonzero(~found & owner)
@@ -158,7 +160,7 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
             across = np.arange(len(near))
             across[: 2 * len(pairs)] = np.roll(across[: 2 * len(pairs)], len(pairs))
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
-            [found[n]] = yield from is_mix(color, near[:, None], picture.sums, across)
+            [found[n]] = yield from is_mix(color, near[:, None], picture.storage.sums, across)
         yield 0.0
     return found
 

@@ -91,13 +91,13 @@ def find_background(
     surface, made = interior & ~nothing, replace(picture, transform=transform)
     if not (yield from _apart(frame, made, color, surface)):
         return None
-    one = replace(picture, color=color[None].astype(np.float32), owner=None, transform=transform)
+    one = replace(picture, color=color[None].astype(np.float32), owners=None, transform=transform)
     if not one.other_color(own[None])[0]:
         return None
     shown = frame.instance_index == NOTHING
     shown &= ~(yield from other_color(picture, color))
     colors_of_both = tuple(map(float, color)), tuple(map(float, own))
-    return Background(*colors_of_both, picture.opaque, int(shown.sum()), shown.size)
+    return Background(*colors_of_both, picture.storage.opaque, int(shown.sum()), shown.size)
 
 
 def _apart(frame: Frame, picture: Picture, color: Colors, surface: Bools) -> Work[bool]:

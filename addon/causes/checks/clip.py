@@ -42,7 +42,7 @@ def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels at which a surface lies on a clip plane."""
     if pixels.open.any():
         scene = pixels.case.scene
-        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.renderer))
+        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.sampling.renderer))
         yield from near_surfaces(pixels, wide, 0.0, _clipped)
 
 

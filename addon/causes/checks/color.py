@@ -101,7 +101,7 @@ def find_transform(
     group = groups(np.column_stack((frame.instance_index[where], colors)))
     found: list[tuple[float, Curve]] = []
     first, shown = medians(some.color, group)
-    for named in candidates(straight(colors[first]), straight(shown), picture.levels, more):
+    for named in candidates(straight(colors[first]), straight(shown), picture.storage.levels, more):
         agree = ~replace(some, transform=named.of).other_color(colors)
         of_group = np.bincount(group, agree) / np.bincount(group)
         # Of the pixels, or of their groups if that is less.

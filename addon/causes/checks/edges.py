@@ -188,7 +188,7 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
     asks = (nothing < np.inf).any(axis=0)
     asks[may.pixel[(of < np.inf).any(axis=0) & (may.hits.t <= farthest)]] = True
     closed = np.full(len(width), np.inf)
-    if part.picture.renderer.closed:
+    if part.picture.sampling.renderer.closed:
         closed = _closed(scene, asked.beside, asks & ~asked.lost)
     farthest = np.minimum(farthest, (closed + part.resolution(asked.centre))[may.pixel])
     visible = may.hits.t <= farthest

@@ -44,12 +44,13 @@ HIDDEN = Cause(
 def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels that show what only one side has."""
     why = {e.name: e.reason for e in pixels.case.manifest.objects if e.hidden}
-    for number, name in enumerate(pixels.picture.names):
-        if name in why:
-            where = pixels.open & (pixels.picture.owner == number)
-            if where.any():
-                pixels.give(where, HIDDEN, _named(pixels, Hidden(name, why[name])))
-            yield 0.0
+    if owners := pixels.picture.owners:
+        for number, name in enumerate(owners.names):
+            if name in why:
+                where = pixels.open & (owners.pixels == number)
+                if where.any():
+                    pixels.give(where, HIDDEN, _named(pixels, Hidden(name, why[name])))
+                yield 0.0
     alternatives = pixels.case.alternatives
     for number, other in enumerate(alternatives):
         if pixels.open.any():
@@ -70,7 +71,7 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     """
     case = replace(pixels.case, scene=other.scene)
     colorless = case.colorless
-    picture = replace(pixels.picture, owner=None, owners=None, colorless=colorless)
+    picture = replace(pixels.picture, owners=None, colorless=colorless)
     there = replace(pixels, case=case, picture=picture)
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.4)
     there = replace(there, frame=traced)

@@ -206,7 +206,7 @@ class Part:
     def resolution(self, hits: Hits) -> Floats:
         """Return the depth difference below which surfaces tie, at n hits; 0 for no hit."""
         seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits))
-        found, renderer = hits.take(seen), self.picture.renderer
+        found, renderer = hits.take(seen), self.picture.sampling.renderer
         rays = self.probe.rays(pixel=seen)
         along = renderer.along(self.scene, found, self.probe.points(hits)[seen], rays)
         out[seen] = renderer.resolution(self.scene.camera, found.t, along)

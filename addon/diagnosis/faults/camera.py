@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Array
 from ...causes.case import Case
-from ...scene import Camera, ViewWindow
+from ...scene import Camera
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from .fault import (
@@ -63,14 +63,9 @@ def _turned_world(rotation: Array, position: bool) -> Callable[[Camera], Camera]
 
 def flipped(camera: Camera, axis: int) -> Camera:
     """Mirror the view of a camera along axis 0 or 1 of the picture."""
-    w = camera.window
-    signs = np.ones(3)
-    signs[axis] = -1
-    sides = (
-        (-w.right, -w.left, w.bottom, w.top) if axis == 0 else (w.left, w.right, -w.top, -w.bottom)
-    )
-    turned = _axes(lambda axes: axes * signs)(camera)
-    return replace(turned, window=ViewWindow(*sides))
+    x, y = (-1, 1) if axis == 0 else (1, -1)
+    turned = _axes(lambda axes: axes * (x, y, 1))(camera)
+    return replace(turned, window=camera.window.scaled(x, y))
 
 
 def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:

@@ -12,7 +12,7 @@ from ...arrays import Array
 from ...causes.case import Case
 from ...scene import Instance, Scene
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
+from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 from .climbing import values_of
 from .fault import (
@@ -22,7 +22,6 @@ from .fault import (
     Numbers,
     Pair,
     Pick,
-    at_once,
     instances_named,
     of_object,
     with_instances,

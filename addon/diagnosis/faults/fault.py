@@ -10,17 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import Any, Generic, ParamSpec, TypeVar
+from typing import Any, Generic, TypeVar
 
 from ...arrays import Colors
 from ...causes.case import Case
 from ...scene import Camera, Instance, Mesh, Scene
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
+from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 
-P = ParamSpec("P")
-T = TypeVar("T")
 G = TypeVar("G", bound="Guess")
 Values = tuple[float, ...]
 
@@ -97,16 +95,6 @@ def with_values(*values: float) -> Pick:
 def with_option(number: int) -> Pick:
     """Return a function that picks the same option in every scene."""
     return lambda case, frame: Option(number)
-
-
-def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
-    """Turn a plain function into work without steps."""
-
-    def work(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
-        yield from ()
-        return function(*args, **kwargs)
-
-    return work
 
 
 def always(*guesses: G) -> Find[G]:

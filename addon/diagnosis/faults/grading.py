@@ -47,9 +47,9 @@ Grading = Iterator[tuple[Values, Transform, str]]  # the numbers, what it is, in
 
 def _ends(picture: Picture, shown: Colors) -> tuple[Floats, Floats]:
     """Return the straight linear values between which rounding leaves colours (k, 4)."""
-    _, allowed = difference(shown, shown, False, picture.levels, picture.sums, picture.dither)
+    _, allowed = difference(shown, shown, stored=picture.storage)
     middle = straight(shown)
-    if not picture.levels:
+    if not picture.storage.levels:
         return middle - allowed[..., :3], middle + allowed[..., :3]
     coded = curve(np.clip(middle, 0, 1))
     low, high = coded - allowed[..., :3], coded + allowed[..., :3]

@@ -16,31 +16,20 @@ from .fault import Example, Fault, Option, options, with_option
 Change = Callable[[Camera], Camera | None]
 
 
-def window(camera: Camera, x: float, y: float, centre: tuple[float, float]) -> Camera:
-    """Return the camera with its view window scaled by (x, y), and moved to a centre."""
-    w = camera.window
-    half_x, half_y = x * (w.right - w.left) / 2, y * (w.top - w.bottom) / 2
-    cx, cy = centre
-    made = ViewWindow(cx - half_x, cx + half_x, cy - half_y, cy + half_y)
-    return replace(camera, window=made)
-
-
-def centre(camera: Camera) -> tuple[float, float]:
-    """Return the centre of the view window."""
-    w = camera.window
-    return (w.left + w.right) / 2, (w.bottom + w.top) / 2
-
-
 def _scaled(x: float, y: float, camera: Camera) -> Camera:
     """Scale the view window about the axis."""
-    cx, cy = centre(camera)
-    return window(camera, x, y, (x * cx, y * cy))
+    return replace(camera, window=camera.window.scaled(x, y))
+
+
+def _about_centre(camera: Camera, x: float, y: float) -> Camera:
+    """Scale the view window about its own centre."""
+    return replace(camera, window=camera.window.about(camera.window.centre, x, y))
 
 
 def _aspect(camera: Camera) -> float:
     """Return the aspect ratio of the view window, width / height."""
-    w = camera.window
-    return (w.right - w.left) / (w.top - w.bottom)
+    width, height = camera.window.size
+    return width / height
 
 
 def _fits(power: float, shifted: bool) -> Change:
@@ -50,24 +39,22 @@ def _fits(power: float, shifted: bool) -> Change:
         factor = _aspect(camera) ** power
         if not camera.projection.is_linear or factor == 1:  # a panorama has no sensor to fit
             return None
-        return _scaled(factor, factor, camera) if shifted else _about_centre(camera, factor)
+        if shifted:
+            return _scaled(factor, factor, camera)
+        return _about_centre(camera, factor, factor) if any(camera.window.centre) else None
 
     return change
-
-
-def _about_centre(camera: Camera, factor: float) -> Camera | None:
-    """Scale the view window about its own centre; None if that is the axis."""
-    own = centre(camera)
-    return window(camera, factor, factor, own) if any(own) else None
 
 
 def _shifts(of: Callable[[Camera, float, float], tuple[float, float]]) -> Change:
     """Return a function that moves the centre of the view window; None if it stays."""
 
     def change(camera: Camera) -> Camera | None:
-        own = centre(camera)
+        own = camera.window.centre
         other = of(camera, *own)
-        return None if np.allclose(own, other, rtol=1e-9, atol=0) else window(camera, 1, 1, other)
+        if np.allclose(own, other, rtol=1e-9, atol=0):
+            return None
+        return replace(camera, window=camera.window.about(other))
 
     return change
 
@@ -83,7 +70,7 @@ def _square(by_width: bool, shifted: bool) -> Change:
         if np.isclose(width, height, rtol=1e-6):
             return None
         x, y = (1, width / height) if by_width else (height / width, 1)
-        return _scaled(x, y, camera) if shifted else window(camera, x, y, centre(camera))
+        return _scaled(x, y, camera) if shifted else _about_centre(camera, x, y)
 
     return change
 
@@ -96,7 +83,7 @@ def _spanned(across: bool, up: bool) -> Callable[[Camera], Camera | None]:
         if not camera.projection.is_linear or min(w, h) < 2:
             return None
         x, y = (w / (w - 1) if across else 1, h / (h - 1) if up else 1)
-        return window(camera, x, y, centre(camera))
+        return _about_centre(camera, x, y)
 
     return change
 
@@ -126,9 +113,9 @@ def _part(scale: float, top: bool) -> Callable[[Camera], Camera]:
 
     def change(camera: Camera) -> Camera:
         w = camera.window
-        half_x, half_y = scale * (w.right - w.left) / 2, scale * (w.top - w.bottom) / 2
-        y = w.top - half_y if top else w.bottom + half_y
-        return window(camera, scale, scale, (w.left + half_x, y))
+        width, height = (scale * length for length in w.size)
+        bottom = w.top - height if top else w.bottom
+        return replace(camera, window=ViewWindow(w.left, w.left + width, bottom, bottom + height))
 
     return change
 

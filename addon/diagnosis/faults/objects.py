@@ -13,7 +13,7 @@ from ...causes.case import Case
 from ...scene import Instance, Scene
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
+from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 from .climbing import values_of
 from .fault import (
@@ -27,7 +27,6 @@ from .fault import (
     Option,
     Pair,
     always,
-    at_once,
     instances_named,
     of_meshes,
     of_object,

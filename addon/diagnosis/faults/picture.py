@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...causes.case import Case
+from ...tracer.progress import at_once
 from ..evidence import Evidence
-from .fault import AnyFault, Example, Fault, Guess, Make, always, at_once
+from .fault import AnyFault, Example, Fault, Guess, Make, always
 from .filters import FILTER_FAULTS
 from .grading import GRADING_FAULTS
 from .pixels import PIXEL_FAULTS

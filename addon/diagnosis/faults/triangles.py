@@ -11,7 +11,7 @@ from ...causes.case import Case
 from ...causes.checks.probe import SOUND
 from ...projections import ORTHOGRAPHIC
 from ...rendering import steps
-from ...scene import Camera, Instance, Mesh, Scene
+from ...scene import Camera, Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
@@ -50,18 +50,16 @@ def _culled(case: Case, guess: Guess) -> Case:
     """Leave out the back faces."""
 
     def culled(scene: Scene) -> Scene:
-        meshes: list[Mesh] = []
-        instances: list[Instance] = []
-        for instance in scene.instances:
+        meshes: dict[int, Mesh] = {}
+        for n, instance in enumerate(scene.instances):
             mesh = scene.meshes[instance.mesh]
             matrix = instance.world_from_object
             world = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
             a, b, c = (world[mesh.triangles[:, k]] for k in range(3))
             front = _towards(scene.camera, a, np.cross(b - a, c - a))
             front *= np.sign(np.linalg.det(matrix[:3, :3]))  # Blender turns the normals back
-            instances.append(replace(instance, mesh=len(meshes)))
-            meshes.append(with_triangles(mesh, front >= 0))
-        return replace(scene, meshes=tuple(meshes), instances=tuple(instances))
+            meshes[n] = with_triangles(mesh, front >= 0)
+        return scene.with_meshes(meshes)
 
     return case.with_scenes(culled)
 
@@ -106,10 +104,7 @@ def _without_triangles(case: Case, guess: Triangles) -> Case:
             return scene
         mesh = scene.meshes[scene.instances[own[rank]].mesh]
         left = ~np.isin(np.arange(len(mesh.triangles)), guess.missing)
-        instances = list(scene.instances)
-        instances[own[rank]] = replace(instances[own[rank]], mesh=len(scene.meshes))
-        meshes = (*scene.meshes, with_triangles(mesh, left))
-        return replace(scene, meshes=meshes, instances=tuple(instances))
+        return scene.with_meshes({own[rank]: with_triangles(mesh, left)})
 
     return case.with_scenes(less)
 
