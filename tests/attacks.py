@@ -35,7 +35,7 @@ from reference_tracer.pictures.identity import NOTHING, UNKNOWN
 from reference_tracer.pictures.metrics import boundary
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Scene, ViewWindow
+from reference_tracer.scene import Instance, Plane, Scene, ViewWindow
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.frame import Frame
 
@@ -72,8 +72,8 @@ class Subject:
     @cached_property
     def of_instance(self) -> NDArray[np.intp]:
         """Which object each instance is of, then each plane; NOTHING at the end."""
-        scene = self.scene
-        return np.array([*(i.object for i in (*scene.instances, *scene.planes)), NOTHING])
+        surfaces: list[Instance | Plane] = [*self.scene.instances, *self.scene.planes]
+        return np.array([*(s.object for s in surfaces), NOTHING])
 
     @cached_property
     def object(self) -> NDArray[np.intp]:

@@ -170,7 +170,8 @@ CAUSE = {
 FAULT = {
     "diagnosis/faults/picture.py": (
         '    Fault(\n        "row_off"',
-        "    Fault('dark', 'there is no light', 'light it', recolored(lambda c: 0 * c), "
+        "    Fault('dark', 'there is no light', 'Lamps are off.', 'light it', "
+        "recolored(lambda c: 0 * c), "
         "examples=(Example('dark', 'no light'),)),\n",
     ),
 }

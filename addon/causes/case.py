@@ -64,7 +64,7 @@ def without(scene: Scene, names: Collection[str]) -> Scene:
 
 
 def no_variants() -> tuple[Variant, ...]:
-    """Return the variants of a scene of which nothing else is known."""
+    """Return no variants: nothing but the scene itself is known."""
     return ()
 
 
@@ -107,7 +107,7 @@ class Case:
         return self.feature_of(Effect.COLOR) != NOTHING
 
     def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
-        """Return the same with the scene and the alternatives changed alike."""
+        """Return the case with the same change made to the scene and to the alternatives."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
         scene = change(self.scene)
         behind = self.behind
@@ -116,7 +116,7 @@ class Case:
         return replace(self.in_scene(scene), alternatives=others, behind=behind)
 
     def in_scene(self, scene: Scene) -> Case:
-        """Return the same with another scene."""
+        """Return the case with another scene."""
         behind = self.behind
         if behind:
             rest = without(scene, behind.left_out)
@@ -126,7 +126,7 @@ class Case:
         return replace(self, scene=scene, picture=picture, behind=behind)
 
     def before(self, background: Colors) -> Case:
-        """Return the same with all scenes, and the picture, before a background, linear RGBA."""
+        """Return the case with all scenes, and the picture, on a background, linear RGBA."""
         behind = partial(replace, background=background)
         picture = replace(self.picture, background=background)
         then = self.next_frame and behind(self.next_frame)

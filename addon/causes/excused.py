@@ -77,7 +77,7 @@ class Excused:
         return self.share > SMALL
 
     def lines(self) -> Iterator[str]:
-        """Say what is too much, of the picture and of objects, and what would help."""
+        """Say which objects, or how much of the picture, rest on rounding, and what would help."""
         if self.too_much:
             yield (
                 f"{100 * self.share:.1f} % of this picture rests on rounding alone: "
@@ -162,7 +162,7 @@ def _unjudged(
 
 
 def _mostly(seen: Integers, where: Bools) -> Iterator[tuple[int, int]]:
-    """Yield each number in `seen` (h, w) that is mostly `where`, and how many pixels it has."""
+    """Yield each number of `seen` (h, w) most of whose pixels are in `where`, and their count."""
     is_object = seen >= 0
     total = np.bincount(seen[is_object])
     own = np.bincount(seen[is_object & where], minlength=len(total))
@@ -171,7 +171,7 @@ def _mostly(seen: Integers, where: Bools) -> Iterator[tuple[int, int]]:
 
 
 def in_one_place(frame: Frame, causes: Causes) -> Bools:
-    """Return the ties (h, w) of surfaces that no depth in float32 tells apart.
+    """Return the depth ties (h, w) of coincident surfaces, which float32 cannot separate.
 
     These lie in one place, as copies do: either may be shown by any picture, and where the two are
     is judged as ever. They do not count for the picture.

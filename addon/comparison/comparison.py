@@ -36,7 +36,7 @@ SCHEMA = "reference_tracer.comparison/1"
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """What was compared, and what came of it."""
+    """A comparison: what was compared, the causes, and the verdict."""
 
     case: Case  # with the scene before the picture's own background, if it has one
     frame: Frame

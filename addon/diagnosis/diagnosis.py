@@ -220,7 +220,7 @@ def spoken(name: str) -> str:
 
 
 def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
-    """Return what is told of a fault and of its alternatives, few of them at length."""
+    """Return what is reported of a fault and its alternatives, the first few in full."""
     first, *others = trials
     many = 0 if first.fault.sums_up else ALTERNATIVES
     also = tuple(t.fault.name for t in others[many:])
@@ -229,7 +229,7 @@ def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
 
 
 def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
-    """Return what is told of a trial, counted in the evidence before it."""
+    """Return what is reported of a trial, counted in the evidence before it."""
     after = trial.evidence
     settled, broken, _, _ = counted(evidence, after)
     color = after.frame.color.copy()

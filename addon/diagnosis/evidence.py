@@ -246,7 +246,7 @@ def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) ->
 
 
 def spread(where: Bools, most: int) -> Places:
-    """Return at most so many pixels of a mask, by flat index, chosen at random."""
+    """Return at most `most` pixels of a mask, by flat index, chosen at random."""
     found = np.flatnonzero(where)
     if len(found) <= most:
         return found

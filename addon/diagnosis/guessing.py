@@ -178,7 +178,7 @@ def _least(evidence: Evidence) -> float:
 
 
 def _may_be_finer(evidence: Evidence, score: Score) -> bool:
-    """Return whether so few pixels are at stake that a rough fit may break as many."""
+    """Return whether a rough fit may break as many pixels as there are to settle."""
     unexplained = int(evidence.unexplained.sum())
     return (
         score.gain < _least(evidence) and MAIN * unexplained <= score.settled <= unexplained <= FEW

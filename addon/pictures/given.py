@@ -49,7 +49,7 @@ class Making:
 
 
 def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Picture:
-    """Return what is compared of a file: if it shows the whole view, the camera's region.
+    """Read a picture file as the other side; of a whole view, the camera's region.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def _traced(camera: Camera, size: tuple[int, int]) -> tuple[slice, slice]:
 
 
 def picture_of_array(color: ArrayLike, camera: Camera, making: Making) -> Picture:
-    """Return what is compared of an array (h, w, 3 or 4), linear, row 0 at the bottom.
+    """Take an array (h, w, 3 or 4), linear, row 0 at the bottom, as the other side.
 
     RGBA has its alpha multiplied in. RGB says nothing of alpha, which is not compared then. If it
     shows the whole view, that is the camera's region.

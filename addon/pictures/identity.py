@@ -27,7 +27,7 @@ _OFF = 0.1  # how far a channel may lie from its digit, in steps (half of 1/255 
 
 
 class Shows(NamedTuple):
-    """How many pixels show what is traced there."""
+    """How many pixels show the traced object, another one, or an unknown one."""
 
     same_object: int
     other_object: int

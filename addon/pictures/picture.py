@@ -150,7 +150,7 @@ class Picture:
         )
 
     def of_instances(self, some_of: Bools) -> Picture:
-        """Return the picture as it is of some of the traced scene's instances and planes."""
+        """Return the picture with its owners for some of the scene's instances and planes only."""
         owners = self.owners
         return replace(
             self,
@@ -236,7 +236,7 @@ class Picture:
 
 
 def some(values: NDArray[D] | None, where: Where) -> NDArray[D] | None:
-    """Return some of the values, if there are any."""
+    """Index an optional array."""
     return None if values is None else values[where]
 
 

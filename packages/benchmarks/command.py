@@ -38,11 +38,12 @@ def bench(options: BenchOptions) -> int:
     """Measure, and print the table."""
     from . import report
     from .run import run
+    from .tables import table
 
     with folders.made(options.out):
         with progress_bar() as progress:
             measured = run(options, progress)
         report.write(options.out, measured)
-        print(report.table(measured))
+        print(table(measured))
         print(f"written to {options.out}")
     return measured.interrupted

@@ -77,8 +77,9 @@ def _enter_window(bench: Bench, ruler: Runner) -> None:
     for name, rounds in found.items():
         cpu, waited = zip(*rounds, strict=True)
         bench.keep(name, cpu)
-        times = (of(cpu) / ruler.median for of in (median, min, max))
-        bench.commands.append(CommandRow(name, median(cpu), *times, len(cpu), median(waited)))
+        middle, least, most = (of(cpu) / ruler.median for of in (median, min, max))
+        row = CommandRow(name, median(cpu), middle, least, most, len(cpu), median(waited))
+        bench.commands.append(row)
 
 
 def _files(folder: Path) -> dict[str, Path]:

@@ -13,7 +13,7 @@ import select
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Generator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -39,7 +39,7 @@ class Job:
     whole: bool
 
 
-def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
+def peaks(name: str, cache: Path, jobs: list[Job]) -> Generator[int | None, None, None]:
     """Yield each job's peak in bytes, beside scene and libraries.
 
     None where it cannot be known, and where an unproven method takes longer than LONGEST.
@@ -55,7 +55,11 @@ def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
         start_new_session=True,
     )
     try:
-        request = {"name": name, "cache": str(cache), "jobs": [asdict(job) for job in jobs]}
+        request: dict[str, object] = {
+            "name": name,
+            "cache": str(cache),
+            "jobs": [asdict(job) for job in jobs],
+        }
         request["longest"] = LONGEST
         process.stdin.write(json.dumps(request))
         process.stdin.close()

@@ -125,7 +125,8 @@ def _stages(axes: Axes, rows: list[Row]) -> None:
     start = [0.0] * len(rows)
     from matplotlib import colormaps
 
-    for name, color in zip((*names, "other"), colormaps[_COLORS].colors, strict=False):
+    for k, name in enumerate((*names, "other")):
+        color = colormaps[_COLORS](k)
         seconds = [own.get(name, 0.0) for own in stages]
         bars = axes.barh(scenes, seconds, 0.7, start, color=color, label=name)
         start = [sum(pair) for pair in zip(start, seconds, strict=True)]

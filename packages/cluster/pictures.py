@@ -61,6 +61,7 @@ def scene_name(cluster: Cluster, scene: Scene) -> str:
             path = Path(folder) / "scene.npz"
             save_scene(path, scene)
             cluster.sent = parts, cluster.keep(path.read_bytes())
+    assert cluster.sent
     return cluster.sent[1]
 
 
@@ -145,6 +146,7 @@ class Picture:
         """Return where a part is traced again: places of one size, at random."""
         r, samples = self.scene.camera.region, self.settings.samples
         rays = r.width * r.height * (1 + (samples**2 if samples > 1 else 0))
+        assert self.share
         size = max(1, int(self.share * rays / PLACES))
         width, height = min(part.width, size), max(1, min(part.height, size // r.width))
         every = [

@@ -89,15 +89,15 @@ class JudgeOptions:
         """
         files = dict.fromkeys(given.files)  # each once
         scenes = tuple(file for file in files if file.suffix != ".py")
-        students: list[Path | Run] = [file for file in files if file.suffix == ".py"]
-        for path in students:
+        own = [file for file in files if file.suffix == ".py"]
+        for path in own:
             if not path.is_file():
                 raise SceneError(f"there is no file '{path}'")
         if not given.out:
             refuse(given, ("format",), "is for a folder: add --out DIR")
         if not given.programs:
             refuse(given, ("exchange",), "is for --run")
-        students += _runs(given)
+        students = (*own, *_runs(given))
         if not students:
             raise SceneError(
                 "name a student's file (.py), --run for a program in another language, or "
@@ -106,7 +106,7 @@ class JudgeOptions:
         if not scenes:
             refuse(given, CAMERA_OPTIONS, "is for scenes of your own: name one")
         return cls(
-            students=tuple(students),
+            students=students,
             scenes=tuple((path, choice_from(given, path)) for path in scenes),
             camera_options=_camera_options(given),
             out=given.out,

@@ -28,7 +28,7 @@ STAGES = "project", "cull", "decide", "resolve", "shade"
 def made_row(name, size, camera, method, rng):
     triangles, pixels = SUBJECTS[name].triangles, size[0] * size[1]
     seconds = 2e-8 * pixels + 6e-8 * triangles
-    row = Row(name, triangles, *size, camera, method, "float64")
+    row = Row(name, triangles, size[0], size[1], camera, method, "float64")
     row.trace_s, row.render_s = seconds * rng.uniform(0.9, 1.2), 1.6 * seconds
     row.embreex_trace_s, row.embreex_build_s = 7e-8 * pixels, 1e-6 * triangles
     row.embreex_rays, row.peak_bytes, row.rounds = pixels, 120 << 20, 5

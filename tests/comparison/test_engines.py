@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -86,7 +87,7 @@ def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room)
     assert "in other colours" not in text and "from 0" not in text
     assert "% of this picture cannot be judged: hair of 'Head'" in text
     assert "workbench: self-check: " in text and "caught" in text
-    held = row.to_dict()
+    held: Any = row.to_dict()
     assert held["not_judged"] == list(row.not_judged)
     assert [f["name"] for f in held["self_check"]] == [example.name for _, example in EXAMPLES]
 

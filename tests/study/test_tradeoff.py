@@ -12,14 +12,8 @@ from reference_tracer.methods import Method
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.study import tradeoff
-from reference_tracer.study.tradeoff import (
-    at_width,
-    converged,
-    coverage_error,
-    largest_t_error,
-    levels,
-    measure,
-)
+from reference_tracer.study.tradeoff import at_width, converged, coverage_error, levels, measure
+from reference_tracer.study.truth import largest_t_error
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of

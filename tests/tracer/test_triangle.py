@@ -62,7 +62,7 @@ def test_closed_form(chosen, test, dtype, near):
 @TYPES
 def test_barycentrics_are_in_the_order_of_the_corners(chosen, method, dtype, near):
     """The erratum: s2 as printed weighs p3, and gives another point."""
-    rays, corners = cast(*chosen[:2], dtype)
+    rays, corners = cast(*chosen[:2], dtype=dtype)
     hit, t, s = TESTS[method](rays, *corners)
     assert hit.sum() > 200
     points = (s[:, None] * corners).sum(axis=0)
@@ -73,7 +73,7 @@ def test_barycentrics_are_in_the_order_of_the_corners(chosen, method, dtype, nea
 
 @TYPES
 def test_literal_is_the_textbook_where_the_sum_is_1(chosen, dtype, near):
-    rays, corners = cast(*chosen[:2], dtype)
+    rays, corners = cast(*chosen[:2], dtype=dtype)
     hit, t, s = textbook(rays, *corners)
     literal, literal_t, literal_s = textbook_literal(rays, *corners)
     assert np.array_equal(literal, hit & (s[0] + s[1] + s[2] == 1))
@@ -171,7 +171,7 @@ def test_both_faces_and_any_order_of_corners(chosen, test):
 @pytest.mark.parametrize("dtype, reach", [(np.float64, 60), (np.float32, 6)])
 def test_scale_invariance(chosen, test, dtype, reach):
     """Powers of two change no digit, so every decision and barycentric stays what it was."""
-    rays, corners = cast(*chosen[:2], dtype)
+    rays, corners = cast(*chosen[:2], dtype=dtype)
     hit, t, s = test(rays, *corners)
     for exponent in (-reach, -1, 3, reach):
         scale = dtype(2.0**exponent)

@@ -59,7 +59,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 def _named(pixels: OpenPixels, hidden: Hidden) -> float:
-    """Add to the hidden objects; returns the index."""
+    """Append a hidden object; return its index."""
     pixels.out.hidden.append(hidden)
     return float(len(pixels.out.hidden) - 1)
 
@@ -121,7 +121,7 @@ def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:
 
 
 def with_object(scene: Scene, other: Scene, name: str) -> Scene:
-    """Return a scene with an object of another one."""
+    """Return a scene with an object added from another scene."""
     number = other.objects.index(name)
     first, index = len(scene.meshes), len(scene.objects)
     own = [i for i in other.instances if i.object == number]

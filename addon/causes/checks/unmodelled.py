@@ -57,7 +57,7 @@ _FINAL = (UNEXPLAINED, NOT_TRACED, NOT_DECIDABLE)  # they stay, whatever is draw
 
 
 def as_known(case: Case) -> Picture:
-    """Return the case's picture with what is known of its colours, and with what lies beneath."""
+    """Return the picture beneath what is drawn over it, without the colours that are unknown."""
     picture = case.picture
     lit = picture.lit or any(u.effect is Effect.LIGHT for u in case.manifest.unmodelled)
     color = picture.drawn.taken_off(picture.color) if picture.drawn else picture.color
@@ -65,7 +65,7 @@ def as_known(case: Case) -> Picture:
 
 
 def drawn_over(picture: Picture) -> Integers:
-    """Return which feature draws itself over what is known to lie beneath, (h, w), or NOTHING."""
+    """Return which feature is drawn over pixels known beneath it, (h, w), or NOTHING."""
     if picture.drawn:
         return picture.drawn.known
     return np.full(picture.color.shape[:-1], NOTHING, np.int32)
@@ -95,7 +95,7 @@ def blind(case: Case, frame: Frame) -> Integers:
 
 
 def check_in_place(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels in which a feature is drawn, or the colour of a surface is not known."""
+    """Find open pixels in which a feature is drawn, or a surface has an unknown colour."""
     number, seen = pixels.out.blind, pixels.frame.instance_index
     effects = [*(u.effect for u in pixels.case.manifest.unmodelled), None]
     is_drawn, is_recolored = (
@@ -155,7 +155,7 @@ def _some(things: Sequence[T], left: Bools) -> tuple[T, ...]:
 
 
 def check_everywhere(pixels: OpenPixels) -> Work[None]:
-    """Give their cause to open pixels that a feature may change wherever they are."""
+    """Find open pixels that a feature may change wherever they are."""
     for number, feature in enumerate(pixels.case.manifest.unmodelled):
         if feature.effect.everywhere:
             where = pixels.open
@@ -166,7 +166,7 @@ def check_everywhere(pixels: OpenPixels) -> Work[None]:
 
 
 def name_drawn(pixels: OpenPixels) -> Work[None]:
-    """Name what draws itself over pixels that were judged, and found to be right, beneath it."""
+    """Name the feature drawn over pixels that are right beneath it."""
     own = pixels.case.picture
     out = pixels.out
     number = drawn_over(own)

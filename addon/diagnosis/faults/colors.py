@@ -120,6 +120,7 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "swapped_colors",
         "{words} have each other's colours",
+        "Objects and colours come in two lists in different orders.",
         "check by which index colours are taken",
         _swapped,
         _first_suspects,
@@ -131,6 +132,8 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "recolored",
         "'{object}' is shown in another colour: ({red:.3f}, {green:.3f}, {blue:.3f}), linear",
+        "A material has one colour for the viewport and another in its shader. Hexadecimal "
+        "colours are sRGB, those in Blender's Python are linear.",
         "check its material, and in which colour space its colour is stored; a mesh is grey unless "
         "--colors names its colours",
         of_object(_in_color),

@@ -25,7 +25,7 @@ Values = tuple[float, ...]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Guess:
-    """Which fault it is exactly. The base record says whose it is, and no more."""
+    """A guess of what a fault is exactly. The base record names its object, if it has one."""
 
     object: str = ""  # that has it; empty where it is the whole scene's, or the picture's
     words: str = ""  # what else the sentence says
@@ -123,7 +123,8 @@ class Fault(Generic[G]):
 
     name: str  # in JSON
     sentence: str  # with the names of `numbers`, {object} and {words}
-    advice: str  # what to do, with the same names
+    why: str  # who makes it, and how: for the documents
+    advice: str  # what to do, with the names of `sentence`
     # Return the case that agrees if the picture has the fault: the scene with it, or the picture
     # without it.
     assume: Make[G]

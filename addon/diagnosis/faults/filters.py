@@ -215,6 +215,7 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "supersampled",
         "each pixel is the mean of {n:.0f} x {n:.0f} samples within it{words}",
+        "The renderer smooths edges by a grid of samples in each pixel.",
         "render one sample in each pixel's centre, or compare with --filter 0.75",
         _supersampled,
         _find_samples,
@@ -227,6 +228,8 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "averaged",
         "each pixel is the mean of {n:.0f} x {n:.0f} pixels{words}",
+        "A picture read half a pixel beside its centres, with interpolation, is the mean of 2 "
+        "x 2 pixels; larger means come from a blur.",
         "compare the picture as it was rendered, before it was blurred",
         unchanged,
         _find_mean,
@@ -242,6 +245,8 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "filter_radius",
         "the picture is filtered: its pixels mix what is within {radius:g} px",
+        "Renderers weight samples by a filter that reaches beyond the pixel: that of Cycles "
+        "is 1.5 px wide by default.",
         "render one sample in each pixel's centre, or compare with --filter {radius:g}",
         _filtered,
         _find_filter,

@@ -136,6 +136,8 @@ GRADING_FAULTS = (
         "white_balance",
         "the picture's white balance is another: red times {red:.4g}, green times {green:.4g}, "
         "blue times {blue:.4g}, {words}",
+        "Blender's color management has a white balance from 4.3 on, and photo programs apply "
+        "one by themselves.",
         "switch off white balance and colour grading",
         _by_grading,
         _find_graded(_balances),
@@ -152,6 +154,7 @@ GRADING_FAULTS = (
     Fault(
         "saturation",
         "the picture's saturation is {saturation:.4g} times what it should be, {words}",
+        "Set by a look in Blender's color management, or by a filter of a photo program.",
         "switch off colour grading, and filters of the viewer that saved it",
         _by_grading,
         _find_graded(_saturations),

@@ -185,6 +185,8 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "sensor_fit",
         "the lens is fitted to the other side of the picture (sensor fit)",
+        "The exporter takes the sensor's width for the picture's width in every case, which "
+        "is wrong for portraits. Exporters for Mitsuba, LuxCore and Arnold had this fault.",
         "with sensor fit Auto, the sensor's width spans the longer side of the picture, pixel "
         "aspect included",
         *_FIT,
@@ -192,16 +194,26 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
             Example("sensor_fit", "the lens fitted to the picture's other side", with_option(0)),
         ),
     ),
-    Fault("shift_left_out", "the camera's shift is left out", "add shift X and Y", *_LEFT_OUT),
+    Fault(
+        "shift_left_out",
+        "the camera's shift is left out",
+        "The renderer's camera has no shift, or the exporter doesn't write it.",
+        "add shift X and Y",
+        *_LEFT_OUT,
+    ),
     Fault(
         "shift_sign",
         "the camera's shift has the wrong sign",
+        "A principal point moves against the shift in x, and with it in y, since its y counts "
+        "from the top.",
         "a positive shift X shows more of what is to the right, a positive shift Y more of the top",
         *_SIGN,
     ),
     Fault(
         "shift_unit",
         "the camera's shift is in another unit",
+        "Each shift is multiplied by its own side of the picture, which is right for square "
+        "pictures only.",
         "both shifts are in lengths of the side that the sensor is fitted to",
         *_UNIT,
     ),
@@ -209,6 +221,8 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "shift_length",
         f"the camera's shift is taken for millimetres (of a sensor {SENSOR:g} mm wide) or pixels, "
         "or these for a shift",
+        "Other programs give the offset of the film in millimetres or inches, or as a principal"
+        " point in pixels.",
         "a shift is in lengths of the side that the sensor is fitted to: divide millimetres by the "
         "sensor's width, pixels by the picture's",
         *_LENGTH,
@@ -217,6 +231,8 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "last_pixel",
         "the picture is spanned from the first pixel's centre to the last one's: by width - 1 and "
         "height - 1",
+        "`numpy.linspace(-1, 1, width)` puts the outer pixels' centres on the edge of the film:"
+        " its steps are 2 / (width - 1).",
         "the edge of the view is the edge of the outer pixels: u = (i + 1/2) / width",
         *_SPANNED,
         examples=(
@@ -226,24 +242,32 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "pixel_aspect_left_out",
         "the pixel aspect is left out: pixels are taken for squares",
+        "The renderer has square pixels only, or the exporter takes the ratio of the "
+        "resolution for the ratio of the picture's sides.",
         "a pixel is pixel aspect Y / X as high as it is wide",
         *_SQUARE,
     ),
     Fault(
         "resolution_percentage",
         "the camera is made for another resolution than the picture's (resolution percentage)",
+        "In Blender `resolution_x` and `resolution_y` are the size before the percentage is "
+        "applied.",
         "take the width and height times the resolution's percentage, also in the principal point",
         *_PERCENTAGE,
     ),
     Fault(
         "ortho_scale",
         "the orthographic scale is taken for another length of the picture",
+        "Blender's scale is the whole longer side; glTF's xmag and ymag are half of the width "
+        "and half of the height.",
         "it is the whole width or height of the picture, whichever is longer (sensor fit Auto)",
         *_SCALE,
     ),
     Fault(
         "border",
         "the render border is not the part of the picture that is shown",
+        "Blender counts a border's rows from the lowest, image files and many renderers from "
+        "the topmost. Or the whole view is rendered at the border's size.",
         "a border's rows count from the lowest, and its pixels are those of the whole picture",
         *_BORDER,
     ),

@@ -90,6 +90,8 @@ PIXEL_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "jpeg",
         "the picture was stored as a JPEG of about quality {quality:.0f}",
+        "Programs that send or show pictures store them as JPEG, which changes all blocks of 8 "
+        "x 8 pixels.",
         "store it as PNG or EXR",
         _as_jpeg,
         _find_jpeg,

@@ -63,6 +63,8 @@ ROUNDING_FAULTS = (
     Fault(
         "rounding_level",
         "the picture's colours are rounded to 8 bits{words}",
+        "Programs round to 8 bits differently: to the nearest level, down, or after one more "
+        "conversion.",
         "round, do not cut off; or store 16 bits or floats",
         _of_levels,
         _find_rounding,
@@ -72,6 +74,7 @@ ROUNDING_FAULTS = (
     Fault(
         "dithered",
         "noise of up to {levels:.0f} level{words} of 8 bits lies over the picture, as of dithering",
+        "Blender adds noise to files of 8 bits, by the output setting *Dither*.",
         "switch dithering off, or compare a PNG with --dither {levels:.0f}",
         _of_levels,
         _find_noise,

@@ -198,6 +198,7 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "resampled",
         "the picture was rendered at {words}",
+        "A screenshot, or the scaling of a screen or a program, changes the size after rendering.",
         "render it at the size at which it is compared",
         lambda case, guess: at_size(case, guess.size),
         _find_size,
@@ -211,6 +212,7 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "shrunk",
         "the picture was shrunk to {words}",
+        "A preview or a thumbnail was rendered or stored small, and enlarged to be compared.",
         "compare the picture as it was rendered",
         unchanged,
         _find_shrunk,

@@ -170,6 +170,8 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "culled",
         "back faces are left out (culled)",
+        "Game engines and rasterisers leave out faces that are seen from behind, and so does "
+        "glTF unless a material is doubleSided.",
         "Blender shows both sides of a face, unless its material says otherwise",
         _culled,
         effort=Effort.PIXELS,
@@ -177,6 +179,8 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "flipped_winding",
         "all normals are turned over",
+        "A negative scale, or a change between right- and left-handed coordinates, reverses "
+        "the order of the corners.",
         "keep the order of each triangle's corners",
         of_meshes(_flipped),
         examples=(Example("flipped_winding", "all normals turned over"),),
@@ -184,12 +188,16 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "other_diagonal",
         "quads are cut along their other diagonal",
+        "OBJ keeps quads, and each reader cuts them in its own way. Where a quad is not flat, "
+        "the two ways give two surfaces.",
         "cut each quad as Blender's loop triangles do",
         of_meshes(_other_diagonal),
     ),
     Fault(
         "triangles_missing",
         "'{object}' lacks {count:.0f} of its triangles",
+        "The exporter leaves out faces whose material slot is empty, the reader takes only "
+        "the first three corners of each polygon, or 16-bit indices end at 65,535.",
         "check which faces are exported: hidden ones, large polygons, the end of the list",
         _without_triangles,
         _missing_triangles,
