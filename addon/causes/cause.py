@@ -75,7 +75,7 @@ class Cause(int):
         yield "a figure and its unit go together", of_figure == ("{figure" in self.sentence)
         yield "an index and its name go together", of_index == ("{name" in self.sentence)
 
-    def told(self, figure: float, allowed: float, name: object = "") -> str:
+    def in_words(self, figure: float, allowed: float, name: object = "") -> str:
         """Return the sentence with a pixel's numbers, or the name that its index stands for."""
         return self.sentence.format(figure=figure, allowed=allowed, name=name)
 
