@@ -91,7 +91,8 @@ def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -
     own = report.folder_of(folder, frame)
     try:
         # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
-        work = compare_open_file(bpy.context, str(own), diagnose=False, **choices)
+        choices = choices | {"diagnose": False, "literal": False}
+        work = compare_open_file(bpy.context, str(own), **choices)
         comparison = yield from work
     except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
         return FrameRow(frame, error=words(error))
