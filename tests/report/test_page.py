@@ -267,6 +267,14 @@ def test_extras_are_the_literal_picture_and_derivations(differing):
     assert found.trade is found.extremes is None and not found.left_out
 
 
+def test_the_page_of_a_frame_says_that_it_has_no_literal_picture(differing):
+    found = result_of(extras(differing, literal=False))
+    assert found.literal is None and len(found.left_out) == 1
+    assert found.derivations.keys() == result_of(extras(differing)).derivations.keys()
+    pictures = {p["id"] for p in content(differing, found)["pictures"]}
+    assert pictures == {"traced", "blender"}
+
+
 def test_a_slow_textbook_is_not_traced_again(differing):
     from reference_tracer.comparison.methods import MethodRow
 
