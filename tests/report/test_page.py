@@ -10,6 +10,7 @@ import re
 import zlib
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -271,7 +272,8 @@ def test_the_page_of_a_frame_says_that_it_has_no_literal_picture(differing):
     found = result_of(extras(differing, literal=False))
     assert found.literal is None and len(found.left_out) == 1
     assert found.derivations.keys() == result_of(extras(differing)).derivations.keys()
-    pictures = {p["id"] for p in content(differing, found)["pictures"]}
+    held: Any = content(differing, found)
+    pictures = {p["id"] for p in held["pictures"]}
     assert pictures == {"traced", "blender"}
 
 
