@@ -64,7 +64,7 @@ def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
     across, up = (n / 2 for n in size)
     window = ViewWindow(-across, across, -up, up)
     camera = Camera(matrix, window, *size, ORTHOGRAPHIC, 0.1, 100.0)
-    scene = bpy.data.scenes.new("Reference Tracer Rasteriser")
+    scene: Any = bpy.data.scenes.new("Reference Tracer Rasteriser")
     mesh = _quads(moved)
     scene.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
     looking = add_camera(scene, camera).data
