@@ -24,7 +24,7 @@ from .formulas import CAMERA, Formula, Rejection, ray_formulas
 
 Number = np.float32 | np.float64 | Fraction
 Vector = NDArray[Any]  # (3,), float32 or float64, which round after every operation, or fractions
-Values = dict[str, Value]  # by their keys or labels
+Labelled = dict[str, Value]  # by their keys or labels
 
 
 class Arithmetic(StrEnum):
@@ -50,7 +50,7 @@ FLOATS = Arithmetic.FLOAT32, Arithmetic.FLOAT64
 
 
 @np.errstate(all="ignore")
-def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
+def evaluate_all(formulas: Mapping[str, Formula], given: Labelled) -> Labelled:
     """Return the values of formulas by their keys, exact ones up to where one would divide by 0.
 
     Parameters
@@ -58,7 +58,7 @@ def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
     formulas : mapping of str to Formula
         In order: each is made of what is given and of those before it.
     given : dict
-        Values by their labels; a formula with one of these labels is not computed.
+        Labelled by their labels; a formula with one of these labels is not computed.
     """
     names, out = dict(given), {}
     for key, formula in formulas.items():
@@ -71,7 +71,7 @@ def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
     return out
 
 
-def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
+def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Labelled:
     """Return the steps from a pixel to the ray through its centre.
 
     Parameters
@@ -88,12 +88,14 @@ def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
         numbers |= zip("wh", pixel_size(camera), strict=True)
     vectors = {"right": camera.right, "up": camera.up, "forward": camera.forward}
     vectors["e"] = camera.origin
-    given: Values = {label: kind.number(value) for label, value in numbers.items()}
+    given: Labelled = {label: kind.number(value) for label, value in numbers.items()}
     given |= {label: kind.vector(value) for label, value in vectors.items()}
     return evaluate_all(CAMERA | ray_formulas(camera.projection), given)
 
 
-def surface_steps(formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector) -> Values:
+def surface_steps(
+    formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector
+) -> Labelled:
     """Return the steps of a ray with a triangle (three corners) or a plane (point and normal)."""
     labels = [formula.label for formula in formulas.values()]
     return evaluate_all(formulas, {"o": o, "d": d, **dict(zip(labels, points, strict=False))})
@@ -110,7 +112,7 @@ class Judgement(NamedTuple):
     literal: bool | None = None
 
 
-def judge(found: Values, camera: Camera) -> Judgement:
+def judge(found: Labelled, camera: Camera) -> Judgement:
     """Judge the steps of a plane or a triangle by the textbook's conditions and the clip range."""
     undefined = _undefined(found)
     if undefined:
@@ -120,7 +122,7 @@ def judge(found: Values, camera: Camera) -> Judgement:
     return Judgement(not reasons, tuple(reasons), literal)
 
 
-def _undefined(found: Values) -> Rejection | None:
+def _undefined(found: Labelled) -> Rejection | None:
     """Return why t means nothing, where it does; floats have one by the rules for inf."""
     if not any(found["n"]):
         return Rejection.DEGENERATE
@@ -132,7 +134,7 @@ def _undefined(found: Values) -> Rejection | None:
     return None
 
 
-def _inside(found: Values) -> list[Rejection]:
+def _inside(found: Labelled) -> list[Rejection]:
     if "s1" not in found:
         return []
     outside = [

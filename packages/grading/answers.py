@@ -11,9 +11,9 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
 
 from .checks import Checks, Group
-from .known import Floats
 
 Mask = NDArray[np.bool_]
 Found = Iterator[tuple[str, str, Mask]]  # a fault's name, a sentence, the answers it explains

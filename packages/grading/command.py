@@ -29,7 +29,7 @@ from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import load_scene
-from reference_tracer.tracer.progress import Work, result_of, scaled
+from reference_tracer.tracer.progress import Work, called, result_of, scaled
 from reference_tracer.wording import count_of, say
 
 from .external import EXCHANGES, Run, sandbox
@@ -89,15 +89,15 @@ class JudgeOptions:
         """
         files = dict.fromkeys(given.files)  # each once
         scenes = tuple(file for file in files if file.suffix != ".py")
-        students: list[Path | Run] = [file for file in files if file.suffix == ".py"]
-        for path in students:
+        own = [file for file in files if file.suffix == ".py"]
+        for path in own:
             if not path.is_file():
                 raise SceneError(f"there is no file '{path}'")
         if not given.out:
             refuse(given, ("format",), "is for a folder: add --out DIR")
         if not given.programs:
             refuse(given, ("exchange",), "is for --run")
-        students += _runs(given)
+        students = (*own, *_runs(given))
         if not students:
             raise SceneError(
                 "name a student's file (.py), --run for a program in another language, or "
@@ -106,7 +106,7 @@ class JudgeOptions:
         if not scenes:
             refuse(given, CAMERA_OPTIONS, "is for scenes of your own: name one")
         return cls(
-            students=tuple(students),
+            students=students,
             scenes=tuple((path, choice_from(given, path)) for path in scenes),
             camera_options=_camera_options(given),
             out=given.out,
@@ -272,11 +272,12 @@ def _work(
     subjects = []
     for k, (name, scene, path) in enumerate(scenes):
         work = prepare(name, scene, str(path), options.pixels, options.camera_options)
+        work = called(work, f"tracing {name}")
         subjects.append((yield from scaled(work, 0.3 * k / len(scenes), 0.3 / len(scenes))))
     hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     limits = Limits(options.time_limit, options.memory_limit)
     judging = judge_all(submissions, make_checks(), subjects, hard, limits, told=told)
-    return (yield from scaled(judging, 0.6, 0.4))
+    return (yield from scaled(called(judging, "judging"), 0.6, 0.4))
 
 
 def built_in() -> list[Named]:

@@ -22,9 +22,9 @@ from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
+from reference_tracer.arrays import Floats
 from reference_tracer.cli.running import printable
 
-from .known import Floats
 from .student import KEPT, Limits
 from .student_error import StudentError
 

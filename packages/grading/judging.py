@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
+from reference_tracer.arrays import Floats
 from reference_tracer.cli.running import printable
 from reference_tracer.tracer.progress import Work, scaled
 
@@ -19,7 +20,6 @@ from .examples import Example, find_examples
 from .external import Program, Run
 from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults
-from .known import Floats
 from .matching import Match, Questions, Replies
 from .names import distinct
 from .picture import Look, look
@@ -84,7 +84,7 @@ class Judgement:
         """Failed, wrong, boundary (where float64 may have it otherwise, it has) or right."""
         if self.errors:
             return "failed"
-        if self.faults or not all(t.all_right for t in self.tallies):
+        if self.faults or not all(t and t.all_right for t in self.tallies):
             return "wrong"
         return "boundary" if any(k.lost for k in self.looks) else "right"
 

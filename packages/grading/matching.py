@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
 
 from .answers import Answers, Mask
 from .checks import Checks, Group
-from .known import Floats
 from .mutations import Mutation, mutations
 from .programs import PROGRAMS, Program
 

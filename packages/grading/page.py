@@ -20,6 +20,7 @@ from .judging import Judgement
 from .picture import Look, Mark
 from .report import Student
 from .student_error import StudentError
+from .subject import Subject
 from .tables import (
     HEAD,
     MARKS,
@@ -176,7 +177,7 @@ def marked(found: Look) -> NDArray[np.uint8]:
     return out
 
 
-def _example(subject, e: Example) -> str:
+def _example(subject: Subject, e: Example) -> str:
     true_t, true_s = e.true
     t, s = e.answer
     numbers = (

@@ -13,10 +13,9 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
+from reference_tracer.arrays import Floats
 from reference_tracer.derivation.expressions import Tree, evaluate, parse, printed
 from reference_tracer.derivation.formulas import TRIANGLE
-
-from .known import Floats
 
 COMPARISONS: dict[str, Callable[[Any, Any], Any]] = {
     ">": operator.gt,
@@ -103,8 +102,8 @@ class Program:
             names[label] = evaluate(right, names)
         t = np.broadcast_to(names["t"], count)
         hit = np.isfinite(t)
-        for left, comparison, right in self.conditions:
-            hit = hit & COMPARISONS[comparison](evaluate(left, names), names[right])
+        for left, comparison, bound in self.conditions:
+            hit = hit & COMPARISONS[comparison](evaluate(left, names), names[bound])
         s = np.stack([np.broadcast_to(names[w], count) for w in WEIGHTS], axis=1)
         return np.where(hit, t, np.inf), s
 

@@ -87,6 +87,7 @@ WRONG = {
                                      "-0.5 * np.stack((s1, s3, s2), axis=1)"),
     "barycentrics_not_finite": ("np.stack((s1, s2, s3), axis=1)",
                                 "np.stack((s1, s2, np.nan * s3), axis=1)"),
+    "barycentrics_zero": ("np.stack((s1, s2, s3), axis=1)", "np.zeros((len(t), 3))"),
     "sum_equals_one": (HIT, HIT + " & (s1 + s2 + s3 == 1)"),
     "back_faces_culled": (HIT, HIT + " & (slope > 0)"),
     "front_faces_culled": (HIT, HIT + " & (slope < 0)"),

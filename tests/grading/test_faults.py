@@ -82,6 +82,12 @@ def test_another_order_of_summation_is_no_dependence(right, checks):
         assert "depends_on_the_call" not in [f.name for f in faults(text, checks)]
 
 
+@pytest.mark.parametrize("s", ["np.full((len(t), 3), 1 / 3)", "np.stack((s1, s2, 0 * s3), axis=1)"])
+def test_other_barycentrics_are_not_all_zero(right, checks, s):
+    text = right["textbook"].replace("np.stack((s1, s2, s3), axis=1)", s)
+    assert [f.name for f in faults(text, checks)] == ["unrecognised_barycentrics"]
+
+
 def test_which_edge_is_not_tested(right, checks):
     text = right["textbook"].replace("(s1 >= 0) & ", "")
     [found] = faults(text, checks)

@@ -19,10 +19,12 @@ from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
 from ...manifest import Manifest
+from ...pictures.bounds import Storage
 from ...pictures.certificate import CameraCertificate
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Picture, Source
 from ...pictures.renderers import EMBREE, RASTER
+from ...pictures.sampling import Sampling
 from ...report import comparison as comparison_report
 from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory
@@ -186,12 +188,14 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
     return Picture(
         pixels,
         Source(judge.name, bpy.app.version_string, settings=used),
-        sample_radius=judge.sample_radius,
-        farthest=judge.farthest,
-        filter_radius=0.0 if smooth == "OFF" else judge.filter_radius,
-        sums=int(smooth) if smooth.isdigit() else 0,
-        snapping=snapping,
-        renderer=EMBREE if judge.traces_rays else RASTER,
+        sampling=Sampling(
+            judge.sample_radius,
+            0.0 if smooth == "OFF" else judge.filter_radius,
+            snapping,
+            judge.farthest,
+            EMBREE if judge.traces_rays else RASTER,
+        ),
+        storage=Storage(sums=int(smooth) if smooth.isdigit() else 0),
     )
 
 
@@ -211,13 +215,15 @@ def compare_open_file(
     trade: bool = False,
     extremes: bool = False,
     told: Callable[[Comparison], object] = lambda comparison: None,
+    literal: bool = True,
     **choices: Any,
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing, diagnosing, and writing the files.
 
     Nothing is written if the directory is empty. With `trade` and `extremes`, these are measured
     for the page, too. `told` hears of the comparison before the diagnosis, if there is one. The
-    choices are the fields of :class:`Choices`. On failure the folder's JSON says why.
+    page has the literal textbook's picture, if that is wanted. The choices are the fields of
+    :class:`Choices`. On failure the folder's JSON says why.
 
     Raises
     ------
@@ -230,7 +236,7 @@ def compare_open_file(
     folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
-    return comparison_report.written(folder, case, diagnose, trade, extremes, told)
+    return comparison_report.written(folder, case, diagnose, trade, extremes, told, literal)
 
 
 def export_open_file(

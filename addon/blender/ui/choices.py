@@ -99,8 +99,8 @@ SHOWS: tuple[Item, ...] = (
     ),
     (
         "DIFFERENCE",
-        "Difference to Blender's Viewport",
-        "Once the view rests, Blender draws it, too, flat and without smoothing. Pixels that "
+        "Difference",
+        "Once the view rests, Blender's viewport draws it, too, flat and unsmoothed. Pixels that "
         "differ have the colour of their cause, as in a comparison",
         2,
     ),

@@ -15,6 +15,8 @@ from bl_ui.utils import PresetPanel
 
 from .long_work import named
 from .properties import ReferenceTracerScene
+from .samples import REFERENCE_TRACER_MT_samples
+from .shown import draw_switch
 
 _GROUP = ReferenceTracerScene.__name__
 _SHIPPED = str(Path(__file__).parent)  # has presets/reference_tracer/
@@ -76,6 +78,15 @@ def _draw_in_export(menu: Any, context: Any) -> None:
     _add(menu, "export", "Reference Tracer (.npz)")
 
 
+def _draw_in_header(header: Any, context: Any) -> None:
+    draw_switch(header.layout.row(align=True), context.space_data)
+
+
+def _draw_in_new(menu: Any, context: Any) -> None:
+    menu.layout.separator()
+    menu.layout.menu(REFERENCE_TRACER_MT_samples.__name__)
+
+
 MENUS = {
     "TOPBAR_MT_render": _draw_in_render,
     "IMAGE_MT_image": _draw_in_image,
@@ -83,17 +94,26 @@ MENUS = {
 }
 
 
+_register, _unregister = bpy.utils.register_classes_factory(
+    (REFERENCE_TRACER_PT_presets, REFERENCE_TRACER_MT_samples)
+)
+
+
 def register() -> None:
     """Add the entries, and the presets that are shipped."""
-    bpy.utils.register_class(REFERENCE_TRACER_PT_presets)
+    _register()
     bpy.utils.register_preset_path(_SHIPPED)
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).append(draw)
+    bpy.types.TOPBAR_MT_file_new.append(_draw_in_new)
+    bpy.types.IMAGE_HT_header.prepend(_draw_in_header)  # a small window shows the first of it
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).remove(draw)
+    bpy.types.TOPBAR_MT_file_new.remove(_draw_in_new)
+    bpy.types.IMAGE_HT_header.remove(_draw_in_header)
     bpy.utils.unregister_preset_path(_SHIPPED)
-    bpy.utils.unregister_class(REFERENCE_TRACER_PT_presets)
+    _unregister()

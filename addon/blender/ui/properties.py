@@ -164,7 +164,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     @property
     def has_precision(self) -> bool:
         """Whether the method leaves a choice of the precision."""
-        return Method(self.method).is_plain
+        return not Method(self.method).is_proven
 
 
 def _tell_the_compositor(layer: Any, _: object) -> None:
@@ -196,12 +196,28 @@ class ReferenceTracerObject(bpy.types.PropertyGroup):
 
 
 class ReferenceTracerWindow(bpy.types.PropertyGroup):
-    """What a click of the inspector does; not stored."""
+    """What a click of the inspector does, and what Image Editors show; not stored."""
 
     draw_ray: BoolProperty(
         name="Draw the Ray",
         description="With every click, draw the ray as objects in the 3D view",
         options={"SKIP_SAVE"},
+    )
+    both: BoolProperty(
+        name="Both",
+        description="The other picture is drawn over the traced one, on the right of a line",
+        options={"SKIP_SAVE"},
+        update=_redraw,
+    )
+    split: FloatProperty(
+        name="Traced",
+        description="The traced picture's share of the width, on the left of the line",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+        options={"SKIP_SAVE"},
+        update=_redraw,
     )
 
 
