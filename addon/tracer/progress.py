@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Generator, MutableMapping
-from typing import TYPE_CHECKING, TypeVar
+from functools import wraps
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
     from ..arrays import Array
 
 A = TypeVar("A")
 B = TypeVar("B")
+P = ParamSpec("P")
 T = TypeVar("T")
 Work = Generator[float, None, T]
 ROWS = 128  # a step, of work on the rows of a picture
@@ -31,6 +33,17 @@ class Share(float):
         self = super().__new__(cls, share)
         self.doing = doing
         return self
+
+
+def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
+    """Turn a plain function into work without steps."""
+
+    @wraps(function)
+    def work(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
+        yield from ()
+        return function(*args, **kwargs)
+
+    return work
 
 
 def doing(share: float) -> str:
