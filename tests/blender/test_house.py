@@ -109,7 +109,8 @@ def chosen(path):
     menu = menus.REFERENCE_TRACER_PT_presets.__name__
     bpy.ops.script.execute_preset(filepath=str(path), menu_idname=menu)
     stored = bpy.context.scene.reference_tracer
-    return {name: getattr(stored, name) for name in GROUPS[0].__annotations__}
+    names = GROUPS[0].__annotations__.keys() - {"image"}  # which is one file's
+    return {name: getattr(stored, name) for name in names}
 
 
 @pytest.mark.parametrize("path", sorted(PRESETS.iterdir()), ids=lambda path: path.stem)
@@ -130,11 +131,14 @@ def test_presets_of_these_names_are_found():
 def test_a_preset_of_the_user_is_kept_with_his(resources):
     stored = bpy.context.scene.reference_tracer
     stored.method, stored.samples, stored.identity = "watertight", 3, False
+    stored.judge, stored.engine = "ENGINE", 'MY "<&> ENGINE'
     before = {path: path.read_bytes() for path in PRESETS.iterdir()}
     assert bpy.ops.reference_tracer.preset_add(name="My own") == {"FINISHED"}
     own = resources / "presets" / "reference_tracer" / "My_own.xml"
     stored.method, stored.samples, stored.identity = "auto", 1, True
+    stored.judge, stored.engine = "AUTO", ""
     found = chosen(own)
+    assert (found["judge"], found["engine"]) == ("ENGINE", 'MY "<&> ENGINE')
     assert (found["method"], found["samples"], found["identity"]) == ("watertight", 3, False)
     assert bpy.ops.reference_tracer.preset_add(remove_active=True) == {"FINISHED"}
     assert not own.exists()

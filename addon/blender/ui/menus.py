@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import quoteattr
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -44,8 +45,10 @@ class REFERENCE_TRACER_OT_preset_add(  # type: ignore[misc]  # Blender's own bas
     def add(self, context: Any, filepath: str) -> None:
         """Write the XML: Blender's own writer passes over the properties of add-ons."""
         stored = context.scene.reference_tracer
-        values = {name: getattr(stored, name) for name in ReferenceTracerScene.__annotations__}
-        said = (f'{n}="{str(v).upper() if isinstance(v, bool) else v}"' for n, v in values.items())
+        names = [n for n in ReferenceTracerScene.__annotations__ if n != "image"]  # of one file
+        values = {name: getattr(stored, name) for name in names}
+        texts = {n: str(v).upper() if isinstance(v, bool) else str(v) for n, v in values.items()}
+        said = (f"{name}={quoteattr(text)}" for name, text in texts.items())
         Path(filepath).write_text(f"<bpy><{_GROUP} {' '.join(said)} /></bpy>\n", encoding="utf-8")
 
 
@@ -58,6 +61,7 @@ def _draw_in_render(menu: Any, context: Any) -> None:
     _add(menu, "compare")
     _add(menu, "compare_all")
     _add(menu, "compare_animation")
+    _add(menu, "write_colors")
     _add(menu, "inspect")
     _add(menu, "open_page")
 

@@ -198,6 +198,32 @@ class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
 
 
 @named
+class REFERENCE_TRACER_OT_write_colors(bpy.types.Operator):
+    bl_label = "Write the Colors"
+    bl_description = (
+        "Add a copy of the scene, of plain meshes whose materials emit the colours of a "
+        "comparison. Render it with any engine, then press Trace and Compare there"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it where there is a camera."""
+        return context.scene.camera is not None
+
+    def execute(self, context: Any) -> Answer:
+        from ...pictures.palette import By
+        from ..jobs.colors_scene import colors_scene
+
+        made = colors_scene(context, By(context.scene.reference_tracer.colors.lower()))
+        if context.window:
+            context.window.scene = made
+        said = rpt_("'{}' is added: render it with any engine, then press Trace and Compare")
+        self.report({"INFO"}, said.format(made.name))
+        return {"FINISHED"}
+
+
+@named
 class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper is no operator
     ExportHelper, LongWork, bpy.types.Operator
 ):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..drawing.judges import JUDGES
+from ..drawing.judges import label_of
 from . import operators
 from .differing import draw_regions
 from .findings import draw_findings
@@ -73,5 +73,5 @@ def _measured(comparison: Comparison) -> Facts:
     if metrics.rmse:
         yield "Largest difference", f"{largest.value:.3g}"
         yield "At pixel", "{}, {}".format(*largest.pixel)
-    yield "Compared with", JUDGES[comparison.case.picture.source.name].label
+    yield "Compared with", label_of(comparison.case.picture.source)
     yield "Traced in", f"{comparison.frame.statistics.seconds:.2f} s"

@@ -86,6 +86,8 @@ def _draw_settings(layout: Any, stored: Any) -> None:
             row = column.row()
             row.enabled = not greyed.get(name)
             row.prop(stored, name)
+            if name == "judge":
+                stored.draw_given(column)
 
 
 def _draw_more(layout: Any, context: Any) -> None:
