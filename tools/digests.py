@@ -34,7 +34,7 @@ def digest(array: np.ndarray) -> str:
 
 
 def exported(path: Path) -> Scene:
-    from reference_tracer.blender.jobs.compare import export_open_file
+    from reference_tracer.blender.jobs.open_file import export_open_file
 
     with open_blend(path) as bpy:
         return export_open_file(bpy.context)[0]

@@ -59,7 +59,7 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> OpenedFile:
     """
     if is_blend(path):
         with open_blend(path, choice) as blender:
-            from ..blender.jobs.compare import export_open_file
+            from ..blender.jobs.open_file import export_open_file
 
             with running.meanwhile(f"having Blender evaluate {path.name}"):
                 scene, manifest, settings = export_open_file(blender.context)

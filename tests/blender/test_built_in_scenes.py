@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.jobs.compare import export_open_file
+from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.methods import Method
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading.command import built_in

@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.jobs.choice import chosen
-from reference_tracer.blender.jobs.compare import export_open_file, gather_case
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.cli import in_blender
 from reference_tracer.comparison.comparing import compared
 from reference_tracer.framing import FILLED, Choice, shown_points

@@ -19,7 +19,7 @@ import bpy
 import numpy as np
 import pytest
 from check_rounding import check_rounding
-from reference_tracer.blender.jobs.compare import export_open_file
+from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.certainty import Certainty
 from reference_tracer.rendering import render
 from reference_tracer.scene import Scene

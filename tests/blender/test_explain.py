@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.jobs.compare import export_open_file
+from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.blender.ui import ray_objects, results
 from reference_tracer.blender.ui.results import MARK, Kind
 from reference_tracer.derivation import document, reproducer

@@ -37,7 +37,7 @@ from ..reading.palettes import automatic, noted, palette_by
 from ..temporary import go_to, temporary_scene
 from ..values import values_restored
 from ..versions import set_format
-from .compare import export_open_file
+from .open_file import export_open_file
 from .variants import variants
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")

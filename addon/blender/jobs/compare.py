@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -18,10 +18,9 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
-from ...manifest import Manifest
 from ...pictures.bounds import Storage
 from ...pictures.certificate import CameraCertificate
-from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
+from ...pictures.palette import VIEWPORT, By
 from ...pictures.picture import Picture, Source
 from ...pictures.renderers import EMBREE, RASTER
 from ...pictures.sampling import Sampling
@@ -29,57 +28,23 @@ from ...report import comparison as comparison_report
 from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory
 from ...tracer.progress import Work
-from ...tracer.render import Tracer
-from ...tracer.settings import Settings
 from ..drawing.behind import behind
 from ..drawing.drawings import Drawing, Plan, with_identity, with_what_draws_itself
 from ..drawing.judge import Judge
-from ..drawing.judges import ENGINE, judge_or_none
-from ..drawing.picture import picture, prepare_scene
+from ..drawing.judges import judge_or_none
+from ..drawing.picture import picture
 from ..drawing.rasteriser import snapping_of
 from ..drawing.shading import of_shading, solid_shading
-from ..drawing.workbench import WORKBENCH
 from ..engine import export_for_judge
 from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..reading.palettes import automatic, noted, palette_by
 from ..reading.unmodelled import by_handlers
-from ..temporary import go_to, temporary_scene
+from ..temporary import go_to
 from ..values import values_restored
+from .given import gather_given
+from .open_file import Choices
 from .variants import variants
-
-
-@dataclass(frozen=True)
-class Choices:
-    """How to compare."""
-
-    settings: Settings
-    judge: str  # its name in capitals, or AUTO
-    as_is: bool  # Blender draws with the shading that the scene has
-    colors: By | GivenColors  # where the colours come from; as it is, they are the viewport's
-    identity: bool  # whose surface each pixel shows is found, too
-    self_check: bool  # the comparison is tried on known faults, too
-    diagnose: bool  # what accounts for unexplained pixels is looked for
-    renderer: str = ""  # what another engine, or an image, was made by: a name in RENDERERS
-    filter: float = 0.0  # pixels: how far its anti-aliasing reaches
-    tracer: Tracer | None = None  # what traces; by default, this process
-
-    @classmethod
-    def of(cls, scene: Any, given: dict[str, Any]) -> Choices:
-        """Return what is given; what is not, or is None, is as a `bpy.types.Scene` stores it."""
-        stored = scene.reference_tracer
-        own = cls(
-            stored.settings(),
-            (stored.engine or ENGINE) if stored.judge == ENGINE else stored.judge,
-            stored.shading == "AS_IS",
-            By(stored.colors.lower()),
-            stored.identity,
-            stored.self_check,
-            stored.diagnose,
-            stored.renderer.lower().replace("auto", ""),
-            stored.filter,
-        )
-        return replace(own, **{name: value for name, value in given.items() if value is not None})
 
 
 def gather_case(context: Any, **choices: Any) -> Case:
@@ -102,8 +67,6 @@ def gather_case(context: Any, **choices: Any) -> Case:
     is_panorama = not export_camera(context.scene).projection.is_linear  # its errors come first
     judge = judge_or_none(chosen.judge, bpy.app.background, is_panorama)
     if judge is None or not judge.known:
-        from .given import gather_given
-
         return gather_given(context, chosen, judge)
     plan = _planned(context, chosen, judge)
     user = plan.scene
@@ -237,26 +200,3 @@ def compare_open_file(
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
     return comparison_report.written(folder, case, diagnose, trade, extremes, told, literal)
-
-
-def export_open_file(
-    context: Any, judge: Judge | None = None, palette: Palette = VIEWPORT
-) -> tuple[Scene, Manifest, Settings]:
-    """Export the context's scene as a render has it, with the settings that it stores.
-
-    For a judge, it is exported as for a comparison with its picture.
-
-    Raises
-    ------
-    SceneError
-        If the scene cannot be traced.
-    """
-    scene = context.scene
-    layer = context.view_layer.name
-    stored = scene.reference_tracer
-    export_camera(scene)  # first: its errors name the user's scene, say what to do
-    with temporary_scene(scene, layer, judge.ignores if judge else None, palette) as tmp:
-        if judge:
-            prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
-        exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)
-    return exported, manifest, stored.settings()

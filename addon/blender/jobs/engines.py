@@ -18,7 +18,8 @@ from ...scene import SceneError
 from ...tracer.progress import Work, scaled
 from ..drawing.judges import JUDGES
 from ..paths import made_folder
-from .compare import Choices, gather_case
+from .compare import gather_case
+from .open_file import Choices
 
 
 def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:

@@ -25,7 +25,7 @@ from ..reading.camera import export_camera
 from ..reading.pictures import image_file, render_result
 from ..versions import DITHER
 from .against import gather_against
-from .compare import Choices
+from .open_file import Choices
 
 _MOST = 256  # colours of a picture that are looked at
 _OTHER_COLORS = (

@@ -36,7 +36,7 @@ def derive_here(context: Any, x: int, y: int, source: str) -> Derivation:
         If the scene cannot be traced, or has no such pixel.
     """
     from ...derivation.derivation import derive
-    from ..jobs.compare import Choices, export_open_file
+    from ..jobs.open_file import Choices, export_open_file
 
     comparison = results.content(Kind.COMPARISON, context.scene)
     if source == "COMPARISON" and comparison:

@@ -248,7 +248,7 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
         """Export the scene as a render has it, and write it: it is whole, or not there."""
         from ...report import folders
         from ...scene_files import save_scene
-        from ..jobs.compare import export_open_file
+        from ..jobs.open_file import export_open_file
 
         path = with_ending(self.filepath, self.filename_ext)
         scene, manifest, _ = export_open_file(context)

@@ -40,7 +40,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
     def begin(self, context: Any) -> Work[Any]:
         """Export the scene at once, as a render has it; return the work of measuring."""
         from ...study import tradeoff
-        from ..jobs.compare import export_open_file
+        from ..jobs.open_file import export_open_file
 
         self._folder = self.folder()
         scene, manifest, _ = export_open_file(context)

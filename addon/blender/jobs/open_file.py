@@ -1,0 +1,75 @@
+"""What a comparison of the open file is asked for, and the file's scene as it is exported."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ...manifest import Manifest
+from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
+from ...scene import Scene
+from ...tracer.render import Tracer
+from ...tracer.settings import Settings
+from ..drawing.judge import Judge
+from ..drawing.judges import ENGINE
+from ..drawing.picture import prepare_scene
+from ..drawing.workbench import WORKBENCH
+from ..engine import export_for_judge
+from ..reading.camera import export_camera
+from ..temporary import temporary_scene
+
+
+@dataclass(frozen=True)
+class Choices:
+    """How to compare."""
+
+    settings: Settings
+    judge: str  # its name in capitals, or AUTO
+    as_is: bool  # Blender draws with the shading that the scene has
+    colors: By | GivenColors  # where the colours come from; as it is, they are the viewport's
+    identity: bool  # whose surface each pixel shows is found, too
+    self_check: bool  # the comparison is tried on known faults, too
+    diagnose: bool  # what accounts for unexplained pixels is looked for
+    renderer: str = ""  # what another engine, or an image, was made by: a name in RENDERERS
+    filter: float = 0.0  # pixels: how far its anti-aliasing reaches
+    tracer: Tracer | None = None  # what traces; by default, this process
+
+    @classmethod
+    def of(cls, scene: Any, given: dict[str, Any]) -> Choices:
+        """Return what is given; what is not, or is None, is as a `bpy.types.Scene` stores it."""
+        stored = scene.reference_tracer
+        own = cls(
+            stored.settings(),
+            (stored.engine or ENGINE) if stored.judge == ENGINE else stored.judge,
+            stored.shading == "AS_IS",
+            By(stored.colors.lower()),
+            stored.identity,
+            stored.self_check,
+            stored.diagnose,
+            stored.renderer.lower().replace("auto", ""),
+            stored.filter,
+        )
+        return replace(own, **{name: value for name, value in given.items() if value is not None})
+
+
+def export_open_file(
+    context: Any, judge: Judge | None = None, palette: Palette = VIEWPORT
+) -> tuple[Scene, Manifest, Settings]:
+    """Export the context's scene as a render has it, with the settings that it stores.
+
+    For a judge, it is exported as for a comparison with its picture.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    scene = context.scene
+    layer = context.view_layer.name
+    stored = scene.reference_tracer
+    export_camera(scene)  # first: its errors name the user's scene, say what to do
+    with temporary_scene(scene, layer, judge.ignores if judge else None, palette) as tmp:
+        if judge:
+            prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
+        exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)
+    return exported, manifest, stored.settings()
