@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -27,8 +26,6 @@ from ..tracer.progress import Work, called, scaled
 from . import page
 from .folders import replacing, write_json
 
-# Arrays whose last digits are noise: to look for more than runs takes twice as long for nothing.
-_NOISE = "position", "barycentrics"
 PICTURES = "traced", "blender", "difference"
 ARRAYS, JSON = "frame.npz", "comparison.json"
 NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
@@ -105,9 +102,6 @@ def _write_arrays(path: Path, arrays: Iterable[tuple[str, Array]]) -> Work[None]
     with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=1) as stored:
         for name, values in arrays:
             with stored.open(f"{name}.npy", "w", force_zip64=True) as file:
-                if name in _NOISE:  # an attribute of Python's own: without it, it takes longer
-                    runs = zlib.compressobj(1, zlib.DEFLATED, -15, strategy=zlib.Z_RLE)
-                    vars(file)["_compressor"] = runs
                 np.lib.format.write_array(file, values, allow_pickle=False)
             yield 0.0
 
