@@ -29,7 +29,7 @@ LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
 
 @dataclass
 class _Signals:
-    """What is known of signals in this process, which has them once."""
+    """The state of signals, one a process."""
 
     latest: int = 0
     are_held: bool = False
@@ -193,7 +193,7 @@ def ended() -> tuple[int, str]:
 
 @contextmanager
 def held() -> Iterator[None]:
-    """Let signals wait until the block, and each one around it, has ended without an error."""
+    """Hold signals back until the block, and those around it, have ended without an error."""
     before = _signals.are_held
     _signals.are_held = True
     try:
@@ -209,6 +209,19 @@ def printable(text: str) -> str:
     return "".join(
         c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text
     )
+
+
+named: list[str] = []  # what is done meanwhile, the innermost last
+
+
+@contextmanager
+def meanwhile(words: str) -> Iterator[None]:
+    """Name what has no steps that could say how much is done: `watch.py` says it."""
+    named.append(words)
+    try:
+        yield
+    finally:
+        named.pop()
 
 
 @contextmanager

@@ -14,7 +14,9 @@ from reference_tracer.pictures.bounds import (
     LEAST_STEP,
     SNAPPING,
     U32,
+    Storage,
     depth_step,
+    difference,
     differing,
     pixel_error,
     view_error,
@@ -23,7 +25,7 @@ from reference_tracer.pictures.renderers import RENDERERS
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of
-from reference_tracer.tracer.nearest import Hits
+from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import transform_points
 
@@ -195,6 +197,22 @@ def test_differing_is_symmetric_and_strict(rng):
     assert np.array_equal(differing(second, first), expected)
 
 
+@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
+def test_what_is_near_agrees_at_once(rng, dtype):
+    """As if each were asked how far it may be: at any scale, at the least step, at no number."""
+    scale = np.exp2(rng.uniform(-30, 15, (4000, 1)))
+    first = (scale * rng.uniform(-1, 1, (4000, 4))).astype(dtype)
+    step = rng.choice([0, 0.5, 1 - 2.0**-12, 1, 1 + 2.0**-12, 2], first.shape) * LEAST_STEP
+    second = (first + step).astype(dtype)
+    for values in (first, second):
+        values[rng.random(values.shape) < 0.01] = rng.choice([np.inf, -np.inf, np.nan])
+    apart, allowed = difference(first, second)
+    with np.errstate(invalid="ignore"):
+        expected = ~((apart <= allowed) & np.isfinite(first) & np.isfinite(second)).all(axis=-1)
+    assert np.array_equal(differing(first, second), expected)
+    assert 100 < expected.sum() < 3900
+
+
 def test_half_floats_agree_and_bytes_do_not():
     """Three units of a half float are missing at most; one step of an 8-bit picture is a fault."""
     white = np.ones((1, 1, 4), np.float32)
@@ -227,8 +245,9 @@ def test_half_floats_in_a_png_of_16_bits_miss_as_many_units_as_in_an_exr(missing
     def stored(color):
         return decoded(np.rint(encoded(color) * 65535) / 65535)
 
-    assert not differing(first, stored(half - missing * unit), False, 65535).any()
+    assert not differing(first, stored(half - missing * unit), False, Storage(65535)).any()
     bright = (first > 2.0**-7).all(axis=-1)
     assert bright.sum() > 100
-    assert differing(first, stored(half - 4 * HALF_UNITS * unit), False, 65535)[bright].all()
-    assert not differing(first, stored(first), False, 65535).any()
+    wrong = stored(half - 4 * HALF_UNITS * unit)
+    assert differing(first, wrong, False, Storage(65535))[bright].all()
+    assert not differing(first, stored(first), False, Storage(65535)).any()

@@ -31,7 +31,7 @@ from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
 from ..opening import import_trimesh, open_blend, open_file
 from ..parser import AGREE, EXIT_CODES_HELP, Parser
-from ..running import progress_bar
+from ..running import meanwhile, progress_bar
 
 _FRAMED = (
     "the camera is none of the mesh's: it was placed to see all of it; "
@@ -73,6 +73,7 @@ def compare(options: CompareOptions) -> int:
 
 
 def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
+    """Compare a .blend with what Blender draws of it; return the exit code."""
     if not is_blend(options.scene):
         raise SceneError(
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
@@ -91,6 +92,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "colors": _colors(options),
             "identity": options.identity,
             "self_check": options.self_check,
+            "renderer": options.renderer,
+            "filter": options.filter,
             **place,
         }
         if options.frames:
@@ -102,7 +105,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             work_of_all = compare_all(blender.context, out, **chosen)
             return _told_engines(options, result_of(work_of_all, progress))
         studies = options.trade, options.extremes
-        work = compare_open_file(blender.context, out, *studies, judge=judge, **chosen)
+        with meanwhile("having Blender draw"):
+            work = compare_open_file(blender.context, out, *studies, judge=judge, **chosen)
         return _told_comparison(options, result_of(work, progress))
 
 
@@ -138,7 +142,7 @@ def _frames(
 def _with_picture(
     options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> int:
-    """Compare with a picture of unknown make."""
+    """Compare with a picture from a file."""
     with progress_bar() as progress:
         of = _blend if is_blend(options.scene) else _file
         comparison = result_of(of(options, picture, place), progress)
@@ -158,6 +162,7 @@ def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) 
 
 
 def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
+    """Print a comparison; return the exit code."""
     if options.colors_out:
         _write_colors(options.colors_out, comparison.scene, comparison.manifest.owners)
     print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
@@ -165,7 +170,7 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
 
 
 def _only_colors(options: CompareOptions, path: Path) -> int:
-    """Write what a picture of a mesh or a .npz should show that is yet to be drawn."""
+    """Write the colours for a picture of a mesh or a .npz that is still to be rendered."""
     scene, manifest, _ = open_file(options.scene, options.choice)
     scene, notes = in_colors(scene, _colors(options) or By.AUTOMATIC)
     _write_colors(path, scene, manifest.owners)
@@ -203,7 +208,8 @@ def _blend(
         shown = picture_of_file(picture, export_camera(context.scene), making)
         settings = options.settings.over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
-        case = gather_against(context, shown, settings, bool(options.self_check), colors)
+        with meanwhile("having Blender evaluate the scene"):
+            case = gather_against(context, shown, settings, bool(options.self_check), colors)
         return (yield from _written(options, replace(case, **place)))
 
 
@@ -226,7 +232,7 @@ def _file(
 
 
 def _making(options: CompareOptions) -> Making:
-    """Return what the options say of how the picture was made."""
+    """Return how the picture was made, as far as the options say."""
     known = "as --renderer says"
     return Making(options.renderer or "", options.filter or 0.0, options.dither, asked=known)
 
