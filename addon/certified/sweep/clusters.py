@@ -18,6 +18,7 @@ from ...scene import Mesh
 
 SIZE = 64  # triangles of a cluster
 LEAST = 1 << 13  # triangles of a mesh that has clusters
+_LOOSE = 8.0  # how many times the surface of its triangles' boxes that of a cluster may have
 _TOGETHER = 1 << 8  # clusters whose boxes are computed together: they stay in a core's cache
 
 
@@ -53,17 +54,15 @@ class Clusters:
     def __len__(self) -> int:
         return self.middle.shape[1]
 
-    @property
-    def are_compact(self) -> bool:
-        """Whether the boxes are much smaller than that of the whole mesh.
+    def are_compact(self, mesh: Mesh) -> bool:
+        """Whether the boxes have little more surface than those of their triangles together.
 
-        A k-th of a surface has about a k-th of the surface of its box, and a k-th of a volume
-        k^(-2/3). But if triangles follow one another in any order, it has all of it.
+        If neighbours do not follow one another in a mesh, they have hundreds of times as much. One
+        triangle of each cluster says what those of the others have.
         """
-        low = (self.middle - self.half).min(axis=1)
-        high = (self.middle + self.half).max(axis=1)
-        whole = _surface(0.5 * high - 0.5 * low)
-        return bool(_surface(self.half).sum() <= np.sqrt(len(self)) * whole)
+        corners = mesh.vertices[mesh.triangles[::SIZE]].astype(np.float64)
+        own = 0.5 * corners.max(axis=1) - 0.5 * corners.min(axis=1)
+        return bool(_surface(self.half).sum() <= _LOOSE * SIZE * _surface(own.T).sum())
 
 
 _SWEPT: WeakSet[Mesh] = WeakSet()  # at least once
@@ -77,7 +76,7 @@ def clusters_of(mesh: Mesh) -> Clusters | None:
         return None
     if mesh not in _KNOWN:
         found = Clusters.of(mesh)
-        _KNOWN[mesh] = found if found.are_compact else None
+        _KNOWN[mesh] = found if found.are_compact(mesh) else None
     return _KNOWN[mesh]
 
 
