@@ -46,11 +46,11 @@ test-browser: .venv/.stamp ## run the tests of the page in a headless Chromium; 
 	tools/browser.sh setup
 	$(PYTEST) -m browser
 
-test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs root
+test-gui: extension ## run the tests in a whole Blender 5.2 with a window; needs root
 	tools/whole_blender.sh setup
 	$(PYTEST) -m gui
 
-# ONLY="4.2 5.0-2": the cells whose names begin so.
+# ONLY="4.2 window": the cells whose names begin so.
 test-matrix: extension ## run what needs Blender in 4.2, 4.3, 4.5, 5.0, 5.2, numpy 1 and 2: one table
 	$(PYTHON_IN_VENV) tools/matrix.py $(ONLY)
 
