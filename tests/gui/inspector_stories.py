@@ -147,11 +147,12 @@ def in_render():
         with bpy.context.temp_override(window=window()):
             bpy.ops.render.render()
         area.spaces.active.image = bpy.data.images["Render Result"]
+        zoom(area, 2)  # what is clicked is a whole number on the screen
         yield 1
         invoke("inspect")
         region = region_of(area)
-        u, v = region.view2d.view_to_region(0.5, 0.5, clip=False)
-        yield from click(region, u, v)
+        middle = 0.5 + 0.5 / 960, 0.5 + 0.5 / 540  # within a pixel, not between two
+        yield from click(region, *region.view2d.view_to_region(*middle, clip=False))
         noted["clicks"].append([border, crop, pixel()])
         press("Escape")
         yield 0.5
