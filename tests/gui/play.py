@@ -19,6 +19,7 @@ import diagnosis_stories
 import hard_stories
 import house_stories
 import inspector_stories
+import installation_stories
 import interruption_stories
 import page_stories
 import stories
@@ -34,6 +35,7 @@ STORIES = {
         hard_stories,
         house_stories,
         inspector_stories,
+        installation_stories,
         interruption_stories,
         page_stories,
         study_stories,
