@@ -16,6 +16,7 @@ import bpy
 sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
 import diagnosis_stories
+import first_use_stories
 import hard_stories
 import house_stories
 import inspector_stories
@@ -32,6 +33,7 @@ STORIES = {
     for module in (
         stories,
         diagnosis_stories,
+        first_use_stories,
         hard_stories,
         house_stories,
         inspector_stories,
