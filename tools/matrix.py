@@ -180,9 +180,9 @@ def row(cell: Cell) -> tuple[list[str], bool]:
     return [*versions, *map(str, found), str(seconds)], code == 0
 
 
-def table(rows: list[list[str]]) -> str:
+def table(rows: list[list[str]], head: tuple[str, ...] = HEAD) -> str:
     """Return rows as a table in Markdown, its columns aligned."""
-    rows = [list(HEAD), *rows]
+    rows = [list(head), *rows]
     wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
     rows.insert(1, ["-" * width for width in wide])
     return "".join(

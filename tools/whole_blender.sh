@@ -30,7 +30,7 @@ packages=(
 # Each version, the Debian that has it, and what else it needs there.
 case "$version" in
     4.3) debian=trixie more=() ;;
-    5.2) debian=sid more=(python3-cattr) ;;
+    5.2) debian=sid more=(python3-cattr mesa-vulkan-drivers) ;;
     *) echo "whole_blender: no Debian is known to have Blender $version: 4.3 or 5.2" >&2 && exit 2 ;;
 esac
 packages+=("${more[@]}")
