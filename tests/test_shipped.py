@@ -93,7 +93,7 @@ def beside_the_code(source: str) -> list[str]:
     tree, names, folder = ast.parse(source), {"__file__"}, "Path(__file__).parent"
     for node in tree.body:
         if isinstance(node, ast.Assign) and ast.unparse(node.value) == folder:
-            names.add(node.targets[0].id)
+            names.add(ast.unparse(node.targets[0]))
     statements = [n for n in ast.walk(tree) if isinstance(n, ast.stmt) and not hasattr(n, "body")]
     uses = [n for n in statements if names & {x.id for x in ast.walk(n) if isinstance(x, ast.Name)}]
     said = [ast.unparse(n) for n in uses]

@@ -23,7 +23,7 @@ COUNTED_APART = ("agree", "not_decidable", "unexplained", "not_traced")
 
 @dataclass(frozen=True, eq=False)
 class Cause(int):
-    """What can be said of a pixel. It compares and sorts as its number.
+    """Why a pixel differs, or that it agrees. It compares and sorts as its number.
 
     Raises
     ------
@@ -51,7 +51,7 @@ class Cause(int):
     advice: str = ""  # what to do
 
     def __new__(cls, number: int, *_: object, **__: object) -> Self:
-        """Return the number, to which the record's fields are added."""
+        """Return the record as an integer, its number."""
         return super().__new__(cls, number)
 
     def __post_init__(self) -> None:
@@ -60,7 +60,7 @@ class Cause(int):
                 raise ValueError(f"the cause '{self.key}' contradicts itself: {rule}")
 
     def _rules(self) -> Iterator[tuple[str, bool]]:
-        """Yield what has to hold for a record, and whether it does."""
+        """Yield each rule for records, and whether this one keeps it."""
         apart = self.key in COUNTED_APART
         of_index = self.unit == "index"
         of_figure = bool(self.unit) and not of_index
@@ -80,7 +80,7 @@ class Cause(int):
         return self.sentence.format(figure=figure, allowed=allowed, name=name)
 
     def to_dict(self) -> dict[str, int | str]:
-        """Return what a reader of JSON needs to know of the cause."""
+        """Return the fields that JSON has of the cause."""
         told = {"label": self.label, "sentence": self.sentence, "unit": self.unit}
         return {"number": self.number, **told}
 
@@ -149,7 +149,7 @@ class Hidden(NamedTuple):
 
 @dataclass(eq=False)
 class Causes:
-    """What is said of every pixel (h, w), with the figure that says it."""
+    """The cause of each pixel (h, w), and the number that supports it."""
 
     cause: Bytes  # the number of its `Cause`
     figure: Floats  # as the cause's sentence says; NaN where there is none
@@ -166,7 +166,7 @@ class Causes:
 
     @classmethod
     def none(cls, shape: tuple[int, ...]) -> Causes:
-        """Return those of a picture (h, w) that agrees."""
+        """Return the causes of a picture (h, w) in which every pixel agrees."""
         figure = np.full(shape, np.nan)
         blind = np.full(shape, -1, np.int32)
         return cls(np.zeros(shape, np.uint8), figure, figure.copy(), blind)

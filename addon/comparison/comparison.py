@@ -36,7 +36,7 @@ SCHEMA = "reference_tracer.comparison/1"
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """What was compared, and what came of it."""
+    """A comparison: what was compared, the causes, and the verdict."""
 
     case: Case  # with the scene before the picture's own background, if it has one
     frame: Frame
@@ -223,7 +223,7 @@ class Comparison:
             f"{rim.total:,} boundary pixels differ"
         )
         if self.case.picture.source.file:
-            words, known = self.case.picture.renderer.words, self.case.picture.source.known
+            words, known = self.case.picture.sampling.renderer.words, self.case.picture.source.known
             why = f", {known}" if known else ""
             yield f"a pixel may differ by the rounding of {words}{why} (--renderer)"
         if self.background:

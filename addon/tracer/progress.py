@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Generator, MutableMapping
-from typing import TypeVar
+from functools import wraps
+from typing import ParamSpec, TypeVar
 
 A = TypeVar("A")
 B = TypeVar("B")
+P = ParamSpec("P")
 T = TypeVar("T")
 Work = Generator[float, None, T]
 Steps = Generator[str, None, T]  # each step yields the name of its stage of the work
@@ -27,6 +29,17 @@ class Share(float):
         self = super().__new__(cls, share)
         self.doing = doing
         return self
+
+
+def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
+    """Turn a plain function into work without steps."""
+
+    @wraps(function)
+    def work(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
+        yield from ()
+        return function(*args, **kwargs)
+
+    return work
 
 
 def doing(share: float) -> str:

@@ -2,7 +2,7 @@
 
 `steps` is the loop. A render engine, a modal operator and a script drive it, each with its own
 way to show progress and to stop. A step takes some ten milliseconds. How rays are traced is left to
-a `Tracer`: `nearest.tracer` for the textbook and the other plain methods.
+a `Tracer`: `nearest.tracer` for the textbook and the other unproven methods.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .coloring import Color
 from .frame import Frame
 from .hits import Hits, Statistics
 from .nearest import TraceBand
-from .nearest import tracer as plain_tracer
+from .nearest import tracer as unproven_tracer
 from .progress import Steps, Work, scaled, timed
 from .settings import Settings
 from .vector import parts
@@ -60,7 +60,7 @@ class Round:
 
 
 def steps(
-    scene: Scene, settings: Settings, frame: Frame, tracer: Tracer = plain_tracer
+    scene: Scene, settings: Settings, frame: Frame, tracer: Tracer = unproven_tracer
 ) -> Iterator[float]:
     """Trace a scene into an empty frame; yields the share of the work done after each step.
 
@@ -98,6 +98,7 @@ def rays_in_order(camera: Camera, settings: Settings) -> Iterator[tuple[Region, 
 
 
 def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> Iterator[float]:
+    """Trace a scene band by band, in each of its rounds."""
     statistics = frame.statistics
     statistics.method = settings.method.value
     statistics.triangles = scene.triangle_count
@@ -194,7 +195,7 @@ def bands(camera: Camera, settings: Settings) -> list[Region]:
     the wish to see the picture grow where a pixel has many samples or every triangle is tested.
     """
     pixels = settings.memory // BYTES_PER_PIXEL
-    is_slow = settings.method.is_plain or not camera.projection.is_linear
+    is_slow = not settings.method.is_proven or not camera.projection.is_linear
     if settings.samples > 1 or is_slow:
         rays = SLOW_PIXELS if is_slow else RAYS
         pixels = min(pixels, max(PIXELS, rays // settings.samples**2))

@@ -85,7 +85,7 @@ def test_a_scene_that_stores_nothing_is_certified_where_that_is_possible():
 def test_a_precision_that_is_greyed_out_does_not_count(method):
     stored = bpy.context.scene.reference_tracer
     stored.method, stored.precision, stored.samples = method, "float32", 3
-    used = "float32" if method.is_plain else "float64"
+    used = "float64" if method.is_proven else "float32"
     assert stored.settings() == Settings(method, used, 3)
-    assert stored.has_precision == method.is_plain
+    assert stored.has_precision != method.is_proven
     assert stored.precision == "float32"  # for when the method is a plain one again

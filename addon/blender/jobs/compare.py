@@ -19,10 +19,12 @@ from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
 from ...manifest import Manifest
+from ...pictures.bounds import Storage
 from ...pictures.certificate import CameraCertificate
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Picture, Source
 from ...pictures.renderers import EMBREE, RASTER
+from ...pictures.sampling import Sampling
 from ...report import comparison as comparison_report
 from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory
@@ -179,12 +181,14 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
     return Picture(
         pixels,
         Source(judge.name, bpy.app.version_string, settings=used),
-        sample_radius=judge.sample_radius,
-        farthest=judge.farthest,
-        filter_radius=0.0 if smooth == "OFF" else judge.filter_radius,
-        sums=int(smooth) if smooth.isdigit() else 0,
-        snapping=snapping,
-        renderer=EMBREE if judge.traces_rays else RASTER,
+        sampling=Sampling(
+            judge.sample_radius,
+            0.0 if smooth == "OFF" else judge.filter_radius,
+            snapping,
+            judge.farthest,
+            EMBREE if judge.traces_rays else RASTER,
+        ),
+        storage=Storage(sums=int(smooth) if smooth.isdigit() else 0),
     )
 
 

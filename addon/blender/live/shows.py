@@ -73,7 +73,7 @@ def colored(color: Color, scene: Scene, settings: Settings, shown: Picture) -> I
 
 def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
     """Trace by the settings' method, and mark where it sees another surface than is proven."""
-    if not settings.method.is_plain:
+    if settings.method.is_proven:
         frame = yield from _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
         proven = ["every pixel is proven, so none is wrong: choose another method"]
         [shown.line] = frame.statistics.notes[:1] or proven

@@ -172,6 +172,7 @@ class LongWork(Mixin):
             context.workspace.status_text_set(None)
 
     def _end(self, context: Any, result: Any) -> Answer:
+        """Show the result, and report it."""
         level, text = self.finish(context, result)
         redraw(context)
         kind: Any = {level}

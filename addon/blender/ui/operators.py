@@ -41,6 +41,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         return compare_open_file(context, str(self.folder() or ""), told=told)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Keep the comparison for the panel; report its first line."""
         lines = results.keep_comparison(context, result).lines
         say(*result.manifest.lines(), *lines)
         return "INFO" if result.verdict == "agree" else "WARNING", lines[0]

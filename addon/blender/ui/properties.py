@@ -108,7 +108,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     @property
     def has_precision(self) -> bool:
         """Whether the method leaves a choice of the precision."""
-        return Method(self.method).is_plain
+        return not Method(self.method).is_proven
 
 
 def _tell_the_compositor(layer: Any, _: object) -> None:

@@ -69,7 +69,7 @@ def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
     from ...report import extremes as extremes_report
 
     page = _page("extremes", extremes_report.picture(rows))
-    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
+    wrong = sum(r.lost + r.doubled for r in rows if Method(r.method).is_proven)
     lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
     return keep(Kind.EXTREMES, tuple(rows), lines, page=page)
 

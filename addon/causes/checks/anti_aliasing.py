@@ -67,7 +67,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
     Their figure is the radius of the smallest ring that is enough.
     """
-    radius = pixels.picture.filter_radius
+    radius = pixels.picture.sampling.filter_radius
     if not pixels.open.any() or radius <= 0 or pixels.picture.lit:
         return
     made = yield from plan(pixels.case.scene, SOUND, reach=np.sqrt(2) * radius)
@@ -78,7 +78,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
-    """Ask on ring after ring; after the last of the densest, ask the triangles themselves."""
+    """Sample ring after ring around the pixels; at the end, test the triangles themselves."""
     rings = density[0]
     picture = part.picture
     owner = yield from _owner_seen(part)
@@ -94,7 +94,9 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
         rest = np.flatnonzero(~found & owner & (seen != seen[0]).any(axis=(0, 2)))
         seen = seen[:, rest]
         color = picture.color[rest, : seen.shape[-1]]
-        found[rest] = yield from is_mix(color, seen, picture.sums, np.arange(len(mixed)) ^ 1)
+        found[rest] = yield from is_mix(
+            color, seen, picture.storage.sums, np.arange(len(mixed)) ^ 1
+        )
         part.give(found, ANTI_ALIASING, reach, radius)
     if density == DENSITIES[-1] and not found.all():
         left = np.flatnonzero(~found & owner)
@@ -103,7 +105,7 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
 
 
 def _ring(ring: int, density: tuple[int, int], radius: float) -> Iterator[tuple[float, float]]:
-    """Yield offsets on a ring in pairs that lie opposite each other; the 0th is the centre twice.
+    """Yield the offsets of a ring in opposite pairs; ring 0 is the centre, twice.
 
     So the sample opposite to number n has the number n ^ 1.
     """
@@ -119,7 +121,7 @@ def _ring(ring: int, density: tuple[int, int], radius: float) -> Iterator[tuple[
 
 
 def _owner_seen(part: Part) -> Work[Bools]:
-    """Return where the tracer sees the object that is shown, in the centre or within its band."""
+    """Return where the tracer sees the shown object, at the centre or within its band."""
     hits = yield from part.probe.trace()
     seen = ~part.picture.other_object(hits.instance)
     if not seen.all():
@@ -133,7 +135,7 @@ def _owner_seen(part: Part) -> Work[Bools]:
 
 
 def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Work[Bools]:
-    """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
+    """Return which of the pixels `left` are a mix if float32's cracks let through what is behind.
 
     Some of the filter's samples may hit a crack of float32's, and show any triangle that comes
     within the radius. At most half of the weight is theirs; the rest sees what the centre does.
@@ -158,7 +160,7 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
             across = np.arange(len(near))
             across[: 2 * len(pairs)] = np.roll(across[: 2 * len(pairs)], len(pairs))
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
-            [found[n]] = yield from is_mix(color, near[:, None], picture.sums, across)
+            [found[n]] = yield from is_mix(color, near[:, None], picture.storage.sums, across)
         yield 0.0
     return found
 
@@ -191,7 +193,7 @@ def is_mix(
 
 
 def _logarithm(color: Array, offset: float = 1.0, channels: int = 3) -> Floats:
-    """Return what Workbench mixes: the logarithm of RGB, and alpha as it is.
+    """Return the values that Workbench averages: the logarithm of RGB, and alpha unchanged.
 
     It makes a colour's error up to 1.44 / offset times as large, and is a half float itself.
     """

@@ -39,15 +39,15 @@ WIDENED = 64
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels at the clip planes, a part of the picture at a time."""
+    """Find open pixels at which a surface lies on a clip plane."""
     if pixels.open.any():
         scene = pixels.case.scene
-        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.renderer))
+        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.sampling.renderer))
         yield from near_surfaces(pixels, wide, 0.0, _clipped)
 
 
 def _clipped(part: Part) -> Work[None]:
-    """Go from front to back through the surfaces that may be clipped."""
+    """Test the surfaces that may be clipped, from front to back."""
     camera = part.scene.camera
     after: Hits | None = None
     near = np.zeros(len(part.probe.px), bool)
@@ -75,7 +75,7 @@ def _clipped(part: Part) -> Work[None]:
 
 
 def _widened(camera: Camera, renderer: Renderer) -> Camera:
-    """Return a camera that also sees what a renderer may take to be within its clip range."""
+    """Return the camera with its clip range widened by what a renderer's rounding may include."""
     ends = np.array((camera.clip_start, camera.clip_end), np.float64)
     view = U32 * WIDENED * (float(np.abs(camera.origin).sum()) + np.abs(ends))
     before, behind = renderer.resolution(camera, ends, view)

@@ -72,14 +72,14 @@ OFFSETS = (
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels at edges and depth ties, a part of the picture at a time."""
+    """Find open pixels at depth ties and at edges."""
     if pixels.open.any():
         reach = float(np.max(pixels.band[pixels.open]))
         yield from near_surfaces(pixels, pixels.case.scene, reach, _look)
 
 
 class _Asked(NamedTuple):
-    """What is known of the n pixels of a part: more is found by each way to ask."""
+    """What the edge and tie tests have found so far for the n pixels of a part."""
 
     centre: Hits
     lost: Bools  # the picture's own method lost what the centre sees
@@ -89,7 +89,7 @@ class _Asked(NamedTuple):
 
 
 def _look(part: Part) -> Work[None]:
-    """Ask behind, then at samples, then the triangles themselves, while pixels have no cause.
+    """Look behind the hits, beside the centres, then at triangles, until all have a cause.
 
     What is shown on the very same ray is a tie, even if an edge is near.
     """
@@ -187,7 +187,7 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
     asks = (nothing < np.inf).any(axis=0)
     asks[may.pixel[(of < np.inf).any(axis=0) & (may.hits.t <= farthest)]] = True
     closed = np.full(len(width), np.inf)
-    if part.picture.renderer.closed:
+    if part.picture.sampling.renderer.closed:
         closed = _closed(scene, asked.beside, asks & ~asked.lost)
     farthest = np.minimum(farthest, (closed + part.resolution(asked.centre))[may.pixel])
     visible = may.hits.t <= farthest
