@@ -12,10 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from .certified import any_rays, plain
 from .certified.arithmetic import AssumptionError, check_assumptions
 from .certified.rounding import rounding
+from .certified.samples import traced_together
 from .certified.sweep.sweep import sweep
 from .methods import UNPROVEN, Method
 from .scene import Scene
@@ -43,6 +45,15 @@ def certified_tracer(
     find = sweep if scene.camera.projection.is_linear else plain.plain
     memory = settings.memory // 2
     return lambda band, dx, dy: find(scene, band, memory, dx, dy, statistics)
+
+
+def certified_samples(
+    scene: Scene, settings: Settings, reach: float, statistics: Statistics
+) -> Work[TraceBand]:
+    """Prepare as :func:`certified_tracer`, all samples at once: see `samples_together`."""
+    centre = yield from certified_tracer(scene, settings, reach, statistics)
+    find = partial(sweep, memory=settings.memory // 2, statistics=statistics)
+    return traced_together(centre, find, scene, settings.samples)
 
 
 # By method: what traces a picture's bands, and what traces any rays.
@@ -95,7 +106,8 @@ def steps(
 ) -> Work[None]:
     """Trace a scene into an empty frame, as `tracer.render.steps`, by any method."""
     settings = resolved(settings, frame.statistics)
-    yield from loop.steps(scene, settings, frame, tracer or TRACERS[Method(settings.method)])
+    own = certified_samples if loop.samples_together(scene.camera, settings) else None
+    yield from loop.steps(scene, settings, frame, tracer or own or TRACERS[Method(settings.method)])
 
 
 def trace(

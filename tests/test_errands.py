@@ -190,7 +190,7 @@ SEES_CAUSE = (
     COMPARED
     + """
 from dataclasses import replace
-from reference_tracer.report.comparison import difference_picture
+from reference_tracer.report.comparison import cause_picture
 from reference_tracer.report.page.content import content
 color[3:5, 4:9] = 1
 found = result_of(trace_and_compare(case))
@@ -200,7 +200,7 @@ assert pixels.unexplained == 0 and found.verdict == "warnings"
 assert "  comet: 8, as at (4, 3)" in "\\n".join(found.lines())
 held = json.loads(json.dumps(found.to_dict()))["causes"]["comet"]
 assert held["number"] == 42 and held["unit"] == "km", held
-assert (difference_picture(found)[3:5, 4:8, :3] == np.float32((0.9, 0.8, 0.1))).all()
+assert (cause_picture(found)[3:5, 4:8, :3] == np.float32((0.9, 0.8, 0.1))).all()
 [entry] = [c for c in content(found)["causes"] if c["name"] == "comet"]
 assert entry["label"] == "Comet" and entry["pixels"] == 8 and entry["value"] == 42
 assert found.told(4, 3) == "it passed 7 km away (seen to 9 km)"

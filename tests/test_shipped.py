@@ -106,7 +106,10 @@ NOT_IN_BLENDER = {
     "exr": "of OpenImageIO, which Blender brings along",
 }
 # Who hands a folder of its own to others, and to whom.
-HANDED_ON = {"blender.ui.menus": "Blender lists the presets in it, which are files of the zip"}
+HANDED_ON = {
+    "blender.ui.menus": "Blender lists the presets in it, which are files of the zip",
+    "blender.ui.samples": "Blender opens the scenes in it as new files, without their names",
+}
 
 
 def test_what_is_shipped_writes_nothing_beside_itself_and_advises_no_packages():

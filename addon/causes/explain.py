@@ -106,7 +106,7 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     """Give every pixel of a traced frame its cause; yields the share of the work done.
 
     With `at_most`, no more differing pixels are looked at, spread over the picture. The others keep
-    AGREE, and are in `Causes.passed_over`.
+    AGREE, and are in `Causes.passed_over`; no objects in another shade are named.
     """
     out = Causes.none(frame.shape)
     out.blind = unmodelled.blind(case, frame)
@@ -129,7 +129,8 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     wrong &= out.cause != NOT_TRACED
     out.cause[wrong], out.figure[wrong], out.allowed[wrong] = UNEXPLAINED, np.nan, np.nan
     yield from scaled(unmodelled.name_drawn(pixels), 1.0, 0.0)
-    yield from scaled(color.name_shades(pixels), 1.0, 0.0)
+    if at_most is None:
+        yield from scaled(color.name_shades(pixels), 1.0, 0.0)
     return out
 
 

@@ -26,7 +26,9 @@ from .faults import EXAMPLES
 from .faults.fault import AnyFault, Example
 from .trial import traced_anew
 
-SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
+# Differing pixels whose cause is looked for, as whole pictures may be wrong: more only where
+# the fewer leave none unexplained.
+SAMPLES = 256, 4096
 
 
 class FaultRow(NamedTuple):
@@ -100,11 +102,15 @@ def _checked(
     changed = _changed(case, frame, wrong, traced)
     if not changed.any():
         return row
-    explained = yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)
-    found = explained.causes
-    of_fault = found.cause[changed]
+    share = 0.7 / len(SAMPLES)
+    for number, most in enumerate(SAMPLES):
+        explaining = explain(wrong, traced, most)
+        found = (yield from scaled(explaining, 0.3 + number * share, share)).causes
+        of_fault = found.cause[changed]
+        named = bool(found.transform) and found.transform != causes.transform
+        if named or not len(found.passed_over) or (of_fault == UNEXPLAINED).any():
+            break
     looked_at = int((of_fault != AGREE).sum())
-    named = bool(found.transform) and found.transform != causes.transform
     rounding = [c for c in CAUSES if c.rounding or c == AGREE]
     return row._replace(
         changed=int(changed.sum()),

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -197,6 +198,10 @@ def renderer_of(header: str, engine: str) -> tuple[Renderer, str]:
     return RAYS, "as Blender wrote it, but nothing says that it was rasterised"
 
 
+# By frame, for as long as it is there.
+_BANDS: WeakKeyDictionary[Frame, dict[tuple[Scene, Renderer], Floats]] = WeakKeyDictionary()
+
+
 def sample_band(
     scene: Scene, frame: Frame, all_rows: list[slice], renderer: Renderer = RASTER
 ) -> Work[Floats]:
@@ -204,7 +209,17 @@ def sample_band(
 
     That is the largest error of the surfaces seen in the 3 x 3 pixels around, and of those farther
     away that float32 may move as far as this pixel. `all_rows` are looked at one after the other.
+    That of a whole frame is found once: pictures with a fault are held against the same frame.
     """
+    known = _BANDS.setdefault(frame, {}) if frame.rows_done.all() else {}
+    if (scene, renderer) not in known:
+        known[scene, renderer] = yield from _sample_band(scene, frame, all_rows, renderer)
+    return known[scene, renderer].copy()
+
+
+def _sample_band(
+    scene: Scene, frame: Frame, all_rows: list[slice], renderer: Renderer
+) -> Work[Floats]:
     camera = scene.camera
     w = camera.window
     own = np.zeros(frame.shape)  # of the surface that the pixel itself shows

@@ -32,6 +32,7 @@ ROWS = 32
 PIXELS = 1 << 16  # of a tile, so that what is done for all of them at once is a short step
 SLOW_PIXELS = 1 << 18  # of a band where pixels take long
 RAYS = 1 << 23  # of a band where a pixel has many certified ones: a second or two
+FINEST = 1 << 14  # pixels across, of a picture whose pixels are the samples
 BYTES_PER_PIXEL = 224  # of a band: depth buffer, fragments, hits
 WHOLE = 0.999  # of the progress, until the picture is whole
 
@@ -196,10 +197,23 @@ def bands(camera: Camera, settings: Settings) -> list[Region]:
     """
     pixels = settings.memory // BYTES_PER_PIXEL
     is_slow = not settings.method.is_proven or not camera.projection.is_linear
-    if settings.samples > 1 or is_slow:
+    if samples_together(camera, settings):
+        pixels //= settings.samples**2
+    elif settings.samples > 1 or is_slow:
         rays = SLOW_PIXELS if is_slow else RAYS
         pixels = min(pixels, max(PIXELS, rays // settings.samples**2))
     return _rows(camera.region, max(1, pixels // camera.region.width))
+
+
+def samples_together(camera: Camera, settings: Settings) -> bool:
+    """Return whether a pixel's samples can be traced as pixels of a picture so many times as large.
+
+    Their number a direction is a power of two, so that no ray is rounded otherwise.
+    """
+    n = settings.samples
+    is_proven = settings.method.is_proven and camera.projection.is_linear
+    fits = n * max(camera.width, camera.height) <= FINEST
+    return is_proven and fits and n > 1 and n & (n - 1) == 0
 
 
 def _rows(r: Region, rows: int) -> list[Region]:

@@ -11,6 +11,7 @@ from reference_tracer.causes import explain as causes
 from reference_tracer.causes.case import Alternative, without
 from reference_tracer.causes.cause import Causes, Hidden
 from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.diagnosis import self_check as self_checking
 from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.diagnosis.faults.fault import Example, Fault
 from reference_tracer.diagnosis.self_check import FaultRow, self_check, table
@@ -102,6 +103,25 @@ def test_a_fault_within_rounding_is_none(stripes, pixels, result):
     row = checked(case, examples=[(fault, Example("nudge", "hardly anything"))])["nudge"]
     assert row.result == result and (row.unexplained > 0) == (result == "caught")
     assert FaultRow("a", "b", 5, 5, 5, 0).missed and not FaultRow("a", "b", 5, 5, 5, 1).missed
+
+
+@pytest.mark.parametrize(
+    ("samples", "result"), [((1,), "within rounding"), ((1, 4096), "caught"), ((4096,), "caught")]
+)
+def test_more_pixels_are_looked_at_where_few_show_nothing(stripes, monkeypatch, samples, result):
+    """Of a picture that is too tall, the lowest pixel that differs is hardly moved."""
+
+    def stretch(case, guess):
+        w = case.scene.camera.window
+        window = replace(w, top=w.top + 2 * (w.top - w.bottom) / case.scene.camera.height)
+        camera = replace(case.scene.camera, window=window)
+        return replace(case, scene=replace(case.scene, camera=camera))
+
+    monkeypatch.setattr(self_checking, "SAMPLES", samples)
+    case = case_of(stripes, render(stripes).color)
+    fault = Fault("stretch", "too tall", "a wrong aspect", "nothing", stretch)
+    row = checked(case, examples=[(fault, Example("stretch", "too tall"))])["stretch"]
+    assert row.result == result and (row.looked_at == 1) == (samples == (1,))
 
 
 def test_an_open_sheet_shows_a_dropped_triangle(make):

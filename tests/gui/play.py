@@ -23,6 +23,7 @@ import inspector_stories
 import installation_stories
 import interruption_stories
 import page_stories
+import seen_stories
 import stories
 import study_stories
 import viewport_stories
@@ -40,6 +41,7 @@ STORIES = {
         installation_stories,
         interruption_stories,
         page_stories,
+        seen_stories,
         study_stories,
         viewport_stories,
     )
@@ -66,7 +68,9 @@ def played(names):
 def prepared():
     """Have views drawn once, not the eight times of the factory's: no graphics card helps here."""
     preferences = bpy.context.preferences
-    preferences.system.viewport_aa, preferences.is_dirty = "FXAA", False
+    preferences.system.viewport_aa = "FXAA"
+    preferences.view.render_display_type = "NONE"  # a story that wants to see results says where
+    preferences.is_dirty = False
 
 
 def opened(scene):

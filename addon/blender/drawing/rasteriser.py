@@ -38,13 +38,13 @@ def snapping_of(judge: Judge) -> float:
     if judge.traces_rays:
         return SNAPPING
     moved = np.stack((-OFFSETS, OFFSETS), axis=1).ravel()  # left of the centre, and right of it
-    is_wrong = (_covered(judge, moved) != (moved > 0)).reshape(-1, 2).any(axis=1)
+    is_wrong = (covered(judge, moved) != (moved > 0)).reshape(-1, 2).any(axis=1)
     right = OFFSETS[: int(np.argmax(is_wrong))] if is_wrong.any() else OFFSETS
     least = right[-1] if len(right) else OFFSETS[0]
     return max(SNAPPING, float(2.0 ** -(np.round(-np.log2(least)) - 1)))
 
 
-def _covered(judge: Judge, moved: Floats) -> Bools:
+def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
     """Draw a quad in each row, and return where it covers the centre of the second pixel, (n,).
 
     Parameters
@@ -52,22 +52,29 @@ def _covered(judge: Judge, moved: Floats) -> Bools:
     judge : Judge
     moved : (n,) float64
         Pixels by which each row's right edge lies beyond that centre.
+    turned : bool
+        Draw them in columns instead, whose lower edges are moved.
     """
     rows = len(moved)
+    size = (rows, _WIDTH) if turned else (_WIDTH, rows)
     matrix = np.eye(4)
     matrix[:3, 3] = _WIDTH / 2, rows / 2, 1.0
-    window = ViewWindow(-_WIDTH / 2, _WIDTH / 2, -rows / 2, rows / 2)
-    camera = Camera(matrix, window, _WIDTH, rows, ORTHOGRAPHIC, 0.1, 100.0)
-    scene = bpy.data.scenes.new("Reference Tracer Rasteriser")
+    if turned:
+        matrix[:2, :2] = (0, -1), (1, 0)
+    across, up = (n / 2 for n in size)
+    window = ViewWindow(-across, across, -up, up)
+    camera = Camera(matrix, window, *size, ORTHOGRAPHIC, 0.1, 100.0)
+    scene: Any = bpy.data.scenes.new("Reference Tracer Rasteriser")
     mesh = _quads(moved)
     scene.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
     looking = add_camera(scene, camera).data
     try:
         prepare_scene(scene, True)
+        scene.display.shading.color_type = "SINGLE"  # whatever else the file holds
         shown = picture(scene, scene.view_layers[0].name, judge, camera, True)
     finally:
         bpy.data.batch_remove([*scene.collection.objects, scene, mesh, looking])
-    return shown[:, 1, 3] > 0.5
+    return (shown[-2] if turned else shown[:, 1])[:, 3] > 0.5
 
 
 def _quads(moved: Floats) -> Any:

@@ -92,6 +92,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "colors": _colors(options),
             "identity": options.identity,
             "self_check": options.self_check,
+            "renderer": options.renderer,
+            "filter": options.filter,
             **place,
         }
         if options.frames:

@@ -261,7 +261,8 @@ def test_bands_of_a_frame_do_not_matter(undivided, monkeypatch):
         whole = render(scene, settings)
         for rows in (1, 4):
             width = scene.camera.region.width
-            monkeypatch.setattr(loop, "BYTES_PER_PIXEL", settings.memory // (rows * width))
+            rays = settings.samples**2 * rows * width
+            monkeypatch.setattr(loop, "BYTES_PER_PIXEL", settings.memory // rays)
             assert len(loop.bands(scene.camera, settings)) == -(-scene.camera.region.height // rows)
             found = render(scene, settings)
             for name, values in found.passes().items():
