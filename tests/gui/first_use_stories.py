@@ -44,7 +44,7 @@ def at_the_panel(percentage=50):
 
 
 def first_use():
-    """Press the button, see the verdict, open the page, undo."""
+    """Press the button, see the verdict, go to what differs, open the page, undo."""
     browser = OUT / "browser_of_a_click"
     browser.write_text(f'#!/bin/sh\necho "$1" > {OPENED}\n')
     browser.chmod(0o755)
@@ -59,11 +59,15 @@ def first_use():
     yield 0.5
     screenshot("first_use_compared")
     noted["verdict"], noted["images"] = result().content.verdict, len(images())
+    yield from click_on(properties(), "reference_tracer.frame_region(")
+    noted["selected"] = [o.name for o in window().view_layer.objects if o.select_get()]
+    screenshot("first_use_framed")
     yield from click_on(properties(), "reference_tracer.open_page(")
     yield from until(opened)
     noted["page"] = Path(OPENED.read_text().strip().removeprefix("file://")).exists()
-    press("ctrl+z")
-    yield 1
+    for _ in range(2):  # what was selected, and the comparison
+        press("ctrl+z")
+        yield 1
     noted["after_undo"] = images()
     screenshot("first_use_undone")
 

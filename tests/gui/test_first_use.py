@@ -6,9 +6,9 @@ pytestmark = pytest.mark.gui
 
 
 @pytest.mark.story("first_use")
-def test_press_see_open_the_page_undo(noted):
+def test_press_see_go_to_what_differs_open_the_page_undo(noted):
     assert noted["begun"] and noted["verdict"] == "agree"
-    assert noted["images"] == 3 and noted["page"]
+    assert noted["images"] == 4 and noted["selected"] == ["Chessboard"] and noted["page"]
     assert noted["after_undo"] == []
 
 
