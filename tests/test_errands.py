@@ -203,7 +203,7 @@ assert held["number"] == 42 and held["unit"] == "km", held
 assert (cause_picture(found)[3:5, 4:8, :3] == np.float32((0.9, 0.8, 0.1))).all()
 [entry] = [c for c in content(found)["causes"] if c["name"] == "comet"]
 assert entry["label"] == "Comet" and entry["pixels"] == 8 and entry["value"] == 42
-assert found.told(4, 3) == "it passed 7 km away (seen to 9 km)"
+assert found.why(4, 3) == "it passed 7 km away (seen to 9 km)"
 """
 )
 SEES_FAULT = (

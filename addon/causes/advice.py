@@ -147,7 +147,7 @@ def _clip_range(camera: Camera, other: Camera, told: float) -> str:
         if before != after:
             verb = "raise" if after > before else "lower"
             changes.append(f"{verb} the clip {name} from {before:.6g} m to {after:.6g} m")
-    return f"{' and '.join(changes)}: surfaces {told:.2g} m apart are told apart there then"
+    return f"{' and '.join(changes)}: surfaces {told:.2g} m apart are then told apart"
 
 
 def _of_edges(causes: Causes, where: Bools, allowed: float) -> str:
@@ -159,7 +159,9 @@ def _of_edges(causes: Causes, where: Bools, allowed: float) -> str:
             "it is"
         )
     times = int(np.ceil(where.sum() / allowed))
-    return f"draw the picture {times} times as wide and high: edges pass fewer of its pixels then"
+    return (
+        f"draw the picture {times} times as wide and high: then fewer of its pixels lie near edges"
+    )
 
 
 def _up(value: float) -> float:

@@ -75,7 +75,7 @@ class Cause(int):
         yield "a figure and its unit go together", of_figure == ("{figure" in self.sentence)
         yield "an index and its name go together", of_index == ("{name" in self.sentence)
 
-    def told(self, figure: float, allowed: float, name: object = "") -> str:
+    def in_words(self, figure: float, allowed: float, name: object = "") -> str:
         """Return the sentence with a pixel's numbers, or the name that its index stands for."""
         return self.sentence.format(figure=figure, allowed=allowed, name=name)
 
@@ -96,10 +96,10 @@ NOT_DECIDABLE = Cause(
     (0.25, 0.3, 0.6),
     warns=True,
     see_through=True,
-    why="So far from the origin, or at such a scale, float32 moves Blender's surfaces by more than "
-    "half a pixel: whatever Blender shows there proves nothing.",
-    check="The bound of float32's error, for the surfaces that are seen around the pixel. It "
-    "depends on the scene, not on the picture.",
+    why="So far from the origin, or at such a scale, float32 moves Blender's surfaces by more "
+    "than half a pixel: what Blender shows there proves nothing.",
+    check="The bound of float32's error for the surfaces seen around the pixel is larger than "
+    "that. It depends on the scene, not on the picture.",
     never="Any other pixel.",
     advice="move the scene to the origin, or apply the objects' scale",
 )
@@ -110,8 +110,9 @@ UNEXPLAINED = Cause(
     "no check accounts for the difference",
     color=(1.0, 0.0, 0.0),
     why="The picture is wrong there, or it is of another scene than the one that was traced.",
-    check="All others come first.",
-    advice="read the diagnosis; have the maths of one such pixel explained",
+    check="No other check finds a cause.",
+    advice="read the diagnosis, and have one such pixel explained (`reftrace explain`, *Inspect "
+    "Pixels*)",
 )
 NOT_TRACED = Cause(
     6,
@@ -119,8 +120,8 @@ NOT_TRACED = Cause(
     "not traced",
     "the picture was cancelled before",
     color=(0.0, 0.0, 0.0),
-    why="The comparison was stopped before the tracer came to the pixel's row.",
-    advice="compare again, to the end",
+    why="The comparison was cancelled before the pixel's row was traced.",
+    advice="compare again, and let it finish",
 )
 
 

@@ -103,7 +103,7 @@ class Comparison:
         if self.background and not self.background.transparent:
             yield self.background.unjudged()
 
-    def told(self, x: int, y: int) -> str:
+    def why(self, x: int, y: int) -> str:
         """Return why a pixel has its cause, in a sentence with its numbers and names."""
         cause = BY_NUMBER[self.causes.cause[y, x]]
         figure = self.causes.figure[y, x]
@@ -112,7 +112,7 @@ class Comparison:
             name = self.manifest.unmodelled[int(figure)]
         elif cause == HIDDEN:
             name = self.causes.hidden[int(figure)]
-        return cause.told(figure, self.causes.allowed[y, x], name)
+        return cause.in_words(figure, self.causes.allowed[y, x], name)
 
     @property
     def empty(self) -> bool:

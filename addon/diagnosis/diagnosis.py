@@ -82,7 +82,7 @@ class Told:
         yield f"diagnosis: {'or, as likely, ' if self.alternative else ''}{self.sentence}"
         yield f"           {self.effect()}"
         if enclosed := self.enclosed():
-            yield f"           what agrees as well lies within: {enclosed}"
+            yield f"           as many pixels agree with {enclosed}"
         if self.also:
             named = ", ".join(map(spoken, self.also))
             how = "so it would be with" if self.fault.sums_up else "as likely"

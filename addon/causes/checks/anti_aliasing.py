@@ -35,17 +35,17 @@ ANTI_ALIASING = Cause(
     (0.7, 0.4, 0.2),
     explains=True,
     warns=True,
-    why="The picture has a filter, which mixes the colours around an edge; the tracer shows what "
+    why="The picture was filtered, which mixes the colours at an edge; the tracer shows what "
     "the pixel's centre sees.",
-    check="The colour lies in the convex hull of what the tracer sees within the filter's radius, "
-    "in linear colours or in Workbench's logarithms log2(1 + c), before Blender 5.0 log2(1/2 + c). "
-    "Each sample comes with a tenth or more of what lies on the opposite side of the centre. More "
-    "than one colour must be seen. If it is known whose surface Blender shows, that must be seen "
-    "in the centre, or within its error. If that is not enough and an edge is there, any triangle "
-    "within the radius may shine through a crack, with no more weight than the centre's own "
-    "colour. The figure is the radius that is enough.",
-    never="An object that is not seen there; a surface of one colour in another shade; a colour "
-    "beyond those that are mixed.",
+    check="The colour lies in the convex hull of the colours that the tracer sees within the "
+    "filter's radius: linear ones, or Workbench's logarithms log2(1 + c), before Blender "
+    "5.0 log2(1/2 + c). Each sample is taken with at least a tenth of the one opposite. "
+    "There must be several colours. If the shown object is known, it must be seen at the "
+    "centre, or within its error. If that fails at an edge, any triangle within the "
+    "radius may show through a crack, with no more weight than the centre's own colour. "
+    "The figure is the radius that suffices.",
+    never="An object that is not seen there; another shade of a surface of one colour; a colour "
+    "outside the range of those that are mixed.",
     advice="compare like for like, or render one sample in each pixel's centre",
 )
 

@@ -27,9 +27,9 @@ CLIP_PLANE = Cause(
     (1.0, 1.0, 0.4),
     explains=True,
     rounding=True,
-    why="A surface lies so near a clip plane that float32 decides whether it is drawn.",
+    why="A surface is so close to a clip plane that float32 decides whether it is drawn.",
     check="What the picture shows is what the tracer sees with that surface, or without it.",
-    never="A surface that is clipped elsewhere.",
+    never="A surface that is clipped at another depth.",
     advice="move the clip plane away from the surface",
 )
 

@@ -35,12 +35,13 @@ COLOR = Cause(
     explains=True,
     warns=True,
     see_through=True,
-    why="One thing changes the colours of the whole picture: a light that the tracer does not "
-    "have, or a transform that a foreign picture went through.",
-    check="The object is known to be the same, under a light; or one transform makes the surfaces "
-    "agree. Where a single object is in another shade, its pixels are unexplained, and the "
-    "comparison names the object. The figure is what is left after the transform.",
-    never="An object in another shade; a transform of all objects but one.",
+    why="The colours of the whole picture are changed: by light, which the tracer does not "
+    "have, or by a transform of another program's picture.",
+    check="In a lit picture, the same object is shown. In another program's picture, one "
+    "transform makes the surfaces agree. If a single object has another shade, its pixels "
+    "are unexplained, and the comparison names it. The figure is the difference that "
+    "remains after the transform.",
+    never="A single object in another shade; a transform of all objects but one.",
     advice="compare like for like, or undo the transform that the comparison names",
 )
 

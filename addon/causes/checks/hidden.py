@@ -30,13 +30,13 @@ HIDDEN = Cause(
     (0.08, 0.2, 0.08),
     explains=True,
     warns=True,
-    why="One side hides an object, for a reason that the scene names: a flag, a collection; or it "
-    "shows another frame.",
-    check="Of Blender's picture, it shows such an object. Of a foreign picture, tracing the scene "
-    "that way must give what the picture shows in 97 % of the pixels that it changes, as a fault "
-    "must; pixels at its edges count as right where rounding accounts for them. Flags are tried "
-    "one by one, and all together, as one hidden object may lie before another.",
-    never="An object that nothing hides; one that is partly there; other damage besides.",
+    why="One side hides an object, by a flag or a collection of the scene, or shows another frame.",
+    check="Blender's picture shows such an object. For another program's picture, the scene is "
+    "traced with the object hidden or shown, and must give what the picture shows in 97 % "
+    "of the pixels that this changes; at its edges, pixels within rounding count as "
+    "right. Flags are tried one by one and all together, as one hidden object may be in "
+    "front of another.",
+    never="An object that nothing hides; one that is there in part; any other damage.",
     advice="show the object to both sides, or hide it from both",
 )
 

@@ -40,13 +40,14 @@ NOT_MODELLED = Cause(
     (0.3, 0.08, 0.9),
     explains=True,
     warns=True,
-    why="The scene has something that the tracer does not model: hair, glass, a texture, x-ray.",
-    check="First, whether it is seen in this very pixel; where only its colours are not known, the "
-    "object must still be the right one. Then objects that are not drawn, cut a hole, or are drawn "
-    "in front of others: the scene is traced so, and must give what the picture shows. At last "
-    "what may change a picture as it is anywhere: light, which excuses the colour alone; "
-    "x-ray, backface culling, depth of field.",
-    never="Damage beside it, or beneath hair; another object where only the colour is not known.",
+    why="The scene has something that the tracer does not model, such as hair, glass, a "
+    "texture or x-ray.",
+    check="First: it is drawn in this very pixel; where only its colours are unknown, the "
+    "object must still be right. Then, for objects that are not drawn, cut a hole, or are "
+    "drawn in front of others: the scene traced like this gives what the picture shows. "
+    "Last, what may change a picture *as it is* in any pixel: light, which excuses the "
+    "colour only; x-ray, backface culling, depth of field.",
+    never="Damage beside it, or beneath hair; another object where only the colour is unknown.",
     advice="hide it, or compare like for like",
 )
 

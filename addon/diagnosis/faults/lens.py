@@ -93,7 +93,7 @@ def _in_length(factor: Callable[[Camera], float]) -> Change:
     return _shifts(lambda camera, x, y: (factor(camera) * x, factor(camera) * y))
 
 
-def _sides(camera: Camera) -> tuple[float, float]:
+def _lengths(camera: Camera) -> tuple[float, float]:
     """Return the width and the height of the picture in pixels' widths."""
     width, height = pixel_size(camera)
     return camera.width, camera.height * height / width
@@ -162,8 +162,8 @@ _LENGTH = options(
         for power in (-1, 1)
         for factor in (
             lambda camera, power: SENSOR**power,
-            lambda camera, power: max(_sides(camera)) ** power,
-            lambda camera, power: min(_sides(camera)) ** power,
+            lambda camera, power: max(_lengths(camera)) ** power,
+            lambda camera, power: min(_lengths(camera)) ** power,
         )
     )
 )
