@@ -12,7 +12,7 @@ SHARED = -n $(WORKERS) --no-loadscope-reorder
 # Bytecode is kept, also where the machine says no: else each of hundreds of processes compiles anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui torture bench docs lint extension \
+.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu torture bench docs lint extension \
 	release clean
 
 help: ## list the commands
@@ -46,13 +46,17 @@ test-browser: .venv/.stamp ## run the tests of the page in a headless Chromium; 
 	tools/browser.sh setup
 	$(PYTEST) -m browser
 
-test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs root
+test-gui: extension ## run the tests in a whole Blender 5.2 with a window; needs root
 	tools/whole_blender.sh setup
 	$(PYTEST) -m gui
 
-# ONLY="4.2 5.0-2": the cells whose names begin so.
+# ONLY="4.2 window": the cells whose names begin so.
 test-matrix: extension ## run what needs Blender in 4.2, 4.3, 4.5, 5.0, 5.2, numpy 1 and 2: one table
 	$(PYTHON_IN_VENV) tools/matrix.py $(ONLY)
+
+# BLENDER=/path/to/blender: that one, with OpenGL and with Vulkan.
+test-gpu: extension ## compare all sample scenes with what draws here, a graphics card or software: one table
+	$(PYTHON_IN_VENV) tools/gpu.py $(if $(BLENDER),--blender "$(BLENDER)")
 
 # What `make test` samples, at its full length.
 torture: extension ## run the long tests, too long for every day: the suites at their full size

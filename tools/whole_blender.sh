@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
-# A whole Blender 4.3 with a window, in a root folder of its own: Debian 13's package, which the
-# bpy wheels can't replace, since they have no window, no `blender -b` and no `--command`.
+# A whole Blender with a window, in a root folder of its own: a package of Debian's, which the bpy
+# wheels can't replace, since they have no window, no `blender -b` and no `--command`.
 #
 #   tools/whole_blender.sh check           exits 0 if this machine can do it, else says why not
 #   tools/whole_blender.sh ready           exits 0 if it is set up, else says why not
-#   tools/whole_blender.sh setup           makes the root folder (about a minute and 2 GB), once
+#   tools/whole_blender.sh setup           makes the root folder (a minute or two, 1.4 GB), once
 #   tools/whole_blender.sh run COMMAND...  runs a command in it, in a virtual screen of 1600×900,
 #                                          with this project at /project; sets up first if needed
 #
-# BLENDER_ROOT=...  where the root folder is kept (default: under ~/.cache)
+# BLENDER_VERSION=...  5.2, the default, of Debian's unstable; or 4.3, of Debian 13
+# BLENDER_ROOT=...     where its root folder is kept (default: under ~/.cache)
+# DEBIAN_MIRROR=...    where its packages come from: unstable changes, a day of
+#                      http://snapshot.debian.org/archive/debian/20261030T000000Z/ does not
 #
 # A command sees no variable of yours and an empty /tmp, and reaches no network; pass on what it
 # needs with env, and leave results somewhere below /project/out:
@@ -16,14 +19,21 @@
 set -euo pipefail
 
 project="$(cd "$(dirname "$0")/.." && pwd)"
-root="${BLENDER_ROOT:-${XDG_CACHE_HOME:-$HOME/.cache}/reference-tracer/blender-4.3}"
-debian=trixie
+version="${BLENDER_VERSION:-5.2}"
+root="${BLENDER_ROOT:-${XDG_CACHE_HOME:-$HOME/.cache}/reference-tracer/blender-$version}"
 packages=(
     blender python3-numpy python3-requests               # Blender and what its own add-ons import
     xvfb xauth libgl1-mesa-dri libegl1 libgl1            # a screen and OpenGL in software
     xdotool imagemagick                                  # press keys, take screenshots
     slurm-wlm iproute2                                   # a render farm on one machine
 )
+# Each version, the Debian that has it, and what else it needs there.
+case "$version" in
+    4.3) debian=trixie more=() ;;
+    5.2) debian=sid more=(python3-cattr mesa-vulkan-drivers) ;;
+    *) echo "whole_blender: no Debian is known to have Blender $version: 4.3 or 5.2" >&2 && exit 2 ;;
+esac
+packages+=("${more[@]}")
 
 say() { echo "whole_blender: $*" >&2; }
 
@@ -65,7 +75,13 @@ setup() {
         say "setting up failed; the whole log is $root.log"
         return 1
     fi
-    say "ready: $(chroot "$root" blender --version 2>/dev/null | head -n 1)"
+    local found
+    found="$(chroot "$root" blender --version 2>/dev/null | head -n 1)"
+    say "ready: $found"
+    case "$found" in
+        "Blender $version"*) ;;
+        *) say "it is not $version: Debian's $debian has another by now; see DEBIAN_MIRROR" ;;
+    esac
 }
 
 # Mounts made from here on are seen by this process and its children alone, and end with them,
@@ -87,12 +103,16 @@ mount_system() {
 _setup() {
     if [ ! -e "$root/.bare" ]; then
         rm -rf --one-file-system "$root"
-        debootstrap --variant=minbase "$debian" "$root"
+        debootstrap --variant=minbase "$debian" "$root" ${DEBIAN_MIRROR:+"$DEBIAN_MIRROR"}
         touch "$root/.bare"
     fi
     mount_system
     cp -L /etc/resolv.conf "$root/etc/resolv.conf"
     ln -sf /proc/self/mounts "$root/etc/mtab" # Blender looks there for its file browser
+    # A mirror may be some days behind; and a root folder that is not whole is made again, so that
+    # nothing need wait for the disk.
+    echo 'Acquire { Check-Valid-Until "false"; Languages "none"; };' >"$root/etc/apt/apt.conf.d/90quick"
+    printf 'force-unsafe-io\npath-exclude=/usr/share/doc/*\n' >"$root/etc/dpkg/dpkg.cfg.d/quick"
     in_root apt-get update
     in_root dpkg --configure -a # after an interruption
     in_root apt-get install -y --no-install-recommends "${packages[@]}"

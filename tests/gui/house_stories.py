@@ -1,5 +1,8 @@
 """The add-on in Blender's own menus and presets, played in Blender's window: see `play.py`."""
 
+import ctypes
+import sys
+
 import bpy
 from story import module, noted, press, screenshot, show_panel, window
 
@@ -16,12 +19,29 @@ WORDS = {
     ("*", "{} differ, {} open"): "{} distintos, {} sin causa",
 }
 
+introspecting = []
+
+
+def held(event, _):
+    """Hold the namespace in which introspect() evaluates its text, as Blender frees it twice.
+
+    Since Python 3.14 it would end with a segmentation fault, at once or later.
+    """
+    if introspecting and event == "exec":
+        namespace = vars(sys.modules["__main__"])
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(namespace))
+
+
+sys.addaudithook(held)
+
 
 def drawn(kind):
     """Have the texts noted that a panel or menu draws, whenever it does; gives what does it."""
 
     def note(self, context):
+        introspecting.append(kind)
         noted.setdefault("drawn", {})[kind] = str(self.layout.introspect())
+        introspecting.clear()
 
     getattr(bpy.types, kind).append(note)
     return note

@@ -1,14 +1,14 @@
 """What a user does with the pixel inspector, played in its window: see `play.py`."""
 
-import subprocess
-
 import bpy
+from hands import click
 from story import (
     compared,
     data_blocks,
     invoke,
     module,
     noted,
+    open_tab,
     press,
     press_compare,
     result,
@@ -35,28 +35,10 @@ def region_of(area):
     return next(r for r in area.regions if r.type == "WINDOW")
 
 
-def click(region, x, y):
-    """Click with the left button at a place of a region, as a hand does."""
-    place = str(region.x + int(x)), str(window().height - 1 - region.y - int(y))
-    for action in (["mousemove", *place], ["mousedown", "1"], ["mouseup", "1"]):
-        subprocess.run(["xdotool", *action], check=True)
-        yield 0.2
-    yield 0.8
-
-
 def zoom(area, ratio):
     """Show an image's pixels so large, the image in the middle."""
     with bpy.context.temp_override(window=window(), area=area, region=region_of(area)):
         bpy.ops.image.view_zoom_ratio(ratio=ratio)
-
-
-def show_tab(area, category="Reference Tracer"):
-    """Bring our tab of a sidebar to the front; from 4.3 on scripts may."""
-    sidebar = next(r for r in area.regions if r.type == "UI")
-    yield 0.3
-    sidebar.active_panel_category = category
-    area.tag_redraw()
-    yield 0.5
 
 
 def pixel():
@@ -98,7 +80,7 @@ def in_images():
     noted["frame"] = {}
     area = area_of("IMAGE_EDITOR")
     yield 1
-    yield from show_tab(area)
+    yield from open_tab(area)
     before = settings()
     sidebar = next(r for r in area.regions if r.type == "UI")
     yield from click(sidebar, 0.4 * sidebar.width, sidebar.height - BUTTON)
@@ -147,11 +129,12 @@ def in_render():
         with bpy.context.temp_override(window=window()):
             bpy.ops.render.render()
         area.spaces.active.image = bpy.data.images["Render Result"]
+        zoom(area, 2)  # what is clicked is a whole number on the screen
         yield 1
         invoke("inspect")
         region = region_of(area)
-        u, v = region.view2d.view_to_region(0.5, 0.5, clip=False)
-        yield from click(region, u, v)
+        middle = 0.5 + 0.5 / 960, 0.5 + 0.5 / 540  # within a pixel, not between two
+        yield from click(region, *region.view2d.view_to_region(*middle, clip=False))
         noted["clicks"].append([border, crop, pixel()])
         press("Escape")
         yield 0.5
@@ -163,7 +146,7 @@ def in_view():
     area = area_of("VIEW_3D")
     look_through_camera(area)
     yield 1
-    yield from show_tab(area)
+    yield from open_tab(area)
     bpy.context.window_manager.reference_tracer.draw_ray = True
     clean = data_blocks()
     selected = [o.name for o in window().view_layer.objects if o.select_get()]

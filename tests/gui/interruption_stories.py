@@ -20,6 +20,7 @@ from story import (
 
 TURNS = 20  # of the add-on, off and on; the bpy module is asked for a hundred
 FILE = "/project/out/gui/interrupted.blend"
+UNSTEADY = "screens", "all_ids"  # that of a closed window is kept for a while; all, also images
 
 
 def interruptions():
@@ -52,10 +53,10 @@ def begun():
 
 def state():
     """All data by name, the settings, the handlers, and what the window shows."""
-    data = {  # without the screens: Blender keeps that of a closed window for a while
+    data = {
         p.identifier: sorted(b.name_full for b in getattr(bpy.data, p.identifier))
         for p in bpy.data.bl_rna.properties
-        if p.type == "COLLECTION" and p.identifier != "screens"
+        if p.type == "COLLECTION" and p.identifier not in UNSTEADY
     }
     handlers = {
         name: [getattr(h, "__qualname__", str(h)) for h in found]

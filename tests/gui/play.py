@@ -16,9 +16,11 @@ import bpy
 sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
 import diagnosis_stories
+import first_use_stories
 import hard_stories
 import house_stories
 import inspector_stories
+import installation_stories
 import interruption_stories
 import page_stories
 import seen_stories
@@ -32,9 +34,11 @@ STORIES = {
     for module in (
         stories,
         diagnosis_stories,
+        first_use_stories,
         hard_stories,
         house_stories,
         inspector_stories,
+        installation_stories,
         interruption_stories,
         page_stories,
         seen_stories,

@@ -10,7 +10,8 @@ import bpy
 
 OUT = Path("/project/out/gui")
 MODULE = "bl_ext.user_default.reference_tracer"
-SIDEBAR_TAB = ("1308", "233")  # ours, in a window of 1600 x 900
+SIDEBAR_TAB = "Reference Tracer"
+KEYS = {"F12": "96"}  # by its number: by its name, newer tools press Alt with it
 noted = {}  # what the story that is played has found; see play.py
 
 
@@ -20,6 +21,7 @@ def window():
 
 def press(key):
     """Press a key as a keyboard does, with the pointer over the 3D view."""
+    key = KEYS.get(key, key)
     subprocess.run(["xdotool", "mousemove", "500", "350", "key", key], check=True)
 
 
@@ -132,12 +134,14 @@ def running():
     ]
 
 
-def open_tab():
-    """Click on our tab of the sidebar."""
-    for action in (["mousemove", *SIDEBAR_TAB], ["mousedown", "1"], ["mouseup", "1"]):
-        subprocess.run(["xdotool", *action], check=True)
-        yield 0.3
-    yield 1
+def open_tab(area=None):
+    """Bring our tab of an editor's sidebar to the front, of the 3D view's by default."""
+    area = area or next(a for a in window().screen.areas if a.type == "VIEW_3D")
+    area.spaces.active.show_region_ui = True
+    yield 0.5
+    next(r for r in area.regions if r.type == "UI").active_panel_category = SIDEBAR_TAB
+    area.tag_redraw()
+    yield 0.5
 
 
 def show_panel():

@@ -3,8 +3,12 @@
 import json
 import re
 import shutil
+import subprocess
+import sys
 
 import pytest
+
+from .conftest import PROJECT
 
 pytestmark = pytest.mark.gui
 
@@ -199,3 +203,12 @@ def test_sigterm_ends_a_command_as_ctrl_c_does(blender, folder):
     assert done.returncode == 143, done.stdout + done.stderr
     assert "reference_tracer: terminated" in done.stderr and "Traceback" not in done.stderr
     assert not [p.name for p in path.iterdir() if p.name.startswith(".reftrace-")]
+
+
+def test_both_backends_are_asked(blender):
+    """In 4.3, and without a driver, there is no Vulkan: that is said."""
+    shim = PROJECT / "tests" / "farms" / "bin" / "blender"
+    command = [sys.executable, PROJECT / "tools" / "gpu.py", "--blender", shim, "exercise_triangle"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert re.search(r"\| OPENGL .*\| 0 +\|$", done.stdout, re.M), done.stdout + done.stderr
+    assert "VULKAN" in done.stdout + done.stderr

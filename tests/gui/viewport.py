@@ -16,8 +16,9 @@ def prepared():
     for shading in (window().scene.display.shading, space().shading):
         shading.light, shading.color_type = "FLAT", "MATERIAL"
         shading.show_object_outline = shading.show_cavity = False
+    space().shading.background_type = "THEME"  # 5.2 draws the world's in its solid shading alone
     space().overlay.show_overlays = space().show_gizmo = False
-    for name in ("header", "tool_header", "toolbar", "ui", "hud", "asset_shelf"):
+    for name in ("header", "tool_header", "toolbar", "ui", "hud"):
         setattr(space(), f"show_region_{name}", False)
     with bpy.context.temp_override(window=window(), area=area(), region=region()):
         bpy.ops.screen.area_split(direction="VERTICAL", factor=0.25)

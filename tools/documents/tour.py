@@ -15,7 +15,7 @@ import numpy as np
 
 sys.path.insert(0, "/project/tests/gui")  # what the tests in the window share
 
-from story import compared, data_blocks, invoke, press_compare, result, until, window
+from story import compared, data_blocks, invoke, open_tab, press_compare, result, until, window
 from viewport import all_noted, settled
 
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
@@ -41,15 +41,6 @@ def main_region(shown):
     return next(r for r in shown.regions if r.type == "WINDOW")
 
 
-def show_tab(shown):
-    """Open our tab of an editor's sidebar."""
-    shown.spaces.active.show_region_ui = True
-    yield 0.5
-    next(r for r in shown.regions if r.type == "UI").active_panel_category = "Reference Tracer"
-    shown.tag_redraw()
-    yield 0.5
-
-
 def tour():
     """Each step's name is its picture's."""
     yield from compare()
@@ -67,7 +58,8 @@ def compare():
     screenshot("empty")
     subprocess.run(["xdotool", "mousemove", "700", "870", "click", "1"], check=True)  # the splash
     yield 1
-    bpy.ops.mesh.primitive_monkey_add(size=2, location=(0.5, -2, 0.3), rotation=(-0.4, 0, 0.9))
+    turned = [math.radians(degrees) for degrees in (-23, 0, 52)]
+    bpy.ops.mesh.primitive_monkey_add(location=(0.5, -2, 0.3), rotation=turned)
     bpy.ops.mesh.primitive_plane_add(size=9, location=(0, 0, -1))
     bpy.ops.object.select_all(action="DESELECT")
     area("VIEW_3D").spaces.active.region_3d.view_perspective = "CAMERA"
@@ -83,7 +75,7 @@ def compare():
     yield 1
     assert data_blocks()["objects"] == before
     view = area("VIEW_3D")
-    yield from show_tab(view)
+    yield from open_tab(view)
     screenshot("compared", view)
     view.spaces.active.show_region_ui = False
     content = result().content
@@ -121,7 +113,7 @@ def inspect(shown):
     x, y = result().content.metrics.largest_difference.pixel
     space, inside = shown.spaces.active, main_region(shown)
     space.image = bpy.data.images["Reference Tracer Causes"]
-    yield from show_tab(shown)
+    yield from open_tab(shown)
     width, height = space.image.size
 
     def place(dx, dy):
@@ -200,7 +192,7 @@ def ray(shown):
     from mathutils import Quaternion
 
     shown.type = "VIEW_3D"
-    yield from show_tab(shown)
+    yield from open_tab(shown)
     x, y = ON_THE_CUBE
     with bpy.context.temp_override(window=window(), area=shown, region=main_region(shown)):
         bpy.ops.reference_tracer.explain("EXEC_DEFAULT", True, x=x, y=y, draw_ray=True)

@@ -1,0 +1,58 @@
+"""A user's hands: the pointer, its button, and a button of Blender's that is looked for."""
+
+import subprocess
+
+import bpy
+from story import window
+
+
+def xdotool(*words):
+    subprocess.run(["xdotool", *map(str, words)], check=True)
+
+
+def on_screen(region, x, y):
+    """Return where a place of a region is on the screen, whose y goes down."""
+    return region.x + int(x), window().height - 1 - region.y - int(y)
+
+
+def click(region, x, y):
+    """Click with the left button at a place of a region, as a hand does."""
+    for action in (("mousemove", *on_screen(region, x, y)), ("mousedown", 1), ("mouseup", 1)):
+        xdotool(*action)
+        yield 0.2
+    yield 0.8
+
+
+def found(area, command, across=0.6, step=16):
+    """Go down an editor, scrolled if need be, until the pointer is on a command's button.
+
+    So far across it, as a share of its width. Returns where that is.
+
+    Raises
+    ------
+    LookupError
+        If there is none.
+    """
+    region = next(r for r in area.regions if r.type == "WINDOW")
+    x = across * region.width
+    xdotool("mousemove", 0, 0)  # what was under the pointer is it no more
+    yield 0.3
+    for _ in range(3):
+        for y in range(region.height - step, 0, -step):
+            xdotool("mousemove", *on_screen(region, x, y))
+            yield 0.06
+            with bpy.context.temp_override(window=window(), area=area, region=region):
+                if bpy.ops.ui.copy_python_command_button.poll():  # what Ctrl+C does on a button
+                    bpy.ops.ui.copy_python_command_button()
+                    if command in bpy.context.window_manager.clipboard:
+                        return region, x, y
+        xdotool("click", "--repeat", 8, 5)  # the wheel
+        yield 0.5
+    raise LookupError(f"there is no button {command}")
+
+
+def click_on(area, command, **options):
+    """Find a button by the command that it is for, and click on it; return where it is."""
+    where = yield from found(area, command, **options)
+    yield from click(*where)
+    return where

@@ -1,0 +1,32 @@
+"""A first use by clicks and keys: all goes well, and whatever comes in between leaves nothing."""
+
+import pytest
+
+pytestmark = pytest.mark.gui
+
+
+@pytest.mark.story("first_use")
+def test_press_see_go_to_what_differs_open_the_page_undo(noted):
+    assert noted["begun"] and noted["verdict"] == "agree"
+    assert noted["images"] == 4 and noted["selected"] == ["Chessboard"] and noted["page"]
+    assert noted["after_undo"] == []
+
+
+@pytest.mark.story("second_press")
+def test_a_second_press_starts_no_second_and_esc_ends_the_first(noted):
+    assert noted["first"] == noted["second"] and len(noted["first"]) == 1
+    assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
+    assert noted["changed"] == {} and noted["left"] == []
+    assert not noted["compared"]
+
+
+@pytest.mark.story("new_file")
+def test_another_file_comes(noted):
+    assert noted["ran"] and noted["file"] == ""
+    assert noted["left"] == []
+
+
+@pytest.mark.story("unticked")
+def test_the_add_on_is_switched_off(noted):
+    assert noted["ran"] and noted["disabled"]
+    assert noted["left"] == [] and noted["verdict"] == "agree"

@@ -1,0 +1,63 @@
+"""The zip in a whole Blender: from disk, in the window too, and from an address on this machine.
+
+The commands are those of docs/button.md, word for word.
+"""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from .conftest import PROJECT, WHOLE_BLENDER
+
+pytestmark = pytest.mark.gui
+
+ADDRESS = "http://127.0.0.1:8000"
+# The folder becomes a repository of extensions, which this machine serves; it reaches no other.
+SERVE = """
+ip link set lo up
+cd {folder}
+blender --command extension server-generate --repo-dir .
+python3 -m http.server --bind 127.0.0.1 8000 &
+until (: </dev/tcp/127.0.0.1/8000) 2>/dev/null; do sleep 0.1; done
+"""
+USE = "blender {scene} --command reference_tracer compare --out {folder}/compared"
+
+
+def documented():
+    """The document's commands of installing, from disk and from an address."""
+    text = (PROJECT / "docs" / "button.md").read_text(encoding="utf-8")
+    return re.findall(r"^ *(blender .*extension .*)$", text, re.M)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "before"), [(slice(0, 1), ""), (slice(1, 3), SERVE)], ids=["disk", "address"]
+)
+def test_it_is_installed_as_the_document_says(chosen, before, blender):
+    assert len(documented()) == 3
+    [package] = (PROJECT / "dist").glob("reference_tracer-*.zip")
+    out = blender.out / "installation"
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir()
+    shutil.copy(package, out)
+    folder = f"/project/out/gui/{out.name}"
+    scene = "/project/sample_scenes/exercise_triangle.blend"
+    script = "\n".join(
+        ["set -e", before, f"cd {folder}", *documented()[chosen], "blender -c extension list", USE]
+    )
+    script = script.replace("ADDRESS", ADDRESS).format(folder=folder, scene=scene)
+    user = f"BLENDER_USER_RESOURCES={folder}/user"
+    command = [WHOLE_BLENDER, "run", "env", user, "bash", "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert re.search(r"reference_tracer.*\[installed\]", done.stdout), done.stdout
+    assert "verdict: agree" in done.stdout and "Traceback" not in done.stdout + done.stderr
+    assert (out / "compared" / "page.html").exists()
+
+
+@pytest.mark.story("from_disk")
+def test_it_goes_and_comes_in_an_open_window(noted):
+    assert noted["gone"] == {"panel": False, "scene": False, "modules": []}
+    assert noted["installed"] == noted["again"] == ["FINISHED"]  # the second time, over itself
+    assert noted["verdict"] == "agree"
