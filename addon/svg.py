@@ -6,6 +6,7 @@ No font is known here, so the widths of words are estimated.
 from __future__ import annotations
 
 import re
+from functools import cache
 from html import escape
 
 _LETTER, _WIDE = 0.64, 1.0  # widths in sizes of the font, with room: of a letter; of an ideograph
@@ -26,6 +27,7 @@ def said(name: str, words: str, **attributes: str | float) -> str:
     return element(name, escape(_NO_XML.sub("\ufffd", words)), **attributes)
 
 
+@cache
 def width_of(words: str, size: float) -> float:
     """Return how wide the longest line of words is, at most."""
     wide = (sum(_WIDE if c > "\u2e80" else _LETTER for c in line) for line in words.split("\n"))

@@ -13,6 +13,7 @@ from .. import __version__
 from . import running
 from .commands import COMMANDS
 from .parser import EXIT_CODES_HELP, Parser
+from .watch import watched
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -23,7 +24,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     if argv is None:
         running.keep_stdout()
         argv = sys.argv[1:]
-    return running.run(lambda: _run(argv), "reftrace")
+    with watched():
+        return running.run(lambda: _run(argv), "reftrace")
 
 
 def _run(argv: Sequence[str]) -> int:

@@ -61,10 +61,12 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> OpenedFile:
         with open_blend(path, choice) as blender:
             from ..blender.jobs.compare import export_open_file
 
-            scene, manifest, settings = export_open_file(blender.context)
+            with running.meanwhile(f"having Blender evaluate {path.name}"):
+                scene, manifest, settings = export_open_file(blender.context)
         return OpenedFile(scene, manifest, settings)
     check_kind(path)
-    return OpenedFile(*open_scene(path, choice), Settings())
+    with running.meanwhile(f"reading {path.name}"):
+        return OpenedFile(*open_scene(path, choice), Settings())
 
 
 def import_trimesh() -> None:
@@ -105,7 +107,8 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
             registration.register()
     try:
         if not choice.opened:
-            _open(bpy, path)
+            with running.meanwhile(f"reading {path.name}"):
+                _open(bpy, path)
         elif not bpy.data.filepath:
             say = "no file is open (is its name right?): name a .blend before --command"
             raise SceneError(say)

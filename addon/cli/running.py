@@ -211,6 +211,19 @@ def printable(text: str) -> str:
     )
 
 
+named: list[str] = []  # what is done meanwhile, the innermost last
+
+
+@contextmanager
+def meanwhile(words: str) -> Iterator[None]:
+    """Name what has no steps that could say how much is done: `watch.py` says it."""
+    named.append(words)
+    try:
+        yield
+    finally:
+        named.pop()
+
+
 @contextmanager
 def progress_bar(
     clock: Callable[[], float] = time.monotonic,

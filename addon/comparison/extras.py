@@ -38,17 +38,26 @@ class Extras:
 
 
 def extras(
-    comparison: Comparison, measure_trade: bool = False, measure_extremes: bool = False
+    comparison: Comparison,
+    measure_trade: bool = False,
+    measure_extremes: bool = False,
+    literal: bool = True,
 ) -> Work[Extras]:
-    """Find out what a page shows beside a comparison; yields the share of the work done."""
+    """Find out what a page shows beside a comparison; yields the share of the work done.
+
+    Without `literal`, as in an animation, the literal textbook's picture is left out.
+    """
     left_out: list[str] = []
-    literal = called(_literal(comparison, left_out), "tracing by the textbook, literally")
+    tracing = called(_literal(comparison, left_out), "tracing by the textbook, literally")
     derivations = called(_derivations(comparison, left_out), "deriving examples")
     # Of each field, with its share of the work, roughly.
     works: dict[str, tuple[Work[object], float]] = {
-        "literal": (literal, 1.0),
+        "literal": (tracing, 1.0),
         "derivations": (derivations, 0.5),
     }
+    if not literal:
+        del works["literal"]
+        left_out.append("The literal textbook's picture: the pages of frames do without it.")
     if measure_trade:
         measuring = tradeoff.measure(comparison.scene, name=comparison.manifest.file)
         works["trade"] = measuring, 6.0

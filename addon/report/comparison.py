@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -26,6 +27,8 @@ from ..tracer.progress import Work, called, scaled
 from . import page
 from .folders import replacing, write_json
 
+# Arrays whose last digits are noise: to look for more than runs takes twice as long for nothing.
+_NOISE = "position", "barycentrics"
 PICTURES = "traced", "blender", "difference"
 ARRAYS, JSON = "frame.npz", "comparison.json"
 NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
@@ -61,17 +64,19 @@ def written(
     trade: bool = False,
     extremes: bool = False,
     told: Callable[[Comparison], object] = lambda comparison: None,
+    literal: bool = True,
 ) -> Work[Comparison]:
     """Compare, find what else the page shows, and write; then diagnose, and write again.
 
     Who ends it in the midst of the diagnosis has the comparison in the folder without it. If the
-    work fails, the folder says why. `told` hears of the comparison before the diagnosis.
+    work fails, the folder says why. `told` hears of the comparison before the diagnosis. The page
+    has the literal textbook's picture if that is wanted.
     """
     extras: Extras | None = None
 
     def kept(comparison: Comparison) -> Work[None]:
         nonlocal extras
-        extras = extras or (yield from find_extras(comparison, trade, extremes))
+        extras = extras or (yield from find_extras(comparison, trade, extremes, literal))
         yield from scaled(called(write(folder, comparison, extras), "writing"), 1.0, 0.0)
 
     shares = (0.2, 0.8) if trade or extremes else (0.5, 0.6)
@@ -100,6 +105,9 @@ def _write_arrays(path: Path, arrays: Iterable[tuple[str, Array]]) -> Work[None]
     with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=1) as stored:
         for name, values in arrays:
             with stored.open(f"{name}.npy", "w", force_zip64=True) as file:
+                if name in _NOISE:  # an attribute of Python's own: without it, it takes longer
+                    runs = zlib.compressobj(1, zlib.DEFLATED, -15, strategy=zlib.Z_RLE)
+                    vars(file)["_compressor"] = runs
                 np.lib.format.write_array(file, values, allow_pickle=False)
             yield 0.0
 

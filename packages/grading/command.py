@@ -29,7 +29,7 @@ from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import load_scene
-from reference_tracer.tracer.progress import Work, result_of, scaled
+from reference_tracer.tracer.progress import Work, called, result_of, scaled
 from reference_tracer.wording import count_of, say
 
 from .external import EXCHANGES, Run, sandbox
@@ -272,11 +272,12 @@ def _work(
     subjects = []
     for k, (name, scene, path) in enumerate(scenes):
         work = prepare(name, scene, str(path), options.pixels, options.camera_options)
+        work = called(work, f"tracing {name}")
         subjects.append((yield from scaled(work, 0.3 * k / len(scenes), 0.3 / len(scenes))))
     hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     limits = Limits(options.time_limit, options.memory_limit)
     judging = judge_all(submissions, make_checks(), subjects, hard, limits, told=told)
-    return (yield from scaled(judging, 0.6, 0.4))
+    return (yield from scaled(called(judging, "judging"), 0.6, 0.4))
 
 
 def built_in() -> list[Named]:

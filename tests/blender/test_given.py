@@ -235,7 +235,7 @@ def test_the_render_result(rendered_png, solids):
     assert found.verdict == "agree" and found.counts.unexplained == 0
     assert found.case.picture.levels == 0  # its own floats, not what a view transform makes
     assert (settings.file_format, settings.color_mode, settings.color_depth) == before
-    assert found.case.picture.source.file == "Render Result.exr"
+    assert found.case.picture.source.file == "Render Result"
     bpy.data.objects["Green"].location.x += 0.2
     OPS.compare()
     found = results.content(Kind.COMPARISON, solids)

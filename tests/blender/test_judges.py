@@ -103,6 +103,13 @@ def test_a_record_that_contradicts_itself_is_refused(own, problem):
         Judge("draft", "Draft", **own)
 
 
+def test_one_that_takes_no_other_materials_is_refused():
+    """As EEVEE in 4.3: Cycles with no light and the materials that there are."""
+    with_its_own = Judge("draft", "Draft", engine="CYCLES", solid=False)
+    with pytest.raises(SceneError, match=r"Draft of Blender .* materials of its own"):
+        rasteriser.snapping_of(with_its_own)
+
+
 def test_only_a_ray_tracer_is_taken_to_leave_corners_where_they_are(monkeypatch):
     """A rasteriser with materials rounds them too: here to a sixteenth of a pixel."""
 

@@ -6,11 +6,14 @@ import os
 import struct
 import sys
 import time
+from threading import Event
 
 import pytest
 from reference_tracer.cli import running
 from reference_tracer.cli.commands import extremes as command
 from reference_tracer.cli.main import main
+from reference_tracer.cli.watch import watched
+from reference_tracer.scene_files import save_scene
 from reference_tracer.study import extremes
 from reference_tracer.study.scenarios.sweeps import BY_NAME
 from reference_tracer.tracer.progress import Share
@@ -49,6 +52,49 @@ def test_after_a_long_step_one_line_is_enough(capsys):
         clock.now += 4.0
         show(0.5)
     assert capsys.readouterr().err.splitlines() == ["  0 % (47 s)", " 50 % (51 s, 51 s left)"]
+
+
+def test_what_has_no_steps_is_named_every_ten_seconds(capsys):
+    """And nothing is said of what has steps, or takes no time."""
+    ended = Event()
+    turns = []
+
+    def wait(seconds):
+        turns.append(seconds)
+        if len(turns) == 3:
+            ended.set()
+        return len(turns) > 3
+
+    with running.meanwhile("reading"), running.meanwhile("reading scene.obj"), watched(wait):
+        assert ended.wait(60)
+    with watched():
+        pass
+    assert capsys.readouterr().err.splitlines()[:2] == [
+        "reading scene.obj (10 s)",
+        "reading scene.obj (20 s)",
+    ]
+    assert turns == [running.LINE_EVERY] * 4 and not running.named
+
+
+def test_reading_and_explaining_are_named(make, tmp_path, monkeypatch):
+    said = []
+
+    class Named(list):
+        def append(self, words):
+            said.append(words)
+            super().append(words)
+
+    monkeypatch.setattr(running, "named", Named())
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(8, 6), make.quad(-1, 1, -1, 1, -2)))
+    assert main(["explain", str(tmp_path / "s.npz"), "--pixel", "1", "1"]) == 0
+    assert said == ["reading s.npz", "finding what the ray may meet"]
+
+
+def test_tracing_is_said(make, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(running, "LINE_EVERY", 1e-9)
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(8, 6), make.quad(-1, 1, -1, 1, -2)))
+    assert main(["trace", str(tmp_path / "s.npz"), "--out", str(tmp_path / "s.png")]) == 0
+    assert "%, tracing (" in capsys.readouterr().err
 
 
 def test_on_a_terminal_a_bar_says_what_is_done(monkeypatch):

@@ -10,6 +10,7 @@ import re
 import zlib
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -265,6 +266,15 @@ def test_extras_are_the_literal_picture_and_derivations(differing):
     examples = differing.counts.examples
     assert set(found.derivations) == {tuple(p) for some in examples.values() for p in some[:3]}
     assert found.trade is found.extremes is None and not found.left_out
+
+
+def test_the_page_of_a_frame_says_that_it_has_no_literal_picture(differing):
+    found = result_of(extras(differing, literal=False))
+    assert found.literal is None and len(found.left_out) == 1
+    assert found.derivations.keys() == result_of(extras(differing)).derivations.keys()
+    held: Any = content(differing, found)
+    pictures = {p["id"] for p in held["pictures"]}
+    assert pictures == {"traced", "blender"}
 
 
 def test_a_slow_textbook_is_not_traced_again(differing):

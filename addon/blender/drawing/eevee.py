@@ -2,7 +2,8 @@
 
 EEVEE spreads its samples over its filter, which is a disk where it is narrow: of width 0, it is the
 pixel's centre. Measured as `rasteriser.py` does, in rows and in columns, in 5.2: edges are where
-Workbench has them, rounded to 1/256 pixel.
+Workbench has them, rounded to 1/256 pixel. In 4.3 it takes no override of materials: what is drawn
+first says so.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ import numpy as np
 from ...arrays import Bools, Floats
 from ...pictures.bounds import SNAPPING
 from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, ViewWindow
+from ...scene import Camera, SceneError, ViewWindow
 from .camera_object import add_camera
 from .judge import Judge
 from .picture import picture, prepare_scene
@@ -25,6 +25,7 @@ from .picture import picture, prepare_scene
 # How far beside a centre the edges lie, in pixels: four steps to a bit, and none on a bit's own.
 OFFSETS = 2.0 ** -(np.arange(4 * 2, 4 * 14) / 4 + 1 / 8)
 _WIDTH = 8  # pixels
+_NEAR = 0.01  # of a colour: far above its rounding to a half float
 
 
 @cache
@@ -54,6 +55,11 @@ def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
         Pixels by which each row's right edge lies beyond that centre.
     turned : bool
         Draw them in columns instead, whose lower edges are moved.
+
+    Raises
+    ------
+    SceneError
+        If they are not in the colour that they should have, as drawn by EEVEE in 4.3.
     """
     rows = len(moved)
     size = (rows, _WIDTH) if turned else (_WIDTH, rows)
@@ -70,10 +76,18 @@ def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
     looking = add_camera(scene, camera).data
     try:
         prepare_scene(scene, True)
-        scene.display.shading.color_type = "SINGLE"  # whatever else the file holds
+        shading = scene.display.shading
+        shading.color_type = "SINGLE"  # whatever else the file holds
+        color = np.array(shading.single_color)
         shown = picture(scene, scene.view_layers[0].name, judge, camera, True)
     finally:
         bpy.data.batch_remove([*scene.collection.objects, scene, mesh, looking])
+    drawn = shown[shown[..., 3] > 0.5][:, :3]
+    if len(drawn) and not np.allclose(np.median(drawn, axis=0), color, atol=_NEAR):
+        raise SceneError(
+            f"{judge.label} of Blender {bpy.app.version_string} shows materials of its own: no "
+            "other is put over them all. Compare with Workbench or Cycles."
+        )
     return (shown[-2] if turned else shown[:, 1])[:, 3] > 0.5
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from ...comparison.animation import FrameRow
 from ...errors import words
 from ...report import animation as report
 from ...scene import SceneError
-from ...tracer.progress import Work, called, scaled
+from ...tracer.progress import Share, Work, doing, mapped, scaled
 from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..values import values_restored
@@ -72,7 +73,7 @@ def compare_frames(
                 yield share
                 if frame in todo:
                     work = _compared(folder, frame, made_by, choices)
-                    work = called(work, f"frame {frame}")
+                    work = mapped(work, partial(_of_frame, frame))
                     rows.append((yield from scaled(work, share, 1 / len(todo))))
                     report.write(folder, title, frames, rows)
                     told(rows)
@@ -81,11 +82,17 @@ def compare_frames(
     return rows
 
 
+def _of_frame(frame: int, share: float) -> Share:
+    """Return the share of a frame's work with words that name the frame, too."""
+    return Share(share, ": ".join(filter(None, (f"frame {frame}", doing(share)))))
+
+
 def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -> Work[FrameRow]:
     own = report.folder_of(folder, frame)
     try:
         # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
-        work = compare_open_file(bpy.context, str(own), diagnose=False, **choices)
+        choices = choices | {"diagnose": False, "literal": False}
+        work = compare_open_file(bpy.context, str(own), **choices)
         comparison = yield from work
     except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
         return FrameRow(frame, error=words(error))

@@ -215,13 +215,15 @@ def compare_open_file(
     trade: bool = False,
     extremes: bool = False,
     told: Callable[[Comparison], object] = lambda comparison: None,
+    literal: bool = True,
     **choices: Any,
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing, diagnosing, and writing the files.
 
     Nothing is written if the directory is empty. With `trade` and `extremes`, these are measured
     for the page, too. `told` hears of the comparison before the diagnosis, if there is one. The
-    choices are the fields of :class:`Choices`. On failure the folder's JSON says why.
+    page has the literal textbook's picture, if that is wanted. The choices are the fields of
+    :class:`Choices`. On failure the folder's JSON says why.
 
     Raises
     ------
@@ -234,7 +236,7 @@ def compare_open_file(
     folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
-    return comparison_report.written(folder, case, diagnose, trade, extremes, told)
+    return comparison_report.written(folder, case, diagnose, trade, extremes, told, literal)
 
 
 def export_open_file(

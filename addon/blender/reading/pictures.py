@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ...exr import MissingLibraryError
 from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
 from ...runs import by_runs
 from ...scene import SceneError
@@ -31,6 +32,7 @@ class _Held(PictureFile):
     """The pixels that Blender holds of an image."""
 
     image: Any
+    engine: str = ""  # as `StoredPicture` has it
 
     def read(self) -> StoredPicture:
         """Read the pixels: floats are linear, bytes have sRGB's curve and a straight alpha."""
@@ -40,7 +42,7 @@ class _Held(PictureFile):
         color = pixels.reshape(self.height, self.width, 4)
         opaque = image.channels < 4 or image.alpha_mode == "NONE"
         if image.is_float:
-            return StoredPicture(color, 0, opaque)
+            return StoredPicture(color, 0, opaque, engine=self.engine)
         color = by_runs(lambda some: decoded(some).astype(np.float32), color.reshape(-1, 4))
         return StoredPicture(color.reshape(self.height, self.width, 4), EIGHT_BITS, opaque)
 
@@ -65,7 +67,8 @@ def image_file(image: Any) -> PictureFile:
         if not path.is_file():
             raise SceneError(f"{name} has no file '{path}': find it, or choose another image.")
         if path.suffix.lower() in _READ:
-            return open_picture(path)
+            with suppress(MissingLibraryError):  # of an EXR: not every Blender brings it
+                return open_picture(path)
     width, height = image.size
     if not width * height:
         raise SceneError(f"{name} has no pixels: load it again, or choose another one.")
@@ -97,11 +100,16 @@ def render_result(scene: Any) -> Iterator[PictureFile]:
             if image is None:
                 raise RuntimeError("nothing was rendered")
             image.save_render(str(path), scene=scene)
+            loaded: Any = bpy.data.images.load(str(path))
         except RuntimeError as error:
             raise SceneError(
                 f"Scene '{scene.name}' has no Render Result: render it first ({error})."
             ) from error
-        yield open_picture(path)
+        width, height = loaded.size
+        try:
+            yield _Held(Path(image.name), width, height, loaded, "other")
+        finally:
+            bpy.data.images.remove(loaded)
 
 
 @contextmanager

@@ -31,7 +31,7 @@ from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
 from ..opening import import_trimesh, open_blend, open_file
 from ..parser import AGREE, EXIT_CODES_HELP, Parser
-from ..running import progress_bar
+from ..running import meanwhile, progress_bar
 
 _FRAMED = (
     "the camera is none of the mesh's: it was placed to see all of it; "
@@ -105,7 +105,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             work_of_all = compare_all(blender.context, out, **chosen)
             return _told_engines(options, result_of(work_of_all, progress))
         studies = options.trade, options.extremes
-        work = compare_open_file(blender.context, out, *studies, judge=judge, **chosen)
+        with meanwhile("having Blender draw"):
+            work = compare_open_file(blender.context, out, *studies, judge=judge, **chosen)
         return _told_comparison(options, result_of(work, progress))
 
 
@@ -207,7 +208,8 @@ def _blend(
         shown = picture_of_file(picture, export_camera(context.scene), making)
         settings = options.settings.over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
-        case = gather_against(context, shown, settings, bool(options.self_check), colors)
+        with meanwhile("having Blender evaluate the scene"):
+            case = gather_against(context, shown, settings, bool(options.self_check), colors)
         return (yield from _written(options, replace(case, **place)))
 
 

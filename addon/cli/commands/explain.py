@@ -22,7 +22,7 @@ from ..arguments import refuse
 from ..camera_options import CAMERA_OPTIONS, add_camera, choice_from
 from ..opening import SOURCES, load
 from ..parser import AGREE, COUNT, INTEGER, Parser
-from ..running import printable
+from ..running import meanwhile, printable
 
 
 @dataclass(frozen=True)
@@ -110,4 +110,5 @@ def _gathered(options: ExplainOptions) -> Pixel:
     with exr.redirected(1, 2), redirect_stdout(sys.stderr):
         scene, _ = load(options.scene, options.choice)
     x, y = options.pixel
-    return gather_pixel(scene, x, y, options.limit, options.scene.name)
+    with meanwhile("finding what the ray may meet"):
+        return gather_pixel(scene, x, y, options.limit, options.scene.name)

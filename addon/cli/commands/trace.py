@@ -14,6 +14,7 @@ from ...rendering import render
 from ...report import folders
 from ...scene import Scene, SceneError
 from ...tracer.coloring import Color
+from ...tracer.progress import Share
 from ...tracer.settings import Settings
 from ...wording import count_of
 from ..arguments import GivenSettings, Place, add_settings, place_from, settings_from
@@ -90,7 +91,7 @@ def trace(options: TraceOptions) -> int:
         if options.rows:
             scene = _rows_alone(scene, settings, *options.rows)
         with options.place as place, progress_bar() as progress:
-            frame = render(scene, settings, progress, **place)
+            frame = render(scene, settings, lambda s: progress(Share(s, "tracing")), **place)
         with folders.replacing_file(options.out) as new:
             if options.is_png:
                 images.save_png(new, images.to_display(frame.color))
