@@ -3,7 +3,9 @@
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 from reference_tracer.causes.explain import CAUSES
 from reference_tracer.diagnosis.faults import EXAMPLES, FAULTS
 from reference_tracer.methods import Method
@@ -14,6 +16,7 @@ PROJECT = Path(__file__).parent.parent
 sys.path.insert(0, str(PROJECT / "tools"))
 from documents import records  # noqa: E402
 from documents.causes import EXAMPLES as EXAMPLE_OF  # noqa: E402
+from documents.causes import picture  # noqa: E402
 from documents.markers import refreshed  # noqa: E402
 
 sys.path.pop(0)
@@ -63,6 +66,11 @@ def test_every_cause_has_a_small_picture():
 def test_the_picture_of_a_cause_shows_it(cause):
     *_, causes = EXAMPLE_OF[cause.key]().shown()
     assert (causes == cause).sum() >= 10
+    path = PROJECT / "docs" / "images" / "causes" / f"{cause.key}.png"
+    stored = np.asarray(Image.open(path).convert("RGBA"))[::-1]
+    fresh = picture(cause)  # of float32, which may round otherwise elsewhere
+    assert stored.shape == fresh.shape
+    assert (stored != fresh).any(axis=2).mean() < 0.02, "run `make docs`"
 
 
 def test_a_cause_that_excuses_withstands_an_attack():

@@ -47,7 +47,7 @@ def write(
     OSError
         If the folder cannot be written.
     """
-    colors = comparison.frame.color, comparison.picture, cause_picture(comparison)
+    colors = comparison.frame.color, comparison.picture, difference_picture(comparison)
     with replacing(Path(directory), NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
@@ -112,7 +112,7 @@ def _write_arrays(path: Path, arrays: Iterable[tuple[str, Array]]) -> Work[None]
             yield 0.0
 
 
-def cause_picture(comparison: Comparison) -> Colors:
+def difference_picture(comparison: Comparison) -> Colors:
     """Return the map of causes over the dimmed traced picture, (h, w, 4) linear RGBA."""
     return cause_map(comparison.frame.color, comparison.causes.cause)
 

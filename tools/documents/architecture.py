@@ -44,25 +44,27 @@ blender/engine.py ReferenceTracerEngine.render
 """,
     "The button *Trace and Compare*": """
 blender/ui/long_work.py LongWork.invoke
-  blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
-    blender/jobs/compare.py compare_open_file
-      blender/jobs/compare.py gather_case
-        blender/jobs/compare.py _exported
-          blender/engine.py export_for_judge
-        blender/drawing/picture.py picture
-      comparison/comparing.py compared
-        comparison/comparing.py trace_and_compare
-          rendering.py steps
-          comparison/comparing.py compare
-            causes/explain.py explain
-              causes/explain.py find_causes
-                causes/explain.py CHECKS
-            causes/counts.py count_pixels
-        comparison/comparing.py diagnosed
-          diagnosis/diagnosis.py diagnose
-            diagnosis/guessing.py accounting
-blender/ui/operators.py REFERENCE_TRACER_OT_compare._show
-  blender/ui/results.py keep_comparison
+  blender/ui/long_work.py LongWork._begun
+    blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
+      blender/jobs/compare.py compare_open_file
+        blender/jobs/compare.py gather_case
+          blender/jobs/compare.py _exported
+            blender/engine.py export_for_judge
+          blender/drawing/picture.py picture
+        comparison/comparing.py compared
+          comparison/comparing.py trace_and_compare
+            rendering.py steps
+            comparison/comparing.py compare
+              causes/explain.py explain
+                causes/explain.py find_causes
+                  causes/explain.py CHECKS
+              causes/counts.py count_pixels
+          comparison/comparing.py diagnosed
+            diagnosis/diagnosis.py diagnose
+              diagnosis/guessing.py accounting
+      blender/ui/operators.py REFERENCE_TRACER_OT_compare._showing
+        blender/ui/operators.py REFERENCE_TRACER_OT_compare._show
+          blender/ui/results.py keep_comparison
 blender/ui/long_work.py LongWork.modal
   blender/ui/long_work.py LongWork._end
     blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish

@@ -65,7 +65,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
             self._is_shown = True
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        """Keep the comparison for the panel; report its first line."""
+        """Print the comparison; report its first line."""
         found = results.latest(Kind.COMPARISON, context.scene)
         lines = found.lines if found else ()
         say(*result.manifest.lines(), *lines)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
+from ...methods import Method
 from ..drawing.judges import JUDGES
 from ..engine import ENGINE
 from . import operators, results, samples
@@ -57,7 +58,7 @@ class _Main(Part):
         else:
             wrapped(layout, context, _FIRST)
         stored = context.scene.reference_tracer
-        if stored.show == "WRONG" and not stored.has_precision:
+        if stored.show == "WRONG" and Method(stored.method).is_proven:
             wrapped(layout, context, "No pixel of a proven method is wrong", "INFO")
             button = layout.operator("wm.context_set_enum", text="Show the Textbook's Wrong Pixels")
             button.data_path = "scene.reference_tracer.method"
