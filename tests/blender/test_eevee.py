@@ -15,6 +15,8 @@ from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.blender.drawing.rasteriser import OFFSETS, covered, snapping_of
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.pictures.bounds import SNAPPING
+from reference_tracer.pictures.palette import By
+from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 
 from . import hard_cases as hard
@@ -59,7 +61,7 @@ def test_a_sample_scene(name, opened, compare):
 
 
 @pytest.mark.torture
-@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "VERTEX", "RANDOM"])
+@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "RANDOM"])
 def test_the_same_colors(color_type, solids, build, compare):
     bpy.context.scene.display.shading.color_type = color_type
     build.color_attribute(bpy.data.objects["Green"], "POINT")
@@ -69,6 +71,22 @@ def test_the_same_colors(color_type, solids, build, compare):
     for polygon in slots.polygons:
         polygon.material_index = polygon.index % 4
     found = compare(judge="EEVEE")
+    assert found.counts.unexplained == 0 and found.verdict == "agree"
+
+
+def test_a_colour_attribute_that_not_all_have_is_refused(solids, build, compare):
+    bpy.context.scene.display.shading.color_type = "VERTEX"
+    build.color_attribute(bpy.data.objects["Green"], "POINT")
+    with pytest.raises(SceneError, match=r"shows a mesh black.*Colors to Object"):
+        compare(judge="EEVEE", colors=By.VIEWPORT)
+
+
+@pytest.mark.torture
+def test_a_colour_attribute_that_all_have(solids, build, compare):
+    bpy.context.scene.display.shading.color_type = "VERTEX"
+    for name in ("Floor", "Red", "Green", "Blue"):
+        build.color_attribute(bpy.data.objects[name], "POINT")
+    found = compare(judge="EEVEE", colors=By.VIEWPORT)
     assert found.counts.unexplained == 0 and found.verdict == "agree"
 
 

@@ -58,7 +58,7 @@ def test_an_engine_that_is_right_agrees(toy, solids):
     assert (found.frame.instance_index >= 0).mean() > 0.3
     assert found.case.picture.source.name == "toy_tracer"
     assert "'Toy Tracer's render'" in found.lines()[0]
-    assert found.case.picture.renderer.name == "rays"
+    assert found.case.picture.sampling.renderer.name == "rays"
     assert (solids.render.engine, set(bpy.data.objects.keys())) == (engine, names)
 
 
@@ -157,7 +157,7 @@ def compared_with(image):
 def test_an_image_of_a_file(rendered_png):
     found = compared_with(bpy.data.images.load(str(rendered_png())))
     assert found.verdict == "agree" and found.counts.unexplained == 0
-    assert found.case.picture.levels == 255 and not found.case.picture.opaque
+    assert found.case.picture.storage.levels == 255 and not found.case.picture.storage.opaque
     assert found.case.picture.source.file == "rendered.png"
 
 
@@ -177,7 +177,7 @@ def test_an_image_that_blender_alone_holds(kind, rendered_png, solids):
         own.pixels.foreach_set(pixels)
     found = compared_with(own)
     assert found.verdict == "agree" and found.counts.unexplained == 0
-    assert found.case.picture.levels == (0 if kind == "float" else 255)
+    assert found.case.picture.storage.levels == (0 if kind == "float" else 255)
     assert found.case.picture.source.file == own.name
 
 
@@ -233,7 +233,7 @@ def test_the_render_result(rendered_png, solids):
     OPS.compare()
     found = results.content(Kind.COMPARISON, solids)
     assert found.verdict == "agree" and found.counts.unexplained == 0
-    assert found.case.picture.levels == 0  # its own floats, not what a view transform makes
+    assert found.case.picture.storage.levels == 0  # its own floats, not what a view transform makes
     assert (settings.file_format, settings.color_mode, settings.color_depth) == before
     assert found.case.picture.source.file == "Render Result"
     bpy.data.objects["Green"].location.x += 0.2

@@ -19,10 +19,26 @@ from .judge import Judge
 def _one_sample_a_pixel(scene: Any, layer: str) -> Iterator[None]:
     from .constant_material import constant_colors
 
+    if scene.display.shading.color_type == "VERTEX":
+        _check_all_have_one(scene.view_layers[layer].objects)
     scene.eevee.taa_render_samples = 1
     scene.render.filter_size = 0.0
     with constant_colors(scene, layer):
         yield
+
+
+def _check_all_have_one(objects: Any) -> None:
+    """Refuse objects of which some have a colour attribute: EEVEE shows the others black."""
+    from ...scene import SceneError
+    from ..temporary import NOT_DRAWN
+
+    drawn = [o for o in objects if o.data and o.type not in NOT_DRAWN]
+    colors = [getattr(o.data, "color_attributes", None) for o in drawn]
+    if len({attributes.active_color_name if attributes else "" for attributes in colors}) > 1:
+        raise SceneError(
+            "EEVEE shows a mesh black that lacks the colour attribute of another: set Colors to "
+            "Object, or compare with Workbench or Cycles."
+        )
 
 
 EEVEE = Judge(
