@@ -77,7 +77,7 @@ docs: extension demo ## refresh the documents: run their commands, compute their
 		$(PYTHON_IN_VENV) tools/make_docs.py; \
 	fi
 
-lint: .venv/.stamp ## check the style of all code, its format, and the types of the add-on's
+lint: .venv/.stamp ## check the style of all code, its format, and the types that it names
 	$(PYTHON_IN_VENV) -m ruff check .
 	$(PYTHON_IN_VENV) -m ruff format --check .
 	$(PYTHON_IN_VENV) -m mypy

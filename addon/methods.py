@@ -44,9 +44,9 @@ class Method(StrEnum):
         return RECORDS[self]
 
     @property
-    def is_plain(self) -> bool:
-        """Whether it is floating point alone, in either precision, without a proof."""
-        return self not in (Method.CERTIFIED, Method.AUTO)
+    def is_proven(self) -> bool:
+        """Whether it comes with a proof; else it is floating point alone, in either precision."""
+        return self in (Method.CERTIFIED, Method.AUTO)
 
 
 RECORDS = {
@@ -120,5 +120,5 @@ RECORDS = {
         guarantees="that of the method it came to",
     ),
 }
-PLAIN = tuple(m for m in Method if m.is_plain)
-MEASURED = (*PLAIN, Method.CERTIFIED)  # what a study measures: `auto` is one of them
+UNPROVEN = tuple(m for m in Method if not m.is_proven)
+MEASURED = (*UNPROVEN, Method.CERTIFIED)  # what a study measures: `auto` is one of them

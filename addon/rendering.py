@@ -2,7 +2,7 @@
 
 The loop over a picture is `tracer/render.py`. What differs between methods is how hits are found:
 
-- a plain method tests triangles in floating point (`tracer/nearest.py`);
+- an unproven method tests triangles in floating point (`tracer/nearest.py`);
 - `certified` proves each answer: `certified/definition.py` says what is proven,
   `certified/plain.py` finds it, and `certified/sweep/` finds the same sooner where the picture is
   linear in the film position.
@@ -17,9 +17,9 @@ from functools import partial
 from .certified import any_rays, plain
 from .certified.arithmetic import AssumptionError, check_assumptions
 from .certified.rounding import rounding
-from .certified.samples import at_once
+from .certified.samples import traced_together
 from .certified.sweep.sweep import sweep
-from .methods import PLAIN, Method
+from .methods import UNPROVEN, Method
 from .scene import Scene
 from .tracer import nearest
 from .tracer import render as loop
@@ -27,7 +27,7 @@ from .tracer.camera import Rays
 from .tracer.frame import Frame
 from .tracer.hits import Hits, Statistics
 from .tracer.nearest import TraceBand
-from .tracer.progress import Work, result_of
+from .tracer.progress import Work, at_once, result_of
 from .tracer.render import Tracer, bands
 from .tracer.settings import Precision, Settings
 from .tracer.world import refused
@@ -35,34 +35,34 @@ from .tracer.world import refused
 TraceRays = Callable[[Scene, Rays, Settings, Statistics], Work[Hits]]
 
 
+@at_once
 def certified_tracer(
     scene: Scene, settings: Settings, reach: float, statistics: Statistics
-) -> Work[TraceBand]:
-    """Prepare to trace bands of a picture with proof; yields nothing, as nothing is traced yet."""
+) -> TraceBand:
+    """Prepare to trace bands of a picture with proof: nothing is traced yet."""
     statistics.refused = refused(scene)
     statistics.rounding = str(rounding(scene))
     find = sweep if scene.camera.projection.is_linear else plain.plain
     memory = settings.memory // 2
     return lambda band, dx, dy: find(scene, band, memory, dx, dy, statistics)
-    yield  # never reached: it makes this function a generator, as `nearest.tracer` is
 
 
-def certified_at_once(
+def certified_samples(
     scene: Scene, settings: Settings, reach: float, statistics: Statistics
 ) -> Work[TraceBand]:
-    """Prepare as :func:`certified_tracer`, where `tracer.render.at_once` says that this can be."""
+    """Prepare as :func:`certified_tracer`, all samples at once: see `samples_together`."""
     centre = yield from certified_tracer(scene, settings, reach, statistics)
     find = partial(sweep, memory=settings.memory // 2, statistics=statistics)
-    return at_once(centre, find, scene, settings.samples)
+    return traced_together(centre, find, scene, settings.samples)
 
 
 # By method: what traces a picture's bands, and what traces any rays.
 TRACERS: dict[Method, Tracer] = {
-    **dict.fromkeys(PLAIN, nearest.tracer),
+    **dict.fromkeys(UNPROVEN, nearest.tracer),
     Method.CERTIFIED: certified_tracer,
 }
 RAY_TRACERS: dict[Method, TraceRays] = {
-    **dict.fromkeys(PLAIN, nearest.trace_rays),
+    **dict.fromkeys(UNPROVEN, nearest.trace_rays),
     Method.CERTIFIED: any_rays.trace_rays,
 }
 
@@ -106,7 +106,7 @@ def steps(
 ) -> Work[None]:
     """Trace a scene into an empty frame, as `tracer.render.steps`, by any method."""
     settings = resolved(settings, frame.statistics)
-    own = certified_at_once if loop.at_once(scene.camera, settings) else None
+    own = certified_samples if loop.samples_together(scene.camera, settings) else None
     yield from loop.steps(scene, settings, frame, tracer or own or TRACERS[Method(settings.method)])
 
 
@@ -149,7 +149,7 @@ def resolved(settings: Settings, statistics: Statistics) -> Settings:
     AssumptionError
         If the method is `certified`, and this process's arithmetic allows no proof.
     """
-    if settings.method.is_plain:
+    if not settings.method.is_proven:
         return settings
     try:
         check_assumptions()

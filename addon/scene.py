@@ -7,6 +7,7 @@ World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cached_property
@@ -42,6 +43,32 @@ class ViewWindow:
     right: float
     bottom: float
     top: float
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height."""
+        return self.right - self.left, self.top - self.bottom
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """The point in its middle."""
+        return (self.left + self.right) / 2, (self.bottom + self.top) / 2
+
+    def moved(self, x: float, y: float) -> ViewWindow:
+        """Return it moved to the right and up."""
+        return ViewWindow(self.left + x, self.right + x, self.bottom + y, self.top + y)
+
+    def scaled(self, x: float, y: float) -> ViewWindow:
+        """Return it scaled about the axis; a negative factor mirrors it."""
+        left, right = sorted((x * self.left, x * self.right))
+        bottom, top = sorted((y * self.bottom, y * self.top))
+        return ViewWindow(left, right, bottom, top)
+
+    def about(self, centre: tuple[float, float], x: float = 1.0, y: float = 1.0) -> ViewWindow:
+        """Return one about another centre, of its size times x and y."""
+        (cx, cy), (width, height) = centre, self.size
+        half_x, half_y = x * width / 2, y * height / 2
+        return ViewWindow(cx - half_x, cx + half_x, cy - half_y, cy + half_y)
 
 
 @dataclass(frozen=True)
@@ -136,7 +163,7 @@ class Camera:
         reach = max(map(abs, (w.left, w.right, w.bottom, w.top)))
         with np.errstate(all="ignore"):
             farthest = np.abs(self.world_from_camera[:3]) @ (reach, reach, 1.0, 1.0)
-            size = w.right - w.left, w.top - w.bottom
+            size = w.size
         known = np.isfinite([reach, *farthest, *size]).all() and reach <= self.projection.farthest
         if not (known and min(size) > 0):
             raise SceneError(
@@ -295,6 +322,16 @@ class Scene:
             if not 0 <= shown.object < len(self.objects):
                 what = "infinite plane" if isinstance(shown, Plane) else "instance"
                 raise SceneError(f"An {what} names object {shown.object} of {len(self.objects)}.")
+
+    def with_meshes(self, others: Mapping[int, Mesh]) -> Scene:
+        """Return the same with other meshes of some instances, which may share one, by number."""
+        new = {id(mesh): mesh for mesh in others.values()}
+        number = {key: k for k, key in enumerate(new, len(self.meshes))}
+        instances = tuple(
+            replace(i, mesh=number[id(others[n])]) if n in others else i
+            for n, i in enumerate(self.instances)
+        )
+        return replace(self, meshes=(*self.meshes, *new.values()), instances=instances)
 
     def seen_by(self, camera: Camera) -> Scene:
         """Return the same scene with another camera; what is known of it stays known."""

@@ -35,7 +35,7 @@ from reference_tracer.pictures.identity import NOTHING, UNKNOWN
 from reference_tracer.pictures.metrics import boundary
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Scene, ViewWindow
+from reference_tracer.scene import Instance, Plane, Scene, ViewWindow
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.frame import Frame
 
@@ -64,11 +64,16 @@ class Subject:
     def picture(self) -> Picture:
         return self.case.picture
 
+    @property
+    def owner(self) -> NDArray | None:
+        """Whose surface each pixel of the picture shows, (h, w), if that is known."""
+        return owner_of(self.picture)
+
     @cached_property
     def of_instance(self) -> NDArray[np.intp]:
         """Which object each instance is of, then each plane; NOTHING at the end."""
-        scene = self.scene
-        return np.array([*(i.object for i in (*scene.instances, *scene.planes)), NOTHING])
+        surfaces: list[Instance | Plane] = [*self.scene.instances, *self.scene.planes]
+        return np.array([*(s.object for s in surfaces), NOTHING])
 
     @cached_property
     def object(self) -> NDArray[np.intp]:
@@ -114,6 +119,17 @@ class Subject:
         return self.scene.objects[number]
 
 
+def owner_of(picture: Picture) -> NDArray | None:
+    """Return whose surface each pixel of a picture shows, (h, w), if that is known."""
+    return picture.owners and picture.owners.pixels
+
+
+def in_place(picture: Picture, color: NDArray, owner: NDArray | None) -> Picture:
+    """Return a picture with other colours, and other owners in its pixels."""
+    owners = picture.owners and replace(picture.owners, pixels=owner)
+    return replace(picture, color=color, owners=owners)
+
+
 class Attacked(NamedTuple):
     """A wrong case, the frame that was traced of its scene, and which pixels (h, w) are wrong."""
 
@@ -153,7 +169,7 @@ def near_edges(scene: Scene, frame: Frame, band: float) -> NDArray[np.bool_]:
 
 def alone(case: Case) -> Case:
     """Return a case of colours alone, as a foreign picture is compared."""
-    picture = replace(case.picture, owner=None, owners=None, names=())
+    picture = replace(case.picture, owners=None)
     return replace(case, picture=picture, curves=())
 
 
@@ -161,19 +177,18 @@ def changes(right: Picture, wrong: Picture) -> NDArray[np.bool_]:
     """Return which pixels (h, w) differ in colour, clearly, or in whose surface is shown."""
     apart, allowed = difference(right.color, wrong.color, interpolated=True)
     changed = (apart > 2 * allowed).any(axis=-1)
-    if right.owner is None or wrong.owner is None:
+    if right.owners is None or wrong.owners is None:
         return changed
-    known = (wrong.owner != UNKNOWN) & (right.owner != UNKNOWN)
-    return changed | ((right.owner != wrong.owner) & known)
+    other = right.owners.pixels != wrong.owners.pixels
+    return changed | (other & right.owners.known & wrong.owners.known)
 
 
 def damaged(subject: Subject, color: NDArray, owner: NDArray | None = None, **known) -> Attacked:
     """Return the attack by a picture: its colours, and whose surfaces it shows if these move."""
     right = subject.picture
-    owner = right.owner if owner is None else owner
-    owner = None if right.owner is None else np.ascontiguousarray(owner, np.int32)
-    color = np.ascontiguousarray(color, np.float32)
-    wrong = replace(right, color=color, owner=owner)
+    owner = subject.owner if owner is None else owner
+    owner = None if subject.owner is None else np.ascontiguousarray(owner, np.int32)
+    wrong = in_place(right, np.ascontiguousarray(color, np.float32), owner)
     case = replace(subject.case, picture=wrong, **known)
     return Attacked(case, subject.frame, changes(right, wrong) & subject.decidable)
 
@@ -184,7 +199,7 @@ def owners_of(subject: Subject, frame: Frame, instances: NDArray | None = None) 
     owners, index = subject.picture.owners, frame.instance_index
     if owners is None:
         return None
-    return owners[index if instances is None else instances[index]]
+    return owners.instances[index if instances is None else instances[index]]
 
 
 def painted(
@@ -194,10 +209,10 @@ def painted(
     right, owner = subject.picture, owners_of(subject, frame, instances)
     other = (frame.color != subject.frame.color).any(axis=-1)
     if owner is not None:
-        other |= owner != right.owners[subject.frame.instance_index]
+        other |= owner != right.owners.instances[subject.frame.instance_index]
     other = other & where
     color = np.where(other[..., None], frame.color, right.color)
-    return damaged(subject, color, None if owner is None else np.where(other, owner, right.owner))
+    return damaged(subject, color, None if owner is None else np.where(other, owner, subject.owner))
 
 
 def neighbours(values: NDArray, step: int, axis: int) -> NDArray:
@@ -222,7 +237,7 @@ def _moved(pixels: int) -> Make:
 
 def _rearranged(change: Callable[[NDArray], NDArray]) -> Make:
     def make(subject: Subject) -> Attacked:
-        owner = subject.picture.owner
+        owner = subject.owner
         return damaged(
             subject, change(subject.picture.color), None if owner is None else change(owner)
         )
@@ -232,7 +247,7 @@ def _rearranged(change: Callable[[NDArray], NDArray]) -> Make:
 
 def half_pixel(subject: Subject) -> Attacked:
     """Resample the picture half a pixel to the right, bilinearly."""
-    color, owner = subject.picture.color, subject.picture.owner
+    color, owner = subject.picture.color, subject.owner
     color = (color + neighbours(color, 1, 1)) / 2
     if owner is not None:
         owner = np.where(owner == neighbours(owner, 1, 1), owner, UNKNOWN)
@@ -244,7 +259,8 @@ def noise(subject: Subject) -> Attacked:
     rng, right = np.random.default_rng(SEED), subject.picture
     color = rng.uniform(0.01, 0.99, right.color.shape)
     color[..., 3] = 1
-    return damaged(subject, color, rng.integers(-1, max(len(right.names), 1), color.shape[:2]))
+    count = len(right.owners.names) if right.owners else 1
+    return damaged(subject, color, rng.integers(-1, max(count, 1), color.shape[:2]))
 
 
 # Colours
@@ -420,14 +436,14 @@ def grown(subject: Subject) -> Attacked | None:
     if not subject.seen:
         return None
     own = subject.object == subject.seen[0]
-    color, owner = subject.picture.color.copy(), subject.picture.owner
+    color, owner = subject.picture.color.copy(), subject.owner
     owner = None if owner is None else owner.copy()
     left = ~own
     for axis, step in ((1, 1), (1, -1), (0, 1), (0, -1)):
         take = left & neighbours(own, step, axis)
         color[take] = neighbours(subject.picture.color, step, axis)[take]
         if owner is not None:
-            owner[take] = neighbours(subject.picture.owner, step, axis)[take]
+            owner[take] = neighbours(subject.owner, step, axis)[take]
         left &= ~take
     return damaged(subject, color, owner)
 
@@ -437,14 +453,14 @@ def shrunk(subject: Subject) -> Attacked | None:
     if not subject.seen:
         return None
     own = subject.object == subject.seen[0]
-    color, owner = subject.picture.color.copy(), subject.picture.owner
+    color, owner = subject.picture.color.copy(), subject.owner
     owner = None if owner is None else owner.copy()
     left = own.copy()
     for axis, step in ((1, 1), (1, -1), (0, 1), (0, -1)):
         take = left & neighbours(~own, step, axis)
         color[take] = neighbours(subject.picture.color, step, axis)[take]
         if owner is not None:
-            owner[take] = neighbours(subject.picture.owner, step, axis)[take]
+            owner[take] = neighbours(subject.owner, step, axis)[take]
         left &= ~take
     return damaged(subject, color, owner)
 
@@ -462,7 +478,7 @@ def _blocks(allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 def blocks_of_another(subject: Subject, allowed: NDArray | bool = True) -> Attacked | None:
     """Blocks inside surfaces, in the colour and as the surface of the object that is seen next."""
-    color, owner = subject.picture.color.copy(), subject.picture.owner
+    color, owner = subject.picture.color.copy(), subject.owner
     owner = None if owner is None else owner.copy()
     where = _blocks(subject.inside & (subject.object >= 0) & allowed)
     if len(subject.seen) < 2 or not where.any():
@@ -474,7 +490,7 @@ def blocks_of_another(subject: Subject, allowed: NDArray | bool = True) -> Attac
         own = np.argwhere((subject.object == other) & subject.decidable)[0]
         color[where & (of == other)] = subject.picture.color[tuple(own)]
         if owner is not None:
-            owner[where & (of == other)] = subject.picture.owner[tuple(own)]
+            owner[where & (of == other)] = subject.owner[tuple(own)]
     return damaged(subject, color, owner)
 
 
@@ -508,7 +524,7 @@ def _clipped(end: bool) -> Make:
             return scene, render(scene, subject.case.settings)
 
         (scene, frame), (_, wrong) = cut(depth), cut(beside)
-        right = replace(subject.picture, color=frame.color.copy(), owner=owners_of(subject, frame))
+        right = in_place(subject.picture, frame.color.copy(), owners_of(subject, frame))
         cased = replace(subject.case, scene=scene, picture=right, certificate=None)
         return painted(replace(subject, case=cased, frame=frame), wrong)
 
@@ -520,8 +536,10 @@ def _clipped(end: bool) -> Make:
 
 def _filtered(made: Attacked) -> Attacked:
     """Say of a wrong picture that it was anti-aliased."""
-    case = made.case
-    return made._replace(case=replace(case, picture=replace(case.picture, filter_radius=FILTER)))
+    picture = made.case.picture
+    sampling = replace(picture.sampling, filter_radius=FILTER)
+    case = replace(made.case, picture=replace(picture, sampling=sampling))
+    return made._replace(case=case)
 
 
 def _outside(subject: Subject, color: NDArray) -> NDArray[np.bool_]:
@@ -549,12 +567,10 @@ def _no_mix(subject: Subject, color: NDArray, where: NDArray[np.bool_]) -> Attac
     where[np.abs(np.arange(len(where)) - rows.argmax()) > ROWS // 2] = False
     if not where.any():
         return None
-    owner = subject.picture.owner
+    owner = subject.owner
     owner = None if owner is None else np.where(where, UNKNOWN, owner)
     color = np.where(where[..., None], color, subject.picture.color)
-    made = damaged(subject, color, owner)
-    case = made.case
-    return made._replace(case=replace(case, picture=replace(case.picture, filter_radius=FILTER)))
+    return _filtered(damaged(subject, color, owner))
 
 
 def overshot(subject: Subject) -> Attacked | None:
@@ -630,10 +646,10 @@ def gone_and_moved(subject: Subject) -> Attacked | None:
     kept = made.changed & (subject.object != number)
     wrong, right = made.case.picture, gone
     color = np.where(kept[..., None], wrong.color, right.color)
-    owner = None if wrong.owner is None else np.where(kept, wrong.owner, right.owner)
+    owner = wrong.owners and np.where(kept, wrong.owners.pixels, right.owners.pixels)
     case = replace(
         subject.case,
-        picture=replace(gone, color=color, owner=owner),
+        picture=in_place(gone, color, owner),
         alternatives=(_alternative(subject, number),),
     )
     return Attacked(case, subject.frame, kept)

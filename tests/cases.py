@@ -10,6 +10,7 @@ from reference_tracer.causes.case import Case
 from reference_tracer.causes.explain import AGREE, DEPTH_TIE, EDGE, NOT_DECIDABLE, UNEXPLAINED
 from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.bounds import differing
+from reference_tracer.pictures.identity import Owners
 from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
@@ -29,13 +30,28 @@ def case_of(scene, picture, unmodelled=(), settings=None, objects=(), **known) -
     return Case(scene, manifest, settings or Settings(), picture, **known)
 
 
+def owners_of(names, frame, owners=None) -> Owners:
+    """Return the owners of a picture that shows what a frame does; each instance's by its name."""
+    found = Owners.of(names, frame.instance_index, names if owners is None else owners)
+    return replace(found, pixels=found.instances[frame.instance_index])
+
+
+def showing(picture, where, owner) -> Picture:
+    """Return a picture that shows other owners in a mask."""
+    owners = picture.owners
+    return replace(
+        picture, owners=owners and replace(owners, pixels=np.where(where, owner, owners.pixels))
+    )
+
+
 def find_causes(
     scene, frame, picture, unmodelled=(), sample_radius=0.0, filter_radius=0.0, **known
 ):
     """Return the work of finding the causes of what was traced already."""
     case = case_of(scene, picture, unmodelled, **known)
     radii = {"sample_radius": sample_radius, "filter_radius": filter_radius}
-    return causes.find_causes(replace(case, picture=replace(case.picture, **radii)), frame)
+    picture = replace(case.picture, sampling=replace(case.picture.sampling, **radii))
+    return causes.find_causes(replace(case, picture=picture), frame)
 
 
 def explained(scene, picture, unmodelled=(), settings=None, sample_radius=0.0):

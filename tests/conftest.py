@@ -130,10 +130,41 @@ class Make:
             camera,
             meshes,
             tuple(Instance(k, k, np.eye(4), [rgba[k]]) for k in range(count)),
-            tuple(Plane(count + k, *p, rgba[count + k]) for k, p in enumerate(planes)),
+            tuple(Plane(count + k, *p, color=rgba[count + k]) for k, p in enumerate(planes)),
             np.array(background),
             (*(m.name for m in meshes), *(f"Plane {k}" for k in range(len(planes)))),
         )
+
+    @classmethod
+    def room(cls, orthographic=False):
+        """Return some solids of different colours before a wall, without any symmetry."""
+        camera = cls.camera(
+            60,
+            45,
+            half=2.0 if orthographic else 0.4,
+            eye=(3, -4, 2),
+            target=(0, 0, 0),
+            orthographic=orthographic,
+        )
+        ball = trimesh.creation.icosphere(2, radius=0.7).apply_translation((-0.6, 0.3, 0.4))
+        box = trimesh.creation.box((0.8, 0.6, 1.1)).apply_translation((0.7, -0.4, -0.3))
+        wall = trimesh.creation.box((0.1, 4, 3)).apply_translation((-1.8, 0, -0.2))
+        return cls.scene(camera, *(cls.mesh(s) for s in (ball, box, wall)))
+
+    @classmethod
+    def stripes(cls):
+        """Return slanted stripes: an edge in almost every pixel of every row."""
+        camera = cls.camera(80, 60, half=30, orthographic=True, eye=(40, 30, 0))
+        x = np.arange(0, 80, 2.003)
+        low, high = (
+            np.stack((x + s, np.full(len(x), y), np.full(len(x), -5.0)), 1)
+            for s, y in ((-0.7, -1), (0.9, 61))
+        )
+        n, right = len(x), np.array([1, 0, 0])
+        points = np.concatenate((low, low + right, high, high + right))
+        k = np.arange(n)[:, None]
+        faces = np.concatenate([k + np.array(corners) * n for corners in ((0, 1, 3), (0, 3, 2))])
+        return cls.scene(camera, Mesh(points, faces), cls.quad(-9, 99, -9, 99, -6))
 
 
 @pytest.fixture(scope="session")
@@ -144,36 +175,12 @@ def make() -> type[Make]:
 
 @pytest.fixture(params=[False, True], ids=["perspective", "orthographic"])
 def room(request, make):
-    """Return some solids of different colours before a wall, without any symmetry."""
-    camera = make.camera(
-        60,
-        45,
-        half=2.0 if request.param else 0.4,
-        eye=(3, -4, 2),
-        target=(0, 0, 0),
-        orthographic=request.param,
-    )
-    ball = trimesh.creation.icosphere(2, radius=0.7).apply_translation((-0.6, 0.3, 0.4))
-    box = trimesh.creation.box((0.8, 0.6, 1.1)).apply_translation((0.7, -0.4, -0.3))
-    wall = trimesh.creation.box((0.1, 4, 3)).apply_translation((-1.8, 0, -0.2))
-    return make.scene(camera, *(make.mesh(s) for s in (ball, box, wall)))
+    return make.room(request.param)
 
 
 @pytest.fixture
 def stripes(make):
-    """Return slanted stripes: an edge in almost every pixel of every row."""
-    camera = make.camera(80, 60, half=30, orthographic=True, eye=(40, 30, 0))
-    x = np.arange(0, 80, 2.003)
-    low, high = (
-        np.stack((x + s, np.full(len(x), y), np.full(len(x), -5.0)), 1)
-        for s, y in ((-0.7, -1), (0.9, 61))
-    )
-    n, right = len(x), np.array([1, 0, 0])
-    points = np.concatenate((low, low + right, high, high + right))
-    k = np.arange(n)[:, None]
-    faces = np.concatenate([k + np.array(corners) * n for corners in ((0, 1, 3), (0, 3, 2))])
-    back = make.quad(-9, 99, -9, 99, -6)
-    return make.scene(camera, Mesh(points, faces), back)
+    return make.stripes()
 
 
 @pytest.fixture

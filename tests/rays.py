@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.certified.ladder import Ladder
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.world import WorldTriangles
+from reference_tracer.tracer.world import Pairs, WorldTriangles
 
 
 def nearest_hits(

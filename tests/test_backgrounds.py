@@ -12,6 +12,7 @@ from reference_tracer.causes.case import Case
 from reference_tracer.causes.explain import UNEXPLAINED
 from reference_tracer.comparison.comparing import compare, trace_and_compare
 from reference_tracer.manifest import Manifest
+from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
@@ -39,7 +40,7 @@ def on(scene, background):
 def stored(color, opaque=False):
     """Return a picture as an 8-bit PNG has it."""
     color = images.decoded(images.to_display(color) / 255).astype(np.float32)
-    return Picture(color, levels=255, opaque=opaque)
+    return Picture(color, storage=Storage(255, opaque=opaque))
 
 
 def case_of(scene, picture, curves=(), settings=None):

@@ -10,9 +10,8 @@ import pytest
 import trimesh
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
-from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.hits import NOTHING, NOWHERE
-from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
 

@@ -221,3 +221,24 @@ def test_alike_is_what_holds_the_same():
     others = scene(1.0), scene(name="Cone"), scene(meshes=(Mesh(POINTS * 2, FACES),))
     others += (scene(meshes=one.meshes * 2), replace(scene(), camera=camera(width=9)))
     assert not any(alike(one, other) for other in others)
+
+
+def test_a_view_window_is_moved_scaled_and_centred_anew():
+    window = ViewWindow(-1, 3, 0, 2)
+    assert window.size == (4, 2) and window.centre == (1, 1)
+    assert window.moved(1, -2) == ViewWindow(0, 4, -2, 0)
+    assert window.scaled(2, 0.5) == ViewWindow(-2, 6, 0, 1)
+    assert window.scaled(-1, 1) == ViewWindow(-3, 1, 0, 2)
+    assert window.about((0, 0), y=3) == ViewWindow(-2, 2, -3, 3)
+    assert window.about(window.centre) == window
+
+
+def test_other_meshes_of_some_instances(make):
+    """Two that get the same mesh share it; the others keep theirs."""
+    scene = make.scene(make.camera(), *(make.quad(x, x + 1, 0, 1, -2) for x in range(4)))
+    mesh = make.quad(0, 9, 0, 9, -3)
+    found = scene.with_meshes({0: mesh, 2: mesh, 3: scene.meshes[1]})
+    assert len(found.meshes) == 6
+    seen = [found.meshes[i.mesh] for i in found.instances]
+    assert seen == [mesh, scene.meshes[1], mesh, scene.meshes[1]]
+    assert found.instances[0].mesh == found.instances[2].mesh

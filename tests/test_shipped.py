@@ -93,7 +93,7 @@ def beside_the_code(source: str) -> list[str]:
     tree, names, folder = ast.parse(source), {"__file__"}, "Path(__file__).parent"
     for node in tree.body:
         if isinstance(node, ast.Assign) and ast.unparse(node.value) == folder:
-            names.add(node.targets[0].id)
+            names.add(ast.unparse(node.targets[0]))
     statements = [n for n in ast.walk(tree) if isinstance(n, ast.stmt) and not hasattr(n, "body")]
     uses = [n for n in statements if names & {x.id for x in ast.walk(n) if isinstance(x, ast.Name)}]
     said = [ast.unparse(n) for n in uses]
@@ -106,7 +106,10 @@ NOT_IN_BLENDER = {
     "exr": "of OpenImageIO, which Blender brings along",
 }
 # Who hands a folder of its own to others, and to whom.
-HANDED_ON = {"blender.ui.menus": "Blender lists the presets in it, which are files of the zip"}
+HANDED_ON = {
+    "blender.ui.menus": "Blender lists the presets in it, which are files of the zip",
+    "blender.ui.samples": "Blender opens the scenes in it as new files, without their names",
+}
 
 
 def test_what_is_shipped_writes_nothing_beside_itself_and_advises_no_packages():

@@ -3,9 +3,9 @@
     python tools/make_docs.py [--no-browser] [--no-window] [FILE.md ...]
 
 Fills in what stands between the markers (`documents/markers.py` says which there are), draws
-docs/images/lessons, docs/images/extremes.svg and the README's diagnosis.gif, takes the picture of
-out/demo/page.html in Chromium, and the tutorial's in a real Blender window (which needs root,
-Chromium, and the extension in dist/).
+docs/images/lessons and causes, docs/images/extremes.svg and the README's diagnosis.gif, takes the
+picture of out/demo/page.html in Chromium, and the tutorial's in a real Blender window (which needs
+root, Chromium, and the extension in dist/).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from documents import architecture, derivations, figures, pictures, python, records, story
+from documents import architecture, causes, derivations, figures, pictures, python, records, story
 from documents.markers import MARKED, Command, refreshed
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -60,6 +60,7 @@ def main() -> None:
     for folder in MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     pictures.write(DOCS / "images" / "lessons")
+    causes.write(DOCS / "images" / "causes")
     if not options.files:  # it takes a minute
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
         plot = PROJECT / "out" / "docs" / "extremes" / "extremes.svg"

@@ -73,6 +73,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         self.export_to.append(export_certified(depsgraph))
 
     def _trace(self, depsgraph: Any) -> None:
+        """Export, trace and show one view layer of one frame, as long as Esc is not pressed."""
         from ..tracer.frame import Frame
         from .reading.export import export
 

@@ -8,11 +8,11 @@ from typing import Any
 import bpy
 
 from . import engine
-from .ui import inspector, menus, panels, preferences, properties, study_panels
+from .ui import inspector, menus, panels, preferences, properties, split, study_panels
 from .ui.long_work import OPERATORS, LongWork
-from .ui.results import forget
+from .ui.results import forget, remove_stale_images
 
-MODULES = (properties, preferences, engine, menus, panels, study_panels)
+MODULES = (properties, preferences, engine, menus, panels, study_panels, split)
 # The panels import the operators.
 _register, _unregister = bpy.utils.register_classes_factory(OPERATORS)
 
@@ -28,6 +28,11 @@ def _file_closes(*_: Any) -> None:
     inspector.REFERENCE_TRACER_OT_inspect.running = False
 
 
+@bpy.app.handlers.persistent
+def _file_opened(*_: Any) -> None:
+    remove_stale_images()
+
+
 def register(command: Callable[[list[str]], int] | None = None) -> None:
     """Register every module of the add-on.
 
@@ -38,6 +43,7 @@ def register(command: Callable[[list[str]], int] | None = None) -> None:
         module.register()
     _register()
     bpy.app.handlers.load_pre.append(_file_closes)
+    bpy.app.handlers.load_post.append(_file_opened)
     if command:
         _commands.append(bpy.utils.register_cli_command("reference_tracer", command))
 
@@ -47,6 +53,7 @@ def unregister() -> None:
     while _commands:
         bpy.utils.unregister_cli_command(_commands.pop())
     bpy.app.handlers.load_pre.remove(_file_closes)
+    bpy.app.handlers.load_post.remove(_file_opened)
     if LongWork.running:  # Blender tells no operator that its add-on is switched off
         context: Any = bpy.context
         window = context.window or context.window_manager.windows[0]

@@ -17,6 +17,8 @@ DITHER = 1.0 if bpy.app.version >= (4, 5, 0) else 1.275
 RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
 COMPOSITOR = "compositing_node_group" if _FROM_5 else "use_nodes"  # whether a scene has one
 STRIPS = "strips_all" if _FROM_5 else "sequences_all"  # of a sequencer
+# Names of engines, where this Blender has another than 5.0 and later.
+ENGINES = {} if _FROM_5 else {"BLENDER_EEVEE": "BLENDER_EEVEE_NEXT"}
 # Names in a 3D view's filters of types; the old grease pencil is there up to 4.2.
 FILTERS = {"SURFACE": "surf", "GREASEPENCIL": "grease_pencil", "GPENCIL": "grease_pencil"}
 

@@ -46,8 +46,8 @@ def advise(
 def _of_depths(
     case: Case, frame: Frame, causes: Causes, where: Mapping[Cause, Bools], allowed: float
 ) -> Iterator[str]:
-    """Yield the clip range in which depths can be told apart; else how far surfaces must be."""
-    camera, renderer = case.scene.camera, case.picture.renderer
+    """Yield the clip range that separates the depths; else how far apart surfaces must be."""
+    camera, renderer = case.scene.camera, case.picture.sampling.renderer
     depths = _Depths(camera, renderer, frame, causes, where)
     for other in _cameras(camera, frame):
         if depths.left(other) <= allowed:
@@ -62,7 +62,7 @@ def _of_depths(
 
 
 class _Depths:
-    """The depths of surfaces that rounding did not tell apart, from each other or a clip plane."""
+    """The depths of surfaces too close to each other, or to a clip plane, for float32."""
 
     def __init__(
         self,
@@ -94,7 +94,7 @@ class _Depths:
         return int(tied.sum() + clipped.sum())
 
     def told_apart(self, camera: Camera) -> float:
-        """Return how far apart surfaces at these depths must be for another camera, metres."""
+        """Return the least distance at which another camera separates surfaces, in metres."""
         depths = self._ties, self._clipped
         found = [
             self._renderer.step(camera, t) + r for t, r in zip(depths, self._rest, strict=True)
@@ -103,7 +103,7 @@ class _Depths:
 
 
 def _clipped_depth(camera: Camera, renderer: Renderer, causes: Causes, where: Bools) -> Floats:
-    """Return how deep the surfaces lie that are a `figure` from a clip plane, (n,) metres.
+    """Return the depths of surfaces at a distance `figure` from a clip plane, (n,) metres.
 
     Of the four places that do, it is the one whose bound is nearest to the pixel's.
     """
@@ -115,7 +115,7 @@ def _clipped_depth(camera: Camera, renderer: Renderer, causes: Causes, where: Bo
 
 
 def _cameras(camera: Camera, frame: Frame) -> Iterator[Camera]:
-    """Yield cameras that see the same, with other clip ranges: the best change first."""
+    """Yield the camera with other clip ranges that hide nothing visible, the best first."""
     seen = frame.t[frame.instance_index != NOTHING]
     if not len(seen):
         return
@@ -147,11 +147,11 @@ def _clip_range(camera: Camera, other: Camera, told: float) -> str:
         if before != after:
             verb = "raise" if after > before else "lower"
             changes.append(f"{verb} the clip {name} from {before:.6g} m to {after:.6g} m")
-    return f"{' and '.join(changes)}: surfaces {told:.2g} m apart are told apart there then"
+    return f"{' and '.join(changes)}: surfaces {told:.2g} m apart are then told apart"
 
 
 def _of_edges(causes: Causes, where: Bools, allowed: float) -> str:
-    """Return the advice for edges: nearer to the origin, or more pixels."""
+    """Return the advice for edges: move the scene to the origin, or draw it larger."""
     band = float(np.median(causes.allowed[where]))
     if band > 2 * SNAPPING:
         return (
@@ -159,7 +159,9 @@ def _of_edges(causes: Causes, where: Bools, allowed: float) -> str:
             "it is"
         )
     times = int(np.ceil(where.sum() / allowed))
-    return f"draw the picture {times} times as wide and high: edges pass fewer of its pixels then"
+    return (
+        f"draw the picture {times} times as wide and high: then fewer of its pixels lie near edges"
+    )
 
 
 def _up(value: float) -> float:

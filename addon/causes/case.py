@@ -64,7 +64,7 @@ def without(scene: Scene, names: Collection[str]) -> Scene:
 
 
 def no_variants() -> tuple[Variant, ...]:
-    """Return the variants of a scene of which nothing else is known."""
+    """Return no variants: nothing but the scene itself is known."""
     return ()
 
 
@@ -107,7 +107,7 @@ class Case:
         return self.feature_of(Effect.COLOR) != NOTHING
 
     def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
-        """Return the same with the scene and the alternatives changed alike."""
+        """Return the case with the same change made to the scene and to the alternatives."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
         scene = change(self.scene)
         behind = self.behind
@@ -116,38 +116,17 @@ class Case:
         return replace(self.in_scene(scene), alternatives=others, behind=behind)
 
     def in_scene(self, scene: Scene) -> Case:
-        """Return the same with another scene."""
+        """Return the case with another scene."""
         behind = self.behind
         if behind:
             rest = without(scene, behind.left_out)
             behind = replace(behind, case=behind.case.in_scene(rest))
-        picture = replace(self.picture, owners=self._owners_in(scene))
+        owners = self.picture.owners
+        picture = replace(self.picture, owners=owners and owners.in_scene(scene, self.scene))
         return replace(self, scene=scene, picture=picture, behind=behind)
 
-    def _owners_in(self, scene: Scene) -> Integers | None:
-        """Return the owners of another scene's instances and planes, by their objects' names.
-
-        None if an object of this name has several owners here: whose it is there is not known.
-        """
-        owners, own = self.picture.owners, self.scene
-        if owners is None or scene is own:
-            return owners
-        if (
-            np.array_equal(scene.instance_objects, own.instance_objects)
-            and scene.objects == own.objects
-        ):
-            return owners
-        of_name: dict[str, int] = {}
-        for number, owner in zip(own.instance_objects[:-1], owners, strict=False):
-            if of_name.setdefault(own.objects[number], int(owner)) != owner:
-                return None
-        names = self.picture.names
-        other = {name: names.index(name) if name in names else len(names) for name in scene.objects}
-        numbers = [(other | of_name)[scene.objects[n]] for n in scene.instance_objects[:-1]]
-        return np.array([*numbers, NOTHING], np.int32)
-
     def before(self, background: Colors) -> Case:
-        """Return the same with all scenes, and the picture, before a background, linear RGBA."""
+        """Return the case with all scenes, and the picture, on a background, linear RGBA."""
         behind = partial(replace, background=background)
         picture = replace(self.picture, background=background)
         then = self.next_frame and behind(self.next_frame)

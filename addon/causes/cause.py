@@ -23,7 +23,7 @@ COUNTED_APART = ("agree", "not_decidable", "unexplained", "not_traced")
 
 @dataclass(frozen=True, eq=False)
 class Cause(int):
-    """What can be said of a pixel. It compares and sorts as its number.
+    """Why a pixel differs, or that it agrees. It compares and sorts as its number.
 
     Raises
     ------
@@ -51,7 +51,7 @@ class Cause(int):
     advice: str = ""  # what to do
 
     def __new__(cls, number: int, *_: object, **__: object) -> Self:
-        """Return the number, to which the record's fields are added."""
+        """Return the record as an integer, its number."""
         return super().__new__(cls, number)
 
     def __post_init__(self) -> None:
@@ -60,7 +60,7 @@ class Cause(int):
                 raise ValueError(f"the cause '{self.key}' contradicts itself: {rule}")
 
     def _rules(self) -> Iterator[tuple[str, bool]]:
-        """Yield what has to hold for a record, and whether it does."""
+        """Yield each rule for records, and whether this one keeps it."""
         apart = self.key in COUNTED_APART
         of_index = self.unit == "index"
         of_figure = bool(self.unit) and not of_index
@@ -75,12 +75,12 @@ class Cause(int):
         yield "a figure and its unit go together", of_figure == ("{figure" in self.sentence)
         yield "an index and its name go together", of_index == ("{name" in self.sentence)
 
-    def told(self, figure: float, allowed: float, name: object = "") -> str:
+    def in_words(self, figure: float, allowed: float, name: object = "") -> str:
         """Return the sentence with a pixel's numbers, or the name that its index stands for."""
         return self.sentence.format(figure=figure, allowed=allowed, name=name)
 
     def to_dict(self) -> dict[str, int | str]:
-        """Return what a reader of JSON needs to know of the cause."""
+        """Return the fields that JSON has of the cause."""
         told = {"label": self.label, "sentence": self.sentence, "unit": self.unit}
         return {"number": self.number, **told}
 
@@ -96,10 +96,10 @@ NOT_DECIDABLE = Cause(
     (0.25, 0.3, 0.6),
     warns=True,
     see_through=True,
-    why="So far from the origin, or at such a scale, float32 moves Blender's surfaces by more than "
-    "half a pixel: whatever Blender shows there proves nothing.",
-    check="The bound of float32's error, for the surfaces that are seen around the pixel. It "
-    "depends on the scene, not on the picture.",
+    why="So far from the origin, or at such a scale, float32 moves Blender's surfaces by more "
+    "than half a pixel: what Blender shows there proves nothing.",
+    check="The bound of float32's error for the surfaces seen around the pixel is larger than "
+    "that. It depends on the scene, not on the picture.",
     never="Any other pixel.",
     advice="move the scene to the origin, or apply the objects' scale",
 )
@@ -110,8 +110,9 @@ UNEXPLAINED = Cause(
     "no check accounts for the difference",
     color=(1.0, 0.0, 0.0),
     why="The picture is wrong there, or it is of another scene than the one that was traced.",
-    check="All others come first.",
-    advice="read the diagnosis; have the maths of one such pixel explained",
+    check="No other check finds a cause.",
+    advice="read the diagnosis, and have one such pixel explained (`reftrace explain`, *Inspect "
+    "Pixels*)",
 )
 NOT_TRACED = Cause(
     6,
@@ -119,8 +120,8 @@ NOT_TRACED = Cause(
     "not traced",
     "the picture was cancelled before",
     color=(0.0, 0.0, 0.0),
-    why="The comparison was stopped before the tracer came to the pixel's row.",
-    advice="compare again, to the end",
+    why="The comparison was cancelled before the pixel's row was traced.",
+    advice="compare again, and let it finish",
 )
 
 
@@ -149,7 +150,7 @@ class Hidden(NamedTuple):
 
 @dataclass(eq=False)
 class Causes:
-    """What is said of every pixel (h, w), with the figure that says it."""
+    """The cause of each pixel (h, w), and the number that supports it."""
 
     cause: Bytes  # the number of its `Cause`
     figure: Floats  # as the cause's sentence says; NaN where there is none
@@ -166,7 +167,7 @@ class Causes:
 
     @classmethod
     def none(cls, shape: tuple[int, ...]) -> Causes:
-        """Return those of a picture (h, w) that agrees."""
+        """Return the causes of a picture (h, w) in which every pixel agrees."""
         figure = np.full(shape, np.nan)
         blind = np.full(shape, -1, np.int32)
         return cls(np.zeros(shape, np.uint8), figure, figure.copy(), blind)

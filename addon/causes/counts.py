@@ -140,7 +140,7 @@ def count_pixels(
 
 
 def _counted(cause: Bytes) -> dict[str, Any]:
-    """Return the fields of Counts."""
+    """Return the counts as the fields of `Counts`."""
     count = {c: int((cause == c).sum()) for c in sorted(CAUSES)}
     apart = UNEXPLAINED, NOT_DECIDABLE
     return {

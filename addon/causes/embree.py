@@ -1,4 +1,4 @@
-"""What Embree, with which Cycles traces, makes of triangles that reach far.
+"""Bounds what Embree, which Cycles traces with, does to very large triangles.
 
 It computes in float32. A triangle with a corner beyond a limit it takes for invalid: none of it is
 drawn. Of the others it lets a little more be hit than there is, so that no ray falls between two:
@@ -100,7 +100,7 @@ def _unsure(scene: Scene, frame: Frame) -> Bools:
 
 
 class _Large(NamedTuple):
-    """A triangle that may grow by more than a rasteriser rounds."""
+    """A triangle that Embree may enlarge by more than a rasteriser's rounding."""
 
     size: float  # of the longest edge, in pixels where the triangle is nearest
     triangle: int
@@ -108,7 +108,7 @@ class _Large(NamedTuple):
 
 
 def _large(camera: Camera, mesh: Mesh, instance: Instance) -> list[_Large]:
-    """Return the triangles of an instance that are as large as that."""
+    """Return the triangles of an instance that Embree may enlarge so."""
     with np.errstate(over="ignore", invalid="ignore"):
         box = transform_points(instance.world_from_object, _box(mesh))
         if not _size(camera, box.T, np.asarray(np.ptp(box, axis=1).sum())) * TOLERANCE > SNAPPING:

@@ -31,7 +31,7 @@ COMPARABLE = 0.5  # the largest share of a picture, or of an object, in which no
 # probability p, half of them do with one of at most (4 p)^(n/2). In the forest p is 0.36 % at
 # boundaries; where float32 moves edges by 0.1 px, which is far, a tenth: 3e-10 for 48 pixels. It is
 # a guide and no bound, as the pixels along one edge do so together.
-LEAST = 48
+LEAST_PIXELS = 48
 _TOLD = 3  # of such objects, those with most pixels; the others are counted
 
 
@@ -77,7 +77,7 @@ class Excused:
         return self.share > SMALL
 
     def lines(self) -> Iterator[str]:
-        """Say what is too much, of the picture and of objects, and what would help."""
+        """Say which objects, or how much of the picture, rest on rounding, and what would help."""
         if self.too_much:
             yield (
                 f"{100 * self.share:.1f} % of this picture rests on rounding alone: "
@@ -149,8 +149,8 @@ def _unjudged(
     any_cause = np.any(list(where.values()), axis=0)
     found: dict[str, tuple[Bools, int]] = {}
     sides = [(case.scene.objects, frame.object_index)]
-    if case.picture.owner is not None:
-        sides.append((case.picture.names, case.picture.owner))
+    if owners := case.picture.owners:
+        sides.append((owners.names, owners.pixels))
     for names, seen in sides:
         for number, total in _mostly(seen, any_cause):
             found.setdefault(names[number], ((seen == number) & any_cause, total))
@@ -162,16 +162,16 @@ def _unjudged(
 
 
 def _mostly(seen: Integers, where: Bools) -> Iterator[tuple[int, int]]:
-    """Yield each number in `seen` (h, w) that is mostly `where`, and how many pixels it has."""
+    """Yield each number of `seen` (h, w) most of whose pixels are in `where`, and their count."""
     is_object = seen >= 0
     total = np.bincount(seen[is_object])
     own = np.bincount(seen[is_object & where], minlength=len(total))
-    for number in np.flatnonzero((own > COMPARABLE * total) & (total >= LEAST)):
+    for number in np.flatnonzero((own > COMPARABLE * total) & (total >= LEAST_PIXELS)):
         yield int(number), int(total[number])
 
 
 def in_one_place(frame: Frame, causes: Causes) -> Bools:
-    """Return the ties (h, w) of surfaces that no depth in float32 tells apart.
+    """Return the depth ties (h, w) of coincident surfaces, which float32 cannot separate.
 
     These lie in one place, as copies do: either may be shown by any picture, and where the two are
     is judged as ever. They do not count for the picture.

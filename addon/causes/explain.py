@@ -51,8 +51,8 @@ CAUSES: tuple[Cause, ...] = (
 )
 BY_NUMBER = {cause.number: cause for cause in CAUSES}
 
-# The checks in the order in which a pixel is asked, and the share of each in the work, roughly. The
-# first check that accounts for a pixel gives it its cause; if none does, it is unexplained.
+# The checks in the order in which a pixel is asked: the first that accounts for it gives its cause.
+# If none does, it is unexplained. With the share of each in the work, roughly.
 CHECKS: list[tuple[Callable[[OpenPixels], Work[None]], float]] = [
     (color.check, 0.02),
     (anti_aliasing.check, 0.1),
@@ -66,7 +66,7 @@ _OPENING = 0.1  # of the work, before the checks
 
 
 class Explained(NamedTuple):
-    """A comparison's pixels with their causes, before the picture's own background."""
+    """The causes of a comparison, and the case and frame on the picture's own background."""
 
     case: Case
     frame: Frame
@@ -92,7 +92,7 @@ def explain(case: Case, frame: Frame, at_most: int | None = None) -> Work[Explai
 
 
 def _before(case: Case, frame: Frame) -> Work[Frame]:
-    """Return a traced frame before the case's background; traced again if its colours are mixed."""
+    """Put a traced frame on the case's background; trace again if pixels mix several samples."""
     color = frame.color.copy()
     color[frame.instance_index == NOTHING] = case.scene.background
     if case.settings.samples > 1:
@@ -135,14 +135,15 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
 
 
 def _open(pixels: OpenPixels) -> Work[None]:
-    """Find the band, and open the pixels that differ and can be decided."""
+    """Compute the band, and open the pixels that differ and are decidable."""
     scene = pixels.case.scene
     frame = pixels.frame
     seen = frame.instance_index
-    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape), pixels.picture.renderer)
-    pixels.band += pixels.picture.off_center
-    if pixels.picture.farthest < np.inf:
-        pixels.band[not_decidable(scene, frame, pixels.picture.farthest)] = np.inf
+    sampling = pixels.picture.sampling
+    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape), sampling.renderer)
+    pixels.band += sampling.off_center
+    if sampling.farthest < np.inf:
+        pixels.band[not_decidable(scene, frame, sampling.farthest)] = np.inf
     ramp = shading.interpolated(scene, seen)
     finding = other_color(pixels.picture, frame.color, ramp)
     differ = yield from scaled(finding, 1.0, 0.0)

@@ -18,7 +18,7 @@ from ..tracer.nearest import TraceBand
 from ..tracer.progress import Work
 
 
-def at_once(
+def traced_together(
     centre: TraceBand, find: Callable[[Scene, Region], Work[Hits]], scene: Scene, samples: int
 ) -> TraceBand:
     """Return what traces a band's rays; the first sample that is asked for finds all of the band.

@@ -36,8 +36,9 @@ class GivenSettings:
             If a value is out of range, or the method does not come in the precision.
         """
         chosen = {name: value for name, value in vars(self).items() if value is not None}
-        if not Method(self.method or stored.method).is_plain:
-            chosen.setdefault("precision", Precision.FLOAT64)  # that of a plain method is stored
+        if Method(self.method or stored.method).is_proven:
+            # What is stored is that of an unproven method.
+            chosen.setdefault("precision", Precision.FLOAT64)
         try:
             return replace(stored, **chosen)
         except ValueError as error:
@@ -73,7 +74,7 @@ def settings_from(given: Namespace) -> GivenSettings:
     """
     color = getattr(given, "color", None)
     chosen = GivenSettings(given.method, given.precision, given.samples, color)
-    stores = is_blend(given.scene)  # a method, which may be a plain one
+    stores = is_blend(given.scene)  # a method, which may be an unproven one
     chosen.over(Settings(Method.TEXTBOOK) if stores else Settings())
     return chosen
 

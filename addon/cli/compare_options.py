@@ -61,8 +61,14 @@ class CompareOptions:
             refuse(given, ("colors_out",), "is for one judge, not for --judge all")
         if given.as_is:
             refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
+        from ..blender.drawing.judges import choices
+
+        known = (None, "auto", "all", *choices())
+        if given.against is None and given.judge in known:
+            why = "is for a picture of --against, or of an add-on's engine"
+            refuse(given, ("filter", "renderer"), why)
         if given.against is None:
-            refuse(given, ("filter", "dither", "renderer"), "is for a picture of --against")
+            refuse(given, ("dither",), "is for a picture of --against")
         else:
             why = "is for Blender's picture, not for one of --against"
             refuse(given, ("judge", "identity", "as_is"), why)
@@ -151,12 +157,14 @@ def _add_colors(parser: Parser) -> None:
 def _add_blenders_picture(parser: Parser) -> None:
     from ..blender.drawing.judges import choices
 
+    names = ", ".join(("auto", *choices()))
     group = parser.add_argument_group("Blender's picture (default: as the scene says)")
     group.add_argument(
         "--judge",
-        choices=["auto", *choices(), "all"],
-        help="the engine of Blender that draws the picture to compare with; all makes a table of "
-        "all engines (and of the viewport, in a window)",
+        metavar="JUDGE",
+        help=f"what draws the picture to compare with: {names}; all makes a table of these (and of "
+        "the viewport, in a window); or the name of an engine that an add-on registers, such as "
+        "MY_ENGINE",
     )
     group.add_argument(
         "--as-is",

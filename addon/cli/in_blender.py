@@ -19,12 +19,12 @@ class _Parser(Parser):
     """A parser for the scene that is open, which knows Blender's paths."""
 
     def runs(self, run: Callable[[Namespace], int], example: str, codes: str = DONE_HELP) -> None:
-        """Do without the example, which is reftrace's."""
+        """Leave out the example, which is of `reftrace`."""
         super().runs(run, example, codes)
         self.epilog = codes
 
     def add_scene(self, sources: str) -> None:
-        """Take the file that is open; that none is open is said once one is needed."""
+        """Take the open file; it is checked once the command needs it."""
         from ..blender.paths import open_path
 
         self.set_defaults(scene=open_path(), opened=True)

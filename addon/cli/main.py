@@ -29,6 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(argv: Sequence[str]) -> int:
+    """Parse the words, and run their command."""
     with running.held():
         known = parser(argv)
     given = known.parse_args(argv)

@@ -29,7 +29,7 @@ LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
 
 @dataclass
 class _Signals:
-    """What is known of signals in this process, which has them once."""
+    """The state of signals, one a process."""
 
     latest: int = 0
     are_held: bool = False
@@ -193,7 +193,7 @@ def ended() -> tuple[int, str]:
 
 @contextmanager
 def held() -> Iterator[None]:
-    """Let signals wait until the block, and each one around it, has ended without an error."""
+    """Hold signals back until the block, and those around it, have ended without an error."""
     before = _signals.are_held
     _signals.are_held = True
     try:

@@ -16,7 +16,6 @@ from ..diagnosis.diagnosis import diagnose
 from ..diagnosis.guessing import STEPS
 from ..diagnosis.self_check import FaultRow, self_check
 from ..mesh_diagnosis import diagnosed as with_mesh_faults
-from ..pictures.identity import Identity
 from ..pictures.metrics import boundary, image_metrics
 from ..rendering import steps
 from ..tracer.frame import Frame
@@ -139,14 +138,11 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     explaining = called(explain(case, frame), "looking for causes")
     found = yield from scaled(explaining, 0.0, rest * _CAUSES)
     traced, picture = found.frame, found.case.picture  # both before the picture's own background
-    channels = slice(3 if picture.opaque else 4)  # an opaque picture says nothing of alpha
+    channels = slice(3 if picture.storage.opaque else 4)  # an opaque picture says nothing of alpha
     pair = traced.color[..., channels], picture.color[..., channels]
     measuring = called(image_metrics(*pair), "measuring differences")
     measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
-    identity = None
-    if picture.owner is not None and picture.owners is not None:
-        own = picture.owners[traced.instance_index]
-        identity = Identity(picture.names, own, picture.owner)
+    identity = picture.identity(traced.instance_index)
     yield rest
     at_boundary = boundary(traced)
     yield rest

@@ -36,7 +36,7 @@ SCHEMA = "reference_tracer.comparison/1"
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """What was compared, and what came of it."""
+    """A comparison: what was compared, the causes, and the verdict."""
 
     case: Case  # with the scene before the picture's own background, if it has one
     frame: Frame
@@ -103,7 +103,7 @@ class Comparison:
         if self.background and not self.background.transparent:
             yield self.background.unjudged()
 
-    def told(self, x: int, y: int) -> str:
+    def why(self, x: int, y: int) -> str:
         """Return why a pixel has its cause, in a sentence with its numbers and names."""
         cause = BY_NUMBER[self.causes.cause[y, x]]
         figure = self.causes.figure[y, x]
@@ -112,7 +112,7 @@ class Comparison:
             name = self.manifest.unmodelled[int(figure)]
         elif cause == HIDDEN:
             name = self.causes.hidden[int(figure)]
-        return cause.told(figure, self.causes.allowed[y, x], name)
+        return cause.in_words(figure, self.causes.allowed[y, x], name)
 
     @property
     def empty(self) -> bool:
@@ -223,7 +223,7 @@ class Comparison:
             f"{rim.total:,} boundary pixels differ"
         )
         if self.case.picture.source.file:
-            words, known = self.case.picture.renderer.words, self.case.picture.source.known
+            words, known = self.case.picture.sampling.renderer.words, self.case.picture.source.known
             why = f", {known}" if known else ""
             yield f"a pixel may differ by the rounding of {words}{why} (--renderer)"
         if self.background:

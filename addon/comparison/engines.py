@@ -78,7 +78,7 @@ def _wrong(comparison: Comparison) -> list[Content]:
             "traced": _name(comparison.scene.objects, int(frame.object_index[y, x])),
             "triangle": int(frame.triangle_index[y, x]),
             "cause": BY_NUMBER[causes.cause[y, x]].label,
-            "why": comparison.told(x, y),
+            "why": comparison.why(x, y),
         }
         if identity is not None:
             row["shown"] = _name(identity.names, int(identity.shown[y, x]))

@@ -20,7 +20,7 @@ from ..tracer.candidates import candidates
 from ..tracer.hits import NOTHING, Name
 from ..tracer.nearest import plan, within_clip
 from ..tracer.progress import result_of
-from ..tracer.settings import PLAIN_SETTINGS, Settings
+from ..tracer.settings import UNPROVEN_SETTINGS, Settings
 from ..tracer.triangle import textbook
 from ..tracer.world import Pairs, WorldTriangles, refused
 from .pixel import Candidate, Pixel, answer, check_pixel
@@ -48,8 +48,8 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
     limit : int
         The number of triangles to return: first those that the textbook accepts, the nearest
         first, then those that the ray passes, the closest miss first. There are more where the
-        proven answer, or what one of the plain methods sees, would not be the same. Infinite planes
-        do not count.
+        proven answer, or what one of the unproven methods sees, would not be the same. Infinite
+        planes do not count.
     source : str
         What a reader calls the scene.
 
@@ -75,7 +75,7 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
     )
     order = _order(pixel, triangles)
     count = _enough(pixel, triangles, order, limit)
-    seen = {answer(pixel, triangles, some).seen for some in PLAIN_SETTINGS}
+    seen = {answer(pixel, triangles, some).seen for some in UNPROVEN_SETTINGS}
     more = (k for k in order[count:] if (triangles.instance[k], triangles.triangle[k]) in seen)
     shown = [*order[:count], *more]
     return replace(

@@ -23,9 +23,9 @@ from . import textbook
 from .candidates import LIMIT, gather_pixel
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
 from .pixel import Answer, Candidate, Pixel, certified_answer, plain_answers
-from .textbook import Arithmetic, Judgement, Number, Values
+from .textbook import Arithmetic, Judgement, Labelled, Number
 
-Columns = dict[Arithmetic, Values]
+Columns = dict[Arithmetic, Labelled]
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from ..rendering import trace
 from ..scene import Camera, Instance, Mesh, Plane, Scene, SceneError
 from ..tracer.camera import Rays, camera_rays
 from ..tracer.hits import NOTHING, NOWHERE, Name
-from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 from ..tracer.world import WorldTriangles
 
 
@@ -147,13 +147,13 @@ class Answer:
 
 
 def plain_answers(pixel: Pixel) -> list[Answer]:
-    """Return the answers of the plain methods, in the tracer's order.
+    """Return the answers of the unproven methods, in the tracer's order.
 
     They are the picture's own but for one case: float32 may round a triangle so far that its box on
     the film holds the pixel, while float64 keeps it away. That triangle is no candidate.
     """
     triangles = pixel.world_triangles()
-    return [answer(pixel, triangles, settings) for settings in PLAIN_SETTINGS]
+    return [answer(pixel, triangles, settings) for settings in UNPROVEN_SETTINGS]
 
 
 def certified_answer(pixel: Pixel) -> Answer:

@@ -7,8 +7,6 @@ to the last bit, and a test holds them to it. A `Judgement` names every conditio
 
 from __future__ import annotations
 
-import operator
-import re
 from collections.abc import Iterable, Mapping
 from enum import StrEnum
 from fractions import Fraction
@@ -17,18 +15,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..projections.sine import sine
 from ..scene import Camera
 from ..tracer.camera import pixel_size
 from ..tracer.nearest import within_clip
 from ..tracer.triangle import SUM_TOLERANCE
-from ..tracer.vector import cross, dot
+from .expressions import Value, evaluate, parse
 from .formulas import CAMERA, Formula, Rejection, ray_formulas
 
 Number = np.float32 | np.float64 | Fraction
 Vector = NDArray[Any]  # (3,), float32 or float64, which round after every operation, or fractions
-Value = Any  # a number or a vector of one arithmetic
-Values = dict[str, Value]  # by their keys or labels
+Labelled = dict[str, Value]  # by their keys or labels
 
 
 class Arithmetic(StrEnum):
@@ -52,78 +48,9 @@ class Arithmetic(StrEnum):
 
 FLOATS = Arithmetic.FLOAT32, Arithmetic.FLOAT64
 
-_TOKEN = re.compile(r"‖n‖²|[A-Za-z]+[ₛ₁₂₃]*(?:_[a-z]+)?|\S")
-_OPERATIONS = {
-    "+": (1, operator.add),
-    "−": (1, operator.sub),
-    "·": (2, dot),
-    "×": (2, cross),
-    "/": (2, operator.truediv),
-}
-
-
-_SINES = {"sin": 0, "cos": 1}  # of an angle plus so many right angles
-_UNIT = 1 << 2048  # of sines in integers: the series' terms are below 2^1500 of it
-
-
-def _sine(angle: Value, quarters: int) -> Value:
-    """Return a sine, or a cosine; the exact one of a fraction to far more digits than are shown."""
-    if not isinstance(angle, Fraction):
-        return sine(angle, quarters)
-    size = abs(angle.numerator) * _UNIT // angle.denominator
-    term = _UNIT if quarters else size
-    sign = -1 if angle < 0 and not quarters else 1
-    total = 0
-    k = 2 - quarters
-    while term:
-        total += sign * term
-        term = term * size * size // (_UNIT * _UNIT * k * (k + 1))
-        sign = -sign
-        k += 2
-    return Fraction(total, _UNIT)
-
-
-def evaluate(text: str, names: Values) -> Value:
-    """Return the number or vector that a formula gives; `names` has the value of each letter.
-
-    Raises
-    ------
-    ZeroDivisionError
-        If a fraction would be divided by 0; floats have inf or NaN for that.
-    """
-    return _evaluate([*reversed(_TOKEN.findall(text))], names)
-
-
-def _evaluate(tokens: list[str], names: Values, binding: int = 0) -> Value:
-    """Take tokens off the end of the list, as far as operators bind more strongly."""
-    value = _operand(tokens, names)
-    while tokens and tokens[-1] != ")":
-        if tokens[-1] not in _OPERATIONS:  # side by side: a product
-            value = value * _operand(tokens, names)
-            continue
-        strength, operation = _OPERATIONS[tokens[-1]]
-        if strength <= binding:
-            break
-        tokens.pop()
-        value = operation(value, _evaluate(tokens, names, strength))
-    return value
-
-
-def _operand(tokens: list[str], names: Values) -> Value:
-    token = tokens.pop()
-    if token == "−":
-        return -_operand(tokens, names)
-    if token in _SINES:
-        return _sine(_operand(tokens, names), _SINES[token])
-    if token != "(":
-        return names[token]
-    value = _evaluate(tokens, names)
-    tokens.pop()  # the closing bracket
-    return value
-
 
 @np.errstate(all="ignore")
-def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
+def evaluate_all(formulas: Mapping[str, Formula], given: Labelled) -> Labelled:
     """Return the values of formulas by their keys, exact ones up to where one would divide by 0.
 
     Parameters
@@ -131,20 +58,20 @@ def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
     formulas : mapping of str to Formula
         In order: each is made of what is given and of those before it.
     given : dict
-        Values by their labels; a formula with one of these labels is not computed.
+        Labelled by their labels; a formula with one of these labels is not computed.
     """
     names, out = dict(given), {}
     for key, formula in formulas.items():
         if formula.label not in names:
             try:
-                names[formula.label] = evaluate(formula.right or formula.label, names)
+                names[formula.label] = evaluate(parse(formula.right or formula.label), names)
             except ZeroDivisionError:
                 break
         out[key] = names[formula.label]
     return out
 
 
-def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
+def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Labelled:
     """Return the steps from a pixel to the ray through its centre.
 
     Parameters
@@ -161,12 +88,14 @@ def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
         numbers |= zip("wh", pixel_size(camera), strict=True)
     vectors = {"right": camera.right, "up": camera.up, "forward": camera.forward}
     vectors["e"] = camera.origin
-    given: Values = {label: kind.number(value) for label, value in numbers.items()}
+    given: Labelled = {label: kind.number(value) for label, value in numbers.items()}
     given |= {label: kind.vector(value) for label, value in vectors.items()}
     return evaluate_all(CAMERA | ray_formulas(camera.projection), given)
 
 
-def surface_steps(formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector) -> Values:
+def surface_steps(
+    formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector
+) -> Labelled:
     """Return the steps of a ray with a triangle (three corners) or a plane (point and normal)."""
     labels = [formula.label for formula in formulas.values()]
     return evaluate_all(formulas, {"o": o, "d": d, **dict(zip(labels, points, strict=False))})
@@ -183,7 +112,7 @@ class Judgement(NamedTuple):
     literal: bool | None = None
 
 
-def judge(found: Values, camera: Camera) -> Judgement:
+def judge(found: Labelled, camera: Camera) -> Judgement:
     """Judge the steps of a plane or a triangle by the textbook's conditions and the clip range."""
     undefined = _undefined(found)
     if undefined:
@@ -193,7 +122,7 @@ def judge(found: Values, camera: Camera) -> Judgement:
     return Judgement(not reasons, tuple(reasons), literal)
 
 
-def _undefined(found: Values) -> Rejection | None:
+def _undefined(found: Labelled) -> Rejection | None:
     """Return why t means nothing, where it does; floats have one by the rules for inf."""
     if not any(found["n"]):
         return Rejection.DEGENERATE
@@ -205,7 +134,7 @@ def _undefined(found: Values) -> Rejection | None:
     return None
 
 
-def _inside(found: Values) -> list[Rejection]:
+def _inside(found: Labelled) -> list[Rejection]:
     if "s1" not in found:
         return []
     outside = [

@@ -14,7 +14,6 @@ from typing import Any
 from ..arrays import Colors
 from ..causes.case import Case
 from ..causes.cause import Causes
-from ..pictures.identity import Identity
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..wording import count_of
@@ -83,7 +82,7 @@ class Told:
         yield f"diagnosis: {'or, as likely, ' if self.alternative else ''}{self.sentence}"
         yield f"           {self.effect()}"
         if enclosed := self.enclosed():
-            yield f"           what agrees as well lies within: {enclosed}"
+            yield f"           as many pixels agree with {enclosed}"
         if self.also:
             named = ", ".join(map(spoken, self.also))
             how = "so it would be with" if self.fault.sums_up else "as likely"
@@ -182,12 +181,13 @@ def diagnose(
         return Diagnosis()
     began = time.monotonic()
     guessing = Guessing(faults, steps)
-    evidence = yield from with_variants(evidence)
+    evidence = yield from scaled(with_variants(evidence), 0.0, 0.0)
     at_first = evidence.unexplained
     told: list[Told] = []
     for number in range(ROUNDS):
         finding = accounting(guessing, evidence)
-        chain = yield from scaled(finding, number / ROUNDS, 1 / ROUNDS)
+        half = 0.5**number  # of the work that is left: most ends in the first round
+        chain = yield from scaled(finding, 1 - half, half / 2)
         if not chain:
             break
         for trials in chain:
@@ -209,10 +209,7 @@ def diagnose(
 def _regions(evidence: Evidence) -> tuple[Region, ...]:
     """Return the regions of what is unexplained, with the objects in them."""
     case, frame = evidence.case, evidence.frame
-    identity, picture = None, case.picture
-    if picture.owner is not None and picture.owners is not None:
-        own = picture.owners[frame.instance_index]
-        identity = Identity(picture.names, own, picture.owner)
+    identity = case.picture.identity(frame.instance_index)
     return tuple(regions(evidence.unexplained, sides(case.scene, frame, identity)))
 
 
@@ -223,7 +220,7 @@ def spoken(name: str) -> str:
 
 
 def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
-    """Return what is told of a fault and of its alternatives, few of them at length."""
+    """Return what is reported of a fault and its alternatives, the first few in full."""
     first, *others = trials
     many = 0 if first.fault.sums_up else ALTERNATIVES
     also = tuple(t.fault.name for t in others[many:])
@@ -232,7 +229,7 @@ def _all_told(evidence: Evidence, trials: Sequence[Trial]) -> list[Told]:
 
 
 def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
-    """Return what is told of a trial, counted in the evidence before it."""
+    """Return what is reported of a trial, counted in the evidence before it."""
     after = trial.evidence
     settled, broken, _, _ = counted(evidence, after)
     color = after.frame.color.copy()

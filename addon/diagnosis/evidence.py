@@ -221,9 +221,10 @@ class Evidence:
         """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
         scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
-        if shown.owner is not None and shown.owners is not None:
-            first = {int(o): n for n, o in reversed(list(enumerate(shown.owners[:-1])))}
-            return objects[[first.get(int(owner), nothing) for owner in shown.owner]]
+        if shown.owners:
+            of_owner = reversed(list(enumerate(shown.owners.instances[:-1])))
+            first = {int(owner): n for n, owner in of_owner}
+            return objects[[first.get(int(owner), nothing) for owner in shown.owners.pixels]]
         table = scene.color_table[:-1]
         first_rows = np.sort(np.unique(table, axis=0, return_index=True)[1])  # of each colour
         table = table[first_rows]
@@ -245,7 +246,7 @@ def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) ->
 
 
 def spread(where: Bools, most: int) -> Places:
-    """Return at most so many pixels of a mask, by flat index, chosen at random."""
+    """Return at most `most` pixels of a mask, by flat index, chosen at random."""
     found = np.flatnonzero(where)
     if len(found) <= most:
         return found

@@ -25,7 +25,7 @@ from typing import TypeVar
 
 from ..causes.case import PRECISE
 from ..scene import SceneError
-from ..tracer.progress import Work
+from ..tracer.progress import Work, scaled
 from .evidence import FEW, Evidence, Score
 from .faults.fault import AnyFault, Guess
 from .faults.given import given
@@ -64,6 +64,7 @@ class Guessing:
         self.steps = 0
         self.guesses = 0
         self.untried: set[str] = set()  # names of faults that were not looked for to the end
+        self._done, self._of = 0, 1  # faults that were looked for, of those that are now
 
     @property
     def ended(self) -> bool:
@@ -71,15 +72,18 @@ class Guessing:
         return self.steps >= self.limit
 
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
-        """Run work that looks for a fault; None if the limit of steps is reached first."""
+        """Run work that looks for a fault; None if the limit of steps is reached first.
+
+        It yields the share of the faults that were looked for before: nobody knows how long one is.
+        """
         while not self.ended:
             try:
-                share = next(work)
+                next(work)
             except StopIteration as stop:
                 found: T = stop.value
                 return found
             self.steps += 1
-            yield share
+            yield self._done / self._of
         work.close()
         self.untried.add(fault.name)
         return None
@@ -96,6 +100,7 @@ class Guessing:
         pool: list[tuple[float, AnyFault, Guess]] = []
         unknown: list[tuple[float, AnyFault, Guess]] = []
         out: list[Trial] = []
+        self._done, self._of = 0, len(faults)
         for effort in sorted({fault.effort for fault in faults}):
             some = [fault for fault in faults if fault.effort == effort]
             scored = yield from self._scored(evidence, some)
@@ -128,6 +133,7 @@ class Guessing:
                     score = (yield from again) or NONE
                 if score.gain >= _least(evidence):
                     out.append((score.gain, made, guess))
+            self._done += 1
         return out
 
     def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
@@ -172,7 +178,7 @@ def _least(evidence: Evidence) -> float:
 
 
 def _may_be_finer(evidence: Evidence, score: Score) -> bool:
-    """Return whether so few pixels are at stake that a rough fit may break as many."""
+    """Return whether a rough fit may break as many pixels as there are to settle."""
     unexplained = int(evidence.unexplained.sum())
     return (
         score.gain < _least(evidence) and MAIN * unexplained <= score.settled <= unexplained <= FEW
@@ -200,7 +206,8 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
     Of two, the first one alone must lose few pixels, and with the second one more must agree.
     """
-    trials = yield from guessing.trials(evidence, evidence)
+    part = 0.5  # of the work that is left: most ends with the first guesses
+    trials = yield from scaled(guessing.trials(evidence, evidence), 0.0, part)
     if best := _best(evidence, trials):
         return [best]
     for first in trials[:STARTS]:
@@ -208,7 +215,9 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
             continue
         if first.broken > LOST * first.settled or first.own < COMPLETE:
             continue
-        seconds = yield from guessing.trials(carried(evidence, first), evidence)
+        looking = guessing.trials(carried(evidence, first), evidence)
+        seconds = yield from scaled(looking, 1 - part, part / 2)
+        part /= 2
         if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
             return [[first], best]
     return []

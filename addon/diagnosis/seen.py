@@ -2,7 +2,7 @@
 
 Each mesh has a tree of its triangles' boxes in object space, which is kept for as long as the mesh
 is: scenes that share it, and its instances, share the tree. The triangles that are left are tested
-as by any plain method. Nothing here is proven: what is told was traced again, with proof.
+as by any unproven method. Nothing here is proven: what is told was traced again, with proof.
 """
 
 from __future__ import annotations

@@ -126,14 +126,14 @@ def _checked(
 
 def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
     """Return which pixels (h, w) the fault changes, in colour or in the object shown."""
-    right, picture = case.picture, wrong.picture
+    own, other = case.picture.owners, wrong.picture.owners
     if traced is frame:  # it is the picture's
-        changed = differing(right.color, picture.color)
-        return changed if right.owner is None else changed | (right.owner != picture.owner)
+        changed = differing(case.picture.color, wrong.picture.color)
+        return changed | (own.pixels != other.pixels) if own and other else changed
     changed = differing(frame.color, traced.color)
-    if right.owners is None or picture.owners is None:
+    if not own or not other:
         return changed
-    return changed | (right.owners[frame.instance_index] != picture.owners[traced.instance_index])
+    return changed | (own.instances[frame.instance_index] != other.instances[traced.instance_index])
 
 
 def table(rows: Sequence[FaultRow]) -> list[str]:

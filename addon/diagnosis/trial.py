@@ -114,8 +114,8 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
 
     The others are left to the checks, which take long where whole pictures differ.
     """
-    mixes = case.picture.filter_radius
-    if mixes > before.case.picture.filter_radius:
+    mixes = case.picture.sampling.filter_radius
+    if mixes > before.case.picture.sampling.filter_radius:
         return True
     picture = as_known(case)
     right = picture.alike(case.scene, frame.instance_index, frame.color)

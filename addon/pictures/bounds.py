@@ -7,6 +7,7 @@ The tracer's own errors in float64 are far below these bounds.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from ..tracer.vector import transform_points
 
 U32 = 2.0**-24  # the rounding unit of float32
 # Pixels: rasterisers keep eight bits of a vertex' position below the pixel. Where the machine's was
-# measured to keep less, the comparison adds what is missing: see `Picture.snapping`.
+# measured to keep less, the comparison adds what is missing: see `Sampling.snapping`.
 SNAPPING = 1 / 256
 
 # A vertex goes through three float32 products: model, view, projection. The model's rounds each
@@ -138,19 +139,30 @@ def depth_step(camera: Camera, depth: Floats) -> Floats:
     return _DEPTH_STEPS * step
 
 
+@dataclass(frozen=True)
+class Storage:
+    """How a picture's colours were rounded before they are compared."""
+
+    levels: int = 0  # above 0, of a file that stores sRGB's curve in integers: 255; 0 for floats
+    dither: float = 0.0  # noise that was added, in levels
+    sums: int = 0  # how many samples were added up in half floats; 0 for one
+    opaque: bool = False  # there is no alpha, which is not compared then
+
+
+FLOATS = Storage()
+
+
 def differing(
     first: Array,
     second: Array,
     interpolated: Bools | bool = False,
-    levels: int = 0,
-    sums: int = 0,
-    dither: float = 0.0,
+    stored: Storage = FLOATS,
 ) -> Bools:
     """Return which pixels of two (..., c) pictures differ by more than :func:`difference` allows.
 
     What is not finite differs from everything.
     """
-    if levels:
+    if stored.levels:
         alike = (first == second) & np.isfinite(first)
     else:  # as much is always allowed, and mostly they are nearer; NaN and infinity are not less
         with np.errstate(invalid="ignore", over="ignore"):
@@ -158,7 +170,7 @@ def differing(
     out = ~alike.all(axis=-1)
     first, second = first[out], second[out]
     between = np.broadcast_to(interpolated, out.shape)[out]
-    apart, allowed = difference(first, second, between, levels, sums, dither)
+    apart, allowed = difference(first, second, between, stored)
     finite = np.isfinite(first) & np.isfinite(second)
     out[out] = ~((apart <= allowed) & finite).all(axis=-1)
     return out
@@ -168,9 +180,7 @@ def difference(
     first: Array,
     second: Array,
     interpolated: Bools | bool = False,
-    levels: int = 0,
-    sums: int = 0,
-    dither: float = 0.0,
+    stored: Storage = FLOATS,
 ) -> tuple[Floats, Floats]:
     """Return how far two pictures are apart, and how far rounding may have put them, (..., c).
 
@@ -184,13 +194,10 @@ def difference(
         Linear colours, or linear RGBA.
     interpolated : (...) bool
         Where a colour lies between those of corners, and INTERPOLATED more is allowed.
-    levels : int
-        How many levels above 0 of sRGB's curve the second picture was stored in; 0 for floats.
-    sums : int
-        How many samples were added up in half floats.
-    dither : float
-        The noise that was added, in levels.
+    stored : Storage
+        How the second picture was rounded.
     """
+    levels = stored.levels
     first, second = first.astype(np.float64), second.astype(np.float64)
     more = INTERPOLATED * np.asarray(interpolated, dtype=np.float64)[..., None]
     if levels:
@@ -199,11 +206,12 @@ def difference(
         apart = np.abs(first - second)
         if levels:  # a half float's units are of (e + 0.055) / 2.4 at most, by the curve's slope
             halves = HALF_UNITS * 2.0**-10 / 2.4 * (np.maximum(first, second) + 0.055)
-            return apart, (0.5 + LEVEL_SLACK + dither) / levels + (levels > 255) * halves + more
+            step = (0.5 + LEVEL_SLACK + stored.dither) / levels
+            return apart, step + (levels > 255) * halves + more
         size = np.maximum(np.abs(first), np.abs(second))
         unit = np.spacing(np.minimum(size, 2.0**15).astype(np.float16))  # the last binade
         unit = unit.astype(np.float64)
-        more = more + sums / 2 * np.maximum(unit, LEAST_SUM)
+        more = more + stored.sums / 2 * np.maximum(unit, LEAST_SUM)
         return apart, np.maximum(HALF_UNITS * unit, LEAST_STEP) + more
 
 

@@ -44,7 +44,7 @@ class CameraCertificate(NamedTuple):
         return self._asdict() | {"passed": self.passed}
 
     def line(self) -> str:
-        """Return it in words."""
+        """Return it as a sentence."""
         return (
             f"camera certificate: {self.points:,} known points lie at most {self.largest:.2g} px "
             f"apart in the tracer's camera and in Blender's own matrix (allowed: "

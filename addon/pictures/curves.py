@@ -151,7 +151,7 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
 
 
 def several(values: Array) -> bool:
-    """Return whether there are different values: one alone fits any curve of one number."""
+    """Return whether there are several distinct values: one alone fits any curve of one number."""
     return len(values) > 0 and float(np.ptp(values)) > LEAST_CHANGE
 
 
@@ -186,12 +186,12 @@ def _coded_times(factor: float, color: Array) -> Array:
 
 
 def through(into: Transform, back: Transform, change: Transform) -> Transform:
-    """Return a change that is made in other values than linear ones."""
+    """Return a transform that is applied in another encoding than linear values."""
     return lambda color: back(change(into(color)))
 
 
 def saturated(share: float, weights: Sequence[float]) -> Transform:
-    """Return what moves colours from their grey, or to it; none becomes negative."""
+    """Return the transform that scales saturation; no channel becomes negative."""
 
     def transform(color: Array) -> Array:
         grey = (color @ np.array(weights))[..., None]

@@ -10,8 +10,10 @@ from numpy.typing import ArrayLike
 from ..images import PictureFile
 from ..scene import Camera
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
+from .bounds import Storage
 from .picture import Picture, Source, check_size
 from .renderers import RENDERERS, Renderer, renderer_of
+from .sampling import Sampling
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class Making:
 
 
 def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Picture:
-    """Return what is compared of a file: if it shows the whole view, the camera's region.
+    """Read a picture file as the other side; of a whole view, the camera's region.
 
     Raises
     ------
@@ -69,11 +71,8 @@ def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Pictur
     return Picture(
         color,
         Source(file=file.path.name, known=known, remarks=remarks),
-        filter_radius=making.filter_radius,
-        levels=stored.levels,
-        dither=dither,
-        opaque=stored.opaque,
-        renderer=renderer,
+        sampling=Sampling(filter_radius=making.filter_radius, renderer=renderer),
+        storage=Storage(stored.levels, dither, opaque=stored.opaque),
     )
 
 
@@ -90,7 +89,7 @@ def _traced(camera: Camera, size: tuple[int, int]) -> tuple[slice, slice]:
 
 
 def picture_of_array(color: ArrayLike, camera: Camera, making: Making) -> Picture:
-    """Return what is compared of an array (h, w, 3 or 4), linear, row 0 at the bottom.
+    """Take an array (h, w, 3 or 4), linear, row 0 at the bottom, as the other side.
 
     RGBA has its alpha multiplied in. RGB says nothing of alpha, which is not compared then. If it
     shows the whole view, that is the camera's region.
@@ -117,8 +116,6 @@ def picture_of_array(color: ArrayLike, camera: Camera, making: Making) -> Pictur
     return Picture(
         given,
         Source(file="array", known=known),
-        filter_radius=making.filter_radius,
-        dither=making.dither or 0.0,
-        opaque=opaque,
-        renderer=renderer,
+        sampling=Sampling(filter_radius=making.filter_radius, renderer=renderer),
+        storage=Storage(dither=making.dither or 0.0, opaque=opaque),
     )

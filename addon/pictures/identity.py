@@ -8,12 +8,16 @@ falls between digits, or has an odd sum: then the object is not known.
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Bools, Colors, Floats, Integers
+from ..arrays import Bools, Colors, Floats, Index, Integers, Where
 from ..runs import by_runs
+from ..scene import Scene
 
 NOTHING, UNKNOWN = -1, -2
 
@@ -23,7 +27,7 @@ _OFF = 0.1  # how far a channel may lie from its digit, in steps (half of 1/255 
 
 
 class Shows(NamedTuple):
-    """How many pixels show what is traced there."""
+    """How many pixels show the traced object, another one, or an unknown one."""
 
     same_object: int
     other_object: int
@@ -51,6 +55,62 @@ class Identity(NamedTuple):
     def to_dict(self) -> dict[str, object]:
         """Return the names and the counts; the pictures are arrays."""
         return {"names": list(self.names), "pixels": self.shows()._asdict()}
+
+
+@dataclass(frozen=True, eq=False)
+class Owners:
+    """Which object a picture shows in each pixel, and whose the traced scene's instances are.
+
+    What is instanced belongs to the object that instances it.
+    """
+
+    names: tuple[str, ...]  # of the objects that may be shown
+    pixels: Integers  # (...) indices into `names`, NOTHING or UNKNOWN
+    # (k + 1,) of each instance, then of each plane, and NOTHING; len(names) for none of the names.
+    instances: Integers
+
+    @classmethod
+    def of(cls, names: Sequence[str], pixels: Integers, owners: Sequence[str]) -> Owners:
+        """Return the owners of pixels, and of k instances and planes by their owners' names."""
+        number = {name: n for n, name in enumerate(names)}
+        numbers = [*(number.get(owner, len(names)) for owner in owners), NOTHING]
+        return cls(tuple(names), pixels, np.array(numbers, np.int32))
+
+    @property
+    def known(self) -> Bools:
+        """Where it is known which object is shown, (...)."""
+        return self.pixels != UNKNOWN
+
+    def same(self, instance: Index) -> Bools:
+        """Return where the object of the instances (...) is known to be shown."""
+        return self.pixels == self.instances[instance]
+
+    def at(self, where: Where) -> Owners:
+        """Return some of the pixels."""
+        return replace(self, pixels=self.pixels[where])
+
+    def identity(self, instance: Index) -> Identity:
+        """Return which object each side shows, where the instances (...) are traced."""
+        return Identity(self.names, self.instances[instance], self.pixels)
+
+    def in_scene(self, scene: Scene, own: Scene) -> Owners:
+        """Return the same for another scene than its own, whose objects have the same names.
+
+        No pixel is known to show an object that has several owners in its own scene: which of them
+        an instance of the other has is not known.
+        """
+        objects = own.instance_objects
+        if np.array_equal(scene.instance_objects, objects) and scene.objects == own.objects:
+            return self
+        owners = zip(objects[:-1].tolist(), self.instances.tolist(), strict=False)
+        pairs = {(own.objects[n], owner) for n, owner in owners}
+        several = Counter(name for name, _ in pairs)
+        number = {name: n for n, name in enumerate(self.names)}
+        number |= {name: n for name, n in pairs if several[name] == 1}
+        there = [scene.objects[n] for n in scene.instance_objects[:-1]]
+        none = len(self.names)
+        numbers = [number.get(name, none) if several[name] < 2 else none for name in there]
+        return replace(self, instances=np.array([*numbers, NOTHING], np.int32))
 
 
 def colors_of(count: int) -> Colors:

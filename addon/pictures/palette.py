@@ -163,7 +163,7 @@ def not_told_apart(scene: Scene, owners: Sequence[str]) -> tuple[str, str] | Non
 
 
 def automatic_note(whose: str, pair: tuple[str, str]) -> str:
-    """Return in words why objects have clear colours in place of what a file or viewport shows."""
+    """Say why objects have clear colours instead of those of the file or the viewport."""
     return (
         f"each object is shown in a clear colour of its own, as the {whose}'s colours do not tell "
         f"'{pair[0]}' from '{pair[1]}'"

@@ -6,24 +6,23 @@ is looked at by itself: the right colour excuses no wrong object, an edge nearby
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array, Bools, Colors, Floats, Index, Integers
+from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where
 from ..runs import by_runs
-from ..scene import Scene, SceneError
+from ..scene import Scene
 from ..tracer import shading
 from ..tracer.hits import Hits
-from .bounds import DECIDABLE, SNAPPING, difference, differing
-from .identity import NOTHING, UNKNOWN
-from .renderers import RASTER, Renderer
+from .bounds import FLOATS, Storage, difference, differing
+from .identity import NOTHING, Identity, Owners
+from .sampling import AT_CENTRES, Sampling
 
 D = TypeVar("D", bound=np.generic)
-Where = Array | slice | tuple[Array, ...]
 Transform = Callable[[Floats], Floats]  # of straight linear RGB
 MAJORITY = 0.5  # the share of what a known curve changes that it must make agree
 
@@ -73,36 +72,45 @@ class Source:
 
 
 @dataclass(frozen=True, eq=False)
+class DrawnOver:
+    """What draws itself over what is traced, as hair does: where, and what lies beneath."""
+
+    feature: Integers  # (...) its index among the unmodelled features, or NOTHING
+    beneath: Colors | None = None  # (..., 4) the colour without these; NaN: not known
+
+    @property
+    def known(self) -> Integers:
+        """Which feature each pixel shows over what is known to lie beneath, (...), or NOTHING."""
+        known = self.beneath is not None and np.isfinite(self.beneath).all(axis=-1)
+        return np.where(known, self.feature, np.int32(NOTHING))
+
+    def taken_off(self, color: Colors) -> Colors:
+        """Return colours (..., 4) with those beneath in place of them, where they are known."""
+        if self.beneath is None:
+            return color
+        return np.where((self.known != NOTHING)[..., None], self.beneath, color)
+
+    def at(self, where: Where) -> DrawnOver:
+        """Return some of the pixels."""
+        return DrawnOver(self.feature[where], some(self.beneath, where))
+
+
+@dataclass(frozen=True, eq=False)
 class Picture:
     """The pixels (...) of the other side's picture, or some of them."""
 
     color: Colors  # (..., 4) linear RGBA, alpha premultiplied
     source: Source = Source()
-    # (...) which object is shown: an index into `names`, NOTHING or UNKNOWN.
-    owner: Integers | None = None
-    # (k + 1,) the object of each instance of the traced scene, then of each plane; last NOTHING.
-    owners: Integers | None = None
-    names: tuple[str, ...] = ()  # of the objects that may be shown
-    sample_radius: float = 0.0  # pixels: how far from a pixel's centre it is sampled on purpose
-    # Pixels: how far the filter reaches that mixes several samples of a pixel; 0 for one sample.
-    filter_radius: float = 0.0
-    levels: int = 0  # of a file that stores sRGB's curve in integers, those above 0: 255 for a PNG
-    dither: float = 0.0  # noise that was added, in levels
-    sums: int = 0  # how many samples were added up in half floats; 0 for one
-    opaque: bool = False  # the picture has no alpha: it is not compared
+    owners: Owners | None = None  # whose surface each pixel shows, if that is known of any
+    sampling: Sampling = AT_CENTRES
+    storage: Storage = FLOATS
     lit: bool = False  # by a light that the tracer does not have: colours prove nothing
     transform: Transform | None = None  # turns traced colours into the picture's
     background: Colors | None = None  # (4,) its own, linear RGBA, not transformed
-    # Metres: Embree drew it, which takes triangles with a coordinate beyond for invalid; else inf.
-    farthest: float = np.inf
-    snapping: float = SNAPPING  # pixels: the step to which its rasteriser rounds triangles' corners
-    # Both (k + 1,) as `owners`, last False.
+    # Both (k + 1,): of each instance of the traced scene, then of each plane; last False.
     colorless: Bools | None = None  # the tracer does not know the instance's colours
     holes: Bools | None = None  # the instance is shown as if nothing were there
-    # (...) the index of the unmodelled feature that draws itself over what is traced, or NOTHING.
-    drawn: Integers | None = None
-    beneath: Colors | None = None  # (..., 4) the colour without these features; NaN: not known
-    renderer: Renderer = RASTER  # whose rounding excuses a pixel
+    drawn: DrawnOver | None = None  # what draws itself, if anything does
 
     def to_dict(self) -> dict[str, object]:
         """Return who made it and how, as JSON can hold it."""
@@ -110,10 +118,7 @@ class Picture:
         out: dict[str, object] = {
             "version": source.version,
             "source": source.name,
-            "sample_radius": self.sample_radius,
-            "renderer": self.renderer.name,
-            "snapping": self.snapping,
-            "filter_radius": self.filter_radius,
+            **self.sampling.to_dict(),
             "settings": source.settings,
         }
         if source.file:
@@ -121,11 +126,6 @@ class Picture:
         if source.known:
             out["renderer_known"] = source.known
         return out
-
-    @property
-    def off_center(self) -> float:
-        """How far from the pixel's centre a sample may lie, beyond SNAPPING, in pixels."""
-        return self.sample_radius + max(self.snapping - SNAPPING, 0.0)
 
     def check(self, shape: tuple[int, ...]) -> None:
         """Refuse a picture that cannot be compared with a traced one of a shape (h, w, 4).
@@ -138,28 +138,23 @@ class Picture:
             If its samples lie so far from the pixels' centres that nothing could be decided.
         """
         check_size(self.color.shape, shape)
-        if SNAPPING + self.off_center >= DECIDABLE:
-            raise SceneError(
-                f"{self.source} cannot be compared: it is sampled up to {self.sample_radius:.3g} "
-                f"px from the pixels' centres, and corners are rounded to {self.snapping:.3g} px. "
-                f"Together these must be less than {DECIDABLE} px."
-            )
+        self.sampling.check(self.source)
 
     def at(self, where: Where) -> Picture:
         """Return some of the pixels: rows by a slice, those of a mask, or by their indices."""
         return replace(
             self,
             color=self.color[where],
-            owner=some(self.owner, where),
-            drawn=some(self.drawn, where),
-            beneath=some(self.beneath, where),
+            owners=self.owners and self.owners.at(where),
+            drawn=self.drawn and self.drawn.at(where),
         )
 
     def of_instances(self, some_of: Bools) -> Picture:
-        """Return the picture as it is of some of the traced scene's instances and planes."""
+        """Return the picture with its owners for some of the scene's instances and planes only."""
+        owners = self.owners
         return replace(
             self,
-            owners=some(self.owners, some_of),
+            owners=owners and replace(owners, instances=owners.instances[some_of]),
             colorless=some(self.colorless, some_of),
             holes=some(self.holes, some_of),
         )
@@ -175,7 +170,7 @@ class Picture:
 
         def differ(traced: Array, own: Array, between: Array) -> Bools:
             first, second = self._sides(traced, own)
-            return differing(first, second, between, self.levels, self.sums, self.dither)
+            return differing(first, second, between, self.storage)
 
         between = np.broadcast_to(interpolated, shape).ravel()
         return by_runs(differ, *flat, between).reshape(shape)
@@ -186,7 +181,7 @@ class Picture:
         Both are of the channel in which a pixel is nearest to differing, or differs most.
         """
         traced, own = self._sides(colors, self.color)
-        apart, allowed = difference(traced, own, False, self.levels, self.sums, self.dither)
+        apart, allowed = difference(traced, own, stored=self.storage)
         worst = np.argmax(np.nan_to_num(apart - allowed), axis=-1)[..., None]
         apart, allowed = (np.take_along_axis(v, worst, -1)[..., 0] for v in (apart, allowed))
         return apart, allowed
@@ -205,7 +200,7 @@ class Picture:
             if self.background is not None:
                 own = (colors == self.background).all(axis=-1, keepdims=True)
                 made = np.where(own, colors, made)
-        return made[..., : 3 if self.opaque else 4]
+        return made[..., : 3 if self.storage.opaque else 4]
 
     def other_object(self, instance: Index) -> Bools:
         """Return where another object is known to be shown than that of the instances (...)."""
@@ -229,17 +224,19 @@ class Picture:
 
     def known(self, instance: Index) -> Bools:
         """Return where it is known which object is shown, in the shape of `instance`."""
-        return np.zeros(instance.shape, bool) if self.owner is None else self.owner != UNKNOWN
+        return self.owners.known if self.owners else np.zeros(instance.shape, bool)
+
+    def identity(self, instance: Index) -> Identity | None:
+        """Return which object each side shows, where instances (...) are traced, if it is known."""
+        return self.owners.identity(instance) if self.owners else None
 
     def same_object(self, instance: Index) -> Bools:
         """Return where the object of the instances (...) is known to be shown."""
-        if self.owner is None or self.owners is None:
-            return np.zeros(instance.shape, bool)
-        return self.owner == self.owners[instance]
+        return self.owners.same(instance) if self.owners else np.zeros(instance.shape, bool)
 
 
 def some(values: NDArray[D] | None, where: Where) -> NDArray[D] | None:
-    """Return some of the values, if there are any."""
+    """Index an optional array."""
     return None if values is None else values[where]
 
 
@@ -247,12 +244,3 @@ def straight(colors: Array) -> Floats:
     """Return the straight RGB (..., 3) of premultiplied RGBA (..., 4)."""
     colors = np.asarray(colors, np.float64)
     return colors[..., :3] / np.where(colors[..., 3:] > 0, colors[..., 3:], 1)
-
-
-def numbered(names: Sequence[str], owners: Sequence[str]) -> Integers:
-    """Return the index in `names` of each owner, (k,), and NOTHING at the end: (k + 1,) int32.
-
-    An owner that is not among the names gets an index that no pixel has.
-    """
-    number = {name: n for n, name in enumerate(names)}
-    return np.array([*(number.get(o, len(names)) for o in owners), NOTHING], np.int32)

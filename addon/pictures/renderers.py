@@ -179,7 +179,7 @@ _RASTERISERS = "BLENDER_WORKBENCH", "BLENDER_EEVEE"  # from 4.2 to 4.5 BLENDER_E
 
 
 def renderer_of(header: str, engine: str) -> tuple[Renderer, str]:
-    """Return what a picture was made by, and how that is known, in words.
+    """Return the kind of renderer that made a picture, and how that is known, in words.
 
     Parameters
     ----------

@@ -13,12 +13,15 @@ import numpy as np
 from .. import images
 from ..arrays import Array, Colors
 from ..causes.case import Case
+from ..causes.cause import UNEXPLAINED
+from ..causes.explain import CAUSES
 from ..causes.maps import cause_map
 from ..comparison.comparing import compared
 from ..comparison.comparison import SCHEMA, Comparison
 from ..comparison.extras import Extras
 from ..comparison.extras import extras as find_extras
 from ..comparison.verdict import Verdict
+from ..diagnosis.regions import Region, regions, sides
 from ..tracer.frame import PASSES
 from ..tracer.progress import Work, called, scaled
 from . import page
@@ -44,7 +47,7 @@ def write(
     OSError
         If the folder cannot be written.
     """
-    colors = comparison.frame.color, comparison.picture, difference_picture(comparison)
+    colors = comparison.frame.color, comparison.picture, cause_picture(comparison)
     with replacing(Path(directory), NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
@@ -109,9 +112,18 @@ def _write_arrays(path: Path, arrays: Iterable[tuple[str, Array]]) -> Work[None]
             yield 0.0
 
 
-def difference_picture(comparison: Comparison) -> Colors:
+def cause_picture(comparison: Comparison) -> Colors:
     """Return the map of causes over the dimmed traced picture, (h, w, 4) linear RGBA."""
     return cause_map(comparison.frame.color, comparison.causes.cause)
+
+
+def differing_regions(comparison: Comparison) -> list[Region]:
+    """Return the regions of unexplained pixels; if there are none, of all that differ."""
+    cause = comparison.causes.cause
+    mask = cause == UNEXPLAINED
+    if not mask.any():
+        mask = np.isin(cause, [c for c in CAUSES if c.explains])
+    return regions(mask, sides(comparison.scene, comparison.frame, comparison.identity))
 
 
 @contextmanager

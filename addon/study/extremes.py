@@ -1,8 +1,8 @@
 """Finds what each method makes of each scenario, and the scale at which it breaks.
 
-The plain methods are held against the certified picture. The certified picture is held against its
-definition, in integers, on a sample of the rays with every surface; and, where it is known whether
-a ray must cross the scene's surfaces an even or an odd number of times, on all rays.
+The unproven methods are held against the certified picture. The certified picture is held against
+its definition, in integers, on a sample of the rays with every surface; and, where it is known
+whether a ray must cross the scene's surfaces an even or an odd number of times, on all rays.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..certified.definition import definition
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, called, scaled
-from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 from .scenarios.sweeps import SCENARIOS, Scenario
 from .truth import CERTIFIED, Truth, largest_t_error, pixel_rays, plain_of, sample, truth_of
 
@@ -150,7 +150,7 @@ def rows_of(
         found[precision] = yield from scaled(plain_of(scene, precision), k * step, step)
     rows = [
         _plain_row(scenario, scale, truth, settings, found[settings.precision][settings.method])
-        for settings in PLAIN_SETTINGS
+        for settings in UNPROVEN_SETTINGS
     ]
     return [*rows, _certified_row(scenario, scale, truth, judged)]
 

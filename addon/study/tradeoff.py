@@ -21,7 +21,7 @@ from ..rendering import steps
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, called, scaled
-from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 from .trade import Trade, TradeRow, advice, mark
 from .truth import largest_t_error
 
@@ -139,7 +139,7 @@ def rows_of(choices: list[Choice], truth: Floats) -> Work[list[TradeRow]]:
 
 def choose(scene: Scene, width: int, samples: int) -> list[Choice]:
     """Return what is measured, the largest picture first."""
-    ladder = [*PLAIN_SETTINGS, Settings(Method.CERTIFIED)]
+    ladder = [*UNPROVEN_SETTINGS, Settings(Method.CERTIFIED)]
     widths = sorted({-(-width // share) for share in SMALLER}, reverse=True)
     scenes = [at_width(scene, w) for w in widths]
     found = [Choice(s, small) for small in scenes for s in ladder]
@@ -201,7 +201,7 @@ def _look_at_all(choices: list[Choice], truth: Floats) -> Work[None]:
     """Render each once, untimed, for its memory and its errors, the certified ones first."""
     total, done = sum(c.cost for c in choices), 0.0
     certified: dict[int, Frame] = {}  # by the picture's width
-    for choice in sorted(choices, key=lambda c: c.settings.method.is_plain):
+    for choice in sorted(choices, key=lambda c: not c.settings.method.is_proven):
         frame = yield from scaled(_look(choice), done / total, choice.cost / total)
         done += choice.cost
         proven = certified.setdefault(choice.scene.camera.width, frame)

@@ -21,7 +21,7 @@ from ..tracer.frame import Frame
 from ..tracer.hits import Hits
 from ..tracer.nearest import plan, test_pairs, test_planes
 from ..tracer.progress import Work, scaled
-from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 
 CERTIFIED = Settings(Method.CERTIFIED)
 
@@ -53,12 +53,12 @@ def truth_of(scene: Scene) -> Work[Truth]:
 
 
 def plain_of(scene: Scene, precision: Precision) -> Work[dict[Method, Truth]]:
-    """Find what every plain method makes of a scene in a precision: they share what is tested.
+    """Find what every unproven method makes of a scene in a precision: they share what is tested.
 
     Its frames have no colours. Infinite planes are seen, but not counted.
     """
     region, rays = scene.camera.region, pixel_rays(scene.camera, precision)
-    found = {s.method: s for s in PLAIN_SETTINGS if s.precision == precision}
+    found = {s.method: s for s in UNPROVEN_SETTINGS if s.precision == precision}
     hits = {method: Hits.none(rays.count) for method in found}
     count = {method: np.zeros(rays.count, np.int64) for method in found}
     for method in found:

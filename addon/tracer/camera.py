@@ -6,11 +6,11 @@ They are not normalised, so that t is the depth along the view axis (for a panor
 They are never the difference of a world-space pixel and the camera's position, which would lose
 most digits far from the origin.
 
-The textbook (Exercise 1, perspective camera) has, for the pixel in column i,
+The textbook (docs/glossary.md, "The exercise") has, for the pixel in column i,
 
     pixel = tan(a) / (height / 2)                    x = (i - (width - 1) / 2) pixel
 
-where a, in the course's code, is *half* the vertical angle of view. Here it is
+where a is *half* the vertical angle of view. Here it is
 
     pixel = (right edge - left edge) / width         x = left edge + (i + 1/2) pixel
 

@@ -48,7 +48,7 @@ class Plan:
     """The batches of a scene, each with the rows of pixels that it may cover.
 
     It holds for rays within `reach` pixels of their pixel's centre, and vertices rounded to
-    `dtype`. Pairs may take about `memory` bytes. A plain method has its `settings` here.
+    `dtype`. Pairs may take about `memory` bytes. An unproven method has its `settings` here.
     """
 
     scene: Scene

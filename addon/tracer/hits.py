@@ -198,7 +198,7 @@ class Hits:
 
     @classmethod
     def of(cls, t: Floats, instance: Index, triangle: Index, s: Vectors) -> Hits:
-        """Return hits of a plain method: t (n,), the names (n,), and barycentrics s (3, n)."""
+        """Return hits of an unproven method: t (n,), the names (n,), and barycentrics s (3, n)."""
         certainty = np.full(len(t), Certainty.NOT_CERTIFIED, np.uint8)
         measures = np.vstack((t, s))
         return cls(instance.astype(np.int32), triangle.astype(np.int32), certainty, measures)

@@ -1,4 +1,4 @@
-"""Finds the nearest hit of every ray with a plain method: floating point, and no proof.
+"""Finds the nearest hit of every ray with an unproven method: floating point, and no proof.
 
 Of all surfaces that a ray meets within the clip range, it sees the one of least t. Of exactly equal
 t, the lower (instance, triangle) is seen; infinite planes come after the instances.
@@ -28,12 +28,12 @@ TraceBand = Callable[[Region, float, float], Work[Hits]]
 def tracer(
     scene: Scene, settings: Settings, reach: float, statistics: Statistics
 ) -> Work[TraceBand]:
-    """Prepare to trace bands of a picture by a plain method.
+    """Prepare to trace bands of a picture by an unproven method.
 
     Parameters
     ----------
     settings : Settings
-        With a plain method.
+        With an unproven method.
     reach : float
         How far from its pixel's centre a ray may pass, in pixels along each axis.
     statistics : Statistics
@@ -59,7 +59,7 @@ def trace_tile(
     """
     scene = plan.scene
     settings = plan.settings
-    assert settings, "the plan of a plain method has its settings"
+    assert settings, "the plan of an unproven method has its settings"
     statistics = statistics or Statistics()
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)

@@ -30,7 +30,7 @@ def intersect(rays: Rays, point: Vectors, normal: Vectors) -> Floats:
 
     References
     ----------
-    .. [1] Exercise 1 of the course: ray and plane.
+    .. [1] The exercise, in docs/glossary.md: the plane.
     """
     towards = dot(rays.directions, normal)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

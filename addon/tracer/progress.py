@@ -8,12 +8,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Generator, MutableMapping
-from typing import TypeVar
+from functools import wraps
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
+
+if TYPE_CHECKING:
+    from ..arrays import Array
 
 A = TypeVar("A")
 B = TypeVar("B")
+P = ParamSpec("P")
 T = TypeVar("T")
 Work = Generator[float, None, T]
+ROWS = 128  # a step, of work on the rows of a picture
 Steps = Generator[str, None, T]  # each step yields the name of its stage of the work
 
 
@@ -27,6 +33,17 @@ class Share(float):
         self = super().__new__(cls, share)
         self.doing = doing
         return self
+
+
+def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
+    """Turn a plain function into work without steps."""
+
+    @wraps(function)
+    def work(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
+        yield from ()
+        return function(*args, **kwargs)
+
+    return work
 
 
 def doing(share: float) -> str:
@@ -68,6 +85,21 @@ def scaled(work: Work[T], start: float, size: float) -> Work[T]:
         return Share(whole, share.doing) if isinstance(share, Share) else whole
 
     return mapped(work, of_whole)
+
+
+def by_rows(of: Callable[..., Array], *pictures: Array) -> Work[Array]:
+    """Return what a function makes of pictures (h, w, ...) row by row, some rows a step."""
+    import numpy as np  # late: Blender registers the add-on without numpy
+
+    height = len(pictures[0])
+    for bottom in range(0, height, ROWS):
+        rows = slice(bottom, bottom + ROWS)
+        found = of(*(p[rows] for p in pictures))
+        if bottom == 0:
+            made = np.empty((height, *found.shape[1:]), found.dtype)
+        made[rows] = found
+        yield bottom / height
+    return made
 
 
 def timed(steps: Steps[T], stages: MutableMapping[str, float], share: float = 0.0) -> Work[T]:

@@ -2,7 +2,7 @@
 
 `steps` is the loop. A render engine, a modal operator and a script drive it, each with its own
 way to show progress and to stop. A step takes some ten milliseconds. How rays are traced is left to
-a `Tracer`: `nearest.tracer` for the textbook and the other plain methods.
+a `Tracer`: `nearest.tracer` for the textbook and the other unproven methods.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .coloring import Color
 from .frame import Frame
 from .hits import Hits, Statistics
 from .nearest import TraceBand
-from .nearest import tracer as plain_tracer
+from .nearest import tracer as unproven_tracer
 from .progress import Steps, Work, scaled, timed
 from .settings import Settings
 from .vector import parts
@@ -61,7 +61,7 @@ class Round:
 
 
 def steps(
-    scene: Scene, settings: Settings, frame: Frame, tracer: Tracer = plain_tracer
+    scene: Scene, settings: Settings, frame: Frame, tracer: Tracer = unproven_tracer
 ) -> Iterator[float]:
     """Trace a scene into an empty frame; yields the share of the work done after each step.
 
@@ -99,6 +99,7 @@ def rays_in_order(camera: Camera, settings: Settings) -> Iterator[tuple[Region, 
 
 
 def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> Iterator[float]:
+    """Trace a scene band by band, in each of its rounds."""
     statistics = frame.statistics
     statistics.method = settings.method.value
     statistics.triangles = scene.triangle_count
@@ -195,8 +196,8 @@ def bands(camera: Camera, settings: Settings) -> list[Region]:
     the wish to see the picture grow where a pixel has many samples or every triangle is tested.
     """
     pixels = settings.memory // BYTES_PER_PIXEL
-    is_slow = settings.method.is_plain or not camera.projection.is_linear
-    if at_once(camera, settings):
+    is_slow = not settings.method.is_proven or not camera.projection.is_linear
+    if samples_together(camera, settings):
         pixels //= settings.samples**2
     elif settings.samples > 1 or is_slow:
         rays = SLOW_PIXELS if is_slow else RAYS
@@ -204,13 +205,13 @@ def bands(camera: Camera, settings: Settings) -> list[Region]:
     return _rows(camera.region, max(1, pixels // camera.region.width))
 
 
-def at_once(camera: Camera, settings: Settings) -> bool:
+def samples_together(camera: Camera, settings: Settings) -> bool:
     """Return whether a pixel's samples can be traced as pixels of a picture so many times as large.
 
     Their number a direction is a power of two, so that no ray is rounded otherwise.
     """
     n = settings.samples
-    is_proven = not settings.method.is_plain and camera.projection.is_linear
+    is_proven = settings.method.is_proven and camera.projection.is_linear
     fits = n * max(camera.width, camera.height) <= FINEST
     return is_proven and fits and n > 1 and n & (n - 1) == 0
 

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from ..methods import PLAIN, Method
+from ..methods import UNPROVEN, Method
 from .coloring import Color
 
 
@@ -51,10 +51,10 @@ class Settings:
             except ValueError:
                 names = ", ".join(k.value for k in kind)
                 raise ValueError(f"{name} is {value!r}; it must be one of {names}") from None
-        if self.precision != Precision.FLOAT64 and not self.method.is_plain:
+        if self.precision != Precision.FLOAT64 and self.method.is_proven:
             raise ValueError(
                 f"precision is {self.precision.value}; {self.method.value} is proven for float64 "
-                f"only: choose float64, or one of {', '.join(PLAIN)}"
+                f"only: choose float64, or one of {', '.join(UNPROVEN)}"
             )
         if not 1 <= self.samples <= 64:
             raise ValueError(f"samples is {self.samples}; it must be between 1 and 64")
@@ -62,4 +62,4 @@ class Settings:
             raise ValueError(f"memory is {self.memory} bytes; it must be at least 16 MiB")
 
 
-PLAIN_SETTINGS = tuple(Settings(m, p) for m in PLAIN for p in Precision)
+UNPROVEN_SETTINGS = tuple(Settings(m, p) for m in UNPROVEN for p in Precision)

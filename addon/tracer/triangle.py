@@ -1,13 +1,13 @@
 """Tests rays with triangles: by the textbook, by it literally, Möller–Trumbore, watertight.
 
-`nearest.py` calls these tests for the plain methods; `certified` has its own, in `certified/`.
+`nearest.py` calls these tests for the unproven methods; `certified` has its own, in `certified/`.
 Each function takes n rays and n triangles, pair by pair, and returns
     hit : (n,) bool      whether the ray's line meets the triangle
     t   : (n,)           ray parameter where it does
     s   : (3, n)         barycentrics of p1, p2, p3: x = s1 p1 + s2 p2 + s3 p3
 in the precision of its input. t may be negative: `nearest.py` tests the clip range.
 
-The textbook (Exercise 1, triangle):
+The textbook (docs/glossary.md, "The exercise"):
     n = (p3 - p1) x (p2 - p1)                     t = -((o - p1) . n) / (d . n),  x = o + t d
     n_s1 = (p2 - p3) x (x - p3)   n_s2 = (p1 - p2) x (x - p2)   n_s3 = (p3 - p1) x (x - p1)
     s_i = n . n_si / |n|^2        a hit when 0 <= s_i <= 1 and s1 + s2 + s3 = 1

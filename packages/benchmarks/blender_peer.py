@@ -34,7 +34,9 @@ class BlenderPeer:
         """
         if importlib.util.find_spec("bpy") is None:
             raise missing("bpy")
-        self._cache, self._process, self._errors = cache, None, None
+        self._cache = cache
+        self._process: Any = None
+        self._errors: Any = None
         self._opened: dict[str, Any] | None = None
 
     def make_suzanne(self, path: Path) -> None:

@@ -17,7 +17,7 @@ def add(parser: Parser) -> None:
 
     def run(given: Namespace) -> int:
         scenes = tuple(given.scenes)
-        return bench(BenchOptions(given.out, scenes, given.quick, given.baseline, given.repeats))
+        return bench(BenchOptions(given.out, scenes, given.quick, given.repeats))
 
     parser.runs(run, "reftrace bench --quick --out out/bench")
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="default: all of them")
@@ -30,12 +30,6 @@ def add(parser: Parser) -> None:
         help="folder for what is found (default %(default)s)",
     )
     parser.add_argument(
-        "--baseline",
-        type=parser.path,
-        metavar="FILE",
-        help="bench.json of an earlier run: say what has changed since",
-    )
-    parser.add_argument(
         "--repeats", type=INTEGER, metavar="N", help="rounds (default 5, or 3 with --quick)"
     )
 
@@ -44,11 +38,12 @@ def bench(options: BenchOptions) -> int:
     """Measure, and print the table."""
     from . import report
     from .run import run
+    from .tables import table
 
     with folders.made(options.out):
         with progress_bar() as progress:
-            measured, baseline = run(options, progress)
-        print(report.table(measured, baseline))
-        report.write(options.out, measured, baseline)
+            measured = run(options, progress)
+        report.write(options.out, measured)
+        print(table(measured))
         print(f"written to {options.out}")
     return measured.interrupted

@@ -62,6 +62,7 @@ def measure_commands(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
             elif found := ratio(runner, ruler):
                 times = found.median, found.least, found.most
                 rounds = len(runner.seconds)
+                bench.keep(name, runner.seconds.values())
                 bench.commands.append(CommandRow(name, runner.median, *times, rounds))
         if ruler.median and set(WINDOW) & set(plan.commands):
             _enter_window(bench, ruler)
@@ -75,8 +76,10 @@ def _enter_window(bench: Bench, ruler: Runner) -> None:
         return
     for name, rounds in found.items():
         cpu, waited = zip(*rounds, strict=True)
-        times = (of(cpu) / ruler.median for of in (median, min, max))
-        bench.commands.append(CommandRow(name, median(cpu), *times, len(cpu), median(waited)))
+        bench.keep(name, cpu)
+        middle, least, most = (of(cpu) / ruler.median for of in (median, min, max))
+        row = CommandRow(name, median(cpu), middle, least, most, len(cpu), median(waited))
+        bench.commands.append(row)
 
 
 def _files(folder: Path) -> dict[str, Path]:

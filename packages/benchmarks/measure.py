@@ -97,6 +97,10 @@ def _measure_scene(
             share * case.cost,
         )
         start += share * case.cost
+        for (settings, what), runner in timing.runners.items():
+            bench.keep(f"{case.title}: {settings.method.value}, {what}", runner.seconds.values())
+        for name, runner in peers.items():
+            bench.keep(f"{case.title}: {name}", runner.seconds.values())
         field.tell(peers, case)
         rows = [timing.row(settings, peers, peaks) for settings in METHODS]
         bench.rows += [field.completed(row, timing.certified) for row in rows]
@@ -115,7 +119,7 @@ def _measure_memory(cases: list[Case], cache: Path, quick: bool) -> Work[Peaks]:
 
 
 def _took_too_long(peaks: Peaks, case: Case, settings: Settings, what: str) -> bool:
-    """Whether a plain method's memory was not found out, but certified's was."""
+    """Whether an unproven method's memory was not found out, but certified's was."""
     plain, proven = (peaks.get(_job(case, s, what), 0) for s in (settings, CERTIFIED))
     return plain is None and proven is not None
 

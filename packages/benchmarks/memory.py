@@ -13,7 +13,7 @@ import select
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Generator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -24,7 +24,7 @@ from reference_tracer.tracer.settings import Settings
 
 from .scenes import build, mesh_of
 
-LONGEST = 15.0  # seconds for a plain method's picture: 100,000 slivers would take it many minutes
+LONGEST = 15.0  # seconds for an unproven method's picture: 100,000 slivers would take minutes
 
 
 @dataclass(frozen=True)
@@ -39,10 +39,10 @@ class Job:
     whole: bool
 
 
-def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
+def peaks(name: str, cache: Path, jobs: list[Job]) -> Generator[int | None, None, None]:
     """Yield each job's peak in bytes, beside scene and libraries.
 
-    None where it cannot be known, and where a plain method takes longer than LONGEST.
+    None where it cannot be known, and where an unproven method takes longer than LONGEST.
     """
     if not hasattr(os, "fork"):
         yield from (None for _ in jobs)
@@ -55,7 +55,11 @@ def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
         start_new_session=True,
     )
     try:
-        request = {"name": name, "cache": str(cache), "jobs": [asdict(job) for job in jobs]}
+        request: dict[str, object] = {
+            "name": name,
+            "cache": str(cache),
+            "jobs": [asdict(job) for job in jobs],
+        }
         request["longest"] = LONGEST
         process.stdin.write(json.dumps(request))
         process.stdin.close()
@@ -79,12 +83,12 @@ def _answer(request: dict) -> None:
 def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int | None:
     """Return by how much a fork's peak rises for the second picture, bytes.
 
-    None if it fails, or if it is a plain method's and takes longer than `longest` seconds.
+    None if it fails, or if it is an unproven method's and takes longer than `longest` seconds.
     """
     reads, writes = os.pipe()
     if child := os.fork():
         os.close(writes)
-        patience = longest if Method(job.method).is_plain else None
+        patience = None if Method(job.method).is_proven else longest
         if not select.select([reads], [], [], patience)[0]:
             os.kill(child, signal.SIGKILL)
         with os.fdopen(reads) as file:

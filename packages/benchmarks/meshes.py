@@ -32,6 +32,7 @@ def cube() -> Triangles:
 def icosphere(level: int) -> Triangles:
     """Return a unit sphere of 20 * 4 ** `level` triangles that share their vertices."""
     g = _GOLDEN
+    corners: list[tuple[float, float, float]]
     corners = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
     corners += [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
     faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11)]
@@ -44,7 +45,7 @@ def icosphere(level: int) -> Triangles:
     return vertices.astype(np.float32), triangles.astype(np.int32)
 
 
-def _split(vertices: NDArray, triangles: NDArray) -> Triangles:
+def _split(vertices: NDArray, triangles: NDArray) -> tuple[NDArray, NDArray]:
     """Split each triangle in four, its new corners on the sphere above the middles of its sides."""
     a, b, c = triangles.T
     ends = np.sort(np.stack(((a, b), (b, c), (c, a))), axis=1)  # (side, end, triangle)

@@ -13,5 +13,4 @@ class BenchOptions:
     out: Path
     scenes: tuple[str, ...] = ()  # all of them, if none is named
     quick: bool = False
-    baseline: Path | None = None  # bench.json of an earlier run
     repeats: int | None = None  # rounds

@@ -62,7 +62,8 @@ class Embreex:
             raise missing("embreex") from None
         self._new: Callable[[], Any] = rtcore_scene.EmbreeScene
         self._add: Callable[..., Any] = mesh_construction.TriangleMesh
-        self._mesh, self._scene = mesh, None
+        self._mesh = mesh
+        self._scene: Any = None
 
     def build(self) -> float:
         """Build the scene, its tree included; returns seconds."""

@@ -1,12 +1,19 @@
-"""The plot of a `Bench`: time against triangles for ours and the peers, and stages by scene."""
+"""The plot of a `Bench`, by matplotlib: time against triangles, and stages by scene."""
 
 from __future__ import annotations
 
-from reference_tracer.methods import Method
-from reference_tracer.report import plots
+from pathlib import Path
+from typing import TYPE_CHECKING
 
+from reference_tracer.methods import Method
+
+from .peers import missing
 from .rows import Bench, Row
 from .scenes import SCALED
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 # What a row has, what it is called, its colour and its mark.
 _LINES = (
@@ -19,22 +26,12 @@ _LINES = (
     ("workbench_s", "Workbench", "#009e73", "D"),
     ("rtree_s", "trimesh's rtree", "#444444", "v"),
 )
-_STAGES = (
-    *("#7a3d9a", "#0072b2", "#009e73", "#e69f00", "#d55e00", "#56b4e9", "#b0723a", "#cc79a7"),
-    *("#4d4d4d", "#b8a9d9", "#8fd3bd"),
-)
-_OTHER = "#d9d9d9"
-_SHAPES = {  # of marks that are not round, of radius 1
-    "s": [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
-    "^": [(0, -1.1), (1, 0.8), (-1, 0.8)],
-    "v": [(0, 1.1), (1, -0.8), (-1, -0.8)],
-    "D": [(0, -1.2), (1.2, 0), (0, 1.2), (-1.2, 0)],
-}
-_TOP, _HIGH = 160, 725  # of both axes, in pixels
+_SIZE = 14.0, 7.0  # inches
+_COLORS = "tab20"  # of stages: there are a dozen
 
 
-def picture(bench: Bench) -> str:
-    """Return the plot, an SVG.
+def figure(bench: Bench) -> Figure:
+    """Return the plot.
 
     Left, of the icospheres where there are two or more, else of all scenes: time against the number
     of triangles. Right, of every scene, what each stage of a certified frame takes. Both through
@@ -44,19 +41,33 @@ def picture(bench: Bench) -> str:
     ------
     ValueError
         If nothing was measured.
+    MissingPeerError
+        If matplotlib is not installed.
     """
     rows = largest(bench)
-    spheres = [r for r in rows if r.scene in SCALED]
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise missing("matplotlib") from None
     cores = "one core" if bench.machine.get("one_core") else "not kept on one core"
-    head = (
-        f"{rows[0].width} × {rows[0].height} pixels, {rows[0].camera}, "
-        f"{bench.machine.get('processor') or 'unknown processor'}, {cores}"
+    processor = bench.machine.get("processor") or "unknown processor"
+    made = Figure(_SIZE, layout="constrained")
+    made.suptitle(
+        f"{rows[0].width} × {rows[0].height} pixels, {rows[0].camera}, {processor}, {cores}"
     )
-    inside = plots.text((20, 38), head, min(28.0, 28 * 1880 / plots.width_of(head, 28)))
-    joined = len(spheres) > 1
-    inside += _growth(spheres if joined else rows, _plain(bench), joined) + _stages(rows)
-    title = "Time against triangles, and where the time of a certified frame goes"
-    return plots.picture(plots.WIDTH, plots.HEIGHT, title, head, inside)
+    growth, stages = made.subplots(1, 2)
+    _growth(growth, rows, _plain(bench))
+    _stages(stages, rows)
+    return made
+
+
+def write(path: Path, bench: Bench) -> None:
+    """Write the plot as SVG, its words as text; raises what :func:`figure` does."""
+    made = figure(bench)
+    from matplotlib import rc_context
+
+    with rc_context({"svg.fonttype": "none"}):
+        made.savefig(path, format="svg", metadata={"Date": None})
 
 
 def largest(bench: Bench) -> list[Row]:
@@ -85,79 +96,42 @@ def _seconds(row: Row, name: str, plain: dict[tuple, float]) -> float | None:
     return getattr(row, name)
 
 
-def _growth(rows: list[Row], plain: dict[tuple, float], joined: bool) -> str:
-    """Draw each method and peer, joined by a line if all are of one scene; name them."""
-    lines = {
-        name: sorted((r.triangles, s) for r in rows if (s := _seconds(r, name, plain)))
-        for name, *_ in _LINES
-    }
-    seconds = [s for line in lines.values() for _, s in line]
-    low, far = 0.7 * min(r.triangles for r in rows), 1.3 * max(r.triangles for r in rows)
-    x = plots.logarithmic(low, far * (far / low) ** (0.72 * joined))  # room for the names
-    x = x._replace(ticks={v: _number(v) for v in x.ticks if v < 3 * far})
-    y = plots.logarithmic(0.7 * min(seconds), 1.4 * max(seconds))
-    axes = plots.Axes(150, _TOP, 890, _HIGH, x, y)
+def _growth(axes: Axes, rows: list[Row], plain: dict[tuple, float]) -> None:
+    """Draw each method and peer, joined by a line if all are of one sphere."""
+    spheres = [r for r in rows if r.scene in SCALED]
+    joined = len(spheres) > 1
+    line = "-" if joined else "none"
+    for name, label, color, marker in _LINES:
+        found = ((r.triangles, _seconds(r, name, plain)) for r in (spheres if joined else rows))
+        if points := sorted((n, seconds) for n, seconds in found if seconds):
+            x, y = zip(*points, strict=True)
+            axes.plot(x, y, ls=line, marker=marker, color=color, label=label)
     title = "Time against triangles" + (", of one sphere" if joined else "")
-    out, named, names = axes.drawn(title, "triangles", "seconds"), [], {}
-    for name, label, color, shape in _LINES:
-        places = [axes.at(*point) for point in lines[name]]
-        size = 10.0 if name in ("trace_s", "plain_s") else 7.5
-        out += plots.line(places, color, size / 2) if joined else ""
-        out += "".join(_mark(place, size, color, shape) for place in places)
-        if places:
-            named.append((*places[-1], label, color))
-            names[label] = _mark((0, 0), 9, color, shape)
-    if not joined:
-        return out + plots.legend(names, plots.HEIGHT - 30)
-    column, above = axes.at(1.3 * far, y.low)[0] + 20, float("inf")
-    for at, height, label, color in sorted(named, key=lambda end: -end[1]):
-        above = min(height, above - 34)  # no two over one another
-        out += plots.line([(at, height), (column - 6, above)], color, 1.5, opacity=0.4)
-        out += plots.text((column, above), label, 25, color)
-    return out
+    axes.set(xscale="log", yscale="log", xlabel="triangles", ylabel="seconds", title=title)
+    axes.xaxis.set_major_formatter("{x:,.0f}")
+    axes.grid(alpha=0.4)
+    axes.legend()
 
 
-def _mark(at: plots.Place, size: float, color: str, shape: str) -> str:
-    if shape not in _SHAPES:
-        return plots.mark(at, size, color)
-    points = " ".join(f"{at[0] + size * x:.1f},{at[1] + size * y:.1f}" for x, y in _SHAPES[shape])
-    return plots.element("polygon", points=points, fill=color)
-
-
-def _stages(rows: list[Row]) -> str:
+def _stages(axes: Axes, rows: list[Row]) -> None:
     """Draw what each stage takes of every scene, as bars."""
-    names = list(dict.fromkeys(name for r in rows for name in r.stages))
-    colors = dict(zip(names, _STAGES * (1 + len(names) // len(_STAGES)), strict=False))
-    colors["other"] = _OTHER
     wholes = [max(r.render_s or 0.0, sum(r.stages.values())) for r in rows]
-    high = _HIGH / len(rows)
-    size = min(20.0, 0.8 * high)
-    scenes = {len(rows) - k - 0.5: f"{r.scene}, {_number(r.triangles)}" for k, r in enumerate(rows)}
-    left = 1090 + max(plots.width_of(name, size) for name in scenes.values())
-    x = plots.linear(0, 1.25 * max(wholes))
-    axes = plots.Axes(left, _TOP, 1890 - left, _HIGH, x, plots.Scale(0, len(rows), {0: ""}))
-    title = "Where the time of a certified frame goes"
-    out = axes.drawn("", "seconds") + plots.text((1890, _TOP - 34), title, 32, anchor="end")
-    for (middle, scene), r, whole in zip(scenes.items(), rows, wholes, strict=True):
-        out += plots.text((left - 12, axes.at(0, middle)[1]), scene, size, anchor="end")
-        start = 0.0
-        for name, seconds in (r.stages | {"other": whole - sum(r.stages.values())}).items():
-            (begin, y), (end, _) = axes.at(start, middle), axes.at(start + seconds, middle)
-            title = f"{r.scene}, {name}: {seconds:.3g} s"
-            out += plots.cell(begin, y - 0.35 * high, end - begin, 0.7 * high, colors[name], title)
-            start += seconds
-        out += plots.text((end + 8, y), f"{whole:.3g} s", size)
-    entries = {name: plots.cell(-14, -14, 28, 28, color) for name, color in colors.items()}
-    return out + plots.legend(entries, plots.HEIGHT - 75)
+    stages = [
+        r.stages | {"other": whole - sum(r.stages.values())}
+        for r, whole in zip(rows, wholes, strict=True)
+    ]
+    names = dict.fromkeys(name for own in stages for name in own if name != "other")
+    scenes = [f"{r.scene}, {r.triangles:,}" for r in rows]
+    start = [0.0] * len(rows)
+    from matplotlib import colormaps
 
-
-def _number(value: float) -> str:
-    """Return a number in few characters: 12, 5 k, 1.3 M."""
-    for size, letter in ((1e6, " M"), (1e3, " k")):
-        if value >= size:
-            return (
-                f"{value / size:.2g}{letter}"
-                if value < 100 * size
-                else f"{value / size:.0f}{letter}"
-            )
-    return f"{value:g}"
+    for k, name in enumerate((*names, "other")):
+        color = colormaps[_COLORS](k)
+        seconds = [own.get(name, 0.0) for own in stages]
+        bars = axes.barh(scenes, seconds, 0.7, start, color=color, label=name)
+        start = [sum(pair) for pair in zip(start, seconds, strict=True)]
+    axes.bar_label(bars, [f"{whole:.3g} s" for whole in wholes], padding=4)
+    axes.set(xlabel="seconds", title="Where the time of a certified frame goes")
+    axes.invert_yaxis()
+    axes.margins(x=0.15)
+    axes.legend()

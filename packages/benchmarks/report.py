@@ -1,22 +1,24 @@
-"""A `Bench` -> `bench.json`, `bench.txt` and `bench.svg`; and a saved one, to compare with."""
+"""A `Bench` -> `bench.json`, `times.json`, which pyperf reads, `bench.txt` and `bench.svg`."""
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from reference_tracer.report import folders
-from reference_tracer.scene import SceneError
 
-from .plot import picture
-from .rows import Bench, CommandRow, Row
+from . import plot
+from .peers import MissingPeerError, missing
+from .rows import Bench
 from .scaling import scalings
 from .tables import table
 
+if TYPE_CHECKING:
+    from pyperf import BenchmarkSuite
+
 SCHEMA = "reference_tracer.bench/1"
-TABLE, JSON, PLOT = "bench.txt", "bench.json", "bench.svg"
+TABLE, JSON, TIMES, PLOT = "bench.txt", "bench.json", "times.json", "bench.svg"
 
 _UNITS = {
     "_s": "CPU seconds, the median of the rounds, for a whole picture",
@@ -51,16 +53,35 @@ def write_json(directory: str | Path, bench: Bench) -> None:
         folders.write_json(new, to_dict(bench))
 
 
-def write(directory: str | Path, bench: Bench, baseline: Bench | None = None) -> None:
-    """Write `bench.json`, `bench.txt` and `bench.svg`, in this order.
+def suite(bench: Bench) -> BenchmarkSuite | None:
+    """Return the seconds of all rounds and the peaks of memory as pyperf keeps them, if any.
+
+    Raises
+    ------
+    MissingPeerError
+        If pyperf is not installed.
+    """
+    try:
+        from pyperf import Benchmark, BenchmarkSuite, Run
+    except ImportError:
+        raise missing("pyperf") from None
+    kept: dict[str, tuple[list[float], str]] = {k: (v, "second") for k, v in bench.times.items()}
+    for r in bench.rows:
+        if r.peak_bytes:
+            name = f"{r.scene}, {r.width} x {r.height}, {r.camera}: {r.method}, memory"
+            kept[name] = [r.peak_bytes], "byte"
+    runs = [Run(of, metadata={"name": name, "unit": unit}) for name, (of, unit) in kept.items()]
+    return BenchmarkSuite([Benchmark([run]) for run in runs]) if runs else None
+
+
+def write(directory: str | Path, bench: Bench) -> None:
+    """Write the table, the JSONs and the plot; a note says which library is missing for one.
 
     Parameters
     ----------
     directory : path
         Made where it is not there.
     bench : Bench
-    baseline : Bench, optional
-        What the table compares with.
 
     Raises
     ------
@@ -69,34 +90,14 @@ def write(directory: str | Path, bench: Bench, baseline: Bench | None = None) ->
     """
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    (directory / PLOT).unlink(missing_ok=True)  # an earlier one would pass for this run's
-    write_json(directory, bench)
-    (directory / TABLE).write_text(table(bench, baseline) + "\n", encoding="utf-8")
-    if bench.rows:
-        (directory / PLOT).write_text(picture(bench), encoding="utf-8")
-
-
-def load(path: str | Path) -> Bench:
-    """Read a `bench.json`.
-
-    Raises
-    ------
-    SceneError
-        If it is none.
-    OSError
-        If it cannot be read.
-    """
+    for name in (TIMES, PLOT):
+        (directory / name).unlink(missing_ok=True)  # an earlier one would pass for this run's
     try:
-        data = json.loads(Path(path).read_text(encoding="utf-8"))
-        if data["schema"] != SCHEMA:
-            raise SceneError(f"'{path}' has the schema {data['schema']!r}, not {SCHEMA!r}")
-        known = {f.name for f in fields(Row)}
-        rows = [Row(**{k: v for k, v in row.items() if k in known}) for row in data["rows"]]
-        ours = {"schema", "quick", "interrupted", "notes", "units", "rows", "commands", "scaling"}
-        facts = {k: v for k, v in data.items() if k not in ours}
-        commands = [CommandRow(**row) for row in data.get("commands", ())]  # older ones have none
-        return Bench(facts, data["quick"], rows, data["notes"], data["interrupted"], commands)
-    except (ValueError, TypeError, KeyError, AttributeError) as error:
-        if isinstance(error, SceneError):
-            raise
-        raise SceneError(f"'{path}' is not a bench.json of Reference Tracer: {error}") from error
+        if kept := suite(bench):
+            kept.dump(str(directory / TIMES))
+        if bench.rows:
+            plot.write(directory / PLOT, bench)
+    except MissingPeerError as error:
+        bench.note(str(error))
+    write_json(directory, bench)
+    (directory / TABLE).write_text(table(bench) + "\n", encoding="utf-8")

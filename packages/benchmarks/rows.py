@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -103,6 +104,13 @@ class Bench:
     notes: list[str] = field(default_factory=list)  # what was left out, and why
     interrupted: int = 0  # by a signal: the exit code for it
     commands: list[CommandRow] = field(default_factory=list)
+    # Seconds of what was timed, by its name: those of its rounds, without the one that warms up.
+    times: dict[str, list[float]] = field(default_factory=dict)
+
+    def keep(self, name: str, seconds: Iterable[float]) -> None:
+        """Keep the seconds of some rounds; a clock may be too coarse for one."""
+        if found := [s for s in seconds if s > 0]:
+            self.times[name] = found
 
     def note(self, text: str) -> None:
         """Say something, once."""

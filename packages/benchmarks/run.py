@@ -15,31 +15,24 @@ from .commands import measure_commands
 from .measure import METHODS, measure
 from .options import BenchOptions
 from .plan import Plan, plan
-from .report import load, write_json
+from .report import write_json
 from .rows import Bench, machine
 from .spread import measure_spread
 
 SCENES = 0.8  # their share of the time, about
 
 
-def run(options: BenchOptions, progress: Callable[[float], None]) -> tuple[Bench, Bench | None]:
+def run(options: BenchOptions, progress: Callable[[float], None]) -> Bench:
     """Measure; Ctrl-C ends it, and what was measured until then is what there is.
-
-    Returns
-    -------
-    bench : Bench
-    baseline : Bench or None
-        The one to compare with, if the options name one.
 
     Raises
     ------
     SceneError
-        If the options name a scene that is not there, or a baseline that is none.
+        If the options name a scene that is not there.
     OSError
-        If a file cannot be read, or the folder not written.
+        If the folder cannot be written.
     """
     wanted = plan(list(options.scenes), options.quick, options.repeats)
-    baseline = load(options.baseline) if options.baseline else None
     bench = Bench(machine(hasattr(os, "sched_setaffinity")), wanted.quick)
     written = -1
 
@@ -58,7 +51,7 @@ def run(options: BenchOptions, progress: Callable[[float], None]) -> tuple[Bench
         running.answered()
         done = f"{len(bench.rows) // len(METHODS)} of {len(wanted.cases)} pictures"
         print(f"\nreftrace: {word}: {done} were measured", file=sys.stderr)
-    return bench, baseline
+    return bench
 
 
 def _all(wanted: Plan, bench: Bench, directory: Path) -> Work[None]:

@@ -41,6 +41,7 @@ def measure_spread(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
     if failed := one.failed or two.failed:
         bench.note(f"{SPREAD}: {failed}")
     elif found := ratio(two, one):
+        bench.keep(SPREAD, two.seconds.values())
         times = found.median, found.least, found.most
         bench.commands.append(CommandRow(SPREAD, one.median, *times, len(two.seconds), two.median))
 

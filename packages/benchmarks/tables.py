@@ -1,10 +1,9 @@
-"""A `Bench` as text: ours and embreex, the other peers, stages, scaling, and a baseline."""
+"""A `Bench` as text: ours and embreex, the other peers, stages, scaling."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from statistics import median
 
 from reference_tracer.report.tables import columns
 
@@ -19,7 +18,7 @@ _PEERS = {
 }
 
 
-def table(bench: Bench, baseline: Bench | None = None) -> str:
+def table(bench: Bench) -> str:
     """Return all of it as lines of at most 100 characters."""
     if not bench.rows and not bench.commands:
         return "\n".join(["nothing was measured", *_notes(bench)])
@@ -29,8 +28,7 @@ def table(bench: Bench, baseline: Bench | None = None) -> str:
         list(_peers(bench)),
         list(_stages(bench)),
         list(_scaling(bench)),
-        list(_commands(bench, baseline)),
-        list(_compared(bench, baseline)) if baseline else [],
+        list(_commands(bench)),
         list(_notes(bench)),
     ]
     return "\n\n".join("\n".join(part) for part in parts if part)
@@ -159,51 +157,16 @@ def _scaling(bench: Bench) -> Iterator[str]:
     yield from columns(rows, left=(0, 1, 2))
 
 
-def _commands(bench: Bench, baseline: Bench | None) -> Iterator[str]:
+def _commands(bench: Bench) -> Iterator[str]:
     if not bench.commands:
         return
-    before = {c.name: c.ratio for c in baseline.commands} if baseline else {}
-    rows = [("", "CPU s", "x import bpy (least - most)", "waited", "new / old")]
+    rows = [("", "CPU s", "x import bpy (least - most)", "waited")]
     for c in bench.commands:
         times = f"{c.ratio:.2f} ({c.ratio_least:.2f} - {c.ratio_most:.2f})"
-        then = f"{c.ratio / before[c.name]:.2f}" if before.get(c.name) else "-"
         waited = "-" if c.waited_s is None else f"{c.waited_s:.2f} s"
-        rows.append((c.name, f"{c.cpu_s:.2f}", times, waited, then))
+        rows.append((c.name, f"{c.cpu_s:.2f}", times, waited))
     yield "commands, in processes of their own; x import bpy: in the same round"
-    yield from columns(rows if before else [row[:-1] for row in rows])
-
-
-def ratios(new: Bench, old: Bench, name: str) -> dict[tuple, float]:
-    """Return new against old of one attribute, by the key of the row, where both have it."""
-    before = {r.key: getattr(r, name) for r in old.rows}
-    found = ((r.key, getattr(r, name), before.get(r.key)) for r in new.rows)
-    return {key: now / then for key, now, then in found if now and then}
-
-
-def _compared(bench: Bench, baseline: Bench) -> Iterator[str]:
-    compared = "trace_s", "render_s", "peak_bytes", "embreex_trace_s"
-    ours = [ratios(bench, baseline, name) for name in compared]
-    keys = [r.key for r in bench.rows if any(r.key in found for found in ours[:-1])]
-    if not keys:
-        yield "the baseline has none of these rows"
-        return
-    yield "against the baseline: new / old, below 1 is better"
-    rows = [("", "", "", "", "trace", "frame", "memory", "embreex")]
-    for key in keys:
-        scene, width, height, camera, method, _ = key
-        cells = (f"{found[key]:.2f}" if key in found else "-" for found in ours)
-        rows.append((scene, f"{width} x {height}", camera, method, *cells))
-    middle = (f"{median(found.values()):.2f}" if found else "-" for found in ours)
-    rows.append(("median", "", "", "", *middle))
-    yield from columns(rows, left=(0, 2, 3))
-    yield "embreex does not change with us: what it shows is the machine."
-    changed = [
-        f"{name} {then} then, {now} now"
-        for name, then in baseline.machine.items()
-        if (now := bench.machine.get(name)) != then
-    ]
-    if changed:
-        yield f"The machine differs: {'; '.join(changed)}."
+    yield from columns(rows)
 
 
 def _notes(bench: Bench) -> Iterator[str]:

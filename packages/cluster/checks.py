@@ -8,19 +8,18 @@ left out is found by tracing again alone.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.exact import IntegerBatch
 from reference_tracer.certified.ladder import Ladder
 from reference_tracer.scene import Region, Scene
 from reference_tracer.tracer.camera import Rays, camera_rays, corner_rays, film_positions
-from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
 from reference_tracer.tracer.nearest import test_pairs, test_planes
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import parts, spread
-from reference_tracer.tracer.world import WorldTriangles, world_corners
+from reference_tracer.tracer.world import Pairs, WorldTriangles, world_corners
 
 from .claims import Claim
 
@@ -30,13 +29,15 @@ _PIXELS = 1 << 15  # that are checked together
 def plain_hits(
     scene: Scene, region: Region, dx: float, dy: float, claim: Claim, settings: Settings
 ) -> Work[Hits]:
-    """Return what a plain method makes of the claimed owners, and of all planes."""
+    """Return what an unproven method makes of the claimed owners, and of all planes."""
     found, dtype = [], settings.precision.dtype
     for part in parts(len(claim.certainty), _PIXELS):
-        rays, names = _rays(scene, region, dx, dy, part, dtype), claim.names[:, part]
+        rays = _rays(scene, region, dx, dy, part, dtype)
+        instance, triangle = names = claim.names[:, part]
         hits = Hits.none(names.shape[1])
         test_planes(scene, rays, hits)
-        test_pairs(scene, settings, rays, _pairs(scene, np.arange(len(hits)), *names, dtype), hits)
+        pairs = _pairs(scene, np.arange(len(hits)), instance, triangle, dtype)
+        test_pairs(scene, settings, rays, pairs, hits)
         found.append(hits)
         yield 0.0
     return Hits.joined(found)
@@ -83,14 +84,14 @@ def _known(scene: Scene, rays: Rays, claim: Claim, part: slice, hits: Hits) -> b
 
 
 def _rays(
-    scene: Scene, region: Region, dx: float, dy: float, part: slice, dtype: type = float
+    scene: Scene, region: Region, dx: float, dy: float, part: slice, dtype: DTypeLike = float
 ) -> Rays:
     pixel = np.arange(*part.indices(region.width * region.height))
     return camera_rays(scene.camera, *film_positions(region, dx, dy, pixel), dtype)
 
 
 def _pairs(
-    scene: Scene, ray: NDArray, instance: NDArray, triangle: NDArray, dtype: type = float
+    scene: Scene, ray: NDArray, instance: NDArray, triangle: NDArray, dtype: DTypeLike = float
 ) -> Pairs:
     """Return pairs of rays and the triangles among these names, once each."""
     ray, instance, triangle = (v[triangle != NOTHING] for v in (ray, instance, triangle))

@@ -101,7 +101,7 @@ class Claim:
         """Return whether all that it names is there."""
         ties, levels = self.ties, (Certainty.BOUND, Certainty.AMBIGUOUS) if certified else (0, 0)
         return (
-            levels[0] <= self.certainty.min() <= self.certainty.max() <= levels[1]
+            bool(levels[0] <= np.min(self.certainty) <= np.max(self.certainty) <= levels[1])
             and self.known.values.shape[1] == len(self.known.ray)
             and _ascends(ties.ray, len(self.certainty))
             and (certified or not len(ties.ray))
@@ -157,9 +157,9 @@ def _ascends(ray: NDArray[np.int64], count: int) -> bool:
 def _are_there(scene: Scene, instance: NDArray[np.int32], triangle: NDArray[np.int32]) -> bool:
     """Return whether a scene has all of these surfaces, of which NOTHING is one."""
     others = np.zeros(len(scene.planes) + 1, np.int32)  # NOTHING, -1, is the last one
-    if instance.max(initial=NOTHING) >= len(scene.instances) + len(scene.planes):
+    if np.max(instance, initial=NOTHING) >= len(scene.instances) + len(scene.planes):
         return False
-    if min(instance.min(initial=NOTHING), triangle.min(initial=NOTHING)) < NOTHING:
+    if min(np.min(v, initial=NOTHING) for v in (instance, triangle)) < NOTHING:
         return False
     sizes = np.array([-1, *(len(m.triangles) or -1 for m in scene.meshes)], np.int32)
     size = np.r_[sizes[scene.instance_meshes + 1], others].take(instance)

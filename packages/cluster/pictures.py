@@ -61,6 +61,7 @@ def scene_name(cluster: Cluster, scene: Scene) -> str:
             path = Path(folder) / "scene.npz"
             save_scene(path, scene)
             cluster.sent = parts, cluster.keep(path.read_bytes())
+    assert cluster.sent
     return cluster.sent[1]
 
 
@@ -117,7 +118,7 @@ class Picture:
             claim.count_in(self.statistics)
             claims.append(claim)
             given = self.scene, part, dx, dy, claim
-            if self.settings.method.is_plain:
+            if not self.settings.method.is_proven:
                 plain.append((yield from checks.plain_hits(*given, self.settings)))
                 right = np.array_equal(claim.names, (plain[-1].instance, plain[-1].triangle))
             else:
@@ -134,7 +135,7 @@ class Picture:
 
     def _claim(self, asked: Asked, region: Region) -> Work[tuple[Claim, str]]:
         data, worker = yield from self.cluster.answer(asked)
-        certified = not self.settings.method.is_plain
+        certified = self.settings.method.is_proven
         try:
             return Claim.read(data, self.scene, region.width * region.height, certified), worker
         except Exception as error:  # whatever it is made to be
@@ -145,6 +146,7 @@ class Picture:
         """Return where a part is traced again: places of one size, at random."""
         r, samples = self.scene.camera.region, self.settings.samples
         rays = r.width * r.height * (1 + (samples**2 if samples > 1 else 0))
+        assert self.share
         size = max(1, int(self.share * rays / PLACES))
         width, height = min(part.width, size), max(1, min(part.height, size // r.width))
         every = [

@@ -14,8 +14,7 @@ from math import ceil
 from random import SystemRandom
 from typing import Any, get_origin, get_type_hints
 
-import numpy as np
-from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
 from reference_tracer.errors import words
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.extremes import ExtremesRow
@@ -34,7 +33,7 @@ Own = Callable[[int], Work[list]]  # finds here what the task of this number fin
 def trade(cluster: Cluster, share: float | None) -> tradeoff.Every:
     """Return what has the rows of a trade measured on a cluster."""
 
-    def every(choices: list[tradeoff.Choice], truth: NDArray[np.float64]) -> Work[list[TradeRow]]:
+    def every(choices: list[tradeoff.Choice], truth: Floats) -> Work[list[TradeRow]]:
         color = cluster.keep(packed(truth))
 
         def asked(choice: tradeoff.Choice) -> tuple:

@@ -10,11 +10,13 @@ from functools import lru_cache, wraps
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TypeVar
 
 import numpy as np
 import reference_tracer
 from distributed import get_worker
 from reference_tracer.checked_json import camera_of
+from reference_tracer.methods import Method
 from reference_tracer.rendering import TRACERS, resolved
 from reference_tracer.scene import Region, Scene
 from reference_tracer.scene_files import load_scene
@@ -26,7 +28,8 @@ from reference_tracer.tracer.settings import Settings
 
 from .claims import Claim, packed, unpacked
 
-PROVEN = Settings("certified")
+T = TypeVar("T")
+PROVEN = Settings(Method.CERTIFIED)
 _PACKAGES, _CODE = (reference_tracer.__file__, __file__), (".py", ".toml")
 
 
@@ -58,7 +61,7 @@ def _named(task: Callable[..., bytes]) -> Callable[..., bytes]:
     return named
 
 
-def _done(work: Work) -> object:
+def _done(work: Work[T]) -> T:
     """Run work to its end, or until nobody wants it any more; returns its result."""
     worker = get_worker()
     own = worker.state.tasks[worker.get_current_task()]
@@ -66,7 +69,8 @@ def _done(work: Work) -> object:
         try:
             next(work)
         except StopIteration as stop:
-            return stop.value
+            result: T = stop.value
+            return result
     raise RuntimeError("cancelled")
 
 

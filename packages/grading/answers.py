@@ -11,9 +11,9 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
 
 from .checks import Checks, Group
-from .known import Floats
 
 Mask = NDArray[np.bool_]
 Found = Iterator[tuple[str, str, Mask]]  # a fault's name, a sentence, the answers it explains
@@ -53,6 +53,11 @@ class Answers:
     def wrong_s(self) -> Mask:
         """Where a hit is right, and a barycentric is off by more than float64 may be."""
         return self.both & ~self.are_s(self.s)
+
+    @property
+    def wrong(self) -> Mask:
+        """Where any of the three is wrong."""
+        return self.wrong_hit | self.wrong_t | self.wrong_s
 
     def is_t(self, t: Floats) -> Mask:
         """Return where t (n,) is the true one."""

@@ -12,8 +12,9 @@ from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
 
-from .known import Floats, Known, known
+from .known import Known, known
 
 SEED = 20240611
 EACH = 400  # pairs of a group
@@ -73,11 +74,11 @@ def make_checks(seed: int = SEED) -> Checks:
     group = np.concatenate(numbers)
     twin = np.full(len(group), -1)
     twin[group == Group.SCALED] = np.tile(np.arange(EACH), len(SCALES))
-    rays = [np.concatenate(parts) for parts in zip(*groups.values(), strict=True)]
-    truth = known(*rays)
+    o, d, p = (np.concatenate(parts) for parts in zip(*groups.values(), strict=True))
+    truth = known(o, d, p)
     # d . n is exactly 0, and comes out so: there is nothing to round.
     truth = replace(truth, doubt=truth.doubt & (group != Group.PARALLEL))
-    return Checks(*rays, group, twin, truth)
+    return Checks(o, d, p, group, twin, truth)
 
 
 Pairs = tuple[Floats, Floats, Floats]  # origins, directions, triangles

@@ -54,6 +54,7 @@ def serve(path: Path, requests: BinaryIO, answers: BinaryIO) -> None:
 def _load(path: Path) -> Any:
     sys.path.insert(0, str(path.parent))
     spec = importlib.util.spec_from_file_location("student", path)
+    assert spec and spec.loader, path  # it is a .py
     module = importlib.util.module_from_spec(spec)
     sys.modules["student"] = module
     spec.loader.exec_module(module)
@@ -76,11 +77,8 @@ def checked(result: Any, count: int) -> Answer:
         if isinstance(result, tuple | list):
             what += f" of {len(result)}"
         raise Refused(f"intersect must return two arrays, t and barycentrics, not {what}")
-    shapes = {"t": (count,), "barycentrics": (count, 3)}
-    return tuple(
-        _numbers(name, value, shape)
-        for (name, shape), value in zip(shapes.items(), result, strict=True)
-    )
+    t, s = result
+    return _numbers("t", t, (count,)), _numbers("barycentrics", s, (count, 3))
 
 
 def _numbers(name: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
@@ -122,12 +120,18 @@ def described(error: BaseException, path: Path) -> dict[str, Any]:
         text = ""
     message = text if kind == "answer" else f"{type(error).__name__}: {text}".rstrip(": ")
     trace = [
-        [Path(f.filename).name, f.lineno, f.name, linecache.getline(f.filename, f.lineno).strip()]
+        [
+            Path(f.filename).name,
+            f.lineno,
+            f.name,
+            linecache.getline(f.filename, f.lineno or 0).strip(),
+        ]
         for f in traceback.extract_tb(error.__traceback__)
         if Path(f.filename).parent == path.parent
     ]
-    if kind == "syntax" and error.filename and Path(error.filename).parent == path.parent:
-        trace.append([Path(error.filename).name, error.lineno, "", (error.text or "").strip()])
+    file = Path(error.filename or "") if isinstance(error, SyntaxError) else None
+    if isinstance(error, SyntaxError) and file and file.parent == path.parent:
+        trace.append([file.name, error.lineno, "", (error.text or "").strip()])
         message = f"{type(error).__name__}: {error.msg}"
     return {"kind": kind, "message": message[:LONGEST], "trace": trace[-20:]}
 

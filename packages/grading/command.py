@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,9 +30,17 @@ from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.progress import Work, called, result_of, scaled
+from reference_tracer.wording import count_of, say
+
+from .external import EXCHANGES, Run, sandbox
+
+# As `formats.FORMATS`, which needs all of judging.
+FORMATS = "csv", "gradescope", "json", "junit"
 
 if TYPE_CHECKING:
+    from .class_folder import ClassFolder
     from .judging import Judgement
+    from .report import Student
 
 LEAST_MEMORY = 0.09  # GiB: Python and numpy by themselves take nearly as much
 CODES = {"right": AGREE, "boundary": WARNINGS, "wrong": DIFFERENCES, "failed": DIFFERENCES}
@@ -60,7 +68,7 @@ _MEMORY = number(
 class JudgeOptions:
     """The options of `reftrace judge`."""
 
-    students: tuple[Path, ...]
+    students: tuple[Path | Run, ...]
     scenes: tuple[tuple[Path, Choice], ...]  # none for the exercise's own
     camera_options: tuple[str, ...]  # those that were given, as they are typed
     out: Path | None
@@ -68,6 +76,7 @@ class JudgeOptions:
     time_limit: float  # seconds for each scene
     memory_limit: int  # bytes
     extremes: bool
+    formats: tuple[str, ...]  # what is written besides the pages and the JSON
 
     @classmethod
     def parsed(cls, given: Namespace) -> JudgeOptions:
@@ -79,13 +88,21 @@ class JudgeOptions:
             If no student's file is named, one is not there, or an option has no effect.
         """
         files = dict.fromkeys(given.files)  # each once
-        students = tuple(file for file in files if file.suffix == ".py")
         scenes = tuple(file for file in files if file.suffix != ".py")
-        if not students:
-            raise SceneError("name a student's file (.py), or --template FILE to make one")
-        for path in students:
+        own = [file for file in files if file.suffix == ".py"]
+        for path in own:
             if not path.is_file():
                 raise SceneError(f"there is no file '{path}'")
+        if not given.out:
+            refuse(given, ("format",), "is for a folder: add --out DIR")
+        if not given.programs:
+            refuse(given, ("exchange",), "is for --run")
+        students = (*own, *_runs(given))
+        if not students:
+            raise SceneError(
+                "name a student's file (.py), --run for a program in another language, or "
+                "--template FILE to make a file"
+            )
         if not scenes:
             refuse(given, CAMERA_OPTIONS, "is for scenes of your own: name one")
         return cls(
@@ -97,6 +114,7 @@ class JudgeOptions:
             time_limit=given.time_limit,
             memory_limit=int(given.memory_limit * 2**30),
             extremes=given.extremes,
+            formats=tuple(dict.fromkeys(given.format or ())),
         )
 
 
@@ -116,10 +134,34 @@ def add(parser: Parser) -> None:
         help=f"students' files (.py), then scenes: {SOURCES}; default: the exercise's four scenes",
     )
     parser.add_argument(
+        "--run",
+        dest="programs",
+        action="append",
+        metavar="COMMAND",
+        help="judge a program in any language: a command in which {rays} and {answers} stand for "
+        "the files that it reads and writes; may be given several times",
+    )
+    parser.add_argument(
+        "--exchange",
+        choices=tuple(EXCHANGES),
+        help="what these files hold: csv, lines of numbers (default), or raw, float64",
+    )
+    parser.add_argument(
         "--template", type=parser.path, metavar="FILE", help="write a file to begin with"
     )
     parser.add_argument(
-        "--out", type=parser.path, metavar="DIR", help="folder for judge.json and judge.html"
+        "--out",
+        type=parser.path,
+        metavar="DIR",
+        help="folder for judge.html, judge.json and a page for each student; after Ctrl-C the "
+        "same command goes on there",
+    )
+    parser.add_argument(
+        "--format",
+        dest="format",
+        action="append",
+        choices=FORMATS,
+        help="write this, too, into the folder: " + ", ".join(FORMATS),
     )
     parser.add_argument(
         "--pixels",
@@ -157,27 +199,70 @@ def run(given: Namespace) -> int:
 
 def judge(options: JudgeOptions) -> int:
     """Judge, and print the tables."""
-    from . import report
-    from . import tables as judge_table
+    from .judging import names
+    from .tables import class_table
 
+    if any(isinstance(s, Run) for s in options.students) and not sandbox():
+        say("programs are not kept from the network or from your files: bubblewrap is missing")
+    submissions = dict(zip(names(options.students), options.students, strict=True))
     with folders.made(options.out) if options.out else nullcontext():
-        opened = _opened(options.scenes) or built_in()
-        with progress_bar() as progress:
-            judgements = result_of(_work(options, opened), progress)
-        for j in judgements:
-            print(printable("\n".join(judge_table.lines(j))), end="\n\n")
-        if len(judgements) > 1:
-            print("\n".join(judge_table.class_table(judgements)))
-        if options.out:
-            report.write(options.out, judgements)
+        folder = _folder(options, submissions)
+        found = folder.kept_of(submissions) if folder else {}
+        if found:
+            print(f"{count_of(len(found), 'student')} judged before, unchanged: not judged again")
+        new = {name: each for name, each in submissions.items() if name not in found}
+        if new:
+            found |= _judged(options, new, folder)
+        students = [found[name] for name in submissions]
+        if len(students) > 1:
+            print("\n".join(class_table(students)))
+        if folder:
+            folder.write(students, options.formats)
             print(f"written to {options.out}")
-    return max(CODES[j.verdict] for j in judgements)
+    return max(CODES[s["verdict"]] for s in students)
+
+
+def _folder(options: JudgeOptions, submissions: Mapping[str, Path | Run]) -> ClassFolder | None:
+    """Return where the judgements are kept, if anywhere."""
+    from .class_folder import ClassFolder
+
+    if options.out is None:
+        return None
+    scenes = [(path.read_bytes(), choice) for path, choice in options.scenes]
+    depends = scenes, options.pixels, options.time_limit, options.memory_limit, options.extremes
+    return ClassFolder(options.out, tuple(submissions), depends)
 
 
 Named = tuple[str, Scene, Path]
 
 
-def _work(options: JudgeOptions, scenes: Sequence[Named]) -> Work[list[Judgement]]:
+def _judged(
+    options: JudgeOptions, submissions: Mapping[str, Path | Run], folder: ClassFolder | None
+) -> dict[str, Student]:
+    """Judge students, print what is said of each, and keep it."""
+    from .report import student
+    from .tables import lines
+
+    printed: list[str] = []
+
+    def told(j: Judgement) -> Student:
+        printed.append(printable("\n".join(lines(j))))
+        return folder.keep(submissions[j.name], j) if folder else student(j)
+
+    opened = _opened(options.scenes) or built_in()
+    with progress_bar() as progress:
+        found = result_of(_work(options, submissions, opened, told), progress)
+    for text in printed:
+        print(text, end="\n\n")
+    return found
+
+
+def _work(
+    options: JudgeOptions,
+    submissions: Mapping[str, Path | Run],
+    scenes: Sequence[Named],
+    told: Callable[[Judgement], Student],
+) -> Work[dict[str, Student]]:
     from .checks import make_checks
     from .extremes import extreme_scenes
     from .judging import judge_all
@@ -191,7 +276,7 @@ def _work(options: JudgeOptions, scenes: Sequence[Named]) -> Work[list[Judgement
         subjects.append((yield from scaled(work, 0.3 * k / len(scenes), 0.3 / len(scenes))))
     hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     limits = Limits(options.time_limit, options.memory_limit)
-    judging = judge_all(options.students, make_checks(), subjects, hard, limits)
+    judging = judge_all(submissions, make_checks(), subjects, hard, limits, told=told)
     return (yield from scaled(called(judging, "judging"), 0.6, 0.4))
 
 
@@ -222,6 +307,23 @@ def _camera_options(given: Namespace) -> tuple[str, ...]:
             values = value if isinstance(value, list) else [value]
             out += [typed(name), *map(str, values)]
     return tuple(out)
+
+
+def _runs(given: Namespace) -> list[Run]:
+    """Return the programs that are to be run.
+
+    Raises
+    ------
+    SceneError
+        If a command is none.
+    """
+    runs = []
+    for command in dict.fromkeys(given.programs or ()):
+        try:
+            runs.append(Run.parsed(command, given.exchange or "csv"))
+        except ValueError as error:
+            raise SceneError(f"--run {command!r}: {error}") from error
+    return runs
 
 
 def _write_template(path: Path) -> int:

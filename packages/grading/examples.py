@@ -86,12 +86,15 @@ def find_examples(look: Look, ask: Ask) -> list[Example]:
     question = arrays(subject.rays, pixel, corners)
     truth = known(*question)
     t, s = ask(*question)
+    origins, directions, triangles = question
     return [
         Example(
             Mark(int(marks[p])),
             subject.position(p),
             subject.scene.objects[subject.scene.instances[instance[k]].object],
-            *(a[k] for a in question),
+            origins[k],
+            directions[k],
+            triangles[k],
             (float(truth.t[k]) if truth.hit[k] else np.inf, truth.s[k]),
             (float(t[k]), s[k]),
         )

@@ -12,13 +12,14 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from reference_tracer.arrays import Floats
 from reference_tracer.methods import Method
 from reference_tracer.study.scenarios.sweeps import SCENARIOS, Scenario
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
 from reference_tracer.tracer.triangle import TESTS
 
-from .known import Ask, Floats
+from .known import Ask
 from .picture import EXCUSED, Mark, look
 from .subject import Subject, prepare
 
@@ -86,7 +87,7 @@ def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[Extre
 
 
 def plain(method: Method) -> Ask:
-    """Return one of the tracer's own plain methods as a student would have written it."""
+    """Return one of the tracer's own unproven methods as a student would have written it."""
     test = TESTS[method]
 
     def intersect(origins: Floats, directions: Floats, triangles: Floats) -> tuple[Floats, Floats]:

@@ -1,12 +1,15 @@
 """What is wrong with a student's function, by name, from what it makes of the checks.
 
-Each fault is a hypothesis with a test that can fail: it says which of the wrong answers it would
-explain, and is only given where nearly all such pairs are wrong in just this way. What no fault
-explains is said to be unrecognised.
+First it is looked for among wrong programs (`matching.py`): one that gives the same answers names
+what is wrong, in one place or in two. Of other faults, as of an epsilon or of float32, each is a
+hypothesis with a test that can fail: it says which of the wrong answers it would explain, and is
+only given where nearly all such pairs are wrong in just this way. What no fault explains is said to
+be unrecognised.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -16,12 +19,19 @@ from .answers import Answers, Mask
 from .checks import Checks, Group
 from .hit_faults import HIT_TESTS
 from .known import Ask
+from .matching import Match, with_one, with_two
 from .value_faults import S_TESTS, T_TESTS
 
 ALONE = 3, 1  # sizes of the calls in which some pairs are asked about again
 # Relative: libraries sum in another order when there are fewer rows, in float32, too. What mixes up
 # rows is farther off.
 ALIKE = 1e-4
+
+
+MOST_WAYS = 4  # in which two mistakes may give the same answers: with more, they say nothing
+OTHERS = 2  # mistakes with the same answers that are mentioned
+_UNRECOGNISED = {f"unrecognised_{what}" for what in ("hits", "t", "barycentrics")}
+_UNEXPLAINED = {"no_hits", "all_hits", *_UNRECOGNISED}
 
 
 @dataclass(frozen=True)
@@ -37,8 +47,33 @@ class Fault:
         return asdict(self)
 
 
-def find_faults(answers: Answers) -> list[Fault]:
-    """Return the faults that explain a function's wrong answers, and what is unrecognised."""
+def find_faults(answers: Answers) -> tuple[list[Fault], Match | None]:
+    """Return what is wrong with a function, and the wrong program that answers alike, if any."""
+    if not answers.wrong.any():
+        return [], None
+    if ways := with_one(answers):
+        return _named(answers, ways), ways[0]
+    faults = _tested(answers)
+    if any(f.name in _UNEXPLAINED for f in faults):
+        ways = with_two(answers)
+        if 0 < len(ways) <= MOST_WAYS:
+            return _named(answers, ways), ways[0]
+    return faults, None
+
+
+def _named(answers: Answers, ways: Sequence[Match]) -> list[Fault]:
+    """Return what is wrong with the first of some programs that no pair tells apart."""
+    wrong = int(answers.wrong.sum())
+    others = dict.fromkeys(m.sentence for way in ways[1:] for m in way.wrong if len(way.wrong) == 1)
+    text = "".join(f"; or {other}" for other in list(others)[:OTHERS])
+    if text and len(others) > OTHERS:
+        text += f"; or one of {len(others) - OTHERS} others"
+    rest = f" (no ray tells this from others{text})" if text else ""
+    return [Fault(m.name, m.sentence + rest, wrong) for m in ways[0].wrong]
+
+
+def _tested(answers: Answers) -> list[Fault]:
+    """Return the faults that pass their tests, and what is unrecognised."""
     faults: list[Fault] = []
     for wrong, tests, what in (
         (answers.wrong_hit, HIT_TESTS, "hits"),
@@ -78,8 +113,8 @@ def dependence(checks: Checks, answers: Answers, ask: Ask) -> list[Fault]:
     at a time. Where rounding may have it either way, it may have it otherwise in each call.
     """
     unsure = checks.known.doubt | checks.of(Group.BESIDE)
-    some = np.concatenate([np.flatnonzero(checks.of(g))[:6] for g in Group])
     for size in ALONE:
+        some = np.concatenate([np.flatnonzero(checks.of(g))[:size] for g in Group])
         for first in range(0, len(some), size):
             rows = some[first : first + size]
             t, s = ask(checks.origins[rows], checks.directions[rows], checks.triangles[rows])

@@ -34,7 +34,7 @@ def sign_of_t(a: Answers) -> Found:
     turned = a.hit & np.isclose(a.t, -a.checks.known.t)
     if a.share(turned, Group.BEHIND) > MOST and a.share(a.hit, *ORDINARY) < FEW:
         text = "t has the wrong sign: what is behind the ray's origin is hit, what is before it not"
-        yield "sign_of_t", text, behind | ~a.hit
+        yield "t_sign", text, behind | ~a.hit
 
 
 def culling(a: Answers) -> Found:
@@ -118,15 +118,15 @@ def tolerance(a: Answers) -> Found:
     wide = beside & a.hit & (least < 0)
     if wide.any() and a.share(a.hit, Group.OUTSIDE) < FEW:
         text = (
-            f"rays that pass beside a triangle, by up to {-least[wide].min():.0e} of its height, "
+            f"rays that pass beside a triangle, by up to {-np.min(least[wide]):.0e} of its height, "
             "hit it: the tolerance of the barycentrics is too wide"
         )
         yield "tolerance_too_wide", text, wide
     narrow = beside & ~a.hit & (least > 0)
     if narrow.any() and a.share(a.hit, *ORDINARY) > MOST:
         text = (
-            f"rays within {least[narrow].max():.0e} of the triangle's height from its edge miss it:"
-            " neighbours that share an edge leave a gap"
+            f"rays within {np.max(least[narrow]):.0e} of the triangle's height from its edge miss "
+            "it: neighbours that share an edge leave a gap"
         )
         yield "tolerance_too_narrow", text, narrow
 

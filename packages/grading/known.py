@@ -26,6 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.bounds import FromPoint, U, cross_magnitude
 from reference_tracer.tracer.camera import Rays
@@ -34,7 +35,6 @@ from reference_tracer.tracer.vector import cross, dot
 ROUNDINGS = 16  # K
 LEAST = 2.0**-960  # of n . n: below it, products have lost digits at float64's lower end
 
-Floats = NDArray[np.float64]
 # A student's function: origins, directions, triangles -> t, barycentrics.
 Ask = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
 

@@ -1,4 +1,4 @@
-"""Judgements of students' files -> one HTML page: no network, no script, pictures within.
+"""A page for each student, and one for the teacher: no network, no script, pictures within.
 
 Whatever comes from a student's file or a scene is escaped.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
+from urllib.parse import quote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +18,22 @@ from reference_tracer.wording import count_of
 from .examples import Example
 from .judging import Judgement
 from .picture import Look, Mark
+from .report import Student
 from .student_error import StudentError
-from .tables import HEAD, MARKS, NO_BOUNDARY, VERDICTS, dashed, explain, held_rows, row, tallies
+from .subject import Subject
+from .tables import (
+    HEAD,
+    MARKS,
+    NO_BOUNDARY,
+    VERDICTS,
+    dashed,
+    explain,
+    held_rows,
+    put_right,
+    row,
+    tallies,
+    wrong_names,
+)
 
 _STYLE = Path(__file__).with_name("page.css")
 MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe and Ito)
@@ -40,34 +55,40 @@ _WARNING = (
 )
 
 
-def page(judgements: Sequence[Judgement]) -> str:
-    """Return the page."""
-    head = f"<title>Judged: {escape(', '.join(j.name for j in judgements))}</title>"
+def page(j: Judgement) -> str:
+    """Return the page of one student, which names no other."""
+    return _whole(f"{j.name}, judged", [_student(j)])
+
+
+def class_page(pages: Sequence[tuple[Student, str]]) -> str:
+    """Return the teacher's page: a table of all students, with links to their pages."""
+    rows = []
+    for s, link in pages:
+        name = f'<a href="{quote(link)}">{escape(s["file"])}</a>'
+        verdict = _verdict(s["verdict"])
+        rows.append((name, f"{s['score']:.1f}", verdict, escape(", ".join(wrong_names(s)))))
+    table = _table(("file", "score", "verdict", "what is wrong"), rows, words=(0, 2, 3))
+    return _whole("Students’ ray/triangle tests, judged", [table])
+
+
+def _whole(title: str, content: Sequence[str]) -> str:
+    head = f"<title>{escape(title)}</title>"
     parts = [
         "<!doctype html>",
         f'<html lang="en"><head><meta charset="utf-8">{head}',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f"<style>{_STYLE.read_text(encoding='utf-8')}</style></head><body><main>",
-        "<h1>Students’ ray/triangle tests, judged</h1>",
+        f"<h1>{escape(title)}</h1>",
         f'<p class="warning">{_WARNING}</p>',
+        *content,
+        "</main></body></html>",
+        "",
     ]
-    if len(judgements) > 1:
-        parts.append(_class_table(judgements))
-    parts += [_student(k, j) for k, j in enumerate(judgements)]
-    return "\n".join((*parts, "</main></body></html>", ""))
+    return "\n".join(parts)
 
 
-def _class_table(judgements: Sequence[Judgement]) -> str:
-    rows = []
-    for k, j in enumerate(judgements):
-        wrong = dict.fromkeys([e.kind for _, e in j.errors] + [f.name for f in j.faults])
-        link = f'<a href="#s{k}">{escape(j.name)}</a>'
-        rows.append((link, f"{j.score:.1f}", _verdict(j), escape(", ".join(wrong))))
-    return _table(("file", "score", "verdict", "what is wrong"), rows, words=(0, 2, 3))
-
-
-def _verdict(j: Judgement) -> str:
-    return f'<span class="verdict {j.verdict}">{VERDICTS[j.verdict]}</span>'
+def _verdict(verdict: str) -> str:
+    return f'<span class="verdict {verdict}">{VERDICTS[verdict]}</span>'
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]], words: Sequence[int] = (0,)) -> str:
@@ -83,10 +104,9 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]], words: Sequence[i
     return f'<div class="wide"><table><thead><tr>{top}</tr></thead>\n{body}</table></div>'
 
 
-def _student(number: int, j: Judgement) -> str:
-    name = escape(j.name)
-    parts = [f'<section id="s{number}"><h2>{name}</h2>']
-    parts.append(f'<p><span class="score">{j.score:.1f}</span> of 100 {_verdict(j)}</p>')
+def _student(j: Judgement) -> str:
+    parts = [f'<p><span class="score">{j.score:.1f}</span> of 100 {_verdict(j.verdict)}</p>']
+    parts += [f"<p>{put_right(j)}.</p>"] * (j.score > j.as_is)
     parts += [_error(where, error) for where, error in j.errors]
     if j.faults:
         parts.append("<h3>What is wrong</h3><ul>")
@@ -109,7 +129,7 @@ def _student(number: int, j: Judgement) -> str:
         why = "Does not count: every formula in float64 gives way somewhere. A dot: it never does."
         parts.append(f"<h3>At the extremes</h3><p>{why}</p>")
         parts.append(_table(head, [tuple(map(escape, cells)) for cells in held_rows(j)]))
-    return "\n".join((*parts, "</section>"))
+    return "\n".join(parts)
 
 
 def _error(where: str, error: StudentError) -> str:
@@ -157,7 +177,7 @@ def marked(found: Look) -> NDArray[np.uint8]:
     return out
 
 
-def _example(subject, e: Example) -> str:
+def _example(subject: Subject, e: Example) -> str:
     true_t, true_s = e.true
     t, s = e.answer
     numbers = (

@@ -110,7 +110,13 @@ def _nearest(subject: Subject, found: list[tuple]) -> tuple[Hits, NDArray[np.boo
     return hits, really
 
 
-def _judged(subject: Subject, hits: Hits, false, reported, seconds: float) -> Look:
+def _judged(
+    subject: Subject,
+    hits: Hits,
+    false: NDArray[np.bool_],
+    reported: NDArray[np.bool_],
+    seconds: float,
+) -> Look:
     wrong = _wrong_surface(subject, hits)
     mark = np.full(len(wrong), Mark.RIGHT, np.uint8)
     mark[wrong] = Mark.WRONG_ORDER

@@ -1,30 +1,26 @@
-"""Judgements of students' files -> `judge.json`, and the page `judge.html`.
-
-`page.py` has the page; `judge.schema.json` describes the JSON.
-"""
+"""A judgement as JSON can hold it, by `judge.schema.json`; `class_folder.py` writes it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
-
-from reference_tracer.report.folders import replacing, write_json
 
 from .checks import Group
 from .extremes import held
 from .judging import Judgement
-from .page import page
 from .picture import Look
 from .student_error import StudentError
 from .tables import explain
 from .tally import WEIGHTS, Tally
 
 SCHEMA = "reference_tracer.judge/1"
-JSON, PAGE = "judge.json", "judge.html"
+
+Student = dict[str, Any]  # what the JSON has of one
 
 _UNITS = {
-    "score": "0 to 100: the mean over the checks and all scenes of the weighted shares",
+    "score": "0 to 100: score_as_is, or what the file would get with its mistakes put right, less "
+    "20 for each, where they explain all of its answers",
+    "score_as_is": "the mean over the checks and all scenes of the weighted shares",
     "total": "of the interior: pixels (checks: pairs) where a triangle is, or is said to be, seen",
     "surface": "of those, with the right triangle",
     "t": "of those, with the right t, within the rounding of float64",
@@ -39,14 +35,14 @@ _UNITS = {
 }
 
 
-def to_dict(judgements: Sequence[Judgement]) -> dict[str, Any]:
-    """Return what `judge.json` holds."""
+def to_dict(students: Sequence[Student]) -> dict[str, Any]:
+    """Return what `judge.json` holds of some students."""
     return {
         "schema": SCHEMA,
         "units": _UNITS,
         "weights": WEIGHTS,
         "checks": {g.name.lower(): _GROUPS[g] for g in Group},
-        "students": [_student(j) for j in judgements],
+        "students": list(students),
     }
 
 
@@ -63,11 +59,13 @@ _GROUPS = {
 }
 
 
-def _student(j: Judgement) -> dict[str, Any]:
+def student(j: Judgement) -> Student:
+    """Return what is said of one student."""
     return {
         "file": j.name,
         "verdict": j.verdict,
         "score": j.score,
+        "score_as_is": j.as_is,
         "seconds": round(j.seconds, 6),
         "printed_bytes": j.printed,
         "printed": j.said,
@@ -110,16 +108,3 @@ def _scene(j: Judgement, found: Look) -> dict[str, Any]:
             e.to_dict() | {"explain": explain(subject, e)} for e in j.examples[subject.name]
         ],
     }
-
-
-def write(directory: str | Path, judgements: Sequence[Judgement]) -> None:
-    """Write `judge.json` and `judge.html`, both or none.
-
-    Raises
-    ------
-    OSError
-        If the folder cannot be written.
-    """
-    with replacing(Path(directory), (PAGE, JSON)) as new:
-        write_json(new / JSON, to_dict(judgements))
-        (new / PAGE).write_text(page(judgements), encoding="utf-8")

@@ -11,8 +11,9 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from reference_tracer.arrays import Floats
 
-from .known import Ask, Floats
+from .known import Ask
 
 SEED = 20261125
 EDGES = 300

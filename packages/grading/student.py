@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from typing import IO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,7 +55,7 @@ class Student:
         self.printed = 0  # bytes
         self._said = b""
         self._left = self.limits.seconds
-        self._process: subprocess.Popen | None = None
+        self._process: subprocess.Popen[bytes] | None = None
 
     def __enter__(self) -> Student:
         return self
@@ -107,6 +107,7 @@ class Student:
             return
         _kill(process)
         process.wait()
+        assert process.stdin and process.stdout and process.stderr
         for stream in (process.stdin, process.stdout):
             with suppress(OSError):
                 stream.close()
@@ -133,7 +134,7 @@ class Student:
         with self._watched() as (_, back):
             self._answer(back)
 
-    def _listen(self, stream: BinaryIO) -> None:
+    def _listen(self, stream: IO[bytes]) -> None:
         """Read all that is printed, so that nobody waits for it, and keep the first of it."""
         with suppress(OSError, ValueError):
             while part := os.read(stream.fileno(), 1 << 16):
@@ -141,9 +142,10 @@ class Student:
                 self._said += part[: KEPT - len(self._said)]
 
     @contextmanager
-    def _watched(self) -> Iterator[tuple[BinaryIO, BinaryIO]]:
+    def _watched(self) -> Iterator[tuple[IO[bytes], IO[bytes]]]:
         """Give the two ends for one exchange, which ends with the time limit."""
         process, late = self._process, threading.Event()
+        assert process and process.stdin and process.stdout
 
         def stop() -> None:
             late.set()
@@ -169,7 +171,7 @@ class Student:
             if not well:
                 self.end()
 
-    def _answer(self, back: BinaryIO) -> float:
+    def _answer(self, back: IO[bytes]) -> float:
         """Return the seconds that an answer has taken, or raise the error that it is."""
         line = back.readline(_LONGEST)
         if not line.endswith(b"\n") and len(line) < _LONGEST:
@@ -193,14 +195,14 @@ class Student:
         raise StudentError(kind, message, trace)
 
 
-def _read(stream: BinaryIO, size: int) -> bytes:
+def _read(stream: IO[bytes], size: int) -> bytes:
     data = stream.read(size)
     if len(data) < size:
         raise EOFError
     return data
 
 
-def _kill(process: subprocess.Popen) -> None:
+def _kill(process: subprocess.Popen[bytes]) -> None:
     with suppress(OSError):
         if hasattr(os, "killpg"):
             os.killpg(process.pid, signal.SIGKILL)

@@ -12,18 +12,20 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.bounds import U, plane_fractions
 from reference_tracer.methods import Method
 from reference_tracer.rendering import steps
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
-from reference_tracer.tracer.candidates import Pairs
+from reference_tracer.tracer.candidates import candidates
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING, Hits
-from reference_tracer.tracer.nearest import candidates, plan, test_planes
+from reference_tracer.tracer.nearest import plan, test_planes
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.world import Pairs
 
 from .known import Known, known
 
@@ -49,7 +51,7 @@ class Subject:
     pairs: list[tuple[Pairs, Known]]  # `pixel` numbers the n pixels
     planes: Hits  # the nearest infinite plane of each ray
     color: NDArray[np.float32]  # (h, w, 4) certified
-    t: NDArray[np.float64]  # (n,) certified; inf: no hit
+    t: Floats  # (n,) certified; inf: no hit
     instance: NDArray[np.int32]
     triangle: NDArray[np.int32]
     ties: dict[int, frozenset[tuple[int, int]]]

@@ -6,8 +6,9 @@ import os
 import shlex
 import subprocess
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from reference_tracer.report.tables import columns, percent
 from reference_tracer.study.extremes import written
@@ -18,7 +19,7 @@ from .extremes import held
 from .judging import CHECKS, Judgement
 from .picture import EXCUSED, Mark
 from .subject import Subject
-from .tally import Tally
+from .tally import COST, Tally
 
 VERDICTS = {
     "right": "all right",
@@ -57,6 +58,8 @@ def explain(subject: Subject, example: Example) -> str:
 def lines(j: Judgement) -> list[str]:
     """Return what a student wants to know, a fact a line."""
     out = [f"{j.name}: {VERDICTS[j.verdict]}, score {j.score:.1f} of 100"]
+    if j.score > j.as_is:
+        out += wrapped(put_right(j))
     for where, error in j.errors:
         out += wrapped(f"its own error, in {where}: {error.message}")
         out += dict.fromkeys(f"    {file}, line {n}: {text}" for file, n, _, text in error.trace)
@@ -82,6 +85,12 @@ _YARDS = "student", "not by rounding", "textbook", "Möller–T."
 def wrapped(text: str) -> list[str]:
     """Return a fact in lines that a terminal has room for."""
     return textwrap.wrap(text, 96, initial_indent="  ", subsequent_indent="    ")
+
+
+def put_right(j: Judgement) -> str:
+    """Return why a file has more points than its answers."""
+    mistakes = count_of(len(j.faults), "mistake")
+    return f"{j.as_is:.1f} as it is: with {mistakes} put right all is right, less {COST:g} for each"
 
 
 def held_rows(j: Judgement) -> list[tuple[str, ...]]:
@@ -136,12 +145,15 @@ def _one_each(examples: Sequence[Example]) -> list[Example]:
     return list({e.mark: e for e in reversed(examples)}.values())[::-1]
 
 
-def class_table(judgements: Sequence[Judgement]) -> list[str]:
-    """Return a row for each of several files."""
+def wrong_names(s: Mapping[str, Any]) -> list[str]:
+    """Return the names of what is wrong with a student, as `judge.json` has him, each once."""
+    return list(dict.fromkeys([e["kind"] for e in s["errors"]] + [f["name"] for f in s["faults"]]))
+
+
+def class_table(students: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return a row for each of several students, as `judge.json` has them."""
     rows = [("file", "score", "verdict", "what is wrong")]
-    for j in judgements:
-        wrong = [error.kind for _, error in j.errors] + [f.name for f in j.faults]
-        rows.append(
-            (j.name, f"{j.score:.1f}", VERDICTS[j.verdict], ", ".join(dict.fromkeys(wrong)))
-        )
+    for s in students:
+        wrong = ", ".join(wrong_names(s))
+        rows.append((s["file"], f"{s['score']:.1f}", VERDICTS[s["verdict"]], wrong))
     return columns(rows, left=(0, 2, 3))

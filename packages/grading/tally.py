@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 # What a right surface, t and barycentrics count for in the score of a scene.
 WEIGHTS = {"surface": 0.6, "t": 0.2, "barycentrics": 0.2}
 
+# What each mistake costs, of 100, where they are all that is wrong with a file.
+COST = 20.0
+
 Mask = NDArray[np.bool_]
 
 

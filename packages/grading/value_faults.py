@@ -8,10 +8,10 @@ from __future__ import annotations
 from itertools import permutations
 
 import numpy as np
+from reference_tracer.arrays import Floats
 
 from .answers import MOST, Answers, Found, Mask
 from .checks import ORDINARY
-from .known import Floats
 
 FLOAT32 = 2.0**-24  # its rounding unit
 LOSSY = 300  # of those: as far as ordinary pairs may be off that were computed in float32
@@ -48,7 +48,7 @@ def distance(a: Answers) -> Found:
 def negative_t(a: Answers) -> Found:
     """See whether t has the other sign, and nobody asks for t > 0."""
     if _fits(a, a.wrong_t, a.is_t(-a.t)):
-        yield "sign_of_t", "t has the wrong sign: a hit before the origin has t > 0", a.is_t(-a.t)
+        yield "t_sign", "t has the wrong sign: a hit before the origin has t > 0", a.is_t(-a.t)
 
 
 def _off(a: Answers) -> Floats:
@@ -59,7 +59,8 @@ def _off(a: Answers) -> Floats:
 def is_single(a: Answers) -> bool:
     """Return whether t has the digits of float32."""
     off = _off(a)
-    return _fits(a, a.wrong_t, off < LOSSY * FLOAT32) and np.median(off[a.wrong_t]) > LEAST
+    fits = _fits(a, a.wrong_t, off < LOSSY * FLOAT32)
+    return fits and bool(np.median(off[a.wrong_t]) > LEAST)
 
 
 def single_t(a: Answers) -> Found:
@@ -75,6 +76,17 @@ def not_numbers(a: Answers) -> Found:
     broken = ~np.isfinite(a.s).all(axis=1)
     if (broken & a.wrong_s).any():
         yield "barycentrics_not_finite", "barycentrics of a hit are NaN or infinite", broken
+
+
+def zeros(a: Answers) -> Found:
+    """See whether hits have barycentrics of 0 alone, which no point of the plane has."""
+    none = ~a.s.any(axis=1)
+    if _fits(a, a.wrong_s, none):
+        text = (
+            "the barycentrics of hits are all 0, as the file that --template writes has them at "
+            "first: return s_i = (n . n_si) / |n|^2, whose sum is 1"
+        )
+        yield "barycentrics_zero", text, none
 
 
 def order(a: Answers) -> Found:
@@ -126,4 +138,4 @@ _SINGLE = (
     "{} is off by {:.0e}: computed in float32, which keeps 7 digits of the 16 that float64 has"
 )
 T_TESTS = distance, negative_t, single_t
-S_TESTS = not_numbers, order, scale, single_s
+S_TESTS = not_numbers, zeros, order, scale, single_s

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from reference_tracer.causes.case import Case
 from reference_tracer.manifest import Manifest, ObjectEntry
+from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Instance, Mesh, Region, Scene, ViewWindow
 from reference_tracer.tracer.settings import Settings
@@ -105,7 +107,7 @@ def case_of(
     picture = Picture(
         np.ascontiguousarray(shown[::-1], np.float32),
         Source("picture", file=f"{description.name}.exr"),
-        levels=levels,
-        filter_radius=filter_radius,
+        storage=Storage(levels),
+        sampling=Sampling(filter_radius=filter_radius),
     )
     return Case(scene, manifest_of(description, scene), Settings(), picture, curves=())

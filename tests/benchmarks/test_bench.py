@@ -32,7 +32,7 @@ REQUIRED = {
 
 
 def tiny(*names: str, cameras=("perspective",), peers=frozenset(), sizes=((WIDTH, HEIGHT),)):
-    cases = [Case(n, *size, c, frozenset(peers)) for n in names for size in sizes for c in cameras]
+    cases = [Case(n, w, h, c, frozenset(peers)) for n in names for w, h in sizes for c in cameras]
     return Plan(tuple(cases), True, repeats=2, budget=0.5, slow=0.05)
 
 

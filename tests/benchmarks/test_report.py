@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
+from pyperf import BenchmarkSuite
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR, INTERRUPTED
 from reference_tracer.methods import Method
-from reference_tracer.scene import SceneError
 from reference_tracer_benchmarks import run as bench_run
 from reference_tracer_benchmarks.measure import measure
 from reference_tracer_benchmarks.plan import COMMANDS, Case, Plan
-from reference_tracer_benchmarks.plot import largest, picture
-from reference_tracer_benchmarks.report import JSON, PLOT, SCHEMA, TABLE, load, to_dict, write
+from reference_tracer_benchmarks.plot import figure, largest
+from reference_tracer_benchmarks.report import JSON, PLOT, SCHEMA, TABLE, TIMES, write
 from reference_tracer_benchmarks.rows import Bench, CommandRow, Row, machine
 from reference_tracer_benchmarks.scenes import CAMERAS, SCALED, SUBJECTS
-from reference_tracer_benchmarks.tables import ratios, table
-
-from ..drawn import Plot, scale
+from reference_tracer_benchmarks.tables import table
 
 STAGES = "project", "cull", "decide", "resolve", "shade"
 
@@ -29,7 +28,7 @@ STAGES = "project", "cull", "decide", "resolve", "shade"
 def made_row(name, size, camera, method, rng):
     triangles, pixels = SUBJECTS[name].triangles, size[0] * size[1]
     seconds = 2e-8 * pixels + 6e-8 * triangles
-    row = Row(name, triangles, *size, camera, method, "float64")
+    row = Row(name, triangles, size[0], size[1], camera, method, "float64")
     row.trace_s, row.render_s = seconds * rng.uniform(0.9, 1.2), 1.6 * seconds
     row.embreex_trace_s, row.embreex_build_s = 7e-8 * pixels, 1e-6 * triangles
     row.embreex_rays, row.peak_bytes, row.rounds = pixels, 120 << 20, 5
@@ -65,23 +64,19 @@ def bench():
     return Bench(machine(True), False, rows, notes, commands=commands)
 
 
-def test_the_json_and_back(bench, tmp_path):
+def read(folder):
+    return json.loads((folder / JSON).read_text(encoding="utf-8"), parse_constant=pytest.fail)
+
+
+def test_the_json(bench, tmp_path):
     write(tmp_path, bench)
-    text = (tmp_path / JSON).read_text(encoding="utf-8")
-    data = json.loads(text, parse_constant=pytest.fail)
+    data = read(tmp_path)
     assert data["schema"] == SCHEMA == "reference_tracer.bench/1"
     assert {"python", "numpy", "cpu_count", "machine"} <= data.keys()
-    assert load(tmp_path / JSON) == bench
-    assert to_dict(load(tmp_path / JSON)) == data
+    assert [Row(**row) for row in data["rows"]] == bench.rows
+    assert [CommandRow(**row) for row in data["commands"]] == bench.commands
     assert {s["over"] for s in data["scaling"]} == {"triangles", "pixels"}
     assert not list(tmp_path.glob("*.part"))
-
-
-@pytest.mark.parametrize("text", ["", "[]", "{}", '{"schema": "other/1"}', '{"schema": 1, "rows"'])
-def test_another_file_is_refused(text, tmp_path):
-    (tmp_path / "other.json").write_text(text)
-    with pytest.raises(SceneError, match=r"other\.json"):
-        load(tmp_path / "other.json")
 
 
 def test_the_table(bench):
@@ -94,7 +89,7 @@ def test_the_table(bench):
     assert all(name in text for name in COMMANDS) and "0.40 (0.30 - 9.50)" in text
     assert text.count("0.25 s") == 1
     assert "~30,000" in text and bench.notes[0] in text
-    assert "baseline" not in text and "nterrupted" not in text
+    assert "nterrupted" not in text
     assert "Interrupted" in table(replace(bench, interrupted=True))
 
 
@@ -113,58 +108,59 @@ def test_a_table_of_what_little_there_is(bench):
     assert "nothing was measured" in table(Bench({}, notes=["why"])) and "why" in table(
         Bench({}, notes=["why"])
     )
-    Plot(picture(Bench({}, rows=[bare]))).assert_legible()
+    assert len(figure(Bench({}, rows=[bare])).axes) == 2
 
 
-def test_against_a_baseline(bench):
-    faster = [replace(r, trace_s=r.trace_s / 2) for r in bench.rows if r.scene != "cube"]
-    new = Bench(bench.machine | {"numpy": "9.9"}, rows=faster)
-    found = ratios(new, bench, "trace_s")
-    assert len(found) == len(faster) and set(found.values()) == {0.5}
-    text = table(new, bench)
-    assert max(map(len, text.splitlines())) <= 100
-    last = next(line for line in text.splitlines() if line.startswith("median"))
-    assert last.split() == ["median", "0.50", "1.00", "1.00", "1.00"]
-    assert f"numpy {bench.machine['numpy']} then, 9.9 now" in text
-    slower = [replace(c, ratio=3 * c.ratio) for c in bench.commands[1:]]
-    lines = table(Bench({}, commands=slower), bench).splitlines()
-    assert sum(line.endswith("3.00") for line in lines) == len(slower)
-    other = Bench({}, rows=[replace(bench.rows[0], width=7)])
-    assert "none of these rows" in table(other, bench)
+def test_pyperf_reads_the_times(bench, tmp_path):
+    """Those of each round, and the peaks of memory; a tick that no clock saw is left out."""
+    slower, faster = tmp_path / "slower", tmp_path / "faster"
+    for folder, seconds in ((slower, [2.0, 2.2, 0.0]), (faster, [1.0, 1.1])):
+        one = Bench(bench.machine, rows=bench.rows[:2])
+        one.keep("cube: trace", seconds)
+        one.keep("never seen", [0.0])
+        write(folder, one)
+    kept = BenchmarkSuite.load(str(slower / TIMES))
+    names = kept.get_benchmark_names()
+    assert names[0] == "cube: trace" and len(names) == 3
+    assert kept.get_benchmark("cube: trace").get_values() == (2.0, 2.2)
+    assert kept.get_benchmark(names[1]).format_value(bench.rows[0].peak_bytes) == "120.0 MiB"
+    files = [str(folder / TIMES) for folder in (slower, faster)]
+    argv = [sys.executable, "-m", "pyperf", "compare_to", *files]
+    said = subprocess.run(argv, capture_output=True, text=True, check=True).stdout
+    assert "cube: trace" in said and "2.00x faster" in said
 
 
-def test_the_plot(bench):
+@pytest.mark.parametrize("library", ["matplotlib.figure", "pyperf"])
+def test_a_library_that_is_missing_is_named(library, bench, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, library, None)
+    (tmp_path / TIMES).write_text("of an earlier run")
+    some = Bench(bench.machine, rows=bench.rows[:4], times={"cube": [1.0]})
+    write(tmp_path, some)
+    assert any(f"without {library.split('.')[0]}, which" in note for note in some.notes)
+    assert some.notes[0] in (tmp_path / TABLE).read_text(encoding="utf-8")
+    assert (tmp_path / TIMES).exists() == (library != "pyperf") and not (tmp_path / PLOT).exists()
+
+
+def test_the_plot(bench, tmp_path):
     assert {(r.width, r.camera) for r in largest(bench)} == {(1920, "perspective")}
     for rows in (bench.rows, [r for r in bench.rows if r.scene not in SCALED]):
         some = replace(bench, rows=rows)
-        plot = Plot(picture(some))
-        plot.assert_legible()
-        along = [t for t in plot.texts if 880 < t.y < 930]  # the numbers of both axes
-        number = {" k": 1e3, " M": 1e6}
-        values = [
-            (t.x, float(t.words[:-2]) * number[t.words[-2:]])
-            for t in along
-            if t.words[-2:] in number
-        ]
-        x = scale(values, log=True)
-        marks = [e for e in plot.elements if e.tag == "circle" and e.x > 150 and e.y < 885]
+        growth, stages = figure(some).axes
+        lines = {line.get_label(): line for line in growth.get_lines()}
         of_mine = [r for r in largest(some) if len(rows) < len(bench.rows) or r.scene in SCALED]
-        found = sorted(
-            x(m.x) for m in marks if m.attributes["fill"] == Method.CERTIFIED.record.color
-        )
-        assert found == pytest.approx(sorted(r.triangles for r in of_mine), rel=0.01)
-        bars = plot.titled("rect")
-        assert {b.words.split(",")[0] for b in bars} == {r.scene for r in largest(some)}
-        for r in largest(some):
-            ends = [
-                (b.x, float(b.attributes["width"]))
-                for b in bars
-                if b.words.startswith(f"{r.scene},")
-            ]
-            assert len(ends) == len(r.stages) + 1
-            assert all(x + w == pytest.approx(other) for (x, w), (other, _) in pairwise(ends))
+        assert list(lines["certified"].get_xdata()) == sorted(r.triangles for r in of_mine)
+        assert lines["certified"].get_color() == Method.CERTIFIED.record.color
+        assert {"Möller–Trumbore", "embreex, build + trace", "trimesh's rtree"} < lines.keys()
+        assert lines["certified"].get_linestyle() == ("-" if rows is bench.rows else "None")
+        whole = np.sum([[bar.get_width() for bar in bars] for bars in stages.containers], axis=0)
+        assert whole == pytest.approx([r.render_s for r in largest(some)])
+        assert [bars.get_label() for bars in stages.containers] == [*STAGES, "other"]
+        scenes = [label.get_text().split(",")[0] for label in stages.get_yticklabels()]
+        assert scenes == [r.scene for r in largest(some)]
     with pytest.raises(ValueError, match="nothing"):
-        picture(Bench({}))
+        figure(Bench({}))
+    write(tmp_path, bench)
+    assert all(r.scene in (tmp_path / PLOT).read_text(encoding="utf-8") for r in largest(bench))
 
 
 # ---- the command
@@ -178,14 +174,14 @@ def tiny_plan(names, quick, repeats):
 def test_the_command(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(bench_run, "plan", tiny_plan)
     assert main(["bench", "--quick", "--out", str(tmp_path / "a")]) == AGREE
-    first = load(tmp_path / "a" / JSON)
-    assert first.quick and len(first.rows) == 8 and not first.interrupted
-    assert "icosphere_5k" in Plot((tmp_path / "a" / PLOT).read_text(encoding="utf-8")).said()
+    first = read(tmp_path / "a")
+    assert first["quick"] and len(first["rows"]) == 8 and not first["interrupted"]
+    assert "icosphere_5k" in (tmp_path / "a" / PLOT).read_text(encoding="utf-8")
+    names = BenchmarkSuite.load(str(tmp_path / "a" / TIMES)).get_benchmark_names()
+    assert "cube, 24 x 14, perspective: certified, trace" in names
+    assert "cube, 24 x 14, perspective: embreex_trace" in names
     said = capsys.readouterr().out
     assert "icosphere_5k" in said and "written to" in said
-    options = ["--out", str(tmp_path / "b"), "--baseline", str(tmp_path / "a" / JSON)]
-    assert main(["bench", *options]) == AGREE
-    assert "against the baseline" in (tmp_path / "b" / TABLE).read_text()
 
 
 def test_interrupted_it_leaves_what_was_measured(tmp_path, monkeypatch, capsys):
@@ -194,15 +190,15 @@ def test_interrupted_it_leaves_what_was_measured(tmp_path, monkeypatch, capsys):
         for share in work:
             yield share
             if len(bench.rows) == 4:
-                written = load(tmp_path / JSON)  # before the end, too
-                assert len(written.rows) >= 2 and not written.interrupted
+                written = read(tmp_path)  # before the end, too
+                assert len(written["rows"]) >= 2 and not written["interrupted"]
                 raise KeyboardInterrupt
 
     monkeypatch.setattr(bench_run, "plan", tiny_plan)
     monkeypatch.setattr(bench_run, "measure", interrupted)
     assert main(["bench", "--out", str(tmp_path)]) == INTERRUPTED
-    found = load(tmp_path / JSON)
-    assert found.interrupted and len(found.rows) == 4
+    found = read(tmp_path)
+    assert found["interrupted"] and len(found["rows"]) == 4
     both = capsys.readouterr()
     assert "interrupted: 2 of 4 pictures" in both.err and "Interrupted" in both.out
     assert (tmp_path / PLOT).is_file()
@@ -215,7 +211,7 @@ def test_interrupted_at_once(tmp_path, monkeypatch, capsys):
 
     monkeypatch.setattr(bench_run, "measure", interrupted)
     assert main(["bench", "cube", "--out", str(tmp_path)]) == INTERRUPTED
-    assert load(tmp_path / JSON).rows == [] and not (tmp_path / PLOT).exists()
+    assert read(tmp_path)["rows"] == [] and not (tmp_path / PLOT).exists()
     assert "nothing was measured" in capsys.readouterr().out
 
 
@@ -224,7 +220,6 @@ def test_interrupted_at_once(tmp_path, monkeypatch, capsys):
     [
         (["sphere"], "no benchmark scene 'sphere'"),
         (["--repeats", "0"], "--repeats is 0"),
-        (["--baseline", "nowhere.json"], "nowhere.json"),
     ],
 )
 def test_what_is_wrong_is_said_before_the_work(options, what, tmp_path, capsys):

@@ -94,7 +94,7 @@ def subjects(gathered, opened):
 
 def explained(made):
     """Return what is found of an attack's picture."""
-    most = OF_A_FILTER if made.case.picture.filter_radius else AT_MOST
+    most = OF_A_FILTER if made.case.picture.sampling.filter_radius else AT_MOST
     return result_of(explain(made.case, made.frame, most))
 
 
@@ -158,7 +158,11 @@ def test_what_is_damaged_is_found_but_for_rounding(attack, turn, subjects, edges
         if made is None or not made.changed.any():
             continue
         triangles = made.frame.statistics.triangles
-        if made.case.picture.filter_radius and triangles > MANY and attack.name != "overshot":
+        if (
+            made.case.picture.sampling.filter_radius
+            and triangles > MANY
+            and attack.name != "overshot"
+        ):
             continue
         attacked += 1
         found = explained(made)

@@ -121,7 +121,6 @@ def test_4_no_file_is_open(build, out, capsys):
         ["compare", "--out", "x", "--method", "magic"],
         ["compare", "--out", "x", "--samples", "two"],
         ["compare", "--out", "x", "--no-such-option"],
-        ["compare", "--out", "x", "--judge", "eevee"],
         ["compare", "--out", "x", "more"],
     ],
     ids=str,

@@ -149,7 +149,7 @@ def test_cycles_picture_has_no_unexplained_pixel(name, opened, compare):
     opened(name, WIDTH)
     comparison = compare(judge="CYCLES")
     assert comparison.case.picture.source.name == "cycles"
-    assert comparison.case.picture.sample_radius == RADIUS
+    assert comparison.case.picture.sampling.sample_radius == RADIUS
     pixels = comparison.counts
     assert pixels.unexplained == pixels.not_decidable == 0
     assert pixels.differ <= 0.02 * pixels.total

@@ -67,6 +67,6 @@ def test_cycles_has_no_depth_buffer():
         assert result_of(compared(case)).counts.unexplained == 0
         farther = case.scene.instances[case.scene.objects.index("Far")].colors[0]
         color = np.where(case.picture.color[..., 3:] > 0, farther, case.picture.color)
-        shown = replace(case.picture, color=color.astype(np.float32), owner=None)
+        shown = replace(case.picture, color=color.astype(np.float32), owners=None)
         found = result_of(compared(replace(case, picture=shown)))
         assert (found.counts.unexplained > 1000) is unexplained

@@ -8,6 +8,7 @@ import pytest
 from reference_tracer.blender.jobs.against import gather_against
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.comparison.comparing import compared
+from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
@@ -121,7 +122,7 @@ def test_a_background_beside_a_surface_of_nearly_its_colour(build):
     color = drawn()
     alpha = color[..., 3:]
     shown = np.concatenate((color[..., :3] * 0.5 + 1 - alpha, np.ones_like(alpha)), axis=-1)
-    assert against(shown.astype(np.float32), opaque=True).counts.unexplained == 0
+    assert against(shown.astype(np.float32), storage=Storage(opaque=True)).counts.unexplained == 0
 
 
 @pytest.mark.parametrize("smooth", ["FXAA", "8", "32"])

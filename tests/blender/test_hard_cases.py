@@ -304,14 +304,15 @@ def test_what_is_switched_off_is_named(make, build, export):
 def mirrored(case):
     """The picture from right to left."""
     shown = case.picture
-    color, owner = shown.color[:, ::-1].copy(), shown.owner[:, ::-1].copy()
-    return replace(case, picture=replace(shown, color=color, owner=owner))
+    owners = shown.owners.at(np.s_[:, ::-1])
+    return replace(case, picture=replace(shown, color=shown.color[:, ::-1].copy(), owners=owners))
 
 
 def recoloured(case):
     """One object of the picture in half its colour."""
     color = case.picture.color.copy()
-    color[case.picture.owner == case.picture.names.index("Red"), :3] *= 0.5
+    owners = case.picture.owners
+    color[owners.pixels == owners.names.index("Red"), :3] *= 0.5
     return replace(case, picture=replace(case.picture, color=color))
 
 
@@ -320,8 +321,7 @@ def dropped(case):
     scene = case.scene
     [gone] = [n for n, i in enumerate(scene.instances) if scene.objects[i.object] == "Red"]
     instances = scene.instances[:gone] + scene.instances[gone + 1 :]
-    shown = replace(case.picture, owners=np.delete(case.picture.owners, gone))
-    return replace(case, scene=replace(scene, instances=instances), picture=shown)
+    return case.in_scene(replace(scene, instances=instances))
 
 
 @pytest.fixture(scope="module")

@@ -69,6 +69,7 @@ def test_a_picture_of_the_other_judge_is_not_excused(judge, build):
     here = gather_case(bpy.context, judge=judge)
     other = gather_case(bpy.context, judge=next(j for j in JUDGES if j != judge))
     assert (here.picture.color != other.picture.color).any(axis=-1).sum() > 50
-    wrong = replace(here.picture, color=np.array(other.picture.color), owner=other.picture.owner)
+    owners = replace(here.picture.owners, pixels=other.picture.owners.pixels)
+    wrong = replace(here.picture, color=np.array(other.picture.color), owners=owners)
     found = result_of(compared(replace(here, picture=wrong)))
     assert found.verdict == "differences" and found.counts.unexplained > 50

@@ -10,14 +10,14 @@ from unittest.mock import MagicMock
 import bpy
 import pytest
 from reference_tracer.blender import registration
-from reference_tracer.blender.ui import long_work, menus, preferences
+from reference_tracer.blender.ui import long_work, menus, preferences, samples
 from reference_tracer.blender.ui.properties import GROUPS as OWNED
 from reference_tracer.cli.commands import export
 from reference_tracer.cli.parser import Parser
 
 PRESETS = Path(menus.__file__).parent / "presets" / "reference_tracer"
 GROUPS = [group for _, group in OWNED]
-UNITS = r"[Pp]ixel|rays|metre|triangles|faults"
+UNITS = r"[Pp]ixel|rays|metre|triangles|faults|regions|share"
 
 
 def operators():
@@ -70,10 +70,27 @@ def test_menus_have_entries_for_operators_that_there_are():
         assert draw in drawing(menu)
 
 
+def test_sample_scenes_are_opened_as_new_files_and_stay_as_they_are():
+    menu = MagicMock()
+    samples.draw_scenes(menu)
+    names = [call.kwargs["text"] for call in menu.operator.call_args_list]
+    assert len(names) == len(samples.scenes()) > 9 and "Exercise Triangle" in names
+    path = samples.FOLDER / "exercise_triangle.blend"
+    before = path.read_bytes()
+    assert bpy.ops.wm.read_homefile(filepath=str(path)) == {"FINISHED"}
+    assert bpy.context.scene.name == "Exercise: Triangle"
+    assert bpy.data.filepath == "" and not bpy.data.is_saved
+    with pytest.raises(RuntimeError, match=r"file"):
+        bpy.ops.wm.save_mainfile()
+    assert path.read_bytes() == before
+
+
 def test_all_is_gone_when_the_add_on_is():
     registration.unregister()
     try:
         assert not any(draw in drawing(menu) for menu, draw in menus.MENUS.items())
+        for kind in ("TOPBAR_MT_file_new", "IMAGE_HT_header"):
+            assert not [d for d in drawing(kind) if d.__module__ == menus.__name__]
         assert not bpy.utils.preset_paths("reference_tracer")
         assert not hasattr(bpy.types, "REFERENCE_TRACER_OT_export")
     finally:
@@ -92,7 +109,8 @@ def chosen(path):
     menu = menus.REFERENCE_TRACER_PT_presets.__name__
     bpy.ops.script.execute_preset(filepath=str(path), menu_idname=menu)
     stored = bpy.context.scene.reference_tracer
-    return {name: getattr(stored, name) for name in GROUPS[0].__annotations__}
+    names = GROUPS[0].__annotations__.keys() - {"image"}  # which is one file's
+    return {name: getattr(stored, name) for name in names}
 
 
 @pytest.mark.parametrize("path", sorted(PRESETS.iterdir()), ids=lambda path: path.stem)
@@ -113,11 +131,14 @@ def test_presets_of_these_names_are_found():
 def test_a_preset_of_the_user_is_kept_with_his(resources):
     stored = bpy.context.scene.reference_tracer
     stored.method, stored.samples, stored.identity = "watertight", 3, False
+    stored.judge, stored.engine = "ENGINE", 'MY "<&> ENGINE'
     before = {path: path.read_bytes() for path in PRESETS.iterdir()}
     assert bpy.ops.reference_tracer.preset_add(name="My own") == {"FINISHED"}
     own = resources / "presets" / "reference_tracer" / "My_own.xml"
     stored.method, stored.samples, stored.identity = "auto", 1, True
+    stored.judge, stored.engine = "AUTO", ""
     found = chosen(own)
+    assert (found["judge"], found["engine"]) == ("ENGINE", 'MY "<&> ENGINE')
     assert (found["method"], found["samples"], found["identity"]) == ("watertight", 3, False)
     assert bpy.ops.reference_tracer.preset_add(remove_active=True) == {"FINISHED"}
     assert not own.exists()

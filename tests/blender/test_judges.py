@@ -63,17 +63,17 @@ def test_what_is_added_is_seen_everywhere(tmp_path, opened):
         [sys.executable, "-c", ADDED, tmp_path, path], capture_output=True, text=True
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "{auto,workbench,cycles,draft,all}" in "".join(done.stdout.split())
+    assert "auto,workbench,cycles,eevee,draft;" in "".join(done.stdout.split())
     for folder in ("stored", "named", "all/draft"):
         found = json.loads((tmp_path / folder / "comparison.json").read_text(encoding="utf-8"))
         assert found["blender"]["source"] == "draft"
         assert found["blender"]["sample_radius"] == 0.25
         assert found["pixels"]["unexplained"] == 0 < found["pixels"]["agree"]
     table = json.loads((tmp_path / "all" / "engines.json").read_text(encoding="utf-8"))
-    assert [row["engine"] for row in table["engines"]] == ["workbench", "cycles", "draft"]
+    assert [row["engine"] for row in table["engines"]] == ["workbench", "cycles", "eevee", "draft"]
 
 
-@pytest.mark.parametrize("name", ["EEVEE", "viewport "])
+@pytest.mark.parametrize("name", ["STORM", "viewport "])
 def test_one_that_is_unknown_is_refused(name, opened, compare):
     """In place of a picture by another."""
     opened("suzanne", 32)
@@ -103,13 +103,20 @@ def test_a_record_that_contradicts_itself_is_refused(own, problem):
         Judge("draft", "Draft", **own)
 
 
+def test_one_that_takes_no_other_materials_is_refused():
+    """As EEVEE in 4.3: Cycles with no light and the materials that there are."""
+    with_its_own = Judge("draft", "Draft", engine="CYCLES", solid=False)
+    with pytest.raises(SceneError, match=r"Draft of Blender .* materials of its own"):
+        rasteriser.snapping_of(with_its_own)
+
+
 def test_only_a_ray_tracer_is_taken_to_leave_corners_where_they_are(monkeypatch):
     """A rasteriser with materials rounds them too: here to a sixteenth of a pixel."""
 
     def coarse(judge, moved):
         return moved > 1 / 32
 
-    monkeypatch.setattr(rasteriser, "_covered", coarse)
+    monkeypatch.setattr(rasteriser, "covered", coarse)
     with_materials = Judge("draft", "Draft", engine="EEVEE", solid=False)
     assert rasteriser.snapping_of(with_materials) >= 1 / 16 > SNAPPING
     assert rasteriser.snapping_of(JUDGES["cycles"]) == SNAPPING

@@ -42,7 +42,7 @@ def test_there_is_no_page_without_a_comparison(solids, tmp_path):
 
 def test_the_page_is_of_the_latest_comparison(solids, compare, tmp_path):
     comparison = compare()
-    results.keep_comparison(bpy.context, comparison)
+    result_of(results.keep_comparison(comparison))
     before = {name: len(getattr(bpy.data, name)) for name in ("images", "scenes", "objects")}
     assert open_page(tmp_path / "new") == {"FINISHED"}
     assert [p.name for p in (tmp_path / "new").iterdir()] == ["page.html"]
@@ -55,7 +55,7 @@ def test_the_page_is_of_the_latest_comparison(solids, compare, tmp_path):
 
 def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
     comparison = compare()
-    results.keep_comparison(bpy.context, comparison)
+    result_of(results.keep_comparison(comparison))
     name = bpy.context.scene.name
     trade = result_of(tradeoff.measure(comparison.scene, 12, 2, name))
     results.keep_trade(trade)
@@ -67,14 +67,14 @@ def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
 
 
 def test_a_folder_that_cannot_be_written(solids, compare, tmp_path):
-    results.keep_comparison(bpy.context, compare())
+    result_of(results.keep_comparison(compare()))
     (tmp_path / "file").touch()
     with pytest.raises(RuntimeError, match="it is a file"):
         open_page(tmp_path / "file")
 
 
 def test_it_waits_for_other_work(solids, compare, monkeypatch):
-    results.keep_comparison(bpy.context, compare())
+    result_of(results.keep_comparison(compare()))
     assert bpy.ops.reference_tracer.open_page.poll()
     monkeypatch.setattr(LongWork, "running", "Trace and Compare")
     assert not bpy.ops.reference_tracer.open_page.poll()

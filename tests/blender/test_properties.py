@@ -24,7 +24,11 @@ STORED = {
         "auto": 5,
     },
     "precision": {"float64": 0, "float32": 1},
-    "judge": {"AUTO": 0, "WORKBENCH": 1, "CYCLES": 2},
+    "judge": {
+        **{"AUTO": 0, "WORKBENCH": 1, "CYCLES": 2, "EEVEE": 3},
+        **{"ENGINE": 10, "RENDER_RESULT": 11, "IMAGE": 12},
+    },
+    "renderer": {"AUTO": 0, "RAYS": 1, "RASTER": 2},
     "shading": {"LIKE_FOR_LIKE": 0, "AS_IS": 1},
     "color": {"object": 0, "normal": 1, "facing": 2, "depth": 3},
     "show": {
@@ -40,6 +44,7 @@ def test_numbers_are_those_that_were_released():
         "method": choices.METHODS,
         "precision": choices.PRECISIONS,
         "judge": choices.JUDGES,
+        "renderer": choices.RENDERERS,
         "shading": choices.SHADINGS,
         "color": choices.COLORS,
         "show": choices.SHOWS,
@@ -85,7 +90,7 @@ def test_a_scene_that_stores_nothing_is_certified_where_that_is_possible():
 def test_a_precision_that_is_greyed_out_does_not_count(method):
     stored = bpy.context.scene.reference_tracer
     stored.method, stored.precision, stored.samples = method, "float32", 3
-    used = "float32" if method.is_plain else "float64"
+    used = "float64" if method.is_proven else "float32"
     assert stored.settings() == Settings(method, used, 3)
-    assert stored.has_precision == method.is_plain
+    assert stored.has_precision != method.is_proven
     assert stored.precision == "float32"  # for when the method is a plain one again

@@ -1,11 +1,17 @@
-"""The latest comparison and its three images: ours are written again, the user's never."""
+"""The latest comparison and its images: ours are written again, the user's never."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
+import pytest
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
+from reference_tracer.causes.cause import AGREE, UNEXPLAINED
+from reference_tracer.causes.checks.edges import EDGE
+from reference_tracer.tracer.progress import result_of
 
 PICTURE = np.ones((4, 6, 4), np.float32)
 
@@ -39,11 +45,44 @@ def test_an_image_that_the_user_saved_is_the_users(tmp_path):
     assert len(named()) == 2 and saved.pixels[0] > 0.99
 
 
+def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compare):
+    build.scene()
+    build.solids()
+    build.corner_camera()
+    own = compare()
+    cause = own.causes.cause.copy()
+    cause[:] = AGREE
+    cause[2:6, 3:5] = cause[2, 40] = EDGE
+    told = replace(own, causes=replace(own.causes, cause=cause))
+    found = result_of(results.keep_comparison(told)).regions
+    assert [r.pixels for r in found] == [8, 1]
+    cause[20, 40:43] = UNEXPLAINED  # then these alone are
+    found = result_of(results.keep_comparison(told)).regions
+    assert [(r.left, r.bottom, r.pixels) for r in found] == [(40, 20, 3)]
+    assert bpy.ops.reference_tracer.frame_region(number=0) == {"FINISHED"}
+    assert [o.name for o in bpy.context.selected_objects] == [found[0].objects[0]]
+    with pytest.raises(RuntimeError, match="has 1 regions"):
+        bpy.ops.reference_tracer.frame_region(number=1)
+    assert not bpy.ops.reference_tracer.show_image.poll()  # there is no editor
+
+
 def test_another_file_has_no_result(build, compare):
     build.scene()
     build.solids()
     build.corner_camera()
-    results.keep_comparison(bpy.context, compare())
+    result_of(results.keep_comparison(compare()))
     assert results.latest(Kind.COMPARISON, bpy.context.scene)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     assert results.latest(Kind.COMPARISON, bpy.context.scene) is None
+
+
+def test_a_file_that_was_saved_while_an_image_was_shown_has_none_when_it_is_opened(tmp_path):
+    """Blender stores that there was an image, and not what was in it; what was saved stays."""
+    shown = results.show(results.DIFFERENCE, PICTURE)
+    own = results.show(results.TRACED, PICTURE)
+    own.pack()  # as by "Save 1 modified image"
+    shown.use_fake_user = own.use_fake_user = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    assert named() == [results.TRACED]
+    assert bpy.data.images[results.TRACED].pixels[0] == 1.0

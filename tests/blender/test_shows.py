@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -75,6 +76,18 @@ def test_few_wrong_pixels_are_counted_as_they_are_not_with_their_rings(scene):
     wrong, total = counted(found.line)
     assert total == 96 * 64
     assert wrong == again.wrong_against(render(scene)).sum() < 100
+
+
+@pytest.mark.parametrize("method", ["auto", "textbook_literal"])
+def test_where_nothing_is_hit_the_background_stays_the_views_own(scene, method):
+    for own in ((0, 0, 0, 0), (0.2, 0.3, 0.4, 1)):
+        there = replace(scene, background=np.float32(own))
+        settings = Settings(method, "float32") if method != "auto" else Settings()
+        found = shown("WRONG", there, settings).color
+        nothing = render(there, settings).instance_index == NOTHING
+        red = (found == (*WRONG, 1)).all(axis=-1)
+        assert (found[nothing & ~red] == np.float32(own)).all() and (nothing & ~red).any()
+        assert (found[~nothing] != np.float32(own)).any(axis=-1).all()
 
 
 @pytest.mark.parametrize("method", ["auto", "certified"])

@@ -14,7 +14,7 @@ from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.cli import in_blender
 from reference_tracer.study import extremes
-from reference_tracer.tracer.settings import PLAIN_SETTINGS
+from reference_tracer.tracer.settings import UNPROVEN_SETTINGS
 
 from .test_unchanged import differences, state
 
@@ -49,7 +49,7 @@ def test_trade_shows_its_plot_and_changes_nothing(solids, tmp_path):
     out = tmp_path / "out"
     assert bpy.ops.reference_tracer.trade(directory=str(out), **SMALL) == {"FINISHED"}
     found = results.latest(Kind.TRADE, solids)
-    assert len(found.content.whole) == len(PLAIN_SETTINGS) + 1  # and certified
+    assert len(found.content.whole) == len(UNPROVEN_SETTINGS) + 1  # and certified
     assert found.content.whole[0].width == 16
     assert found.lines == (found.content.advice,)
     assert differences(before, state()) == []

@@ -8,6 +8,8 @@ import pytest
 from reference_tracer.causes.cause import COUNTED_APART
 from reference_tracer.causes.explain import AGREE, BY_NUMBER, CAUSES, CLIP_PLANE, EDGE, HIDDEN
 
+from .colors import clash, free
+
 
 def test_a_record_stays_as_it_is():
     with pytest.raises(FrozenInstanceError):
@@ -37,11 +39,23 @@ def test_a_record_that_contradicts_itself_is_refused(record, changes):
         replace(record, **changes)
 
 
+def test_colours_are_told_apart_whatever_colours_one_sees():
+    colors = {c.key: c.color for c in CAUSES if c.color}
+    assert not clash(colors)
+    colors["another"] = 0.95, 0.3, 0.0
+    said = clash(colors)
+    assert said.startswith("edge and another are 2.6 apart (vision: none)")
+    colors["another"] = free(colors)
+    assert str(colors["another"]) in said and not clash(colors)
+
+
 def test_records_are_told_apart():
+    following = max(CAUSES) + 1
+    assert len({*CAUSES}) == len(CAUSES), f"two have one number: {following} is the next"
     for name in ("number", "key", "label", "sentence", "color"):
         assert len({getattr(c, name) for c in CAUSES}) == len(CAUSES)
     assert [c.key for c in sorted(CAUSES)][:3] == ["agree", "edge", "depth_tie"]  # in frame.npz
     assert {c.key for c in CAUSES if not c.explains} == set(COUNTED_APART)
     for cause in CAUSES:
-        assert cause.told(0.5, 1.0, "hair") and BY_NUMBER[cause.number] is cause
+        assert cause.in_words(0.5, 1.0, "hair") and BY_NUMBER[cause.number] is cause
     assert {c.key for c in CAUSES if c.rounding} == {EDGE.key, "depth_tie", CLIP_PLANE.key}

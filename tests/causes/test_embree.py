@@ -9,6 +9,7 @@ import pytest
 from reference_tracer.causes.embree import not_decidable
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh
 from reference_tracer.tracer.progress import result_of
@@ -35,7 +36,7 @@ def scene_of(make, far, matrix=None):
 
 
 def compared(scene, color, farthest):
-    picture = Picture(color, farthest=farthest)
+    picture = Picture(color, sampling=Sampling(farthest=farthest))
     return result_of(trace_and_compare(case_of(scene, picture)))
 
 

@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
-from ..cases import case_of
+from ..cases import WORKBENCH, case_of, owners_of
 
 
 def compared(scene, shown):
@@ -110,14 +111,8 @@ def test_surfaces_in_one_place_do_not_count_for_the_picture(make, gap):
 def shown_with_its_objects(scene, of):
     """Compare a scene with what Blender shows of another, whose objects are known, too."""
     theirs = render(of)
-    names = tuple(scene.objects)
-    picture = replace(
-        case_of(scene, theirs.color).picture,
-        owner=theirs.object_index,
-        owners=np.array([0, 1, -1], np.int32),
-        names=names,
-    )
-    return result_of(trace_and_compare(replace(case_of(scene, theirs.color), picture=picture)))
+    picture = Picture(theirs.color, WORKBENCH, owners_of(scene.objects, theirs))
+    return result_of(trace_and_compare(case_of(scene, picture)))
 
 
 def test_an_object_that_is_shown_in_place_of_another_was_not_judged(make):

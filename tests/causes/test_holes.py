@@ -9,14 +9,15 @@ import pytest
 from reference_tracer.causes.case import Alternative, without
 from reference_tracer.causes.explain import UNEXPLAINED, explain
 from reference_tracer.pictures.metrics import boundary
-from reference_tracer.pictures.picture import Picture, numbered
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh
 from reference_tracer.tracer.progress import result_of
 
-from ..cases import case_of
+from ..cases import case_of, owners_of
 
-FILTER = 1.5
+FILTER = Sampling(filter_radius=1.5)
 
 
 @pytest.fixture
@@ -26,10 +27,8 @@ def named(room):
 
 def known(scene, frame, color=None, **options):
     """Return a picture that is known to show what was traced, but for its colours."""
-    owners = numbered(scene.objects, scene.objects)
-    owner = owners[frame.instance_index]
     color = frame.color.copy() if color is None else color
-    return Picture(color, owner=owner, owners=owners, names=scene.objects, **options)
+    return Picture(color, owners=owners_of(scene.objects, frame), **options)
 
 
 def unexplained(scene, frame, picture, **options):
@@ -44,9 +43,9 @@ def inside(frame, number):
 def test_another_object_of_the_same_colour_is_no_anti_aliasing(named):
     """Its colour is a mix, of itself: whose it is was not asked."""
     frame = render(named)
-    picture = known(named, frame, filter_radius=FILTER)
+    picture = known(named, frame, sampling=FILTER)
     wrong = inside(frame, 0)
-    picture.owner[wrong] = 2
+    picture.owners.pixels[wrong] = 2
     assert wrong.sum() > 50
     assert (unexplained(named, frame, picture) == wrong).all()
 
@@ -60,7 +59,7 @@ def test_a_dark_surface_in_another_shade_is_no_anti_aliasing(named):
     wrong = inside(frame, 1)
     color = frame.color.copy()
     color[wrong, :3] = 0.0
-    found = unexplained(scene, frame, known(scene, frame, color, filter_radius=FILTER))
+    found = unexplained(scene, frame, known(scene, frame, color, sampling=FILTER))
     edge = np.pad(boundary(frame), 1)
     near = np.any([np.roll(edge, s, (0, 1)) for s in np.ndindex(3, 3)], axis=0)[2:, 2:]
     assert (wrong & ~near).sum() > 50 and (found[wrong & ~near]).all()
@@ -73,7 +72,7 @@ def test_a_negative_colour_is_no_mix_of_positive_ones(named):
     wrong = boundary(frame)
     color = frame.color.copy()
     color[wrong, :3] = np.minimum(color[wrong, :3], 0) - 0.5
-    found = unexplained(named, frame, known(named, frame, color, filter_radius=FILTER))
+    found = unexplained(named, frame, known(named, frame, color, sampling=FILTER))
     assert found[wrong].all()
 
 
@@ -82,7 +81,7 @@ def test_a_picture_moved_by_a_pixel_is_no_anti_aliasing(named):
     frame = render(named)
     color = np.roll(frame.color, 1, axis=1)
     wrong = (color != frame.color).any(axis=-1)
-    found = unexplained(named, frame, Picture(color, filter_radius=FILTER))
+    found = unexplained(named, frame, Picture(color, sampling=FILTER))
     assert found.sum() > 0.5 * wrong.sum()
 
 
@@ -95,7 +94,7 @@ def test_what_hides_behind_an_edge_is_no_anti_aliasing(make):
     wrong = (frame.instance_index == 0) & boundary(frame)
     color = frame.color.copy()
     color[wrong] = scene.instances[1].colors[0]
-    found = unexplained(scene, frame, Picture(color, filter_radius=FILTER))
+    found = unexplained(scene, frame, Picture(color, sampling=FILTER))
     assert found.sum() > 0.9 * wrong.sum()
 
 

@@ -69,7 +69,7 @@ def check(scene: Scene) -> int:
         corners = np.stack([world_corners(scene, names[k]) for k in on_mesh], axis=-1)
         found = frame.barycentrics.reshape(-1, 3)[on_mesh].T
         assert np.isfinite(found).all()
-        apart, allowed = error_of(found, *rays, corners)
+        apart, allowed = error_of(found, *rays, corners=corners)
         assert (apart <= allowed).all(), max(apart.ravel() / allowed.ravel())
     return len(on_mesh)
 

@@ -14,10 +14,9 @@ from reference_tracer.certainty import Certainty, Reason
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.ladder import Ladder
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.world import WorldTriangles
+from reference_tracer.tracer.world import Pairs, WorldTriangles
 
 from ..moved import may, touched
 from ..oracle import EDGE, intersect_pairs, sights

@@ -51,8 +51,8 @@ def test_triangles(rng, scale, place, shared):
         d = d[:, :1]
     rows = rng.integers(0, 50, COUNT)
     t, sure = found_t(Rays(o, d), rows, c[..., :50])
-    both = (np.broadcast_to(v, (3, COUNT)) for v in (o, d))
-    _, depth, towards = functions(*both, c[..., rows])
+    o, d = (np.broadcast_to(v, (3, COUNT)) for v in (o, d))
+    _, depth, towards = functions(o, d, c[..., rows])
     assert_right(t, sure, truth(depth, towards))
     assert sure.mean() > 0.99
 
@@ -101,8 +101,8 @@ def test_almost_all_that_a_camera_sees_is_sure(rng, kind, shared):
     rays, c = Rays(o * factor, d), c * factor
     t, sure = found_t(rays, np.arange(count), c)
     some = rng.permutation(count)[:100]
-    both = (np.broadcast_to(v, (3, count))[:, some] for v in (rays.origins, rays.directions))
-    _, depth, towards = functions(*both, c[..., some])
+    o, d = (np.broadcast_to(v, (3, count))[:, some] for v in (rays.origins, rays.directions))
+    _, depth, towards = functions(o, d, c[..., some])
     assert_right(t[some], sure[some], truth(depth, towards))
     assert 1 - sure.mean() < unsure
 
@@ -126,8 +126,8 @@ def test_planes(rng, orthographic):
     point, normal = c[0, :, :5], c[1, :, :5]
     rows = rng.integers(0, 5, COUNT)
     t, sure = found_t_of_planes(Rays(o, d), rows, point, normal)
-    both = (np.broadcast_to(v, (3, COUNT)) for v in (o, d))
-    assert_right(t, sure, truth(*plane_functions(*both, point[:, rows], normal[:, rows])))
+    o, d = (np.broadcast_to(v, (3, COUNT)) for v in (o, d))
+    assert_right(t, sure, truth(*plane_functions(o, d, point[:, rows], normal[:, rows])))
     assert sure.mean() > 0.99
 
 

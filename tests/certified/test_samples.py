@@ -9,7 +9,7 @@ import pytest
 from reference_tracer.rendering import certified_tracer, render
 from reference_tracer.scene import Region
 from reference_tracer.tracer.coloring import Color
-from reference_tracer.tracer.render import FINEST, at_once
+from reference_tracer.tracer.render import FINEST, samples_together
 from reference_tracer.tracer.settings import Settings
 
 from ..tracer.hostile_scenes import hostile_scene
@@ -28,7 +28,7 @@ def test_at_once_is_one_after_the_other(make, color):
         projections |= 1 + scene.camera.projection.shares_direction
         for n in (2, 4):
             settings = replace(CERTIFIED, samples=n, color=color)
-            assert at_once(scene.camera, settings)
+            assert samples_together(scene.camera, settings)
             found = render(scene, settings)
             expected = render(scene, settings, tracer=certified_tracer)
             for name, values in expected.passes().items():
@@ -58,5 +58,5 @@ def test_a_band_in_the_midst_of_a_picture(make, rng):
     ],
 )
 def test_what_is_not_found_at_once(make, settings, width):
-    assert not at_once(make.camera(width, 8), settings)
-    assert at_once(make.camera(8, 8), replace(CERTIFIED, samples=64))
+    assert not samples_together(make.camera(width, 8), settings)
+    assert samples_together(make.camera(8, 8), replace(CERTIFIED, samples=64))

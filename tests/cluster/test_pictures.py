@@ -17,7 +17,7 @@ from reference_tracer.scene_files import save_scene
 from reference_tracer.study import extremes
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import PLAIN_SETTINGS, Settings
+from reference_tracer.tracer.settings import UNPROVEN_SETTINGS, Settings
 from reference_tracer_cluster import cluster as cluster_module
 from reference_tracer_cluster import pictures, tasks
 from reference_tracer_cluster.cluster import ClusterError
@@ -188,7 +188,7 @@ def test_commands(shared, scene, tmp_path, capsys, monkeypatch):
     ]
     facts = "method", "precision", "width", "wrong_pixels", "largest_t_error", "coverage_error"
     here, there = ([{k: row[k] for k in facts} for row in f["rows"]] for f in found)
-    assert here == there and len(here) == 3 * (len(PLAIN_SETTINGS) + 1)
+    assert here == there and len(here) == 3 * (len(UNPROVEN_SETTINGS) + 1)
     monkeypatch.setattr(
         extremes.measure, "__defaults__", (tuple(quick()[:2]), *extremes.measure.__defaults__[1:])
     )

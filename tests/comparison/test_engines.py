@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,12 +14,13 @@ from reference_tracer.comparison.engines import EngineRow
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.manifest import Effect, Unmodelled
-from reference_tracer.pictures.picture import Picture, Source, numbered
+from reference_tracer.pictures.identity import Owners
+from reference_tracer.pictures.picture import DrawnOver, Picture, Source
 from reference_tracer.rendering import render
 from reference_tracer.report.engines import lines, write
 from reference_tracer.tracer.progress import result_of
 
-from ..cases import case_of
+from ..cases import case_of, owners_of
 
 
 @pytest.fixture
@@ -26,17 +28,17 @@ def rows(room):
     """Return those of an engine that agrees, of one that lacks the box, and of one that fails."""
     names = ("Ball", "Box", "Wall")
     room = replace(room, objects=names)
-    frame, owners = render(room), numbered(names, names)
+    frame = render(room)
     lacking = render(replace(room, instances=[i for i in room.instances if i.object != 1]))
     of_lacking = np.array([0, 2, -1], np.int32)[lacking.instance_index]
 
     def row(source, color, owner):
-        shown = Picture(color, Source(source, "5.2.3"), owner, owners, names)
+        shown = Picture(color, Source(source, "5.2.3"), Owners.of(names, owner, names))
         work = compare(case_of(room, shown), frame)
         return EngineRow.of(result_of(work))
 
     return [
-        row("workbench", frame.color, owners[frame.instance_index]),
+        row("workbench", frame.color, owners_of(names, frame).pixels),
         row("cycles", lacking.color, of_lacking),
         EngineRow("eevee", Verdict.FAILED, error="it cannot"),
     ]
@@ -63,14 +65,14 @@ def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room)
     """Hair over the wall: the name, not its number; and what both show is what lies beneath."""
     names = ("Ball", "Box", "Wall")
     room = replace(room, objects=names)
-    frame, owners = render(room), numbered(names, names)
-    owner, color = owners[frame.instance_index], frame.color.copy()
-    hair = owner == names.index("Wall")
+    frame = render(room)
+    owners, color = owners_of(names, frame), frame.color.copy()
+    hair = owners.pixels == names.index("Wall")
     color[hair] = (0.1, 0.05, 0.0, 1)
     drawn, beneath = np.where(hair, np.int32(1), np.int32(-1)), frame.color.copy()
     beneath[~hair] = np.nan
-    shown = Picture(color, Source("workbench", "5.2.3"), owner, owners, names)
-    shown = replace(shown, drawn=drawn, beneath=beneath)
+    shown = Picture(color, Source("workbench", "5.2.3"), owners)
+    shown = replace(shown, drawn=DrawnOver(drawn, beneath))
     glass = Unmodelled("Pane", "transparency", effect=Effect.NONE)
     case = case_of(room, shown, [glass, Unmodelled("Head", "hair")], self_check=True)
     row = EngineRow.of(result_of(compare(case, frame)))
@@ -85,7 +87,7 @@ def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room)
     assert "in other colours" not in text and "from 0" not in text
     assert "% of this picture cannot be judged: hair of 'Head'" in text
     assert "workbench: self-check: " in text and "caught" in text
-    held = row.to_dict()
+    held: Any = row.to_dict()
     assert held["not_judged"] == list(row.not_judged)
     assert [f["name"] for f in held["self_check"]] == [example.name for _, example in EXAMPLES]
 

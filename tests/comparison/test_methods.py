@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import numpy as np
 import pytest
@@ -82,7 +83,7 @@ def test_a_comparison_has_the_list_and_says_what_was_required(scene):
     case = case_of(scene, frame.color.astype(np.float32), settings=Settings("textbook"))
     found = result_of(trace_and_compare(case))
     assert [(r.method, r.precision) for r in found.methods] == BOTH
-    held = found.to_dict()
+    held: Any = found.to_dict()
     assert [r["method"] for r in held["methods"]] == ["certified", "textbook"]
     assert held["tracer"]["method"] == "textbook"
     lines = "\n".join(found.lines())

@@ -50,7 +50,7 @@ def one_triangle():
                 Instance(k, k, np.eye(4), [[0.1 * (k + 1), 0.5, 0.25, 1]])
                 for k in range(len(meshes))
             ],
-            [Plane(len(meshes) + k, *p, (0.5, 0.5, 0, 0.3)) for k, p in enumerate(planes)],
+            [Plane(len(meshes) + k, *p, color=(0.5, 0.5, 0, 0.3)) for k, p in enumerate(planes)],
             objects=[f"Thing {k}" for k in range(len(meshes) + len(planes))],
             background=np.array([0.2, 0.3, 0.4, 0.5]),
         )

@@ -14,7 +14,7 @@ from reference_tracer.derivation.derivation import derive, derive_pixel
 from reference_tracer.derivation.textbook import FLOATS, Arithmetic
 from reference_tracer.rendering import trace
 from reference_tracer.tracer.hits import NOWHERE
-from reference_tracer.tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from reference_tracer.tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 
 from ..tracer.hostile_scenes import hostile_scene
 
@@ -32,7 +32,7 @@ def test_hostile_scenes(make, tmp_path: Path, seed):
     for number in range(SCENES):
         scene = hostile_scene(make, rng)
         hits, region = trace(scene, Settings("certified")), scene.camera.region
-        plain = {(s.method, s.precision): trace(scene, s) for s in PLAIN_SETTINGS}
+        plain = {(s.method, s.precision): trace(scene, s) for s in UNPROVEN_SETTINGS}
         for index in rng.choice(len(hits.t), min(6, len(hits.t)), replace=False).tolist():
             y, x = divmod(index, region.width)
             found = derive(scene, x, y, limit=int(rng.integers(1, 9)))

@@ -6,12 +6,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from reference_tracer.derivation.expressions import evaluate, parse, printed
 from reference_tracer.derivation.formulas import PLANE, TRIANGLE
 from reference_tracer.derivation.textbook import (
     FLOATS,
     Arithmetic,
     camera_steps,
-    evaluate,
     judge,
     surface_steps,
 )
@@ -139,4 +139,6 @@ def test_formulas_are_read_as_they_are_printed(text, value):
     names = {"a": 2, "b": 3, "c": 8, "‖n‖²": 7}
     names = {name: exact.number(number) for name, number in names.items()}
     names |= {"u": exact.vector((1, 2, 0)), "v": exact.vector((1, 5, 9))}
-    assert evaluate(text, names) == value
+    tree = parse(text)
+    assert evaluate(tree, names) == value
+    assert parse(printed(tree)) == tree

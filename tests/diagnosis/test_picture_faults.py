@@ -21,6 +21,7 @@ from reference_tracer.diagnosis.faults.fault import Numbers
 from reference_tracer.diagnosis.faults.picture import PICTURE_FAULTS
 from reference_tracer.diagnosis.faults.sizes import Way, resized
 from reference_tracer.images import curve, curve_undone
+from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
@@ -217,7 +218,7 @@ def test_what_is_stored_or_laid_over_keeps_its_alpha(quads):
     scene = over_a_clear_background(quads)
     color = render(scene).color
     quick = [f for f in LOOKED_FOR if f.name in ("jpeg", "overlay", "exposure", "premultiplied")]
-    assert set(told(scene, through_a_jpeg(color), faults=quick, levels=255)) == {"jpeg"}
+    assert set(told(scene, through_a_jpeg(color), faults=quick, storage=Storage(255))) == {"jpeg"}
     white = marked(lambda c: 0.5 * c + 0.5 * np.concatenate((c[..., 3:],) * 4, axis=-1))(color)
     assert set(told(scene, white, faults=quick)) == {"overlay"}
     over = marked(lambda c: 0.5 * c + 0.5 * np.ones(4))(color)  # and its alpha over the picture's
@@ -311,7 +312,7 @@ def test_swapped_channels_are_no_saturation(quads):
 def test_numbers_are_those_that_were_put_in(quads):
     """Also of a file of 8 bits, whose rounding hides the last digits."""
     stored = coded(eight)(of_rgb(lambda c: c * (1.1, 1.0, 0.85))(render(quads).color))
-    found = told(quads, stored, levels=255)
+    found = told(quads, stored, storage=Storage(255))
     assert set(found) == {"white_balance"}
     np.testing.assert_allclose(found["white_balance"].guess.values[:3], (1.1, 1, 0.85), atol=0.01)
 
@@ -323,6 +324,7 @@ def test_a_viewer_that_grades_eight_bits_cuts_them_off(quads, levels):
     color = render(quads).color
     stored = Image.fromarray(np.rint(255 * curve(color[..., :3])).astype(np.uint8))
     graded = np.asarray(ImageEnhance.Color(stored).enhance(1.25)) / 255
-    found = told(quads, np.concatenate((curve_undone(graded), color[..., 3:]), -1), levels=levels)
+    graded = np.concatenate((curve_undone(graded), color[..., 3:]), -1)
+    found = told(quads, graded, storage=Storage(levels))
     assert set(found) == {"saturation"}
     assert found["saturation"].guess.values[0] == pytest.approx(1.25, abs=0.05)

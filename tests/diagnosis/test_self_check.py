@@ -16,12 +16,12 @@ from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.diagnosis.faults.fault import Example, Fault
 from reference_tracer.diagnosis.self_check import FaultRow, self_check, table
 from reference_tracer.manifest import Effect, ObjectEntry, Unmodelled
-from reference_tracer.pictures.picture import Picture, numbered
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from ..cases import case_of
+from ..cases import case_of, owners_of
 
 # Constant shading has no normals; behind a solid's triangle is another of its colour; no frame;
 # all objects have the same transform.
@@ -39,9 +39,8 @@ def checked(case, names=None, examples=EXAMPLES):
 @pytest.fixture
 def case(room):
     room = replace(room, objects=("Ball", "Box", "Wall"))
-    frame, owners = render(room), numbered(room.objects, room.objects)
-    owner = owners[frame.instance_index]
-    picture = Picture(frame.color, owner=owner, owners=owners, names=room.objects)
+    frame = render(room)
+    picture = Picture(frame.color, owners=owners_of(room.objects, frame))
     return case_of(room, picture)
 
 
@@ -100,7 +99,7 @@ def test_a_fault_within_rounding_is_none(stripes, pixels, result):
         return replace(case, scene=replace(case.scene, camera=camera))
 
     case = case_of(stripes, render(stripes).color)
-    fault = Fault("nudge", "hardly anything", "nothing", nudge)
+    fault = Fault("nudge", "hardly anything", "Nobody knows.", "nothing", nudge)
     row = checked(case, examples=[(fault, Example("nudge", "hardly anything"))])["nudge"]
     assert row.result == result and (row.unexplained > 0) == (result == "caught")
     assert FaultRow("a", "b", 5, 5, 5, 0).missed and not FaultRow("a", "b", 5, 5, 5, 1).missed
@@ -120,7 +119,7 @@ def test_more_pixels_are_looked_at_where_few_show_nothing(stripes, monkeypatch, 
 
     monkeypatch.setattr(self_checking, "SAMPLES", samples)
     case = case_of(stripes, render(stripes).color)
-    fault = Fault("stretch", "too tall", "nothing", stretch)
+    fault = Fault("stretch", "too tall", "a wrong aspect", "nothing", stretch)
     row = checked(case, examples=[(fault, Example("stretch", "too tall"))])["stretch"]
     assert row.result == result and (row.looked_at == 1) == (samples == (1,))
 
@@ -180,7 +179,7 @@ def test_it_explains_as_the_comparison_does(case, monkeypatch):
         case,
         scene=lacking,
         settings=Settings("textbook_literal"),
-        picture=replace(case.picture, owners=np.array([0, 2, -1], np.int32)),
+        picture=replace(case.picture, owners=case.picture.owners.in_scene(lacking, whole)),
         manifest=replace(case.manifest, objects=(entry,)),
         alternatives=(Alternative("Box", "hidden in the viewport", whole),),
         curves=(),

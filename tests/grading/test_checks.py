@@ -98,7 +98,7 @@ def test_same_seed_same_checks(checks):
 
 @pytest.mark.parametrize("aspect", [1.0, 1e3, 1e6])
 def test_known_is_true_and_bounds_hold(rng, aspect):
-    """Needles, too: the truth against fractions, and plain methods within bounds."""
+    """Needles, too: the truth against fractions, and unproven methods within bounds."""
     n = 300
     p = rng.normal(size=(n, 3, 3))
     p[:, 2] = p[:, 0] + (p[:, 1] - p[:, 0]) * 0.4 + (p[:, 2] - p[:, 0]) / aspect

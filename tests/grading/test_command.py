@@ -87,6 +87,21 @@ def test_a_class(template, solution, capsys):
     ]
 
 
+def test_it_goes_on_where_it_was(template, solution, tmp_path, capsys):
+    """The second time only the new one is run; the tables have all."""
+    out = ["--out", str(tmp_path / "out"), "--format", "csv"]
+    main(["judge", str(solution), *SMALL, *out])
+    capsys.readouterr()
+    assert main(["judge", str(template), str(solution), *SMALL, *out]) == DIFFERENCES
+    text = capsys.readouterr().out
+    assert "1 student judged before" in text and "solution.py: all right" not in text
+    assert [line.split()[:2] for line in text.splitlines()[-3:-1]] == [
+        ["mine.py", "0.0"],
+        ["solution.py", "100.0"],
+    ]
+    assert (tmp_path / "out" / "judge.csv").read_text().count("\n") == 3
+
+
 def test_ones_own_scenes(make, solution, tmp_path, capsys):
     scene = make.scene(make.camera(10, 6), make.quad(-9, 0.03, -9, 9.1, -2))
     save_scene(tmp_path / "mine.npz", scene)
@@ -147,6 +162,7 @@ def test_extremes(solution, capsys, monkeypatch):
     ("options", "words"),
     [
         ([], "name a student's file"),
+        (["FILE", "--format", "csv"], "--format is for a folder"),
         (["scene.npz"], "name a student's file"),
         (["not_there.py"], "no file 'not_there.py'"),
         (["FILE", "not_there.npz"], "no file 'not_there.npz'"),

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import sys
 from dataclasses import replace
+from html import unescape
 from html.parser import HTMLParser
 from importlib.resources import files
+from xml.etree import ElementTree
 
 import jsonschema
 import numpy as np
@@ -14,12 +17,16 @@ import pytest
 import reference_tracer_grading
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
+from reference_tracer_grading import command
 from reference_tracer_grading.checks import make_checks
+from reference_tracer_grading.class_folder import ClassFolder
+from reference_tracer_grading.external import Run
 from reference_tracer_grading.extremes import extreme_scenes
+from reference_tracer_grading.formats import FORMATS
 from reference_tracer_grading.judging import judge_all
 from reference_tracer_grading.page import MARK_COLORS, marked
 from reference_tracer_grading.picture import Mark
-from reference_tracer_grading.report import to_dict, write
+from reference_tracer_grading.report import student
 from reference_tracer_grading.student import Limits
 from reference_tracer_grading.subject import prepare
 from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, class_table, lines
@@ -58,15 +65,17 @@ def judged(make, tmp_path_factory):
     quads = make.quad(-1.03, 1.07, -1.01, 1.02, -4), make.quad(3, -3, -2, 2.1, -6, "A & <B>")
     subject = result_of(prepare("a<b", make.scene(make.camera(), *quads), "s.npz", None))
     extremes = result_of(extreme_scenes([s for s in SCENARIOS if s.name == "tiny"]))
-    paths = [folder / name for name in FILES]
-    work = judge_all(paths, make_checks(), [subject], extremes, Limits(seconds=3))
-    return {j.path.name: j for j in result_of(work)}
+    paths = {name: folder / name for name in FILES}
+    limits = Limits(seconds=3)
+    work = judge_all(paths, make_checks(), [subject], extremes, limits, told=lambda j: j)
+    return result_of(work)
 
 
 @pytest.fixture(scope="module")
 def written(judged, tmp_path_factory):
     folder = tmp_path_factory.mktemp("judged")
-    write(folder, list(judged.values()))
+    kept = ClassFolder(folder, list(judged))
+    kept.write([kept.keep(folder / name, j) for name, j in judged.items()], FORMATS)
     return folder
 
 
@@ -105,7 +114,7 @@ def test_json_is_by_its_schema(written):
 
 def test_examples_are_reproducible(judged):
     """Ray and triangle as they are printed give the answer that is printed."""
-    [scene] = to_dict([judged["swapped.py"]])["students"][0]["scenes"]
+    [scene] = student(judged["swapped.py"])["scenes"]
     space = {}
     exec(FILES["swapped.py"], space)
     for e in scene["examples"]:
@@ -138,18 +147,29 @@ class Page(HTMLParser):
 
 def test_page(written, judged):
     page = Page((written / "judge.html").read_text(encoding="utf-8"))
-    assert not page.open  # every element is closed, in the right order
-    assert "script" not in page.tags and "i" not in page.tags and "b" not in page.tags
-    assert all(link.startswith(("#", "data:image/png;base64,")) for link in page.links)
-    assert page.tags.count("img") == 3 * 4  # of the four that came to the scene's end
-    assert "running the students' own code" in page.text and "not a sandbox" in page.text
-    assert "A & <B>" in page.text and "endless <i>.py" in page.text
-    assert "<script>alert(1)</script>" in page.text  # as text
-    assert "line 2: return '<b>' + 1" in page.text
-    for j in judged.values():
-        assert f"{j.score:.1f}" in page.text
-        assert all(f.name in page.text for f in j.faults)
-    assert sorted(p.name for p in written.iterdir()) == ["judge.html", "judge.json"]
+    own = [Page((written / link).read_text(encoding="utf-8")) for link in page.links]
+    for each in (page, *own):
+        assert not each.open  # every element is closed, in the right order
+        assert "script" not in each.tags and "i" not in each.tags and "b" not in each.tags
+        assert "running the students' own code" in each.text and "not a sandbox" in each.text
+    assert all(x.startswith("data:image/png;base64,") for each in own for x in each.links)
+    assert sum(each.tags.count("img") for each in own) == 3 * 4  # four came to the scene's end
+    text = "".join(each.text for each in own)
+    assert "A & <B>" in text and "endless <i>.py" in page.text
+    assert "<script>alert(1)</script>" in text  # as text
+    assert "line 2: return '<b>' + 1" in text
+    for j, each in zip(judged.values(), own, strict=True):
+        assert f"{j.score:.1f}" in page.text and f"{j.score:.1f}" in each.text
+        assert all(f.name in page.text and f.name in each.text for f in j.faults)
+
+
+def test_no_page_of_a_student_names_another(written, judged):
+    names = set(judged)
+    pages = sorted((written / "students").glob("*.html"))
+    assert len(pages) == len(names)
+    for path in pages:
+        text = unescape(path.read_text(encoding="utf-8"))
+        assert len([name for name in names if name in text]) == 1
 
 
 def test_map_of_wrong_pixels(judged):
@@ -175,7 +195,7 @@ def test_lines(judged):
 
 
 def test_class_table(judged):
-    table = class_table(list(judged.values()))
+    table = class_table([student(j) for j in judged.values()])
     assert len(table) == 1 + len(FILES)
     assert table[1].split() == ["right.py", "100.0", "all", "right"]
     assert table[2].split()[2:] == ["wrong", "s2_s3_swapped"]
@@ -183,9 +203,10 @@ def test_class_table(judged):
 
 
 def test_the_page_says_the_same_in_the_same_words(written, judged):
-    text = (written / "judge.html").read_text(encoding="utf-8")
-    right = class_table([judged["right.py"], judged["swapped.py"]])[1].split("  ")[-1]
+    right = class_table([student(judged["right.py"])])[1].split("  ")[-1]
+    text = (written / "students" / "right.py.html").read_text(encoding="utf-8")
     assert right == "all right" and f">{right}</span>" in text
+    assert f">{right}</span>" in (written / "judge.html").read_text(encoding="utf-8")
     # No pixel of this scene lies on a boundary, and both say what the dash there means.
     assert not judged["right.py"].looks[0].subject.boundary.any()
     assert NO_BOUNDARY in text and NO_BOUNDARY in lines(judged["right.py"])
@@ -222,5 +243,60 @@ def test_an_example_of_every_mark(judged):
 
 def test_it_needs_no_library_for_pictures(judged, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "PIL", None)
-    write(tmp_path, list(judged.values()))
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["judge.html", "judge.json"]
+    kept = ClassFolder(tmp_path, ["swapped.py"])
+    kept.write([kept.keep(tmp_path / "swapped.py", judged["swapped.py"])])
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["judge.html", "judge.json", "students"]
+    # Who is judged alone has no table of a class.
+    assert "wrong pixels" in (tmp_path / "judge.html").read_text(encoding="utf-8")
+
+
+def test_what_other_programs_read(written, judged):
+    rows = list(csv.DictReader((written / "judge.csv").open(encoding="utf-8", newline="")))
+    assert [(r["file"], float(r["score"])) for r in rows] == [
+        (j.name, j.score) for j in judged.values()
+    ]
+    suites = ElementTree.parse(written / "judge.xml").getroot()
+    assert [s.get("name") for s in suites] == list(judged)
+    for suite, j in zip(suites, judged.values(), strict=True):
+        failed = [case for case in suite if case.find("failure") is not None]
+        assert len(failed) == int(suite.get("failures")) and len(suite) == int(suite.get("tests"))
+        assert bool(failed) == (j.verdict != "right")
+    results = [json.loads(p.read_text()) for p in (written / "gradescope").rglob("results.json")]
+    assert sorted(r["score"] for r in results) == sorted(j.score for j in judged.values())
+    assert all(0 <= t["score"] <= t["max_score"] for r in results for t in r["tests"])
+
+
+def test_the_command_knows_all_formats():
+    assert set(command.FORMATS) == set(FORMATS)
+
+
+def test_who_has_not_changed_is_not_judged_again(judged, tmp_path):
+    files = {name: tmp_path / name for name in ("right.py", "swapped.py")}
+    for name, path in files.items():
+        path.write_text(FILES[name], encoding="utf-8")
+    kept = ClassFolder(tmp_path / "out", list(files), "options")
+    for name, path in files.items():
+        kept.keep(path, judged[name])
+    assert set(ClassFolder(tmp_path / "out", list(files), "options").kept_of(files)) == set(files)
+    assert not ClassFolder(tmp_path / "out", list(files), "others").kept_of(files)
+    files["right.py"].write_text(FILES["right.py"] + "#", encoding="utf-8")
+    assert set(kept.kept_of(files)) == {"swapped.py"}
+    (tmp_path / "out" / "students" / "swapped.py.json").write_text("{")
+    assert not kept.kept_of(files)
+
+
+def test_a_program_that_is_compiled_anew_is_judged_again(judged, tmp_path):
+    (tmp_path / "Own.class").write_bytes(b"1")
+    runs = {"own": Run.parsed(f"java -cp {tmp_path} Own")}
+    kept = ClassFolder(tmp_path / "out", list(runs))
+    kept.keep(runs["own"], replace(judged["right.py"], name="own"))
+    assert kept.kept_of(runs)
+    (tmp_path / "Own.class").write_bytes(b"2")
+    assert not kept.kept_of(runs)
+
+
+def test_files_of_students_have_names_of_their_own(tmp_path):
+    names = ["a/b.py", "a_b.py", "A_B.py", "../../x.py", "<i>", "", "é" * 100]
+    files = ClassFolder(tmp_path, names)._files
+    assert len({f.casefold() for f in files.values()}) == len(names)
+    assert all("/" not in f and not f.startswith(".") and len(f) < 70 for f in files.values())

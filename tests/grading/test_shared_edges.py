@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading.judging import judge
 from reference_tracer_grading.known import known
-from reference_tracer_grading.report import to_dict, write
+from reference_tracer_grading.page import page
+from reference_tracer_grading.report import student
 from reference_tracer_grading.shared_edges import EDGES, make_edges, try_edges
 from reference_tracer_grading.tables import lines
 
@@ -43,15 +42,13 @@ def said(found) -> bool:
     return any("edges leak" in line for line in lines(found))
 
 
-def test_strict_inequalities_leak_and_do_not_count(judged, tmp_path):
+def test_strict_inequalities_leak_and_do_not_count(judged):
     found = judged(STRICT)
     assert (found.edges.edges, found.edges.leaking) == (EDGES, EDGES)
     assert found.verdict == "right" and found.score == 100
     assert said(found) and f"{EDGES} of {EDGES} edges leak" in "\n".join(lines(found))
-    write(tmp_path, [found])
-    stored = json.loads((tmp_path / "judge.json").read_text(encoding="utf-8"))
-    assert stored["students"][0]["shared_edges"]["leaking"] == EDGES
-    assert "edges leak" in (tmp_path / "judge.html").read_text(encoding="utf-8")
+    assert student(found)["shared_edges"]["leaking"] == EDGES
+    assert "edges leak" in page(found)
 
 
 def test_edges_that_are_hit_twice_do_not_leak(judged):
@@ -86,7 +83,7 @@ def test_other_right_files_do_not_leak(name, right, checks, written):
 
 def test_a_file_that_fails_has_no_edges(checks, written):
     found = result_of(judge(written("import nothing_of_this_name"), checks, []))
-    assert found.edges is None and to_dict([found])["students"][0]["shared_edges"] is None
+    assert found.edges is None and student(found)["shared_edges"] is None
 
 
 def test_the_rays_are_what_they_are_said_to_be():

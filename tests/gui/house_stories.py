@@ -12,7 +12,7 @@ PRESETS = "REFERENCE_TRACER_PT_presets"
 PANEL = "RENDER_PT_reference_tracer"
 WORDS = {
     ("Operator", "Trace and Compare"): "Trazar y comparar",
-    ("*", "Self-Check"): "Autocontrol",
+    ("*", "More Comparisons"): "Otras comparaciones",
     ("*", "{} differ, {} open"): "{} distintos, {} sin causa",
 }
 

@@ -21,6 +21,7 @@ import house_stories
 import inspector_stories
 import interruption_stories
 import page_stories
+import seen_stories
 import stories
 import study_stories
 import viewport_stories
@@ -36,6 +37,7 @@ STORIES = {
         inspector_stories,
         interruption_stories,
         page_stories,
+        seen_stories,
         study_stories,
         viewport_stories,
     )
@@ -62,7 +64,9 @@ def played(names):
 def prepared():
     """Have views drawn once, not the eight times of the factory's: no graphics card helps here."""
     preferences = bpy.context.preferences
-    preferences.system.viewport_aa, preferences.is_dirty = "FXAA", False
+    preferences.system.viewport_aa = "FXAA"
+    preferences.view.render_display_type = "NONE"  # a story that wants to see results says where
+    preferences.is_dirty = False
 
 
 def opened(scene):

@@ -1,7 +1,7 @@
 """The buttons of the two studies in the real window. Screenshots are left in out/gui."""
 
 import pytest
-from reference_tracer.tracer.settings import PLAIN_SETTINGS
+from reference_tracer.tracer.settings import UNPROVEN_SETTINGS
 
 pytestmark = pytest.mark.gui
 
@@ -20,7 +20,7 @@ def assert_ran(noted, name):
 @pytest.mark.story("trade")
 def test_trade_shows_its_table_and_has_its_plot(noted):
     assert_ran(noted, "trade")
-    assert noted["rows"] == len(PLAIN_SETTINGS) + 1 and noted["plots"] == 1
+    assert noted["rows"] == len(UNPROVEN_SETTINGS) + 1 and noted["plots"] == 1
     assert noted["lines"] == [noted["advice"]] and "float32" in noted["advice"]
 
 

@@ -14,6 +14,7 @@ from reference_tracer.pictures.bounds import (
     LEAST_STEP,
     SNAPPING,
     U32,
+    Storage,
     depth_step,
     difference,
     differing,
@@ -24,7 +25,7 @@ from reference_tracer.pictures.renderers import RENDERERS
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of
-from reference_tracer.tracer.nearest import Hits
+from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import transform_points
 
@@ -244,8 +245,9 @@ def test_half_floats_in_a_png_of_16_bits_miss_as_many_units_as_in_an_exr(missing
     def stored(color):
         return decoded(np.rint(encoded(color) * 65535) / 65535)
 
-    assert not differing(first, stored(half - missing * unit), False, 65535).any()
+    assert not differing(first, stored(half - missing * unit), False, Storage(65535)).any()
     bright = (first > 2.0**-7).all(axis=-1)
     assert bright.sum() > 100
-    assert differing(first, stored(half - 4 * HALF_UNITS * unit), False, 65535)[bright].all()
-    assert not differing(first, stored(first), False, 65535).any()
+    wrong = stored(half - 4 * HALF_UNITS * unit)
+    assert differing(first, wrong, False, Storage(65535))[bright].all()
+    assert not differing(first, stored(first), False, Storage(65535)).any()

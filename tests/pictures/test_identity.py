@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from reference_tracer.pictures.identity import (
@@ -9,6 +11,7 @@ from reference_tracer.pictures.identity import (
     NOTHING,
     UNKNOWN,
     Identity,
+    Owners,
     Shows,
     colors_of,
     decode,
@@ -77,3 +80,25 @@ def test_counts():
     assert found.shows() == Shows(same_object=3, other_object=2, not_known=1)
     assert found.shows(traced == 1) == Shows(same_object=1, other_object=1, not_known=1)
     assert found.to_dict() == {"names": ["A", "B"], "pixels": found.shows()._asdict()}
+
+
+def test_owners_are_numbered():
+    found = Owners.of(("A", "B", "C"), np.array([1, 0], np.int32), ("B", "B", "elsewhere", "A"))
+    assert found.instances.tolist() == [1, 1, 3, 0, NOTHING] and found.instances.dtype == np.int32
+    assert found.same(np.array([0, 3])).tolist() == [True, True]
+    assert found.same(np.array([2, 4])).tolist() == [False, False]
+
+
+def test_the_owners_of_another_scene_are_those_of_the_same_names(make):
+    """An object that two others instance has two owners: whose it is there is not known."""
+    whole = make.scene(make.camera(), *(make.quad(x, x + 1, 0, 1, -2) for x in range(4)))
+    names = ("Hut", "Tree", "First", "Second")
+    scene = replace(whole, objects=("Hut", "Leaf", "Leaf", "Tree"))
+    owners = Owners.of(names, np.zeros(2, np.int32), ("Hut", "First", "Second", "Second"))
+    assert owners.in_scene(replace(scene), scene) is owners
+    lacking = replace(scene, instances=scene.instances[1:])
+    found = owners.in_scene(lacking, scene).instances
+    nobody = len(names)
+    assert found.tolist() == [nobody, nobody, 3, NOTHING]
+    back = replace(whole, objects=("New", "Tree", "First", "Hut"))
+    assert owners.in_scene(back, scene).instances.tolist() == [nobody, 3, 2, 0, NOTHING]

@@ -17,12 +17,13 @@ from reference_tracer.causes.explain import (
 )
 from reference_tracer.images import decoded, to_display
 from reference_tracer.manifest import Effect, Unmodelled
-from reference_tracer.pictures.identity import NOTHING, UNKNOWN
-from reference_tracer.pictures.picture import Picture, numbered
+from reference_tracer.pictures.bounds import Storage
+from reference_tracer.pictures.identity import UNKNOWN
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
-from ..cases import case_of, find_causes
+from ..cases import case_of, find_causes, owners_of, showing
 
 LIGHT = Unmodelled("scene 'Scene'", "studio light", effect=Effect.LIGHT)
 
@@ -36,17 +37,11 @@ def room(room):
 def seen(room):
     """Return the room's frame, and its picture with whose surfaces it shows."""
     frame = render(room)
-    owners = numbered(room.objects, room.objects)
-    return frame, Picture(frame.color.copy(), owner=owners[frame.instance_index], owners=owners)
+    return frame, Picture(frame.color.copy(), owners=owners_of(room.objects, frame))
 
 
 def causes(scene, frame, shown, *rest):
     return result_of(find_causes(scene, frame, shown, *rest))
-
-
-def test_numbers_of_owners():
-    found = numbered(("A", "B", "C"), ("B", "B", "elsewhere", "A"))
-    assert found.tolist() == [1, 1, 3, 0, NOTHING] and found.dtype == np.int32
 
 
 def test_the_same_picture_agrees(room, seen):
@@ -56,10 +51,8 @@ def test_the_same_picture_agrees(room, seen):
 
 def test_a_wrong_object_of_the_right_colour_is_found(room, seen):
     frame, shown = seen
-    owner = shown.owner.copy()
-    where = owner == 1
-    owner[where] = 2
-    found = causes(room, frame, replace(shown, owner=owner))
+    where = shown.owners.pixels == 1
+    found = causes(room, frame, showing(shown, where, 2))
     differ = found.cause != AGREE
     assert (differ == where).all() and where.sum() > 50
     assert (found.cause[where] == UNEXPLAINED).mean() > 0.8
@@ -71,8 +64,8 @@ def test_colour_and_owner_may_fall_to_different_sides_of_an_edge(make):
         make.camera(20, 16), make.quad(-2, 0.1, -2, 2, -3), make.quad(-9, 9, -9, 9, -4)
     )
     frame = render(scene)
-    owners = numbered(("Near", "Far"), ("Near", "Far"))
-    owner = owners[frame.instance_index]
+    owners = owners_of(("Near", "Far"), frame)
+    owner = owners.pixels
     rim = (owner[:, :-1] == 0) & (owner[:, 1:] == 1)
     color = frame.color.copy()
     color[:, :-1][rim] = frame.color[:, 1:][rim]  # the neighbour's
@@ -80,7 +73,7 @@ def test_colour_and_owner_may_fall_to_different_sides_of_an_edge(make):
     band = 0.6  # pixels: the neighbour is within reach
     without = causes(scene, frame, Picture(color), (), band)
     assert (without.cause[:, :-1][rim] == NOT_DECIDABLE).all()  # beyond half a pixel
-    known = Picture(color, owner=owner, owners=owners)
+    known = Picture(color, owners=owners)
     for shown in (Picture(color), known):
         beyond, within = (
             causes(scene, frame, shown, (), near).cause[:, :-1][rim] for near in (0.01, 0.45)
@@ -96,36 +89,34 @@ def test_an_owner_that_cannot_have_the_colour_is_forgotten(ramp, make):
         colors = np.linspace(0, 1, 3 * 4 * len(quads[1].triangles)).reshape(-1, 3, 4)
         quads[1] = replace(quads[1], corner_colors=colors.astype(np.float32))
     scene = make.scene(make.camera(40, 30), *quads)
-    frame, owners = render(scene), numbered(("Plain", "Other"), ("Plain", "Other"))
-    owner = owners[frame.instance_index]
-    wrong = owner == 0
-    owner[wrong] = 1
-    shown = Picture(frame.color.copy(), owner=owner, owners=owners, names=("Plain", "Other"))
+    frame = render(scene)
+    right = Picture(frame.color.copy(), owners=owners_of(("Plain", "Other"), frame))
+    wrong = right.owners.pixels == 0
+    shown = showing(right, wrong, 1)
     found = result_of(explain(case_of(scene, shown), frame))
     assert wrong.sum() > 20
-    assert (found.case.picture.owner[wrong] == (1 if ramp else UNKNOWN)).all()
+    assert (found.case.picture.owners.pixels[wrong] == (1 if ramp else UNKNOWN)).all()
     unexplained = found.causes.cause == UNEXPLAINED
     assert (unexplained[wrong]).mean() > 0.8 if ramp else not unexplained.any()
 
 
 def test_what_is_not_known_proves_nothing(room, seen):
     frame, shown = seen
-    unknown = replace(shown, owner=np.full_like(shown.owner, UNKNOWN))
+    unknown = showing(shown, np.ones(frame.shape, bool), UNKNOWN)
     assert (causes(room, frame, unknown).cause == AGREE).all()
 
 
 def test_light_excuses_shades_but_no_object(room, seen):
     frame, shown = seen
     lit = frame.color * np.float32((0.4, 0.5, 0.6, 1))
-    owner = shown.owner.copy()
-    box = owner == 1
-    owner[box] = 0
-    found = causes(room, frame, replace(shown, color=lit), [LIGHT])
+    box = shown.owners.pixels == 1
+    shown = replace(shown, color=lit)
+    found = causes(room, frame, shown, [LIGHT])
     surface = frame.instance_index >= 0
     assert (found.cause[surface] == COLOR).all()
     assert (found.cause[~surface] == AGREE).all()
     assert found.transform
-    found = causes(room, frame, replace(shown, color=lit, owner=owner), [LIGHT])
+    found = causes(room, frame, showing(shown, box, 0), [LIGHT])
     assert (found.cause[box] == UNEXPLAINED).mean() > 0.8
     assert (found.cause[surface & ~box] == COLOR).all()
 
@@ -143,7 +134,7 @@ def test_bytes_may_be_half_a_level_off(room, seen):
     for off, cause in ((0.0, AGREE), (1.0, UNEXPLAINED)):
         moved = stored.copy()
         moved[..., :3] += off * (stored[..., 3:] > 0) * (1 - 2 * (stored[..., :3] > 200))
-        shown = Picture(decoded(moved / 255).astype(np.float32), levels=255)
+        shown = Picture(decoded(moved / 255).astype(np.float32), storage=Storage(255))
         found = causes(room, frame, shown).cause
         assert (found[frame.instance_index >= 0] == cause).all()
 
@@ -152,5 +143,5 @@ def test_an_opaque_picture_has_no_alpha_to_compare(room, seen):
     frame, _ = seen
     color = frame.color.copy()
     color[..., 3] = 1
-    assert (causes(room, frame, Picture(color, opaque=True)).cause == AGREE).all()
+    assert (causes(room, frame, Picture(color, storage=Storage(opaque=True))).cause == AGREE).all()
     assert (causes(room, frame, Picture(color)).cause == UNEXPLAINED).any()

@@ -11,6 +11,7 @@ from reference_tracer import exr, images
 from reference_tracer.causes.explain import AGREE, CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
 from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.pictures.renderers import RASTER, RAYS, renderer_of
+from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.camera import Rays
@@ -26,7 +27,7 @@ FOREIGN = Source(file="theirs.exr")
 
 
 def causes_of(scene, color, renderer):
-    picture = Picture(color, FOREIGN, renderer=renderer)
+    picture = Picture(color, FOREIGN, sampling=Sampling(renderer=renderer))
     return result_of(find_causes(scene, render(scene), picture)).cause
 
 

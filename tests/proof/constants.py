@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import reference_tracer.certified as certified
@@ -61,10 +62,12 @@ def numbers() -> Iterator[Number]:
 
 def of_module(module: ModuleType, name: str, source: str) -> Iterator[Number]:
     tree = ast.parse(source)
-    for parent in ast.walk(tree):
+    nodes: list[Any] = [*ast.walk(tree)]
+    for parent in nodes:
+        child: Any
         for child in ast.iter_child_nodes(parent):
             child.parent = parent
-    for node in ast.walk(tree):
+    for node in nodes:
         value = worth(node, module)
         if value is None or worth(node.parent, module) is not None or _is_structure(node):
             continue
@@ -97,7 +100,7 @@ def _is_used(constant: str, tree: ast.Module, module: str) -> bool:
     return any(isinstance(n.ctx, ast.Load) for n in own) or not constant.startswith("_")
 
 
-def _is_structure(node: ast.AST) -> bool:
+def _is_structure(node: Any) -> bool:
     """Return whether a number counts, names an axis, or says which."""
     while not isinstance(node, ast.stmt):
         parent = node.parent

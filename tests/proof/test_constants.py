@@ -39,6 +39,7 @@ TUNING = {
     "sweep.sweep": {
         "_PAIRS": _STEP,
         "_FRAGMENTS": _ROOM,
+        "SAMPLE": "how many clusters are looked at first: whether they pay",
         "0.75": _ROOM,
         "2": _SHARE,
         "0.6": _SHARE,
@@ -71,6 +72,9 @@ ELSEWHERE = {
     "test_rounding.py holds their bounds against fractions",
     "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "
     "is left out is held to be what the boxes leave out by test_small_triangles.py",
+    "sweep.clusters": "which triangles are a cluster: its box is that of their vertices",
+    "sweep.clustered": "the boxes of clusters, argued by hand at its head, and what is looked at "
+    "first; pictures are held to be the same by test_clusters.py",
     "measures": "of barycentrics, which have no bound of their own: below it, integers divide",
 }
 

@@ -15,7 +15,7 @@ from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render
-from reference_tracer.report.comparison import difference_picture, failure_written, write
+from reference_tracer.report.comparison import cause_picture, failure_written, write
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
@@ -171,7 +171,7 @@ def test_every_cause_has_a_colour_of_its_own(comparison):
     shown = set()
     for cause in colored:
         comparison.causes.cause[...] = cause
-        picture = difference_picture(comparison)
+        picture = cause_picture(comparison)
         assert picture.shape == (9, 12, 4) and picture.dtype == np.float32
         shown.add(tuple(np.round(picture[5, 5], 3)))
     assert len(shown) == len(colored)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from reference_tracer.comparison.animation import FrameRow
@@ -83,7 +85,8 @@ def test_every_picture_can_be_shown_on_either_side(show, differing):
 
 def test_the_legend_filters_the_map(show, differing):
     tab = show(differing)
-    colors = {c["name"]: c["color"] for c in content(differing)["causes"]}
+    causes: Any = content(differing)["causes"]
+    colors = {c["name"]: c["color"] for c in causes}
     where = "([x, y]) => [...shownColor('causes', x, y)].slice(0, 3)"
 
     def is_marked(x, y, name):

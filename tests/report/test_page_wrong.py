@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -43,7 +44,13 @@ def wrong(compared, room):
 BLOCKS = (slice(4, 8), slice(30, 40)), (slice(20, 22), slice(5, 7)), (slice(34, 35), slice(44, 45))
 
 
-FAULT = Fault("pixel_offset", SENTENCE, "Add half a pixel.", of_camera(lambda camera: None))
+FAULT = Fault(
+    "pixel_offset",
+    SENTENCE,
+    "Corners are taken for centres.",
+    "Add half a pixel.",
+    of_camera(lambda camera: None),
+)
 
 
 def diagnosed(comparison, told=1, side="traced", **changed):
@@ -65,7 +72,7 @@ def diagnosed(comparison, told=1, side="traced", **changed):
 
 
 def test_its_regions_are_those_of_the_unexplained_pixels(wrong):
-    found = content(wrong(*BLOCKS))["regions"]
+    found: Any = content(wrong(*BLOCKS))["regions"]
     assert [(r["left"], r["top"], r["width"], r["height"], r["pixels"]) for r in found] == [
         (30, 7, 10, 4, 40),
         (5, 21, 2, 2, 4),
@@ -106,7 +113,8 @@ def test_what_changes_no_picture_has_none(wrong):
     comparison, _ = diagnosed(wrong(*BLOCKS))
     same = replace(comparison.diagnosis.told[0], frame=comparison.frame)
     comparison = replace(comparison, diagnosis=replace(comparison.diagnosis, told=(same,)))
-    assert [p["id"] for p in content(comparison)["pictures"]] == ["traced", "blender"]
+    shown: Any = content(comparison)["pictures"]
+    assert [p["id"] for p in shown] == ["traced", "blender"]
 
 
 @pytest.mark.browser

@@ -118,7 +118,7 @@ def ladder(**seconds_and_wrong):
     rows = [
         row(m.value, p.value, *seconds_and_wrong.get(f"{m.value}_{p.value}", (1.0, 0)))
         for m in Method
-        if m.is_plain
+        if not m.is_proven
         for p in Precision
     ]
     certified = seconds_and_wrong.get("certified", (1.3, 0))

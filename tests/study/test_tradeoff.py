@@ -12,14 +12,8 @@ from reference_tracer.methods import Method
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.study import tradeoff
-from reference_tracer.study.tradeoff import (
-    at_width,
-    converged,
-    coverage_error,
-    largest_t_error,
-    levels,
-    measure,
-)
+from reference_tracer.study.tradeoff import at_width, converged, coverage_error, levels, measure
+from reference_tracer.study.truth import largest_t_error
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
@@ -29,7 +23,7 @@ from ..oracle import scene_sights
 
 pytestmark = pytest.mark.slow
 
-LADDER = {(m.value, p.value) for m in Method if m.is_plain for p in Precision}
+LADDER = {(m.value, p.value) for m in Method if not m.is_proven for p in Precision}
 LADDER |= {("certified", "float64")}
 
 

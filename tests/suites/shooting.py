@@ -89,8 +89,8 @@ def crossings(
 
 
 def decided(rays: Rays, corners: NDArray, method: Method) -> tuple[NDArray, NDArray]:
-    """Return which pairs meet at t > 0, and on an edge (which a plain method does not say)."""
-    if not method.is_plain:
+    """Return which pairs meet at t > 0, and on an edge (which an unproven method does not say)."""
+    if method.is_proven:
         decision = decide(rays, corners)
         return decision.crossed, decision.edge
     hit, t, _ = TESTS[method](rays, *corners)

@@ -30,7 +30,7 @@ def test_pairs_of_every_family_and_size(family, chunks):
     for number in range(chunks):
         rng = np.random.default_rng([number, FAMILIES.index(family)])
         how = SIZES[number % len(SIZES)]
-        o, d, corners = at_any_size(rng, *family(rng, CHUNK), how)
+        o, d, corners = at_any_size(rng, *family(rng, CHUNK), how=how)
         decision = decide(Rays(o, d), corners)
         shape = (3, CHUNK)
         result = intersect_pairs(np.broadcast_to(o, shape), np.broadcast_to(d, shape), corners)

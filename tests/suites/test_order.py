@@ -125,7 +125,7 @@ def test_batches_at_any_size(share, count):
         for family in FAMILIES:
             for how in SIZES:
                 rng = np.random.default_rng([number, FAMILIES.index(family), SIZES.index(how)])
-                o, d, corners = at_any_size(rng, *family(rng, 24), how)
+                o, d, corners = at_any_size(rng, *family(rng, 24), how=how)
                 o, d = np.broadcast_to(o, (3, 24)).copy(), np.broadcast_to(d, (3, 24)).copy()
                 if share == "origin":
                     o = o[:, :1]

@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 from reference_tracer.certified.ladder import Ladder
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Region, Scene, ViewWindow
 from reference_tracer.tracer.camera import camera_rays, corner_rays, film_positions
-from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.world import WorldTriangles, world_corners
+from reference_tracer.tracer.world import Pairs, WorldTriangles, world_corners
 
 from .hostile import hostile_camera, hostile_triangles
 

@@ -11,9 +11,8 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.scene import Scene
-from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.vector import transform_points
 
 Exact = NDArray[np.object_]

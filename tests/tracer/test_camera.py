@@ -9,8 +9,14 @@ import pytest
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region, ViewWindow
-from reference_tracer.tracer.camera import Rays, camera_rays, film_of, pixel_size, project
-from reference_tracer.tracer.nearest import film_positions
+from reference_tracer.tracer.camera import (
+    Rays,
+    camera_rays,
+    film_of,
+    film_positions,
+    pixel_size,
+    project,
+)
 
 TURN = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
 FRAMES = {

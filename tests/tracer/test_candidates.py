@@ -9,9 +9,9 @@ import pytest
 from reference_tracer.methods import Method
 from reference_tracer.scene import Instance, Mesh, Region, Scene
 from reference_tracer.tracer import candidates, world
-from reference_tracer.tracer.camera import Rays, camera_rays
+from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.candidates import pixel_bounds, within
-from reference_tracer.tracer.nearest import film_positions, within_clip
+from reference_tracer.tracer.nearest import within_clip
 from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.world import batches, world_triangles
 

@@ -13,9 +13,8 @@ from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.tracer import candidates, plane, world
 from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer import render as loop
-from reference_tracer.tracer.camera import Rays, camera_rays
+from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.vector import transform_points
@@ -26,7 +25,7 @@ from ..oracle import scene_sights
 from .pictures import names_of
 from .rational import t_of_pixels
 
-PLAIN = [Settings(m, p) for m in Method if m.is_plain for p in ("float64", "float32")]
+PLAIN = [Settings(m, p) for m in Method if not m.is_proven for p in ("float64", "float32")]
 PROVEN = [Settings("certified"), Settings("auto")]
 
 

@@ -8,7 +8,7 @@ from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.settings import Precision, Settings
 from reference_tracer.tracer.triangle import TESTS
 
-PLAIN = {m for m in Method if m.is_plain}
+PLAIN = {m for m in Method if not m.is_proven}
 
 
 def test_the_default_is_the_best_there_is():

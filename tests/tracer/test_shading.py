@@ -10,8 +10,7 @@ from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer import shading
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.nearest import Hits
+from reference_tracer.tracer.hits import NOTHING, Hits
 
 RED, GREEN, BLUE = ([1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1])
 NEAR = {"rtol": 0, "atol": 1e-6}

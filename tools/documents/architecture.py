@@ -9,62 +9,86 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from functools import cache
+from itertools import takewhile
 from pathlib import Path
 
 from . import markers
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 
-# By what begins them: "  " for each caller above, the file within addon/, the function.
+# By what begins them: "  " for each caller above, the file within addon/, and the function; or the
+# class that is made, or the table that functions are taken from.
 WALKS = {
     "F12, an animation, `blender -b -E REFERENCE_TRACER`": """
 blender/engine.py ReferenceTracerEngine.render
   blender/engine.py ReferenceTracerEngine._trace
     blender/reading/export.py export
+      blender/reading/camera.py export_camera
+      blender/reading/meshes.py read_mesh
+      blender/reading/visible.py visible
+      blender/reading/export.py assemble
     blender/engine.py ReferenceTracerEngine._fill
       rendering.py steps
+        rendering.py TRACERS
+          rendering.py certified_tracer
+            certified/sweep/sweep.py sweep
+              certified/sweep/sweep.py Sweep.steps
+                certified/sweep/sweep.py Sweep._instances
+                  certified/sweep/sweep.py Sweep.enter
+                certified/sweep/resolve.py Resolver.steps
         tracer/render.py steps
           tracer/render.py _steps
+            tracer/render.py _Band.steps
+              tracer/render.py _Band._write
     blender/engine.py ReferenceTracerEngine._show
-rendering.py certified_tracer
-  certified/sweep/sweep.py sweep
 """,
     "The button *Trace and Compare*": """
-blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
-  blender/jobs/compare.py compare_open_file
-    blender/jobs/compare.py gather_case
-      blender/jobs/compare.py _exported
-        blender/engine.py export_for_judge
-      blender/drawing/picture.py picture
-    comparison/comparing.py compared
-      comparison/comparing.py trace_and_compare
-        comparison/comparing.py compare
-          causes/explain.py explain
-            causes/explain.py find_causes
-          causes/counts.py count_pixels
-      comparison/comparing.py diagnosed
-        diagnosis/diagnosis.py diagnose
-          diagnosis/guessing.py accounting
-blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish
-  blender/ui/results.py keep_comparison
-  comparison/comparison.py Comparison.verdict
+blender/ui/long_work.py LongWork.invoke
+  blender/ui/long_work.py LongWork._begun
+    blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
+      blender/jobs/compare.py compare_open_file
+        blender/jobs/compare.py gather_case
+          blender/jobs/compare.py _exported
+            blender/engine.py export_for_judge
+          blender/drawing/picture.py picture
+        comparison/comparing.py compared
+          comparison/comparing.py trace_and_compare
+            rendering.py steps
+            comparison/comparing.py compare
+              causes/explain.py explain
+                causes/explain.py find_causes
+                  causes/explain.py CHECKS
+              causes/counts.py count_pixels
+          comparison/comparing.py diagnosed
+            diagnosis/diagnosis.py diagnose
+              diagnosis/guessing.py accounting
+      blender/ui/operators.py REFERENCE_TRACER_OT_compare._showing
+        blender/ui/operators.py REFERENCE_TRACER_OT_compare._show
+          blender/ui/results.py keep_comparison
+blender/ui/long_work.py LongWork.modal
+  blender/ui/long_work.py LongWork._end
+    blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish
+      comparison/comparison.py Comparison.verdict
 """,
     "The command `reftrace compare scene.blend`": """
 cli/main.py main
   cli/main.py _run
-cli/commands/compare.py compare
-  cli/commands/compare.py _with_blender
-    cli/opening.py open_blend
-    blender/jobs/compare.py compare_open_file
-      blender/jobs/compare.py gather_case
-      report/comparison.py written
-        comparison/comparing.py compared
-        report/comparison.py write
-          report/page/__init__.py write
-    cli/commands/compare.py _told_comparison
-      comparison/comparison.py Comparison.lines
-      cli/commands/compare.py _told
-        comparison/verdict.py Verdict.exit_code
+    cli/main.py parser
+      cli/main.py _add_options
+        cli/commands/compare.py add
+          cli/commands/compare.py compare
+            cli/commands/compare.py _with_blender
+              cli/opening.py open_blend
+              blender/jobs/compare.py compare_open_file
+                blender/jobs/compare.py gather_case
+                report/comparison.py written
+                  comparison/comparing.py compared
+                  report/comparison.py write
+                    report/page/__init__.py write
+              cli/commands/compare.py _told_comparison
+                comparison/comparison.py Comparison.lines
+                cli/commands/compare.py _told
+                  comparison/verdict.py Verdict.exit_code
 """,
     "The 3D view in *Rendered* mode": """
 blender/engine.py ReferenceTracerEngine.view_update
@@ -75,13 +99,12 @@ blender/engine.py ReferenceTracerEngine.view_draw
     blender/live/view.py LiveView._aim
       blender/live/camera.py camera_of
       blender/live/view.py LiveView._begin
-        blender/live/view.py Job.__init__
+        blender/live/view.py Job
     blender/live/view.py LiveView._step
       blender/live/view.py Job.step
     blender/live/view.py LiveView._draw
 """,
 }
-CLASSES = {"Job.__init__": "Job"}  # what a caller writes, where it is not the function's name
 
 
 def steps(walk: str) -> Iterator[tuple[int, str, str]]:
@@ -92,18 +115,31 @@ def steps(walk: str) -> Iterator[tuple[int, str, str]]:
 
 
 @cache
-def _functions(file: str) -> dict[str, ast.AST]:
-    """Return the functions of a file by their names, those of classes after a point."""
-    tree = ast.parse((ADDON / file).read_text(encoding="utf-8"))
-    found: dict[str, ast.AST] = {}
-    for node in tree.body:
+def _functions(file: str) -> dict[str, tuple[ast.AST, str]]:
+    """Return a file's functions, classes and tables, by their names; methods after a point.
+
+    Each comes with what it says of itself: the first line of its docstring, or of the comment above
+    it.
+    """
+    text = (ADDON / file).read_text(encoding="utf-8")
+    lines = text.splitlines()
+    found: dict[str, tuple[ast.AST, str]] = {}
+    for node in ast.parse(text).body:
         if isinstance(node, ast.FunctionDef):
-            found[node.name] = node
+            found[node.name] = node, _said(node)
+        elif isinstance(node, ast.AnnAssign):
+            above = takewhile(lambda s: s.startswith("# "), reversed(lines[: node.lineno - 1]))
+            found[ast.unparse(node.target)] = node, "".join([*above][-1:]).removeprefix("# ")
         elif isinstance(node, ast.ClassDef):
+            found[node.name] = node, _said(node)
             for own in node.body:
                 if isinstance(own, ast.FunctionDef):
-                    found[f"{node.name}.{own.name}"] = own
+                    found[f"{node.name}.{own.name}"] = own, _said(own)
     return found
+
+
+def _said(node: ast.FunctionDef | ast.ClassDef) -> str:
+    return (ast.get_docstring(node) or "").split("\n")[0]
 
 
 def _names(node: ast.AST) -> set[str]:
@@ -120,10 +156,13 @@ def faults(walk: str) -> list[str]:
             out.append(f"{file} has no {function}")
             continue
         del above[depth:]
-        called = CLASSES.get(function, function.split(".")[-1])
+        node, said = _functions(file)[function]
+        called = function.split(".")[-1]
         if above and called not in above[-1][1]:
             out.append(f"{above[-1][0]} does not name {called}")
-        above.append((function, _names(_functions(file)[function])))
+        if not said:
+            out.append(f"{function} does not say what it does")
+        above.append((function, _names(node)))
     return out
 
 
@@ -147,9 +186,8 @@ def walks() -> str:
     for title, walk in WALKS.items():
         parts.append(f"### {title}\n")
         for depth, file, function in steps(walk):
-            said = (ast.get_docstring(_functions(file)[function]) or "").split("\n")[0]
-            link = f"[{function.split('.')[-1]}](addon/{file})"
-            parts.append(f"{'  ' * depth}- {link} · {said}".rstrip(" ·"))
+            _, said = _functions(file)[function]
+            parts.append(f"{'  ' * depth}- [{function}](addon/{file}) · {said}")
         parts.append("")
     return "\n".join(parts).strip()
 

@@ -16,8 +16,10 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.command import built_in
+from reference_tracer_grading.mutations import mutations as mutated
+from reference_tracer_grading.programs import PROGRAMS
 from reference_tracer_grading.subject import PIXELS, prepare
-from reference_tracer_grading.tally import WEIGHTS
+from reference_tracer_grading.tally import COST, WEIGHTS
 
 
 @cache
@@ -167,6 +169,10 @@ def judged_pixels() -> str:
     return _whole(PIXELS)
 
 
+def mutations() -> str:
+    return _whole(sum(1 for program in PROGRAMS for _ in mutated(program)))
+
+
 TOUR = Path(__file__).resolve().parents[2] / "docs" / "images" / "tutorial" / "comparison.json"
 
 
@@ -187,11 +193,12 @@ _FIGURES: tuple[Callable[[], str], ...] = (
     *(half_angle_degrees, pixel_length, misread_edge, misread_wide, whole_angle_factor),
     *(plane_pixels, plane_farthest, plane_clip, plane_top_row, plane_step),
     *(literal_lost, literal_seen, literal_share, literal_share_float32),
-    *(textbook_lost, textbook_lost_float32, triangle_count, judged_pairs, judged_pixels),
+    *(textbook_lost, textbook_lost_float32, triangle_count, judged_pairs, judged_pixels, mutations),
 )
 
 
 def values() -> Mapping[str, str]:
     """Return every figure by its name."""
     sizes = {key: size_of(name) for key, name in SIZES.items()}
-    return {f.__name__: f() for f in _FIGURES} | sizes | WEIGHED | of_tour()
+    graded = {"cost": f"{COST:g}"} | WEIGHED
+    return {f.__name__: f() for f in _FIGURES} | sizes | graded | of_tour()

@@ -10,7 +10,8 @@ from importlib import import_module
 from pathlib import Path
 
 from reference_tracer.causes.cause import Cause
-from reference_tracer.causes.explain import CAUSES
+from reference_tracer.causes.checks import unmodelled
+from reference_tracer.causes.explain import CAUSES, CHECKS
 from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault
@@ -29,7 +30,12 @@ class _Name(str):
 
 def values() -> dict[str, str]:
     """Return each part by its name."""
-    parts = {"causes": causes(), "faults": faults_by_family(), "methods": methods()}
+    parts = {
+        "causes": causes(),
+        "checks": checks(),
+        "faults": faults_by_family(),
+        "methods": methods(),
+    }
     return {name: f"\n\n{part}\n\n" for name, part in parts.items()}  # blocks of their own
 
 
@@ -39,6 +45,16 @@ def methods() -> str:
     for method in Method:
         of = method.record
         rows.append(f"| `{method}`, *{of.label}* | {of.description} | {of.guarantees} |")
+    return "\n".join(rows)
+
+
+def checks() -> str:
+    """Return the checks in their order, a line each: what they say of the pixels that they find."""
+    rows = []
+    for check in (unmodelled.check_in_place, *(check for check, _ in CHECKS)):
+        said = (inspect.getdoc(check) or "").split("\n")[0].removeprefix("Find open pixels ")
+        file = check.__module__.split(".")[-1] + ".py"
+        rows.append(f"1. {said.rstrip('.')} ([{file}](../addon/causes/checks/{file}))")
     return "\n".join(rows)
 
 
@@ -58,22 +74,25 @@ def _cause(cause: Cause, attacks: tuple[str, ...]) -> Iterator[str]:
     color = f", `{hex_color(cause.color)}` on the map" if cause.color else ""
     known = f"`{cause.key}`, {cause.number} in `frame.npz`{color}"
     yield f"“{cause.sentence.format(**numbers)}” ({known})"
-    lines = {
-        "Why": cause.why,
-        "The check": cause.check,
-        "Never excused": cause.never,
-        "Withstands": "; ".join(attacks),
-        "What to do": cause.advice,
-    }
-    yield "\n".join(
-        f"- **{name}**: {text[0].upper()}{text[1:].rstrip('.')}."
-        for name, text in lines.items()
-        if text
+    yield f"![Traced, the other picture, and the causes](images/causes/{cause.key}.png)"
+    yield _list(
+        ("Why", cause.why),
+        ("The check", cause.check),
+        ("Never excused", cause.never),
+        ("Withstands", "; ".join(attacks)),
+        ("What to do", cause.advice),
+    )
+
+
+def _list(*lines: tuple[str, str]) -> str:
+    """Return texts with their names as a list, without those that are empty."""
+    return "\n".join(
+        f"- **{name}**: {text[0].upper()}{text[1:].rstrip('.')}." for name, text in lines if text
     )
 
 
 def faults_by_family() -> str:
-    """Return a section and a table for each file's faults, in the order in which they are told."""
+    """Return a section for each file's faults, in the order in which they are told."""
     families = []
     for node in ast.parse(inspect.getsource(faults)).body:
         if isinstance(node, ast.ImportFrom) and node.names[0].name.endswith("_FAULTS"):
@@ -86,19 +105,18 @@ def faults_by_family() -> str:
 def _family(of: tuple[AnyFault, ...], said: str) -> str:
     """Return a section of faults, with what their file says of them."""
     title, _, rest = said.split("\n")[0].rstrip(".").partition(": ")
-    head = "| name | what is said | what to do | the self-check makes |"
-    told = {first.advice: first for first in reversed(of)}
-    rows = (_row(fault, told[fault.advice]) for fault in of)
     lead = [rest[0].upper() + rest[1:] + "."] if rest else []
-    return "\n\n".join([f"## {title}", *lead, "\n".join([head, "|---|---|---|---|", *rows])])
+    return "\n\n".join([f"## {title}", *lead, *map(_fault, of)])
 
 
-def _row(fault: AnyFault, told: AnyFault) -> str:
-    """Return a fault's row; `told` is the first whose advice is the same."""
+def _fault(fault: AnyFault) -> str:
+    """Return a fault's section."""
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
-    said, advice = (text.format(**given) for text in (fault.sentence, fault.advice))
-    advice = advice if fault is told else f"as for `{told.name}`"
-    made = "; ".join(example.text for example in fault.examples)
-    return f"| `{fault.name}` | {said} | {advice} | {made} |"
+    told = _list(
+        ("Why", fault.why),
+        ("What to do", fault.advice.format(**given)),
+        ("The self-check makes", "; ".join(example.text for example in fault.examples)),
+    )
+    return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{told}"

@@ -77,6 +77,7 @@ def compare():
     yield 1
     screenshot("panel")
     before = data_blocks()["objects"]
+    bpy.context.preferences.view.render_display_type = "NONE"  # step 3 shows it
     press_compare()
     yield from until(compared)
     yield 1
@@ -90,8 +91,8 @@ def compare():
     causes = content.causes
     figures = {"figure": float(causes.figure[y, x]), "allowed": float(causes.allowed[y, x])}
     (FOLDER / "comparison.json").write_text(json.dumps(content.to_dict() | {"largest": figures}))
-    names = "Traced", "Blender", "Difference"
-    images = {name.lower(): bpy.data.images[f"Reference Tracer {name}"] for name in names}
+    names = {"traced": "Traced", "blender": "Blender", "difference": "Causes"}
+    images = {key: bpy.data.images[f"Reference Tracer {name}"] for key, name in names.items()}
     np.savez(
         FOLDER / "images.npz",
         **{k: np.array(v.pixels[:]).reshape(v.size[1], v.size[0], 4) for k, v in images.items()},
@@ -119,7 +120,7 @@ def inspect(shown):
     """Come near the pixel that differs most, and click on it."""
     x, y = result().content.metrics.largest_difference.pixel
     space, inside = shown.spaces.active, main_region(shown)
-    space.image = bpy.data.images["Reference Tracer Difference"]
+    space.image = bpy.data.images["Reference Tracer Causes"]
     yield from show_tab(shown)
     width, height = space.image.size
 

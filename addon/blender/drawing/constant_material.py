@@ -8,20 +8,24 @@ the objects' own.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
 
 from ...scene import GREY, SceneError
-from ..reading.colors import random_color
+from ..reading.colors import random_color, slot_materials
 from ..temporary import drawn
-from ..values import in_colors
+from ..values import in_colors, is_animated
 from ..versions import WITHOUT_ATTRIBUTE
 
+Color = tuple[float, ...]
 SLOTS = 32  # material slots that are told apart: each is some nodes
+_OF_MESH = "data.materials[{}].diffuse_color"  # what geometry nodes gave to it
+_OF_OBJECT = "material_slots[{}].material.diffuse_color"
 
 
 @contextmanager
@@ -45,7 +49,7 @@ def constant_colors(scene: Any, layer: str) -> Iterator[None]:
         blurred = lens.use_dof
         try:
             lens.use_dof = False
-            _emission(material, scene)
+            _emission(material, scene, layer)
             scene.view_layers[layer].material_override = material
             yield
         finally:
@@ -53,7 +57,7 @@ def constant_colors(scene: Any, layer: str) -> Iterator[None]:
             lens.use_dof = blurred
 
 
-def _emission(material: Any, scene: Any) -> None:
+def _emission(material: Any, scene: Any, layer: str) -> None:
     material.use_nodes = True
     tree = material.node_tree
     shading = scene.display.shading
@@ -65,19 +69,19 @@ def _emission(material: Any, scene: Any) -> None:
     if shading.color_type == "SINGLE":
         color.default_value = (*shading.single_color, 1.0)
     else:
-        by_type = {"OBJECT": _object_color, "VERTEX": _vertex_color}
-        make = by_type.get(shading.color_type, _material_color)
-        tree.links.new(make(tree), color)
+        make: dict[str, Callable[..., Any]] = {"OBJECT": _object_color, "VERTEX": _vertex_color}
+        own: Callable[..., Any] = make.get(shading.color_type, _material_color)
+        tree.links.new(own(tree, partial(_slots_of, scene, layer)), color)
 
 
-def _object_color(tree: Any) -> Any:
+def _object_color(tree: Any, _: object = None) -> Any:
     return _attribute(tree, "OBJECT", "color").outputs["Color"]
 
 
-def _vertex_color(tree: Any) -> Any:
+def _vertex_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:
     """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
     without = _material_color if WITHOUT_ATTRIBUTE == "MATERIAL" else _object_color
-    found = without(tree)
+    found = without(tree, slots_of)
     # By name: Cycles itself would take the one that is active for renders.
     names = {m.color_attributes.active_color_name or "" for m in bpy.data.meshes}
     for name in sorted(names - {""}):
@@ -87,42 +91,96 @@ def _vertex_color(tree: Any) -> Any:
     return found
 
 
-def _material_color(tree: Any) -> Any:
+class _Slots(NamedTuple):
+    """What the file has in each material slot, and where it is found."""
+
+    colors: list[set[Color | None]]  # of materials; None where there is no material
+    paths: tuple[str, ...]  # of a material's viewport colour, for an object and its slot
+
+    def add(self, obj: Any) -> None:
+        """Add the slots of an object; it may be an evaluated one."""
+        if not hasattr(obj.data, "materials"):
+            return
+        materials = slot_materials(obj) or [None]
+        self.colors.extend(set() for _ in range(len(materials) - len(self.colors)))
+        for colors, material in zip(self.colors, materials, strict=False):
+            colors.add((*material.diffuse_color,) if material else None)
+            if material and is_animated(material, "diffuse_color"):
+                colors.add(())  # what it is by then
+
+
+def _slots_of(scene: Any, layer: str) -> _Slots:
+    """Return what a temporary scene may show in material slots, at least in one.
+
+    Raises
+    ------
+    SceneError
+        If there are more slots than a material can ask for.
+    """
+    made = {o for o in bpy.data.objects if any(m.type == "NODES" for m in o.modifiers)}
+    slots = _Slots([set()], (_OF_MESH, _OF_OBJECT) if made else (_OF_OBJECT,))
+    for obj in bpy.data.objects:  # instances may be of any object
+        slots.add(obj)
+    if made and not _add_what_nodes_make(slots, scene, layer, made):
+        every = {None, *((*m.diffuse_color,) for m in bpy.data.materials)}
+        least = min(len(bpy.data.materials), SLOTS)  # a mesh may get any of them
+        slots = slots._replace(colors=[every] * max(len(slots.colors), least))
+    if len(slots.colors) > SLOTS:
+        raise SceneError(
+            f"A mesh has {len(slots.colors)} material slots, and a material can be asked for "
+            f"{SLOTS} viewport colours: set the colour of the scene's solid shading to object, or "
+            "compare with Workbench."
+        )
+    return slots
+
+
+def _add_what_nodes_make(slots: _Slots, scene: Any, layer: str, made: set[Any]) -> bool:
+    """Add the slots of what geometry nodes make; return whether all of that is known.
+
+    The viewport's evaluation says it: what it does not have is not known, nor what nodes make
+    otherwise in a render.
+    """
+    nodes = (node.bl_idname for group in bpy.data.node_groups for node in group.nodes)
+    modifiers = (m for obj in made for m in obj.modifiers if m.type == "NODES")
+    if "GeometryNodeIsViewport" in nodes or any(m.show_viewport < m.show_render for m in modifiers):
+        return False
+    shown = scene.view_layers[layer]
+    shown.update()
+    seen = set()
+    for instance in shown.depsgraph.object_instances:
+        seen |= {o.original for o in (instance.object, instance.parent) if o}
+        slots.add(instance.object)
+    makers = {o for o in shown.objects if o in made or o.instance_type != "NONE"}
+    return makers <= seen
+
+
+def _material_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:
     """Return a socket: the viewport colour of the material in the face's slot, grey where empty."""
-    grey = tree.nodes.new("ShaderNodeRGB").outputs[0]
-    grey.default_value = GREY
+    slots = slots_of()
     slot = _attribute(tree, "GEOMETRY", "material_index").outputs["Fac"]
-    color = _color_of_slot(tree, 0, grey)
-    for index in range(1, _slot_count()):
+    color = _color_of_slot(tree, 0, slots)
+    for index in range(1, len(slots.colors)):
         is_behind = _greater(tree, slot, index - 0.5)
-        color = _mix(tree, is_behind, color, _color_of_slot(tree, index, grey))
+        color = _mix(tree, is_behind, color, _color_of_slot(tree, index, slots))
     return color
 
 
-def _color_of_slot(tree: Any, index: int, grey: Any) -> Any:
-    """Return a socket: the viewport colour of one slot's material, grey without one."""
-    found = grey  # first what geometry nodes gave to the mesh, then what the object shows
-    for path in (
-        f"data.materials[{index}].diffuse_color",
-        f"material_slots[{index}].material.diffuse_color",
-    ):
-        found = _where_found(tree, _attribute(tree, "OBJECT", path), found)
+def _color_of_slot(tree: Any, index: int, slots: _Slots) -> Any:
+    """Return a socket: the viewport colour of one slot's material, grey without one.
+
+    What need not be asked is not: each question makes EEVEE's shader take seconds more to compile.
+    """
+    colors = slots.colors[index]
+    asked = slots.paths if len(colors) > 1 else ()
+    nodes = [_attribute(tree, "OBJECT", path.format(index)) for path in asked]
+    if len(nodes) == 1 and None not in colors:
+        return nodes[0].outputs["Color"]
+    found = tree.nodes.new("ShaderNodeRGB").outputs[0]
+    [color, *others] = colors or {None}
+    found.default_value = GREY if others or color is None else color
+    for node in nodes:
+        found = _where_found(tree, node, found)
     return found
-
-
-def _slot_count() -> int:
-    """Return how many material slots a mesh in the file has at most, at least one."""
-    slots = [len(o.material_slots) for o in bpy.data.objects]  # instances may be of any object
-    count = max([1, *slots, *(len(mesh.materials) for mesh in bpy.data.meshes)])
-    if any(m.type == "NODES" for o in bpy.data.objects for m in o.modifiers):
-        count = max(count, min(len(bpy.data.materials), SLOTS))  # a mesh may get any of them
-    if count > SLOTS:
-        raise SceneError(
-            f"A mesh has {count} material slots, and Cycles can be asked for {SLOTS} viewport "
-            "colours: set the colour of the scene's solid shading to object, or compare with "
-            "Workbench."
-        )
-    return count
 
 
 def _attribute(tree: Any, kind: str, name: str) -> Any:

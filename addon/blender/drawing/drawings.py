@@ -15,12 +15,12 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...arrays import Colors, Integers
+from ...arrays import Colors
 from ...causes.checks.unmodelled import covered
 from ...manifest import Effect, Manifest, Unmodelled
-from ...pictures.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
+from ...pictures.identity import MOST_OBJECTS, NOTHING, UNKNOWN, Owners, colors_of, decode
 from ...pictures.palette import VIEWPORT, Palette
-from ...pictures.picture import Picture, numbered
+from ...pictures.picture import DrawnOver, Picture
 from ...scene import Scene, SceneError
 from ..engine import export_for_judge
 from ..reading.unmodelled import HAIR, is_hair
@@ -161,12 +161,12 @@ def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, M
             number[here] = n
             if not here.any():
                 unmodelled[n] = replace(feature, effect=Effect.NONE, bounds=None)
-    shown = replace(shown, drawn=number, beneath=known)
+    shown = replace(shown, drawn=DrawnOver(number, known))
     return shown, replace(manifest, unmodelled=tuple(unmodelled))
 
 
-def drawn_by_others(drawing: Drawing) -> Integers | None:
-    """Return what draws itself in each pixel, (h, w), by Blender's own drawing; None for nothing.
+def drawn_by_others(drawing: Drawing) -> DrawnOver | None:
+    """Return what draws itself in each pixel, by Blender's own drawing; None for nothing.
 
     Of a picture that Blender did not draw: nobody knows what is beneath.
     """
@@ -177,7 +177,8 @@ def drawn_by_others(drawing: Drawing) -> Integers | None:
             shown = Picture(drawing.picture(tmp, True))
     except (SceneError, RuntimeError):  # there is nothing to draw with: all that it may cover
         return None
-    return with_what_draws_itself(drawing, shown)[0].drawn
+    drawn = with_what_draws_itself(drawing, shown)[0].drawn
+    return drawn and DrawnOver(drawn.feature)
 
 
 def _separate(manifest: Manifest) -> list[Unmodelled]:
@@ -211,4 +212,4 @@ def with_identity(drawing: Drawing, shown: Picture) -> Picture:
     if own_colors:  # these objects show their own colours, which may be other objects' numbers
         of_animated = decode(np.array([own_colors], np.float32), len(names))
         owner[np.isin(owner, of_animated[of_animated >= 0])] = UNKNOWN
-    return replace(shown, owner=owner, owners=numbered(names, manifest.owners), names=names)
+    return replace(shown, owners=Owners.of(names, owner, manifest.owners))

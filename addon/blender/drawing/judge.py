@@ -49,6 +49,7 @@ class Judge:
     farthest: float = math.inf
     traces_rays: bool = False  # a rasteriser rounds the corners of triangles, a ray tracer does not
     solid: bool = True  # drawn by the scene's solid shading; others have materials and light
+    known: bool = True  # how it samples and rounds: else its picture is compared as anybody's
     random_instances: bool = True  # where colours are random, each instance has its own
 
     def __post_init__(self) -> None:

@@ -6,14 +6,29 @@ it if it needs one, and list it in `JUDGES`.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from .cycles import CYCLES
+from .eevee import EEVEE
 from .judge import Judge
 from .viewport import VIEWPORT
 from .workbench import WORKBENCH
 
+if TYPE_CHECKING:
+    from ...pictures.picture import Source
+
+# What is chosen in place of a judge: an engine by its name, or a picture that is there.
+ENGINE = "ENGINE"
+RENDER_RESULT = "RENDER_RESULT"
+IMAGE = "IMAGE"
 AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
-JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES)}
+JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES, EEVEE)}
+
+
+def label_of(source: Source) -> str:
+    """Return a short name of who made a picture, for the interface."""
+    return source.file or JUDGES[source.name].label
 
 
 def choices() -> dict[str, Judge]:
@@ -21,8 +36,15 @@ def choices() -> dict[str, Judge]:
     return {name: judge for name, judge in JUDGES.items() if judge.number is not None}
 
 
+def judge_or_none(name: str, background: bool, is_panorama: bool = False) -> Judge | None:
+    """Return the judge of a name as :func:`judge_named` does; None for a picture that is there."""
+    return None if name in (RENDER_RESULT, IMAGE) else judge_named(name, background, is_panorama)
+
+
 def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge:
     """Return the judge of a name; for AUTO, the one that draws with or without a window.
+
+    It may be an engine's name that an add-on registers, in any case.
 
     Raises
     ------
@@ -34,9 +56,15 @@ def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge
     if name == AUTO:
         rasteriser = WORKBENCH if background else VIEWPORT
         return CYCLES if is_panorama else rasteriser
-    if name.lower() not in JUDGES:
-        raise SceneError(f"There is no judge '{name}': choose one of auto, {', '.join(JUDGES)}.")
-    judge = JUDGES[name.lower()]
+    judge = JUDGES.get(name.lower())
+    if judge is None:
+        from .engines import others
+
+        here = others()
+        judge = here.get(name.lower())
+        if judge is None:
+            names = ", ".join((*JUDGES, *here))
+            raise SceneError(f"There is no judge '{name}': choose one of auto, {names}.")
     if is_panorama and not judge.traces_rays:
         raise SceneError(f"{judge.label} draws no panoramas: compare with Cycles.")
     return judge

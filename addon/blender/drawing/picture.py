@@ -18,7 +18,7 @@ from ...arrays import Colors
 from ...pictures.picture import SizeError
 from ...scene import Camera, SceneError
 from ..values import values_restored
-from ..versions import set_format
+from ..versions import ENGINES, set_format
 from .judge import Judge
 
 # What a picture that can be compared needs: property of the scene, and value.
@@ -129,7 +129,7 @@ def _draw(scene: Any, layer: str, judge: Judge) -> None:
         with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer]):
             bpy.ops.render.opengl(view_context=False, write_still=True)
         return
-    scene.render.engine = judge.engine
+    scene.render.engine = ENGINES.get(judge.engine or "", judge.engine)
     with values_restored():
         bpy.ops.render.render(scene=scene.name, write_still=True)
 

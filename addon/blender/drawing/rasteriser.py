@@ -17,7 +17,7 @@ import numpy as np
 from ...arrays import Bools, Floats
 from ...pictures.bounds import SNAPPING
 from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, ViewWindow
+from ...scene import Camera, SceneError, ViewWindow
 from .camera_object import add_camera
 from .judge import Judge
 from .picture import picture, prepare_scene
@@ -25,6 +25,7 @@ from .picture import picture, prepare_scene
 # How far beside a centre the edges lie, in pixels: four steps to a bit, and none on a bit's own.
 OFFSETS = 2.0 ** -(np.arange(4 * 2, 4 * 14) / 4 + 1 / 8)
 _WIDTH = 8  # pixels
+_NEAR = 0.01  # of a colour: far above its rounding to a half float
 
 
 @cache
@@ -38,13 +39,13 @@ def snapping_of(judge: Judge) -> float:
     if judge.traces_rays:
         return SNAPPING
     moved = np.stack((-OFFSETS, OFFSETS), axis=1).ravel()  # left of the centre, and right of it
-    is_wrong = (_covered(judge, moved) != (moved > 0)).reshape(-1, 2).any(axis=1)
+    is_wrong = (covered(judge, moved) != (moved > 0)).reshape(-1, 2).any(axis=1)
     right = OFFSETS[: int(np.argmax(is_wrong))] if is_wrong.any() else OFFSETS
     least = right[-1] if len(right) else OFFSETS[0]
     return max(SNAPPING, float(2.0 ** -(np.round(-np.log2(least)) - 1)))
 
 
-def _covered(judge: Judge, moved: Floats) -> Bools:
+def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
     """Draw a quad in each row, and return where it covers the centre of the second pixel, (n,).
 
     Parameters
@@ -52,22 +53,42 @@ def _covered(judge: Judge, moved: Floats) -> Bools:
     judge : Judge
     moved : (n,) float64
         Pixels by which each row's right edge lies beyond that centre.
+    turned : bool
+        Draw them in columns instead, whose lower edges are moved.
+
+    Raises
+    ------
+    SceneError
+        If they are not in the colour that they should have, as drawn by EEVEE in 4.3.
     """
     rows = len(moved)
+    size = (rows, _WIDTH) if turned else (_WIDTH, rows)
     matrix = np.eye(4)
     matrix[:3, 3] = _WIDTH / 2, rows / 2, 1.0
-    window = ViewWindow(-_WIDTH / 2, _WIDTH / 2, -rows / 2, rows / 2)
-    camera = Camera(matrix, window, _WIDTH, rows, ORTHOGRAPHIC, 0.1, 100.0)
-    scene = bpy.data.scenes.new("Reference Tracer Rasteriser")
+    if turned:
+        matrix[:2, :2] = (0, -1), (1, 0)
+    across, up = (n / 2 for n in size)
+    window = ViewWindow(-across, across, -up, up)
+    camera = Camera(matrix, window, *size, ORTHOGRAPHIC, 0.1, 100.0)
+    scene: Any = bpy.data.scenes.new("Reference Tracer Rasteriser")
     mesh = _quads(moved)
     scene.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
     looking = add_camera(scene, camera).data
     try:
         prepare_scene(scene, True)
+        shading = scene.display.shading
+        shading.color_type = "SINGLE"  # whatever else the file holds
+        color = np.array(shading.single_color)
         shown = picture(scene, scene.view_layers[0].name, judge, camera, True)
     finally:
         bpy.data.batch_remove([*scene.collection.objects, scene, mesh, looking])
-    return shown[:, 1, 3] > 0.5
+    drawn = shown[shown[..., 3] > 0.5][:, :3]
+    if len(drawn) and not np.allclose(np.median(drawn, axis=0), color, atol=_NEAR):
+        raise SceneError(
+            f"{judge.label} of Blender {bpy.app.version_string} shows materials of its own: no "
+            "other is put over them all. Compare with Workbench or Cycles."
+        )
+    return (shown[-2] if turned else shown[:, 1])[:, 3] > 0.5
 
 
 def _quads(moved: Floats) -> Any:

@@ -47,19 +47,44 @@ MOST_COLORS = 4096
 
 def gather_against(
     context: Any,
-    picture: Picture,
+    picture: Picture | Callable[[Drawing], Picture],
     settings: Settings,
     self_check: bool = False,
     colors: By | GivenColors = By.VIEWPORT,
 ) -> Case:
     """Export the context's scene as a render has it, for a picture of unknown origin.
 
-    The picture was drawn in these colours.
+    The picture was drawn in these colours, or is made of a drawing of what is exported.
 
     Raises
     ------
     SceneError
         If the scene cannot be traced.
+    """
+    palette, scene, manifest = exported_in(context, colors)
+    judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
+    layer = context.view_layer.name
+    drawing = Drawing.of(Plan(context.scene, layer, judge, palette=palette), scene, manifest)
+    shown = picture if isinstance(picture, Picture) else picture(drawing)
+    return Case(
+        scene,
+        manifest,
+        settings,
+        replace(shown, drawn=drawn_by_others(drawing)),
+        alternatives=alternatives(context, scene, manifest, palette),
+        curves=view_transforms(context.scene, scene),
+        self_check=self_check,
+        variants=partial(variants, context.scene.name_full, layer, judge.ignores, palette),
+    )
+
+
+def exported_in(context: Any, colors: By | GivenColors) -> tuple[Palette, Scene, Manifest]:
+    """Export the context's scene as a render has it, in colours; return these, too.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced, or lacks a colour.
     """
     palette = palette_by(context.scene, colors)
     scene, manifest, _ = export_open_file(context, palette=palette)
@@ -67,20 +92,7 @@ def gather_against(
         palette = automatic(context.scene, scene, manifest)
         if palette.by != By.VIEWPORT:
             scene, manifest, _ = export_open_file(context, palette=palette)
-    manifest = noted(palette, scene, manifest)
-    judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
-    layer = context.view_layer.name
-    plan = Plan(context.scene, layer, judge, palette=palette)
-    return Case(
-        scene,
-        manifest,
-        settings,
-        replace(picture, drawn=drawn_by_others(Drawing.of(plan, scene, manifest))),
-        alternatives=alternatives(context, scene, manifest, palette),
-        curves=view_transforms(context.scene, scene),
-        self_check=self_check,
-        variants=partial(variants, context.scene.name_full, layer, judge.ignores, palette),
-    )
+    return palette, scene, noted(palette, scene, manifest)
 
 
 def alternatives(

@@ -19,10 +19,12 @@ from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
 from ...manifest import Manifest
+from ...pictures.bounds import Storage
 from ...pictures.certificate import CameraCertificate
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Picture, Source
 from ...pictures.renderers import EMBREE, RASTER
+from ...pictures.sampling import Sampling
 from ...report import comparison as comparison_report
 from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory
@@ -32,7 +34,7 @@ from ...tracer.settings import Settings
 from ..drawing.behind import behind
 from ..drawing.drawings import Drawing, Plan, with_identity, with_what_draws_itself
 from ..drawing.judge import Judge
-from ..drawing.judges import judge_named
+from ..drawing.judges import ENGINE, judge_or_none
 from ..drawing.picture import picture, prepare_scene
 from ..drawing.rasteriser import snapping_of
 from ..drawing.shading import of_shading, solid_shading
@@ -58,6 +60,8 @@ class Choices:
     identity: bool  # whose surface each pixel shows is found, too
     self_check: bool  # the comparison is tried on known faults, too
     diagnose: bool  # what accounts for unexplained pixels is looked for
+    renderer: str = ""  # what another engine, or an image, was made by: a name in RENDERERS
+    filter: float = 0.0  # pixels: how far its anti-aliasing reaches
     tracer: Tracer | None = None  # what traces; by default, this process
 
     @classmethod
@@ -66,12 +70,14 @@ class Choices:
         stored = scene.reference_tracer
         own = cls(
             stored.settings(),
-            stored.judge,
+            (stored.engine or ENGINE) if stored.judge == ENGINE else stored.judge,
             stored.shading == "AS_IS",
             By(stored.colors.lower()),
             stored.identity,
             stored.self_check,
             stored.diagnose,
+            stored.renderer.lower().replace("auto", ""),
+            stored.filter,
         )
         return replace(own, **{name: value for name, value in given.items() if value is not None})
 
@@ -93,10 +99,15 @@ def gather_case(context: Any, **choices: Any) -> Case:
         If Blender makes no picture of it.
     """
     chosen = Choices.of(context.scene, choices)
-    plan = _planned(context, chosen)
+    is_panorama = not export_camera(context.scene).projection.is_linear  # its errors come first
+    judge = judge_or_none(chosen.judge, bpy.app.background, is_panorama)
+    if judge is None or not judge.known:
+        from .given import gather_given
+
+        return gather_given(context, chosen, judge)
+    plan = _planned(context, chosen, judge)
     user = plan.scene
     layer = plan.layer
-    judge = plan.judge
     is_automatic = plan.like_for_like and chosen.colors == By.AUTOMATIC
     with _exported(plan, is_automatic) as (tmp, used, drawing, certificate):
         there = _names(user)
@@ -128,13 +139,11 @@ def gather_case(context: Any, **choices: Any) -> Case:
     return case
 
 
-def _planned(context: Any, chosen: Choices) -> Plan:
+def _planned(context: Any, chosen: Choices, judge: Judge) -> Plan:
     """Return how the context's scene is to be drawn, which is decided before Blender is asked."""
     scene = context.scene
-    camera = export_camera(scene)  # first: its errors name the user's scene, say what to do
-    judge = judge_named(chosen.judge, bpy.app.background, not camera.projection.is_linear)
     shading = solid_shading(context) if judge.needs_window and chosen.as_is else None
-    region = camera.region
+    region = export_camera(scene).region
     check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # before Blender draws
     palette = VIEWPORT if chosen.as_is else palette_by(scene, chosen.colors)
     return Plan(scene, context.view_layer.name, judge, not chosen.as_is, shading, palette)
@@ -179,12 +188,14 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
     return Picture(
         pixels,
         Source(judge.name, bpy.app.version_string, settings=used),
-        sample_radius=judge.sample_radius,
-        farthest=judge.farthest,
-        filter_radius=0.0 if smooth == "OFF" else judge.filter_radius,
-        sums=int(smooth) if smooth.isdigit() else 0,
-        snapping=snapping,
-        renderer=EMBREE if judge.traces_rays else RASTER,
+        sampling=Sampling(
+            judge.sample_radius,
+            0.0 if smooth == "OFF" else judge.filter_radius,
+            snapping,
+            judge.farthest,
+            EMBREE if judge.traces_rays else RASTER,
+        ),
+        storage=Storage(sums=int(smooth) if smooth.isdigit() else 0),
     )
 
 

@@ -26,8 +26,8 @@ void main() { place = at; gl_Position = ModelViewProjectionMatrix * vec4(pos, 0.
 _FETCHED = "void main() { color = texelFetch(image, ivec2(floor(place)), 0); }"
 
 
-def pixel_shader() -> Any:
-    """Return a shader that shows a texture, each of its pixels as it is.
+def pixel_shader(fragment: str = _FETCHED) -> Any:
+    """Return a shader that shows a texture, each of its pixels as it is, or as a source says.
 
     Its vertices have `pos`, in pixels of the region, and `at`, in pixels of the texture.
     """
@@ -43,7 +43,7 @@ def pixel_shader() -> Any:
     info.vertex_out(place)
     info.fragment_out(0, "VEC4", "color")
     info.vertex_source(_PLACED)
-    info.fragment_source(_FETCHED)
+    info.fragment_source(fragment)
     return gpu.shader.create_from_info(info)
 
 

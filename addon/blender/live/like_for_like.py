@@ -14,6 +14,7 @@ import bpy
 
 from ...causes.case import Case
 from ...pictures.picture import Picture, Source
+from ...pictures.sampling import Sampling
 from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
 from ..drawing.camera_object import add_camera
@@ -65,9 +66,8 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     drawn_picture = Picture(
         pixels,
         Source(VIEWPORT.name, bpy.app.version_string),
-        snapping=snapping,
         # Blender stores the view's own camera rounded again: its samples lie so far off.
-        sample_radius=certificate.largest if certificate else 0.0,
+        sampling=Sampling(certificate.largest if certificate else 0.0, snapping=snapping),
     )
     traced = replace(traced, background=exported.background)
     return Case(traced, manifest, settings, drawn_picture, certificate)

@@ -14,7 +14,7 @@ import numpy as np
 from ...arrays import Bools, Colors
 from ...causes.cause import AGREE, UNEXPLAINED, Causes
 from ...causes.explain import CAUSES, explain
-from ...causes.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
+from ...causes.maps import WRONG, cause_map, certainty_map, dimmed, ringed
 from ...certainty import Certainty
 from ...methods import Method
 from ...rendering import steps
@@ -73,16 +73,20 @@ def colored(color: Color, scene: Scene, settings: Settings, shown: Picture) -> I
 
 def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
     """Trace by the settings' method, and mark where it sees another surface than is proven."""
-    if not settings.method.is_plain:
-        frame = yield from _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
+    if settings.method.is_proven:
+        frame = yield from _traced(scene, settings, shown, _quiet)
         proven = ["every pixel is proven, so none is wrong: choose another method"]
         [shown.line] = frame.statistics.notes[:1] or proven
         return
     truth = Frame.empty(scene)
     yield from scaled(steps(scene, Settings(Method.CERTIFIED), truth), 0.0, 0.4)
-    work = _traced(
-        scene, settings, shown, lambda f, r: wrong_map(f.color[r], f.wrong_against(truth)[r])
-    )
+
+    def marked(f: Frame, rows: slice) -> Colors:
+        out = _quiet(f, rows)
+        out[f.wrong_against(truth)[rows]] = (*WRONG, 1)
+        return out
+
+    work = _traced(scene, settings, shown, marked)
     frame = yield from scaled(work, 0.4, 0.6)
     wrong = frame.wrong_against(truth)
     shown.color = ringed(shown.color, wrong)
@@ -103,7 +107,7 @@ def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[floa
 def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
     """Trace, have Blender draw the same once the view rests, and show why pixels differ."""
     settings = replace(settings, samples=1, color=Color.OBJECT)
-    work = _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
+    work = _traced(scene, settings, shown, _quiet)
     frame = yield from scaled(work, 0.0, 0.5)
     if shown.is_coarse:
         return
@@ -122,8 +126,10 @@ def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[flo
     causes = (yield from scaled(explain(case, frame, MOST_EXPLAINED), 0.7, 0.2)).causes
     color = np.empty_like(shown.color)
     for rows in parts(len(color), ROWS):
-        color[rows] = cause_map(frame.color[rows], causes.cause[rows])
+        color[rows] = cause_map(frame.color[rows], causes.cause[rows], opaque=False)
         yield 0.9
+    nothing = (frame.instance_index == NOTHING) & (causes.cause == AGREE)
+    color[nothing] = scene.background
     color.reshape(-1, 4)[causes.passed_over] = 1
     shown.color = ringed(color, causes.cause != AGREE)
     shown.line = _summary(causes)
@@ -139,6 +145,14 @@ def _summary(causes: Causes) -> str:
     differ = sum(n for c, n in counts.items() if c.explains or c == UNEXPLAINED) + passed
     line = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
     return f"{line}: {', '.join(found)}" if found else line
+
+
+def _quiet(frame: Frame, rows: slice) -> Colors:
+    """Return rows of a frame, dimmed; where nothing is hit, the view's own background stays."""
+    out = dimmed(frame.color[rows])
+    nothing = frame.instance_index[rows] == NOTHING
+    out[nothing] = frame.color[rows][nothing]
+    return out
 
 
 def _traced(scene: Scene, settings: Settings, shown: Picture, rows: Rows) -> Work[Frame]:

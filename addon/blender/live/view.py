@@ -176,6 +176,7 @@ class LiveView:
             self._layers = Layers()
 
     def _draw(self, engine: Any, context: Any, until: float) -> None:
+        """Draw the pictures that there are, the better ones over the others."""
         import gpu
 
         region = context.region

@@ -1,4 +1,7 @@
-"""How each type of Blender's camera sets a view window: by its lens, its scale or its ranges."""
+"""How each type of Blender's camera sets a view window: by its lens, its scale or its ranges.
+
+It stands here, not with the projections, as these know nothing of Blender.
+"""
 
 from __future__ import annotations
 

@@ -62,6 +62,21 @@ JUDGES: tuple[Item, ...] = (
         (name.upper(), judge.label, judge.description, judge.number or 0)
         for name, judge in judges.choices().items()
     ),
+    (
+        judges.ENGINE,
+        "Another Engine",
+        "A render of the same constant colours by an engine that an add-on registers",
+        10,
+    ),
+    (judges.RENDER_RESULT, "Render Result", "What was rendered last of this scene", 11),
+    (judges.IMAGE, "Image", "An image of this file, whatever made it", 12),
+)
+
+# What is known of a picture that nobody's engine drew for the comparison.
+RENDERERS: tuple[Item, ...] = (
+    ("AUTO", "Automatic", "As the picture says, else rays", 0),
+    ("RAYS", "Rays", "Float32 rays", 1),
+    ("RASTER", "Rasterised", "A depth buffer of 24 bits, and rounded corners", 2),
 )
 
 # What a render shows of a surface: `tracer/coloring.py` has the functions.
@@ -84,8 +99,8 @@ SHOWS: tuple[Item, ...] = (
     ),
     (
         "DIFFERENCE",
-        "Difference to Blender's Viewport",
-        "Once the view rests, Blender draws it, too, flat and without smoothing. Pixels that "
+        "Difference",
+        "Once the view rests, Blender's viewport draws it, too, flat and unsmoothed. Pixels that "
         "differ have the colour of their cause, as in a comparison",
         2,
     ),

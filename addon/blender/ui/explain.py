@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ...wording import count_of
-from ..drawing.judges import judge_named
+from ..drawing.judges import judge_or_none
 from . import choices, results
 from .long_work import Answer, named, with_ending
 from .results import Kind
@@ -36,14 +36,15 @@ def derive_here(context: Any, x: int, y: int, source: str) -> Derivation:
         If the scene cannot be traced, or has no such pixel.
     """
     from ...derivation.derivation import derive
-    from ..jobs.compare import export_open_file
+    from ..jobs.compare import Choices, export_open_file
 
     comparison = results.content(Kind.COMPARISON, context.scene)
     if source == "COMPARISON" and comparison:
         scene = comparison.scene
     else:
-        judge = judge_named(context.scene.reference_tracer.judge, bpy.app.background)
-        scene, _, _ = export_open_file(context, None if source == "RENDER" else judge)
+        chosen = Choices.of(context.scene, {}).judge
+        judge = None if source == "RENDER" else judge_or_none(chosen, bpy.app.background)
+        scene, _, _ = export_open_file(context, judge)
     file = bpy.path.basename(bpy.data.filepath) or "the unsaved file"
     return derive(scene, x, y, source=file)
 

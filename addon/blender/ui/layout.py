@@ -1,9 +1,10 @@
-"""What panels share: where they stand, tables, and sentences as wide as the panel."""
+"""What panels share: where they stand, what is folded, facts, and sentences in lines."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any
 
 import bpy
@@ -11,8 +12,11 @@ from bpy.app.translations import pgettext_iface as iface_
 
 from ...methods import Method
 
-NARROW = 0.37  # the first column's share of a table's width, for short names
-_LETTER = 6.5  # mean width in pixels at a scale of 1: what Blender's own font has
+_NAMES = 0.56  # the names' share of a list of facts
+# In pixels at a scale of 1: what a panel's frame, and a box in it, take of a region's width.
+_SIDE = 66  # a sidebar's, which has tabs, too
+_MARGINS = {"WINDOW": 50}
+_ICON = 22
 _PROPERTIES = {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "render"}
 _SIDEBAR = {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Reference Tracer"}
 
@@ -23,44 +27,72 @@ class Part:
     layout: Any
 
 
-def both(part: type, suffix: str = "", **in_properties: Any) -> list[type]:
+def both(part: type, suffix: str = "", **more: Any) -> list[type]:
     """Return a part as two panels: in the Render properties, and in the 3D view's sidebar.
 
-    A part with a suffix stands within the main panel. Only the first panel has `in_properties`.
+    A part with a suffix stands within the main panel. Both have `more`.
     """
     made = []
-    for prefix, place in (("RENDER", _PROPERTIES | in_properties), ("VIEW3D", _SIDEBAR)):
+    for prefix, place in (("RENDER", _PROPERTIES), ("VIEW3D", _SIDEBAR)):
         main = f"{prefix}_PT_reference_tracer"
         parent = {"bl_parent_id": main} if suffix else {}
-        made.append(type(main + suffix, (part, bpy.types.Panel), place | parent))
+        made.append(type(main + suffix, (part, bpy.types.Panel), place | parent | more))
     return made
 
 
 def short_name(row: Any) -> str:
-    """Return a row's method and precision, short enough for a narrow table: 'Textbook 32'."""
+    """Return a row's method and precision, in short: 'Textbook 32'."""
     name = Method(row.method).record.short
     return f"{name[0].upper()}{name[1:]} {row.precision.removeprefix('float')}"
 
 
-def draw_table(layout: Any, rows: Sequence[Sequence[str]], first: float = 0.45) -> None:
-    """Draw rows of text in columns; `first` is the first column's share of the width."""
-    split = layout.split(factor=first)
-    columns = [split.column(align=True)]
-    rest = split.row()
-    columns += [rest.column(align=True) for _ in rows[0][1:]]
+def draw_facts(layout: Any, facts: Iterable[tuple[str, str]]) -> None:
+    """Draw names and values, a line each."""
+    split = layout.split(factor=_NAMES)
+    columns = split.column(align=True), split.column(align=True)
+    columns[1].alignment = "RIGHT"
     for column in columns:
         column.scale_y = 0.8
-    for row in rows:
-        for column, text in zip(columns, row, strict=True):
+    for fact in facts:
+        for column, text in zip(columns, fact, strict=True):
             column.label(text=text)
+
+
+def folded(layout: Any, key: str, title: str) -> Any:
+    """Add a part of a panel that is closed at first; None while it is."""
+    head, body = layout.panel(f"reference_tracer_{key}", default_closed=True)
+    head.label(text=title)
+    return body
 
 
 def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE") -> None:
     """Draw a sentence in as many lines as the panel's width needs."""
-    scale = context.preferences.system.ui_scale
-    letters = int(context.region.width / scale / _LETTER) - (10 if icon != "NONE" else 6)
+    preferences = context.preferences
+    scale = preferences.system.ui_scale
+    points = preferences.ui_styles[0].widget.points
+    taken = _MARGINS.get(context.region.type, _SIDE) + (_ICON if icon != "NONE" else 0)
     column = layout.column(align=True)
     column.scale_y = 0.8
-    for line in textwrap.wrap(iface_(text), max(16, letters)):
+    for line in lines(iface_(text), context.region.width - taken * scale, points * scale):
         column.label(text=line, icon=icon, translate=False)
         icon = "BLANK1" if icon != "NONE" else icon
+
+
+@lru_cache(256)  # a panel is drawn many times a second
+def lines(text: str, width: float, size: float) -> tuple[str, ...]:
+    """Return a text in lines of Blender's font that are no wider, in pixels, where words allow."""
+    import blf
+
+    def wide(text: str) -> float:
+        blf.size(0, size)
+        found: float = blf.dimensions(0, text)[0]
+        return found
+
+    made: list[str] = []
+    for word in text.split():
+        if made and wide(f"{made[-1]} {word}") <= width:
+            made[-1] += f" {word}"
+        else:  # a name may be longer than a line
+            letters = int(len(word) * width / max(wide(word), width))
+            made += textwrap.wrap(word, max(letters, 1), break_on_hyphens=False)
+    return tuple(made)

@@ -67,7 +67,9 @@ class LongWork(Mixin):
     needs_camera: ClassVar[bool] = False
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
+    announced: ClassVar[str] = ""  # what is done in one go at the beginning, and takes long
     doing: str = ""  # now, where the label does not say it
+    pressed: bool = False  # by a user, who is to see the result
 
     directory: StringProperty(
         name="Folder",
@@ -107,10 +109,7 @@ class LongWork(Mixin):
         """Begin, and go on while the interface stays alive."""
         if bpy.app.background:
             return self.execute(context)
-        try:
-            LongWork._work = self.begin(context)
-        except Exception as error:
-            return failed(self, error)
+        LongWork._work = self._begun(context)
         manager = context.window_manager
         LongWork._timer = manager.event_timer_add(PAUSE, window=context.window)
         manager.progress_begin(0, 100)
@@ -118,7 +117,13 @@ class LongWork(Mixin):
         self._began = time.monotonic()
         self._shown = self._began
         LongWork.running = self.bl_label
+        self.pressed = True
+        self._say(context, rpt_(self.announced))
         return {"RUNNING_MODAL"}
+
+    def _begun(self, context: Any) -> Work[Any]:
+        """Begin once what is announced has been drawn, which is before the timer's first event."""
+        return (yield from self.begin(context))
 
     def modal(self, context: Any, event: Any) -> Answer:
         """Work for one step, or stop at Esc."""
@@ -153,9 +158,12 @@ class LongWork(Mixin):
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
         left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
-        words = ", ".join(filter(None, (self.doing or rpt_(self.bl_label), doing(share))))
-        said = rpt_("{}: {} %{}  (Esc: cancel)").format(words, int(100 * share), left)
-        context.workspace.status_text_set(said)
+        self._say(context, doing(share), f": {int(100 * share)} %{left}")
+
+    def _say(self, context: Any, what: str, rest: str = "") -> None:
+        """Say in the status bar what is done, how far it is, and how to end it."""
+        said = ", ".join(filter(None, (self.doing or rpt_(self.bl_label), what))) + rest
+        context.workspace.status_text_set(f"{said}  ({rpt_('Esc: cancel')})")
 
     def cancel(self, context: Any) -> None:
         """Stop, as Blender itself asks for at quitting or loading a file."""
@@ -168,10 +176,11 @@ class LongWork(Mixin):
         LongWork._work.close()
         context.window_manager.event_timer_remove(LongWork._timer)
         context.window_manager.progress_end()
-        if context.workspace:
-            context.workspace.status_text_set(None)
+        for workspace in bpy.data.workspaces:  # the user may have gone to another one
+            workspace.status_text_set(None)
 
     def _end(self, context: Any, result: Any) -> Answer:
+        """Show the result, and report it."""
         level, text = self.finish(context, result)
         redraw(context)
         kind: Any = {level}

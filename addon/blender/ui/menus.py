@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import quoteattr
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -14,6 +15,8 @@ from bl_ui.utils import PresetPanel
 
 from .long_work import named
 from .properties import ReferenceTracerScene
+from .samples import REFERENCE_TRACER_MT_samples
+from .shown import draw_switch
 
 _GROUP = ReferenceTracerScene.__name__
 _SHIPPED = str(Path(__file__).parent)  # has presets/reference_tracer/
@@ -42,8 +45,10 @@ class REFERENCE_TRACER_OT_preset_add(  # type: ignore[misc]  # Blender's own bas
     def add(self, context: Any, filepath: str) -> None:
         """Write the XML: Blender's own writer passes over the properties of add-ons."""
         stored = context.scene.reference_tracer
-        values = {name: getattr(stored, name) for name in ReferenceTracerScene.__annotations__}
-        said = (f'{n}="{str(v).upper() if isinstance(v, bool) else v}"' for n, v in values.items())
+        names = [n for n in ReferenceTracerScene.__annotations__ if n != "image"]  # of one file
+        values = {name: getattr(stored, name) for name in names}
+        texts = {n: str(v).upper() if isinstance(v, bool) else str(v) for n, v in values.items()}
+        said = (f"{name}={quoteattr(text)}" for name, text in texts.items())
         Path(filepath).write_text(f"<bpy><{_GROUP} {' '.join(said)} /></bpy>\n", encoding="utf-8")
 
 
@@ -56,6 +61,7 @@ def _draw_in_render(menu: Any, context: Any) -> None:
     _add(menu, "compare")
     _add(menu, "compare_all")
     _add(menu, "compare_animation")
+    _add(menu, "write_colors")
     _add(menu, "inspect")
     _add(menu, "open_page")
 
@@ -72,6 +78,15 @@ def _draw_in_export(menu: Any, context: Any) -> None:
     _add(menu, "export", "Reference Tracer (.npz)")
 
 
+def _draw_in_header(header: Any, context: Any) -> None:
+    draw_switch(header.layout.row(align=True), context.space_data)
+
+
+def _draw_in_new(menu: Any, context: Any) -> None:
+    menu.layout.separator()
+    menu.layout.menu(REFERENCE_TRACER_MT_samples.__name__)
+
+
 MENUS = {
     "TOPBAR_MT_render": _draw_in_render,
     "IMAGE_MT_image": _draw_in_image,
@@ -79,17 +94,26 @@ MENUS = {
 }
 
 
+_register, _unregister = bpy.utils.register_classes_factory(
+    (REFERENCE_TRACER_PT_presets, REFERENCE_TRACER_MT_samples)
+)
+
+
 def register() -> None:
     """Add the entries, and the presets that are shipped."""
-    bpy.utils.register_class(REFERENCE_TRACER_PT_presets)
+    _register()
     bpy.utils.register_preset_path(_SHIPPED)
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).append(draw)
+    bpy.types.TOPBAR_MT_file_new.append(_draw_in_new)
+    bpy.types.IMAGE_HT_header.prepend(_draw_in_header)  # a small window shows the first of it
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).remove(draw)
+    bpy.types.TOPBAR_MT_file_new.remove(_draw_in_new)
+    bpy.types.IMAGE_HT_header.remove(_draw_in_header)
     bpy.utils.unregister_preset_path(_SHIPPED)
-    bpy.utils.unregister_class(REFERENCE_TRACER_PT_presets)
+    _unregister()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from dataclasses import replace
 from typing import Any
 
@@ -10,11 +11,12 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ...tracer.progress import Work
+from ...tracer.progress import Work, mapped
 from ...wording import count_of, say
 from . import results
 from .long_work import Answer, LongWork, named, with_ending
 from .results import Kind, redraw
+from .shown import open_as_render, show_where_shown
 
 
 @named
@@ -25,23 +27,47 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         "picture. The textbook's formulas and the proven picture are listed side by side"
     )
     needs_camera = True
+    announced = "Blender draws the scene"
+    _is_shown = False
 
     def begin(self, context: Any) -> Work[Any]:
         """Have Blender draw the scene at once; return the work that is left."""
         from ..jobs.compare import compare_open_file
 
-        def told(comparison: Any) -> None:
-            """Show the comparison: Esc ends no more than the search for what is wrong with it."""
-            results.keep_comparison(context, comparison)
-            self.left = rpt_("the comparison stays, without a diagnosis")
-            count = comparison.counts.unexplained
-            self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
-            redraw(context)
+        told: list[Any] = []  # of the comparison, before the search for what is wrong with it
+        work = compare_open_file(context, str(self.folder() or ""), told=told.append)
+        return self._showing(context, work, told)
 
-        return compare_open_file(context, str(self.folder() or ""), told=told)
+    def _showing(self, context: Any, work: Work[Any], told: list[Any]) -> Work[Any]:
+        """Show what has been told while the work goes on, and its result."""
+        with closing(work):
+            while True:
+                try:
+                    share = next(work)
+                except StopIteration as stop:
+                    yield from self._show(context, stop.value, 1.0)
+                    return stop.value
+                yield share
+                if told:
+                    comparison = told.pop()
+                    yield from self._show(context, comparison, share)
+                    self.left = rpt_("the comparison stays, without a diagnosis")
+                    count = comparison.counts.unexplained
+                    self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
+                    redraw(context)
+
+    def _show(self, context: Any, comparison: Any, share: float) -> Work[None]:
+        """Keep a comparison, and show the user the difference, once; the share stays."""
+        yield from mapped(results.keep_comparison(comparison), lambda _: share)
+        if not self._is_shown:
+            show = open_as_render if self.pressed else show_where_shown
+            show(context, results.ours(results.DIFFERENCE))
+            self._is_shown = True
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        lines = results.keep_comparison(context, result).lines
+        """Print the comparison; report its first line."""
+        found = results.latest(Kind.COMPARISON, context.scene)
+        lines = found.lines if found else ()
         say(*result.manifest.lines(), *lines)
         return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
 
@@ -54,6 +80,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         "of them shows a wrong object, where, and why"
     )
     needs_camera = True
+    announced = "Blender draws the scene"
 
     def begin(self, context: Any) -> Work[Any]:
         """Have every engine draw the scene at once; return the work that is left."""
@@ -167,6 +194,32 @@ class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
         camera = frame_all(context.scene, context.view_layer)
         camera.name = "Camera"
         camera.data.name = "Camera"
+        return {"FINISHED"}
+
+
+@named
+class REFERENCE_TRACER_OT_write_colors(bpy.types.Operator):
+    bl_label = "Write the Colors"
+    bl_description = (
+        "Add a copy of the scene, of plain meshes whose materials emit the colours of a "
+        "comparison. Render it with any engine, then press Trace and Compare there"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it where there is a camera."""
+        return context.scene.camera is not None
+
+    def execute(self, context: Any) -> Answer:
+        from ...pictures.palette import By
+        from ..jobs.colors_scene import colors_scene
+
+        made = colors_scene(context, By(context.scene.reference_tracer.colors.lower()))
+        if context.window:
+            context.window.scene = made
+        said = rpt_("'{}' is added: render it with any engine, then press Trace and Compare")
+        self.report({"INFO"}, said.format(made.name))
         return {"FINISHED"}
 
 

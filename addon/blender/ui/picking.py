@@ -11,7 +11,7 @@ from ..live.camera import camera_of, frame_in_view
 from ..reading.camera import export_camera
 from . import results
 
-_OURS = {results.TRACED, results.BLENDER, results.DIFFERENCE}
+_OURS = {results.TRACED, results.BLENDER, results.DIFFERENCE, results.CAUSES}
 
 
 class Pick(NamedTuple):

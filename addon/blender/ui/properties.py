@@ -9,9 +9,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from ...methods import Method
+from ..drawing import judges
 from . import choices, results
 
 if TYPE_CHECKING:
@@ -20,6 +28,17 @@ if TYPE_CHECKING:
 
 def _redraw(owner: Any, context: Any) -> None:
     results.redraw(context)  # the 3D views in Rendered mode
+
+
+def _engines(owner: Any, context: Any, typed: str) -> list[str]:
+    from ..drawing.engines import others
+
+    return [judge.engine for judge in others().values() if judge.engine]
+
+
+def _is_a_picture(owner: Any, image: Any) -> bool:
+    """Offer neither the comparison's own images nor what Blender renders into."""
+    return image.type not in ("RENDER_RESULT", "COMPOSITING") and results.MARK not in image
 
 
 class ReferenceTracerScene(bpy.types.PropertyGroup):
@@ -65,6 +84,32 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         items=choices.JUDGES,
         default="AUTO",
     )
+    engine: StringProperty(
+        name="Engine",
+        description="The engine's name, as the add-on registers it",
+        search=_engines,
+    )
+    image: PointerProperty(
+        name="Image",
+        description="The picture that the traced one is compared with",
+        type=bpy.types.Image,
+        poll=_is_a_picture,
+    )
+    renderer: EnumProperty(
+        name="Made By",
+        description="Whose rounding may excuse a pixel",
+        items=choices.RENDERERS,
+        default="AUTO",
+    )
+    filter: FloatProperty(
+        name="Filter",
+        description="How far the picture's anti-aliasing reaches. With 0 it has one sample in each "
+        "pixel's centre",
+        subtype="PIXEL",
+        default=0.0,
+        min=0.0,
+        max=64.0,
+    )
     shading: EnumProperty(
         name="Shading",
         description="How Blender draws the picture that is compared",
@@ -98,6 +143,17 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         default=True,
     )
 
+    def draw_given(self, layout: Any) -> None:
+        """Draw what is to be known of a picture that is no judge's."""
+        if self.judge == judges.IMAGE:
+            layout.template_ID(self, "image", open="image.open", text="Image")
+        if self.judge == judges.ENGINE:
+            layout.prop(self, "engine")
+        if self.judge in (judges.IMAGE, judges.ENGINE, judges.RENDER_RESULT):
+            layout.prop(self, "renderer")
+            layout.prop(self, "filter")
+            layout.operator("reference_tracer.write_colors", icon="COLOR")
+
     def settings(self) -> Settings:
         """Return what the tracer is to use; a precision that is greyed out does not count."""
         from ...tracer.settings import Precision, Settings
@@ -108,7 +164,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     @property
     def has_precision(self) -> bool:
         """Whether the method leaves a choice of the precision."""
-        return Method(self.method).is_plain
+        return not Method(self.method).is_proven
 
 
 def _tell_the_compositor(layer: Any, _: object) -> None:
@@ -140,12 +196,28 @@ class ReferenceTracerObject(bpy.types.PropertyGroup):
 
 
 class ReferenceTracerWindow(bpy.types.PropertyGroup):
-    """What a click of the inspector does; not stored."""
+    """What a click of the inspector does, and what Image Editors show; not stored."""
 
     draw_ray: BoolProperty(
         name="Draw the Ray",
         description="With every click, draw the ray as objects in the 3D view",
         options={"SKIP_SAVE"},
+    )
+    both: BoolProperty(
+        name="Both",
+        description="The other picture is drawn over the traced one, on the right of a line",
+        options={"SKIP_SAVE"},
+        update=_redraw,
+    )
+    split: FloatProperty(
+        name="Traced",
+        description="The traced picture's share of the width, on the left of the line",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+        options={"SKIP_SAVE"},
+        update=_redraw,
     )
 
 

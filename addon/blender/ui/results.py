@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cache
 from pathlib import Path
@@ -16,10 +16,12 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ...methods import Method
+from ...tracer.progress import Work, by_rows, scaled
 
 if TYPE_CHECKING:
     from ...arrays import Colors
     from ...comparison.comparison import Comparison
+    from ...diagnosis.regions import Region
     from ...study.extremes import ExtremesRow
     from ...study.trade import Trade
 
@@ -28,6 +30,7 @@ Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES")
 TRACED = "Reference Tracer Traced"
 BLENDER = "Reference Tracer Blender"
 DIFFERENCE = "Reference Tracer Difference"
+CAUSES = "Reference Tracer Causes"
 MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
 
 
@@ -40,20 +43,38 @@ class Result:
     lines: tuple[str, ...]  # sentences; a panel shows the first
     scene: str | None = None  # None: of no scene
     page: str = ""  # the address of its plots
+    regions: tuple[Region, ...] = ()  # where it differs, the largest first
 
 
 _latest: dict[Kind, Result] = {}
 
 
-def keep_comparison(context: Any, comparison: Comparison) -> Result:
-    """Remember a comparison, and put its three pictures into images of Blender's."""
-    from ...report.comparison import difference_picture
+def keep_comparison(comparison: Comparison) -> Work[Result]:
+    """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
+    from ...causes.cause import AGREE
+    from ...causes.maps import cause_map, difference_map, ringed
+    from ...report.comparison import differing_regions
 
-    show(TRACED, comparison.frame.color)
+    traced = comparison.frame.color
+    cause = comparison.causes.cause
+    show(TRACED, traced)
+    yield 0.1
     show(BLENDER, comparison.picture)
-    shown = show(DIFFERENCE, difference_picture(comparison))
-    show_in_editor(context, shown)
-    return keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
+    yield 0.2
+    pair = traced, comparison.picture
+    apart = yield from scaled(by_rows(difference_map, *pair), 0.2, 0.3)
+    apart = ringed(apart, cause != AGREE)
+    yield 0.5
+    show(DIFFERENCE, apart)
+    yield 0.6
+    causes = yield from scaled(by_rows(cause_map, traced, cause), 0.6, 0.2)
+    show(CAUSES, causes)
+    yield 0.9
+    regions = tuple(differing_regions(comparison))
+    yield 1.0
+    found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
+    _latest[Kind.COMPARISON] = replace(found, regions=regions)
+    return _latest[Kind.COMPARISON]
 
 
 def keep_trade(trade: Trade) -> Result:
@@ -69,7 +90,7 @@ def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
     from ...report import extremes as extremes_report
 
     page = _page("extremes", extremes_report.picture(rows))
-    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
+    wrong = sum(r.lost + r.doubled for r in rows if Method(r.method).is_proven)
     lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
     return keep(Kind.EXTREMES, tuple(rows), lines, page=page)
 
@@ -115,6 +136,13 @@ def forget() -> None:
     _latest.clear()
 
 
+def remove_stale_images() -> None:
+    """Remove our images from a file that was just opened: what was shown of them was not stored."""
+    for image in bpy.data.images[:]:
+        if image.get(MARK) and image.source == "GENERATED":
+            bpy.data.images.remove(image)
+
+
 def show(name: str, color: Colors) -> Any:
     """Put linear RGBA (h, w, 4) into our image of this name; make it if there is none."""
     import numpy as np
@@ -131,6 +159,11 @@ def show(name: str, color: Colors) -> Any:
     return image
 
 
+def ours(name: str) -> Any:
+    """Return our image of a name, or None."""
+    return next((i for i in bpy.data.images if i.get(MARK) == name), None)
+
+
 def _ours(blocks: Any, name: str, is_saved: Callable[[Any], object]) -> Any:
     """Return our image or text of a name, or None. One that the user has saved is theirs now."""
     found = next((b for b in blocks if b.get(MARK) == name), None)
@@ -138,13 +171,6 @@ def _ours(blocks: Any, name: str, is_saved: Callable[[Any], object]) -> Any:
         del found[MARK]
         return None
     return found
-
-
-def show_in_editor(context: Any, image: Any) -> None:
-    """Show an image in the window's first image editor, if there is one."""
-    spaces = (area.spaces.active for area in areas(context, "IMAGE_EDITOR"))
-    if space := next((s for s in spaces if s.mode == "VIEW"), None):
-        space.image = image
 
 
 def show_text(context: Any, name: str, content: str) -> Any:

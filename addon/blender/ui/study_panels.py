@@ -11,6 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
 from . import explain, results, studies
+from .differing import IMAGE_PT_reference_tracer_shown
 from .inspector import REFERENCE_TRACER_OT_inspect
 from .layout import Part, both, wrapped
 from .results import Kind
@@ -132,12 +133,13 @@ def _draw_measured(layout: Any, context: Any, kind: Kind) -> None:
     """Draw what a study found in one sentence, and a button that opens its plot."""
     if found := results.latest(kind, context.scene):
         wrapped(layout, context, found.lines[0], "INFO")
-        layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
+        layout.operator("wm.url_open", text="Open Plot").url = found.page
 
 
 CLASSES = (
     *both(_Inspector, "_inspector", bl_options={"DEFAULT_CLOSED"}),
     IMAGE_PT_reference_tracer_inspector,
+    IMAGE_PT_reference_tracer_shown,
     *both(_Trade, "_trade"),
     *both(_Extremes, "_extremes"),
 )

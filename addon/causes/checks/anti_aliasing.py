@@ -35,17 +35,17 @@ ANTI_ALIASING = Cause(
     (0.7, 0.4, 0.2),
     explains=True,
     warns=True,
-    why="The picture has a filter, which mixes the colours around an edge; the tracer shows what "
+    why="The picture was filtered, which mixes the colours at an edge; the tracer shows what "
     "the pixel's centre sees.",
-    check="The colour lies in the convex hull of what the tracer sees within the filter's radius, "
-    "in linear colours or in Workbench's logarithms log2(1 + c), before Blender 5.0 log2(1/2 + c). "
-    "Each sample comes with a tenth or more of what lies on the opposite side of the centre. More "
-    "than one colour must be seen. If it is known whose surface Blender shows, that must be seen "
-    "in the centre, or within its error. If that is not enough and an edge is there, any triangle "
-    "within the radius may shine through a crack, with no more weight than the centre's own "
-    "colour. The figure is the radius that is enough.",
-    never="An object that is not seen there; a surface of one colour in another shade; a colour "
-    "beyond those that are mixed.",
+    check="The colour lies in the convex hull of the colours that the tracer sees within the "
+    "filter's radius: linear ones, or Workbench's logarithms log2(1 + c), before Blender "
+    "5.0 log2(1/2 + c). Each sample is taken with at least a tenth of the one opposite. "
+    "There must be several colours. If the shown object is known, it must be seen at the "
+    "centre, or within its error. If that fails at an edge, any triangle within the "
+    "radius may show through a crack, with no more weight than the centre's own colour. "
+    "The figure is the radius that suffices.",
+    never="An object that is not seen there; another shade of a surface of one colour; a colour "
+    "outside the range of those that are mixed.",
     advice="compare like for like, or render one sample in each pixel's centre",
 )
 
@@ -67,7 +67,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
     Their figure is the radius of the smallest ring that is enough.
     """
-    radius = pixels.picture.filter_radius
+    radius = pixels.picture.sampling.filter_radius
     if not pixels.open.any() or radius <= 0 or pixels.picture.lit:
         return
     made = yield from plan(pixels.case.scene, SOUND, reach=np.sqrt(2) * radius)
@@ -78,7 +78,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
-    """Ask on ring after ring; after the last of the densest, ask the triangles themselves."""
+    """Sample ring after ring around the pixels; at the end, test the triangles themselves."""
     rings = density[0]
     picture = part.picture
     owner = yield from _owner_seen(part)
@@ -94,7 +94,9 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
         rest = np.flatnonzero(~found & owner & (seen != seen[0]).any(axis=(0, 2)))
         seen = seen[:, rest]
         color = picture.color[rest, : seen.shape[-1]]
-        found[rest] = yield from is_mix(color, seen, picture.sums, np.arange(len(mixed)) ^ 1)
+        found[rest] = yield from is_mix(
+            color, seen, picture.storage.sums, np.arange(len(mixed)) ^ 1
+        )
         part.give(found, ANTI_ALIASING, reach, radius)
     if density == DENSITIES[-1] and not found.all():
         left = np.flatnonzero(~found & owner)
@@ -103,7 +105,7 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
 
 
 def _ring(ring: int, density: tuple[int, int], radius: float) -> Iterator[tuple[float, float]]:
-    """Yield offsets on a ring in pairs that lie opposite each other; the 0th is the centre twice.
+    """Yield the offsets of a ring in opposite pairs; ring 0 is the centre, twice.
 
     So the sample opposite to number n has the number n ^ 1.
     """
@@ -119,7 +121,7 @@ def _ring(ring: int, density: tuple[int, int], radius: float) -> Iterator[tuple[
 
 
 def _owner_seen(part: Part) -> Work[Bools]:
-    """Return where the tracer sees the object that is shown, in the centre or within its band."""
+    """Return where the tracer sees the shown object, at the centre or within its band."""
     hits = yield from part.probe.trace()
     seen = ~part.picture.other_object(hits.instance)
     if not seen.all():
@@ -133,7 +135,7 @@ def _owner_seen(part: Part) -> Work[Bools]:
 
 
 def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Work[Bools]:
-    """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
+    """Return which of the pixels `left` are a mix if float32's cracks let through what is behind.
 
     Some of the filter's samples may hit a crack of float32's, and show any triangle that comes
     within the radius. At most half of the weight is theirs; the rest sees what the centre does.
@@ -158,7 +160,7 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
             across = np.arange(len(near))
             across[: 2 * len(pairs)] = np.roll(across[: 2 * len(pairs)], len(pairs))
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
-            [found[n]] = yield from is_mix(color, near[:, None], picture.sums, across)
+            [found[n]] = yield from is_mix(color, near[:, None], picture.storage.sums, across)
         yield 0.0
     return found
 
@@ -191,7 +193,7 @@ def is_mix(
 
 
 def _logarithm(color: Array, offset: float = 1.0, channels: int = 3) -> Floats:
-    """Return what Workbench mixes: the logarithm of RGB, and alpha as it is.
+    """Return the values that Workbench averages: the logarithm of RGB, and alpha unchanged.
 
     It makes a colour's error up to 1.44 / offset times as large, and is a half float itself.
     """

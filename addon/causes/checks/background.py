@@ -50,7 +50,7 @@ class Background(NamedTuple):
         )
 
     def unjudged(self) -> str:
-        """Say what of the picture is taken for background, and so proves nothing."""
+        """Say which part of the picture is taken for background, where no fault would be seen."""
         name, share = _name(self.picture, self.opaque), self.pixels / max(self.total, 1)
         return (
             f"{name}, in {self.pixels:,} px ({100 * share:.0f} %), is taken for the background: "
@@ -91,17 +91,17 @@ def find_background(
     surface, made = interior & ~nothing, replace(picture, transform=transform)
     if not (yield from _apart(frame, made, color, surface)):
         return None
-    one = replace(picture, color=color[None].astype(np.float32), owner=None, transform=transform)
+    one = replace(picture, color=color[None].astype(np.float32), owners=None, transform=transform)
     if not one.other_color(own[None])[0]:
         return None
     shown = frame.instance_index == NOTHING
     shown &= ~(yield from other_color(picture, color))
     colors_of_both = tuple(map(float, color)), tuple(map(float, own))
-    return Background(*colors_of_both, picture.opaque, int(shown.sum()), shown.size)
+    return Background(*colors_of_both, picture.storage.opaque, int(shown.sum()), shown.size)
 
 
 def _apart(frame: Frame, picture: Picture, color: Colors, surface: Bools) -> Work[bool]:
-    """Return whether a colour can be a background's: the surfaces in it are where they should be.
+    """Return whether a colour may be the background: surfaces of that colour are in place.
 
     (A picture upside down shows the floor where the sky is, and the sky where the floor is.)
     """
@@ -116,7 +116,7 @@ def _apart(frame: Frame, picture: Picture, color: Colors, surface: Bools) -> Wor
 
 
 def _name(color: Sequence[float], opaque: bool) -> str:
-    """Name linear premultiplied RGBA by what a screen shows."""
+    """Name linear premultiplied RGBA by its sRGB values, as a screen shows them."""
     if color[3] == 0 and not opaque:
         return "transparent"
     red, green, blue, alpha = (round(float(v), 3) for v in encoded(np.array(color)))

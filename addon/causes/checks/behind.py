@@ -1,4 +1,4 @@
-"""What is behind glass: Blender draws once more without it, and what is seen then is judged.
+"""Judges what is behind glass, by a second picture that Blender draws without the glass.
 
 The colour of glass is not known, so that any colour is excused where it is seen; its own surface
 must be the right one. What is behind it is judged by another picture, which must agree with the
@@ -24,13 +24,13 @@ FindCauses = Callable[[Case, Frame], Work[Causes]]
 
 
 def seen_through(scene: Scene, frame: Frame, behind: Behind) -> Bools:
-    """Return which pixels (h, w) show an object that the second picture is without."""
+    """Return which pixels (h, w) show an object that the second picture leaves out."""
     left_out = [n for n, name in enumerate(scene.objects) if name in behind.left_out]
     return np.isin(np.append(scene.instance_objects[:-1], NOTHING)[frame.instance_index], left_out)
 
 
 def wrong_behind(case: Case, frame: Frame, find: FindCauses) -> Work[tuple[Bools, Bools]]:
-    """Return in which pixels (h, w) what is behind was judged, and in which of these it is wrong.
+    """Return the pixels (h, w) that were judged behind glass, and those that are wrong there.
 
     `find` finds the causes of a case and what was traced of it.
     """

@@ -27,9 +27,9 @@ CLIP_PLANE = Cause(
     (1.0, 1.0, 0.4),
     explains=True,
     rounding=True,
-    why="A surface lies so near a clip plane that float32 decides whether it is drawn.",
+    why="A surface is so close to a clip plane that float32 decides whether it is drawn.",
     check="What the picture shows is what the tracer sees with that surface, or without it.",
-    never="A surface that is clipped elsewhere.",
+    never="A surface that is clipped at another depth.",
     advice="move the clip plane away from the surface",
 )
 
@@ -39,15 +39,15 @@ WIDENED = 64
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels at the clip planes, a part of the picture at a time."""
+    """Find open pixels at which a surface lies on a clip plane."""
     if pixels.open.any():
         scene = pixels.case.scene
-        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.renderer))
+        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.sampling.renderer))
         yield from near_surfaces(pixels, wide, 0.0, _clipped)
 
 
 def _clipped(part: Part) -> Work[None]:
-    """Go from front to back through the surfaces that may be clipped."""
+    """Test the surfaces that may be clipped, from front to back."""
     camera = part.scene.camera
     after: Hits | None = None
     near = np.zeros(len(part.probe.px), bool)
@@ -75,7 +75,7 @@ def _clipped(part: Part) -> Work[None]:
 
 
 def _widened(camera: Camera, renderer: Renderer) -> Camera:
-    """Return a camera that also sees what a renderer may take to be within its clip range."""
+    """Return the camera with its clip range widened by what a renderer's rounding may include."""
     ends = np.array((camera.clip_start, camera.clip_end), np.float64)
     view = U32 * WIDENED * (float(np.abs(camera.origin).sum()) + np.abs(ends))
     before, behind = renderer.resolution(camera, ends, view)

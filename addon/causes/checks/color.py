@@ -35,12 +35,13 @@ COLOR = Cause(
     explains=True,
     warns=True,
     see_through=True,
-    why="One thing changes the colours of the whole picture: a light that the tracer does not "
-    "have, or a transform that a foreign picture went through.",
-    check="The object is known to be the same, under a light; or one transform makes the surfaces "
-    "agree. Where a single object is in another shade, its pixels are unexplained, and the "
-    "comparison names the object. The figure is what is left after the transform.",
-    never="An object in another shade; a transform of all objects but one.",
+    why="The colours of the whole picture are changed: by light, which the tracer does not "
+    "have, or by a transform of another program's picture.",
+    check="In a lit picture, the same object is shown. In another program's picture, one "
+    "transform makes the surfaces agree. If a single object has another shade, its pixels "
+    "are unexplained, and the comparison names it. The figure is the difference that "
+    "remains after the transform.",
+    never="A single object in another shade; a transform of all objects but one.",
     advice="compare like for like, or undo the transform that the comparison names",
 )
 
@@ -100,7 +101,7 @@ def find_transform(
     group = groups(np.column_stack((frame.instance_index[where], colors)))
     found: list[tuple[float, Curve]] = []
     first, shown = medians(some.color, group)
-    for named in candidates(straight(colors[first]), straight(shown), picture.levels, more):
+    for named in candidates(straight(colors[first]), straight(shown), picture.storage.levels, more):
         agree = ~replace(some, transform=named.of).other_color(colors)
         of_group = np.bincount(group, agree) / np.bincount(group)
         # Of the pixels, or of their groups if that is less.
@@ -121,7 +122,7 @@ def _judged(pixels: OpenPixels) -> Bools:
 
 
 def _refuted(frame: Frame, surface: Bools, wrong: Bools) -> bool:
-    """Return whether what a transform makes wrong refutes it: most of an instance, or too much."""
+    """Return whether a transform makes too many pixels wrong, or most of an instance."""
     count = int(np.max(frame.instance_index)) + 1
     many = np.bincount(frame.instance_index[surface], minlength=count)
     bad = np.bincount(frame.instance_index[wrong], minlength=count)
@@ -157,7 +158,7 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
 
 
 def _is_its_own(frame: Frame, picture: Picture, where: Bools) -> bool:
-    """Return whether most of an object's pixels (h, w) show no colour of what is around it."""
+    """Return whether most of an object's pixels (h, w) show none of its neighbours' colours."""
     if picture.at(where).known(frame.instance_index[where]).all():
         return True
     own = np.pad(frame.object_index == frame.object_index[where][0], 1)
@@ -182,12 +183,12 @@ def _one_other_each(picture: Picture, colors: Array) -> bool:
 
 
 def groups(keys: Array) -> Index:
-    """Return the group of each of n keys (n, c): those that are equal have one number."""
+    """Return a number for each of n keys (n, c), equal for equal keys, (n,)."""
     return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
 
 
 def medians(shown: Array, group: Index) -> tuple[Places, Floats]:
-    """Return the first of each of k groups of n pixels, (k,), and what is shown of it, (k, 4)."""
+    """Return each group's first pixel, (k,), and its median shown colour, (k, 4)."""
     _, first = np.unique(group, return_index=True)
     order = np.argsort(group, kind="stable")
     parts = np.split(shown[order], np.cumsum(np.bincount(group))[:-1])

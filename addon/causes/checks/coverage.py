@@ -33,7 +33,7 @@ LEAST_HEIGHT = 16
 
 
 class Coverage(NamedTuple):
-    """What k triangles that may cover one of n pixels would show there."""
+    """What the k triangles that may cover some of n pixels would show there."""
 
     pixel: Index  # (k,) of the n
     distance: Floats  # (k,) pixels, from the centre to the triangle's nearest point
@@ -43,7 +43,7 @@ class Coverage(NamedTuple):
 
 
 class _Aimed(NamedTuple):
-    """Hits of rays that were aimed at triangles, at an `offset` (2, k) from a pixel's centre."""
+    """Hits of k rays aimed at triangles, at an `offset` (2, k) from the pixels' centres."""
 
     pixel: Index
     distance: Floats
@@ -52,7 +52,7 @@ class _Aimed(NamedTuple):
 
 
 def coverage(probe: Probe, band: Floats) -> Work[Coverage]:
-    """Return what may cover the pixels of a probe, if samples lie within `band` (n,) pixels."""
+    """Find the triangles that may cover samples within `band` (n,) pixels of the centres."""
     sure = Hits.none(len(band))
     centres = probe.rays()
     test_planes(probe.scene, centres, sure)
@@ -90,7 +90,7 @@ def _around_centre(probe: Probe, some: Pairs) -> Floats:
 
 
 def _thin(corners: Floats, band: Floats) -> Bools:
-    """Return which triangles (3, 2, p) are too low to have been missed near an edge."""
+    """Return which triangles (3, 2, p) are so thin that rounding near an edge may miss them."""
     edges = corners - np.roll(corners, 1, axis=0)
     longest = np.hypot(edges[:, 0], edges[:, 1]).max(axis=0)
     ux, uy = corners[1] - corners[0]
@@ -100,7 +100,7 @@ def _thin(corners: Floats, band: Floats) -> Bools:
 
 
 def _aim(probe: Probe, some: Pairs, nearest: Floats, middle: Floats, band: Floats) -> _Aimed:
-    """Return what rays hit that are aimed at the nearest points (2, p) of p triangles."""
+    """Trace a ray to the nearest point (2, p) of each of p triangles."""
     inward = middle - nearest
     share = np.minimum(INWARD, band / 64 / np.maximum(np.hypot(*inward), 1e-300))
     x, y = offset = nearest + share * inward

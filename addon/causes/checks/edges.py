@@ -32,33 +32,34 @@ EDGE = Cause(
     (1.0, 0.3, 0.0),
     explains=True,
     rounding=True,
-    why="Float32 and the rasteriser move corners a little. A pixel whose centre lies so near to an "
-    "edge falls to the edge's other side.",
-    check="Within the other side's own error of the pixel's centre, the tracer sees the colour and "
-    "the object that it shows, each looked for on its own, as they come from two drawings. That "
-    "error is the rasteriser's snapping, and float32's bound for the surfaces around. Triangles "
-    "that share an edge leave no gap between them.",
-    never="A pixel farther from an edge; another colour or object than is seen within the band; "
-    "what lies behind a closed surface.",
-    advice="leave it, if pixels are few; else move the scene to the origin, or draw it larger",
+    why="Float32 and the rasteriser move corners a little, so a pixel whose centre is very "
+    "close to an edge may fall on its other side.",
+    check="The tracer sees the shown colour, and the shown object, at a distance from the "
+    "pixel's centre that the other side's error allows. (Each is looked for separately, "
+    "as they come from two drawings.) That error is the rasteriser's snapping and the "
+    "bound of float32 for the surfaces around. Triangles that share an edge leave no gap.",
+    never="A pixel farther from an edge; a colour or an object that is not seen within that "
+    "distance; what lies behind a closed surface.",
+    advice="ignore a few such pixels; if there are many, move the scene to the origin, or render "
+    "a larger picture",
 )
 DEPTH_TIE = Cause(
     2,
     "depth_tie",
     "depth tie",
     "what the picture shows lies {figure:.3g} m behind what the tracer sees "
-    "(what lies {allowed:.3g} m apart is told apart there)",
+    "(surfaces {allowed:.3g} m apart are told apart there)",
     "m",
     (0.0, 0.7, 1.0),
     explains=True,
     rounding=True,
-    why="Two surfaces lie nearer to one another than a depth buffer of 24 bits, or float32, tells "
-    "apart.",
-    check="What the picture shows, colour and object each on its own, lies behind on the very same "
-    "ray, nearer than depths are told apart there: by the depth buffer and float32 of a "
-    "rasteriser, by float32 alone of rays. It is told before an edge.",
+    why="Two surfaces are closer to each other than a depth buffer of 24 bits, or float32, "
+    "can tell apart.",
+    check="The shown colour and the shown object lie on the same ray, behind what the tracer "
+    "sees, within the resolution of depth there: that of the depth buffer and float32 for "
+    "a rasteriser, that of float32 for rays. A tie is looked for before an edge.",
     never="A surface that lies clearly behind.",
-    advice="raise the clip start, move the surfaces apart, or leave one of two copies out",
+    advice="raise the clip start, move the surfaces apart, or remove one of two copies",
 )
 
 
@@ -72,14 +73,14 @@ OFFSETS = (
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels at edges and depth ties, a part of the picture at a time."""
+    """Find open pixels at depth ties and at edges."""
     if pixels.open.any():
         reach = float(np.max(pixels.band[pixels.open]))
         yield from near_surfaces(pixels, pixels.case.scene, reach, _look)
 
 
 class _Asked(NamedTuple):
-    """What is known of the n pixels of a part: more is found by each way to ask."""
+    """What the edge and tie tests have found so far for the n pixels of a part."""
 
     centre: Hits
     lost: Bools  # the picture's own method lost what the centre sees
@@ -89,7 +90,7 @@ class _Asked(NamedTuple):
 
 
 def _look(part: Part) -> Work[None]:
-    """Ask behind, then at samples, then the triangles themselves, while pixels have no cause.
+    """Look behind the hits, beside the centres, then at triangles, until all have a cause.
 
     What is shown on the very same ray is a tie, even if an edge is near.
     """
@@ -187,7 +188,7 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
     asks = (nothing < np.inf).any(axis=0)
     asks[may.pixel[(of < np.inf).any(axis=0) & (may.hits.t <= farthest)]] = True
     closed = np.full(len(width), np.inf)
-    if part.picture.renderer.closed:
+    if part.picture.sampling.renderer.closed:
         closed = _closed(scene, asked.beside, asks & ~asked.lost)
     farthest = np.minimum(farthest, (closed + part.resolution(asked.centre))[may.pixel])
     visible = may.hits.t <= farthest

@@ -30,13 +30,13 @@ HIDDEN = Cause(
     (0.08, 0.2, 0.08),
     explains=True,
     warns=True,
-    why="One side hides an object, for a reason that the scene names: a flag, a collection; or it "
-    "shows another frame.",
-    check="Of Blender's picture, it shows such an object. Of a foreign picture, tracing the scene "
-    "that way must give what the picture shows in 97 % of the pixels that it changes, as a fault "
-    "must; pixels at its edges count as right where rounding accounts for them. Flags are tried "
-    "one by one, and all together, as one hidden object may lie before another.",
-    never="An object that nothing hides; one that is partly there; other damage besides.",
+    why="One side hides an object, by a flag or a collection of the scene, or shows another frame.",
+    check="Blender's picture shows such an object. For another program's picture, the scene is "
+    "traced with the object hidden or shown, and must give what the picture shows in 97 % "
+    "of the pixels that this changes; at its edges, pixels within rounding count as "
+    "right. Flags are tried one by one and all together, as one hidden object may be in "
+    "front of another.",
+    never="An object that nothing hides; one that is there in part; any other damage.",
     advice="show the object to both sides, or hide it from both",
 )
 
@@ -44,12 +44,13 @@ HIDDEN = Cause(
 def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels that show what only one side has."""
     why = {e.name: e.reason for e in pixels.case.manifest.objects if e.hidden}
-    for number, name in enumerate(pixels.picture.names):
-        if name in why:
-            where = pixels.open & (pixels.picture.owner == number)
-            if where.any():
-                pixels.give(where, HIDDEN, _named(pixels, Hidden(name, why[name])))
-            yield 0.0
+    if owners := pixels.picture.owners:
+        for number, name in enumerate(owners.names):
+            if name in why:
+                where = pixels.open & (owners.pixels == number)
+                if where.any():
+                    pixels.give(where, HIDDEN, _named(pixels, Hidden(name, why[name])))
+                yield 0.0
     alternatives = pixels.case.alternatives
     for number, other in enumerate(alternatives):
         if pixels.open.any():
@@ -58,7 +59,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 def _named(pixels: OpenPixels, hidden: Hidden) -> float:
-    """Add to the hidden objects; returns the index."""
+    """Append a hidden object; return its index."""
     pixels.out.hidden.append(hidden)
     return float(len(pixels.out.hidden) - 1)
 
@@ -70,7 +71,7 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     """
     case = replace(pixels.case, scene=other.scene)
     colorless = case.colorless
-    picture = replace(pixels.picture, owner=None, owners=None, colorless=colorless)
+    picture = replace(pixels.picture, owners=None, colorless=colorless)
     there = replace(pixels, case=case, picture=picture)
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.4)
     there = replace(there, frame=traced)
@@ -120,7 +121,7 @@ def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:
 
 
 def with_object(scene: Scene, other: Scene, name: str) -> Scene:
-    """Return a scene with an object of another one."""
+    """Return a scene with an object added from another scene."""
     number = other.objects.index(name)
     first, index = len(scene.meshes), len(scene.objects)
     own = [i for i in other.instances if i.object == number]

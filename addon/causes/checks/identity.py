@@ -28,22 +28,22 @@ def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
     """
     picture, scene = case.picture, case.scene
     owners = picture.owners
-    if picture.owner is None or owners is None or picture.lit or picture.filter_radius > 0:
+    if not owners or picture.lit or picture.sampling.filter_radius > 0:
         return case
-    owner = picture.owner.copy()
-    unclear = case.colorless | shading.interpolated(scene, np.arange(len(owners)))
-    for rows in blocks(owner.shape):
-        part, shown = picture.at(rows), owner[rows]
+    pixels = owners.pixels.copy()
+    unclear = case.colorless | shading.interpolated(scene, np.arange(len(owners.instances)))
+    for rows in blocks(pixels.shape):
+        part, shown = picture.at(rows), pixels[rows]
         odd = part.other_object(frame.instance_index[rows])
         odd &= ~part.other_color(frame.color[rows])
         for number in np.unique(shown[odd]):
-            own = np.flatnonzero(owners == number)
+            own = np.flatnonzero(owners.instances == number)
             if len(own) and not unclear[own].any():
                 here = odd & (shown == number)
                 may = _may_have(part.at(here), _colors(scene, own))
                 shown[here] = np.where(may, number, UNKNOWN)
         yield 1.0
-    return replace(case, picture=replace(picture, owner=owner))
+    return replace(case, picture=replace(picture, owners=replace(owners, pixels=pixels)))
 
 
 def _colors(scene: Scene, instances: Places) -> Colors:

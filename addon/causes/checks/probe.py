@@ -164,7 +164,7 @@ class Probe:
 
 
 def _joined(chunks: list[Pairs]) -> Pairs:
-    """Return several lots of pairs as one, a triangle a pair."""
+    """Concatenate pairs, with one triangle each."""
     pixel, instance, triangle = (
         np.concatenate([getattr(p, name) for p in chunks])
         for name in ("pixel", "instance", "triangle")
@@ -204,9 +204,9 @@ class Part:
         self.pixels.give(where, cause, figure, allowed, self.at)
 
     def resolution(self, hits: Hits) -> Floats:
-        """Return how near in depth two surfaces are taken for one, at n hits; 0 for no hit."""
+        """Return the depth difference below which surfaces tie, at n hits; 0 for no hit."""
         seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits))
-        found, renderer = hits.take(seen), self.picture.renderer
+        found, renderer = hits.take(seen), self.picture.sampling.renderer
         rays = self.probe.rays(pixel=seen)
         along = renderer.along(self.scene, found, self.probe.points(hits)[seen], rays)
         out[seen] = renderer.resolution(self.scene.camera, found.t, along)
@@ -257,7 +257,7 @@ def near_surfaces(
 
 
 def _near(picture: Picture, probe: Probe) -> Work[Bools]:
-    """Return which of n pixels show a colour and an object that some ray near them may see.
+    """Return which of n pixels show a colour and an object that a ray near them may meet.
 
     No ray of the probe can explain the others.
     """

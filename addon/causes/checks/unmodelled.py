@@ -40,13 +40,14 @@ NOT_MODELLED = Cause(
     (0.3, 0.08, 0.9),
     explains=True,
     warns=True,
-    why="The scene has something that the tracer does not model: hair, glass, a texture, x-ray.",
-    check="First, whether it is seen in this very pixel; where only its colours are not known, the "
-    "object must still be the right one. Then objects that are not drawn, cut a hole, or are drawn "
-    "in front of others: the scene is traced so, and must give what the picture shows. At last "
-    "what may change a picture as it is anywhere: light, which excuses the colour alone; "
-    "x-ray, backface culling, depth of field.",
-    never="Damage beside it, or beneath hair; another object where only the colour is not known.",
+    why="The scene has something that the tracer does not model, such as hair, glass, a "
+    "texture or x-ray.",
+    check="First: it is drawn in this very pixel; where only its colours are unknown, the "
+    "object must still be right. Then, for objects that are not drawn, cut a hole, or are "
+    "drawn in front of others: the scene traced like this gives what the picture shows. "
+    "Last, what may change a picture *as it is* in any pixel: light, which excuses the "
+    "colour only; x-ray, backface culling, depth of field.",
+    never="Damage beside it, or beneath hair; another object where only the colour is unknown.",
     advice="hide it, or compare like for like",
 )
 
@@ -57,37 +58,33 @@ _FINAL = (UNEXPLAINED, NOT_TRACED, NOT_DECIDABLE)  # they stay, whatever is draw
 
 
 def as_known(case: Case) -> Picture:
-    """Return the case's picture with what is known of its colours, and with what lies beneath."""
+    """Return the picture beneath what is drawn over it, without the colours that are unknown."""
     picture = case.picture
     lit = picture.lit or any(u.effect is Effect.LIGHT for u in case.manifest.unmodelled)
-    picture = replace(picture, lit=lit, colorless=case.colorless)
-    if picture.beneath is None:
-        return picture
-    known = drawn_over(picture) != NOTHING
-    return replace(picture, color=np.where(known[..., None], picture.beneath, picture.color))
+    color = picture.drawn.taken_off(picture.color) if picture.drawn else picture.color
+    return replace(picture, color=color, lit=lit, colorless=case.colorless)
 
 
 def drawn_over(picture: Picture) -> Integers:
-    """Return which feature draws itself over what is known to lie beneath, (h, w), or NOTHING."""
-    if picture.drawn is None or picture.beneath is None:
-        return np.full(picture.color.shape[:-1], NOTHING, np.int32)
-    known = np.isfinite(picture.beneath).all(axis=-1)
-    return np.where(known, picture.drawn, np.int32(NOTHING))
+    """Return which feature is drawn over pixels known beneath it, (h, w), or NOTHING."""
+    if picture.drawn:
+        return picture.drawn.known
+    return np.full(picture.color.shape[:-1], NOTHING, np.int32)
 
 
 def blind(case: Case, frame: Frame) -> Integers:
     """Return which feature keeps each pixel from being judged, (h, w): its index, or NOTHING."""
     features, picture = list(enumerate(case.manifest.unmodelled)), case.picture
-    filtered = int(np.ceil(picture.filter_radius))
+    filtered = int(np.ceil(picture.sampling.filter_radius))
     out = np.full(frame.shape, NOTHING, np.int32)
-    if picture.drawn is None:  # nobody drew the scene without it: all that it may cover
+    if not picture.drawn:  # nobody drew the scene without it: all that it may cover
         for number, feature in features:
             if feature.effect is Effect.DRAWN and feature.bounds is not None:
                 out[covered(case.scene.camera, feature.bounds)] = number
-    elif picture.beneath is None:  # drawn by another renderer, it may be a pixel wider
-        out = largest_within(picture.drawn, max(filtered, 1))
+    elif picture.drawn.beneath is None:  # drawn by another renderer, it may be a pixel wider
+        out = largest_within(picture.drawn.feature, max(filtered, 1))
     else:
-        out[:] = picture.drawn
+        out[:] = picture.drawn.feature
     own = case.feature_of(Effect.COLOR)[frame.instance_index]
     own = largest_within(own, filtered)  # a filter mixes in what is beside
     out = np.where(out == NOTHING, own, out)
@@ -99,7 +96,7 @@ def blind(case: Case, frame: Frame) -> Integers:
 
 
 def check_in_place(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels in which a feature is drawn, or the colour of a surface is not known."""
+    """Find open pixels in which a feature is drawn, or a surface has an unknown colour."""
     number, seen = pixels.out.blind, pixels.frame.instance_index
     effects = [*(u.effect for u in pixels.case.manifest.unmodelled), None]
     is_drawn, is_recolored = (
@@ -125,8 +122,9 @@ def check_otherwise(pixels: OpenPixels) -> Work[None]:
     past = np.maximum(unseen, holes)
     if pixels.open.any() and (past != NOTHING).any():
         owners = picture.owners
-        if owners is not None:
-            owners = np.where(holes != NOTHING, np.int32(NOTHING), owners)
+        if owners:
+            instances = np.where(holes != NOTHING, np.int32(NOTHING), owners.instances)
+            owners = replace(owners, instances=instances)
         shown = replace(picture, owners=owners, holes=holes != NOTHING)
         yield from scaled(_see(pixels, shown, unseen == NOTHING, past), 0.0, 0.5)
     if pixels.open.any() and (front != NOTHING).any():
@@ -158,7 +156,7 @@ def _some(things: Sequence[T], left: Bools) -> tuple[T, ...]:
 
 
 def check_everywhere(pixels: OpenPixels) -> Work[None]:
-    """Give their cause to open pixels that a feature may change wherever they are."""
+    """Find open pixels that a feature may change wherever they are."""
     for number, feature in enumerate(pixels.case.manifest.unmodelled):
         if feature.effect.everywhere:
             where = pixels.open
@@ -169,11 +167,11 @@ def check_everywhere(pixels: OpenPixels) -> Work[None]:
 
 
 def name_drawn(pixels: OpenPixels) -> Work[None]:
-    """Name what draws itself over pixels that were judged, and found to be right, beneath it."""
+    """Name the feature drawn over pixels that are right beneath it."""
     own = pixels.case.picture
     out = pixels.out
-    if own.beneath is not None:
-        number = drawn_over(own)
+    number = drawn_over(own)
+    if (number != NOTHING).any():
         over = yield from other_color(own, pixels.frame.color)
         over &= (number != NOTHING) & ~np.isin(out.cause, _FINAL)
         out.cause[over] = NOT_MODELLED

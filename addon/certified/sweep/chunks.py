@@ -14,9 +14,9 @@ import numpy as np
 from ...arrays import Bools, Floats, Index, Integers, Places
 from ...scene import Mesh, Scene
 from ...tracer.progress import Steps
-from ...tracer.vector import Vectors, gather, grouped, groups, occurring, parts, transform_points
+from ...tracer.vector import Vectors, gather, groups, occurring, parts, transform_points
 from .film import Film, Vertices
-from .small_triangles import SmallTriangles
+from .small_triangles import SmallTriangles, Triangles
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
 
@@ -25,13 +25,15 @@ _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a c
 class Chunk:
     """The triangles first <= k < last of one instance, or all of several (`last` is None).
 
-    Of `dense` instances only those that may cover a pixel (`small_triangles.py`).
+    Of `dense` instances only those that may cover a pixel (`small_triangles.py`). Where `own` is
+    given, only these triangles, instance by instance.
     """
 
     instances: Integers
     first: int = 0
     last: int | None = None
     dense: bool = False
+    own: tuple[tuple[int, Integers], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,10 +80,9 @@ class Numbering:
             return self._names[0].of(surface)
         out = np.empty((2, len(surface)), np.int32)
         chunk = np.searchsorted(self._starts, surface, side="right") - 1
-        in_chunk = grouped(chunk.astype(np.uint16), len(self._names))
-        for names, own, start in zip(self._names, in_chunk, self._starts.tolist(), strict=False):
-            if len(own):
-                out[:, own] = names.of(surface[own] - start)
+        for k in np.flatnonzero(np.bincount(chunk)).tolist():
+            own = np.flatnonzero(chunk == k)
+            out[0, own], out[1, own] = self._names[k].of(gather(surface, own) - self._starts[k])
         return out[0], out[1]
 
 
@@ -181,12 +182,18 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Ste
     # Contiguous rows: `take` of rows that are not would copy all of them each time.
     corners = np.ascontiguousarray(np.hstack([part.corners for part in found]))
     instances = np.concatenate([part.instances for part in found])
-    names = Names(instances, starts, chunk.first, np.concatenate(own) if chunk.dense else None)
+    names = Names(instances, starts, chunk.first, np.concatenate(own) if own else None)
     return Expanded(vertices, corners, names)
 
 
 def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part | None]:
     """Yield a chunk's triangles, mesh by mesh, and None after each step in between."""
+    if chunk.own:
+        for instance, own in chunk.own:
+            yield from _some(
+                scene, np.array([instance], np.int32), own, small if chunk.dense else None
+            )
+        return
     of = scene.instance_meshes[chunk.instances]
     for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
         mesh = scene.meshes[scene.instances[members[0]].mesh]
@@ -203,3 +210,20 @@ def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part 
         starts = count * np.arange(len(members), dtype=np.int32)
         corners = (corners[:, None] + starts[:, None]).reshape(3, -1)
         yield _Part(mesh, members, counts, corners, used)
+
+
+def _some(
+    scene: Scene, instance: Integers, own: Integers, small: SmallTriangles | None
+) -> Iterator[_Part | None]:
+    """Yield the triangles `own` of one instance, as `_parts` does."""
+    mesh = scene.meshes[scene.instances[instance[0]].mesh]
+    used, corners = occurring(mesh.triangles.take(own, axis=0).T, len(mesh.vertices))
+    yield None
+    if not small:
+        yield _Part(mesh, instance, np.array([len(own)]), corners, used, own)
+        return
+    some = Triangles(mesh.vertices.take(used, axis=0), corners.T)
+    for found in small.within(some, instance):
+        if found:
+            found = found._replace(used=used[found.used], triangle=own[found.triangle])
+        yield _Part(mesh, *found) if found else None

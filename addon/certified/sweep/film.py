@@ -19,10 +19,11 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays import Bools, Floats, Index
-from ...scene import Camera
+from ...scene import Camera, Scene
 from ...tracer.camera import dual_axes, pixel_size
 from ...tracer.candidates import SAFETY, has_sound_axes
 from ...tracer.vector import Vectors, largest
+from ...tracer.world import reaches
 
 _EPS = 2.0**-52
 _TINY = 2.0**-960  # added to a vertex's size: more than gradual underflow may lose
@@ -142,6 +143,29 @@ class Film:
     def depth_error(self) -> tuple[float, float]:
         """c0, c1: for parallel rays, the t of a vertex is off by at most c0 + c1 size."""
         return 2 * self.ray_error if self.is_sound else np.inf, SAFETY * _EPS * self._spread
+
+    def rows(self, scene: Scene) -> tuple[Floats, Floats]:
+        """Return p, q, w and the depth as linear functions of n instances' object spaces.
+
+        (4, 4, n): the slopes along x, y and z, and a constant. And a bound on the size of the
+        instances' vertices, (n,).
+        """
+        camera = self.camera
+        columns = scene.instance_matrices[:3].copy()  # (3, 4, n)
+        size = 1.01 * (reaches(scene).max(axis=0, initial=0) + np.abs(camera.origin).max()) + _TINY
+        columns[:, 3] -= camera.origin[:, None]
+        right, up, depth = (
+            d[0] * columns[0] + d[1] * columns[1] + d[2] * columns[2] for d in self.dual
+        )
+        w = depth
+        if camera.projection.shares_direction:
+            w = np.zeros_like(depth)
+            w[3] = 1
+        window = camera.window
+        width, height = pixel_size(camera)
+        p = (right - window.left * w) / width - self.dx * w
+        q = (up - window.bottom * w) / height - self.dy * w
+        return np.stack((p, q, w, depth)), size
 
     def nearest(self, depth: Floats, size: Floats) -> Floats:
         """Bound the nearness of what is seen of vertices from above, (n,)."""

@@ -26,7 +26,6 @@ from numpy.typing import NDArray
 
 from ...arrays import Colors, Floats, Index, Integers
 from ...scene import Mesh, Region, Scene
-from ...tracer.camera import pixel_size
 from ...tracer.vector import gather, largest, occurring, parts
 from .film import Film
 
@@ -52,6 +51,13 @@ class Visible(NamedTuple):
     triangle: Integers  # (m,) their numbers in the mesh, instance by instance
 
 
+class Triangles(NamedTuple):
+    """Some triangles of a mesh, and their vertices, as a `Mesh` has them."""
+
+    vertices: Floats  # (v, 3)
+    triangles: Integers  # (n, 3)
+
+
 class SmallTriangles:
     """The instances of a scene on a camera's film, in float32.
 
@@ -73,25 +79,12 @@ class SmallTriangles:
         self._region = region
         low, high = np.array([m.bounds for m in scene.meshes])[of].transpose(1, 2, 0)
         reach = np.concatenate((np.maximum(np.abs(low), np.abs(high)), np.ones((1, len(of)))))
-        columns = scene.instance_matrices[:3].copy()  # (3, 4, n): v enters as (x, y, z, 1)
-        size = 1.01 * ((np.abs(columns) * reach).sum(axis=1) + np.abs(camera.origin[:, None]))
-        columns[:, 3] -= camera.origin[:, None]
-        right, up, w = (
-            d[0] * columns[0] + d[1] * columns[1] + d[2] * columns[2] for d in film.dual
-        )
-        if camera.projection.shares_direction:
-            w = np.zeros_like(right)
-            w[3] = 1
-        window = camera.window
-        width, height = pixel_size(camera)
-        x = (right - window.left * w) / width - film.dx * w
-        y = (up - window.bottom * w) / height - film.dy * w
+        (x, y, w, _), size = film.rows(scene)
         self._matrices = np.stack((x, y, w)).astype(np.float32)
         sums = np.abs((x, y, w) * reach).sum(axis=1)
         least = w[3] + np.minimum(w[:3] * low, w[:3] * high).sum(axis=0)
         constant, slope = film.place
         far = max(camera.width, camera.height)
-        size = size.max(axis=0)
         own = constant + (slope + 2 * far * film.weight) * size
         most = np.maximum(sums[0], sums[1]) / least
         margin = (
@@ -106,7 +99,7 @@ class SmallTriangles:
         known &= largest(most, np.full_like(most, far)) < _FARTHEST // 2
         self.is_dense = known & (counts > _PER_PIXEL * area)
 
-    def within(self, mesh: Mesh, members: Integers) -> Iterator[Visible | None]:
+    def within(self, mesh: Mesh | Triangles, members: Integers) -> Iterator[Visible | None]:
         """Find the triangles of instances `members` of a mesh that may cover a pixel.
 
         Yields those of some instances and triangles at a time, and None after each step in between.

@@ -73,6 +73,7 @@ def compare(options: CompareOptions) -> int:
 
 
 def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
+    """Compare a .blend with what Blender draws of it; return the exit code."""
     if not is_blend(options.scene):
         raise SceneError(
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
@@ -91,6 +92,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "colors": _colors(options),
             "identity": options.identity,
             "self_check": options.self_check,
+            "renderer": options.renderer,
+            "filter": options.filter,
             **place,
         }
         if options.frames:
@@ -139,7 +142,7 @@ def _frames(
 def _with_picture(
     options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> int:
-    """Compare with a picture of unknown make."""
+    """Compare with a picture from a file."""
     with progress_bar() as progress:
         of = _blend if is_blend(options.scene) else _file
         comparison = result_of(of(options, picture, place), progress)
@@ -159,6 +162,7 @@ def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) 
 
 
 def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
+    """Print a comparison; return the exit code."""
     if options.colors_out:
         _write_colors(options.colors_out, comparison.scene, comparison.manifest.owners)
     print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
@@ -166,7 +170,7 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
 
 
 def _only_colors(options: CompareOptions, path: Path) -> int:
-    """Write what a picture of a mesh or a .npz should show that is yet to be drawn."""
+    """Write the colours for a picture of a mesh or a .npz that is still to be rendered."""
     scene, manifest, _ = open_file(options.scene, options.choice)
     scene, notes = in_colors(scene, _colors(options) or By.AUTOMATIC)
     _write_colors(path, scene, manifest.owners)
@@ -228,7 +232,7 @@ def _file(
 
 
 def _making(options: CompareOptions) -> Making:
-    """Return what the options say of how the picture was made."""
+    """Return how the picture was made, as far as the options say."""
     known = "as --renderer says"
     return Making(options.renderer or "", options.filter or 0.0, options.dither, asked=known)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Array
 from ...causes.case import Case
-from ...scene import Camera, ViewWindow
+from ...scene import Camera
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from .fault import (
@@ -63,14 +63,9 @@ def _turned_world(rotation: Array, position: bool) -> Callable[[Camera], Camera]
 
 def flipped(camera: Camera, axis: int) -> Camera:
     """Mirror the view of a camera along axis 0 or 1 of the picture."""
-    w = camera.window
-    signs = np.ones(3)
-    signs[axis] = -1
-    sides = (
-        (-w.right, -w.left, w.bottom, w.top) if axis == 0 else (w.left, w.right, -w.top, -w.bottom)
-    )
-    turned = _axes(lambda axes: axes * signs)(camera)
-    return replace(turned, window=ViewWindow(*sides))
+    x, y = (-1, 1) if axis == 0 else (1, -1)
+    turned = _axes(lambda axes: axes * (x, y, 1))(camera)
+    return replace(turned, window=camera.window.scaled(x, y))
 
 
 def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:
@@ -103,6 +98,9 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "pixel_offset",
         "{words}: ({dx:+.3f}, {dy:+.3f}) px",
+        "OpenCV puts the first pixel's centre at (0, 0), Blender and COLMAP at (1/2, 1/2): a "
+        "principal point at (width - 1) / 2 belongs to the former. Rays through (i, j) / size "
+        "pass through the pixels' corners.",
         "move the film position of every ray by that: pixel (i, j) has its centre at "
         "(i + 1/2, j + 1/2), and the principal point is at half of the width and the height, plus "
         "the shift",
@@ -120,6 +118,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "mirrored_x",
         "the picture is mirrored left to right",
+        "A camera that looks along +Z with +Y up has its +X at the left. Code that changes "
+        "the sign of one axis alone mirrors the picture.",
         "check the sign of the camera's right axis, or of x on the film",
         *_MIRRORED_X,
         examples=(Example("mirrored_x", "the camera mirrored left to right", with_option(0)),),
@@ -127,6 +127,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "mirrored_y",
         "the camera is mirrored upside down",
+        "In OpenCV's cameras Y points down, in Blender's up. Code that changes the sign of Y, "
+        "and not that of Z with it, mirrors the camera.",
         "check the sign of the camera's up axis, or of y on the film",
         *_MIRRORED_Y,
         examples=(Example("mirrored_y", "the camera mirrored upside down", with_option(0)),),
@@ -134,6 +136,9 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "matrix_transposed",
         "the camera's rotation is transposed",
+        "OpenGL and glTF store a matrix column by column, numpy and Blender's Python row by "
+        "row. A rotation's transpose is also its inverse, and R in OpenCV and COLMAP takes "
+        "the world to the camera.",
         "the axes right, up and backward are the columns of world_from_camera",
         *_TRANSPOSED,
         examples=(Example("camera_transposed", "the camera's rotation inverted", with_option(0)),),
@@ -141,12 +146,16 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "matrix_inverted",
         "the camera's matrix is inverted: world from camera is taken for camera from world",
+        "OpenCV and COLMAP store camera from world (the view matrix); Blender, and "
+        "transforms.json of NeRF, world from camera.",
         "invert the view matrix once, not twice or never",
         *_INVERTED,
     ),
     Fault(
         "focal_length",
         "the focal length is {percent:+.4g} % off: {words}",
+        "An angle is halved or doubled, a vertical one (glTF's yfov) taken for a horizontal "
+        "one, or a lens in millimetres goes with another sensor than the camera's.",
         "check the lens' unit, the sensor's width, and whether an angle is the whole one or half, "
         "of the width or of the height",
         of_camera(FOCAL.camera),
@@ -159,6 +168,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "focal_lengths",
         "the focal length is {across:+.4g} % off across, and {up:+.4g} % up",
+        "The two are computed from the two sides of the sensor, whose ratio is not the "
+        "picture's; or only one of them has the pixel aspect in it.",
         "take one focal length for both, in pixels; a pixel is pixel aspect Y / X as high as it is "
         "wide; remove the scale of the camera and its parents",
         of_camera(FOCALS.camera),
@@ -171,6 +182,9 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "camera_moved",
         "the camera is moved by {right:+.4g} m to its right, {up:+.4g} m upwards and "
         "{forward:+.4g} m forward: by {words} in the world",
+        "In Blender a camera's `location` is without its parents, constraints and delta "
+        "transform; matrix_world has them. Or the picture is that of one eye of a stereo "
+        "pair.",
         "compare its world matrix with the one that the scene has",
         of_camera(MOVED.camera),
         _MOVED.find,
@@ -185,6 +199,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "camera_turned",
         "the camera is turned by {words}",
+        "Angles are read in another order than the camera's rotation mode, or without its "
+        "parents and constraints, such as Track To.",
         "compare its world matrix with the one that the scene has, and the order of its angles",
         of_camera(TURNED.camera),
         _PANNED.find,
@@ -201,6 +217,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "roll",
         "the camera is rolled by {degrees:+.3f} degrees about its axis",
+        "A camera that is made of an eye, a target and an up vector has a roll if the up "
+        "vector is another one.",
         "turn it back; a positive angle turns the picture's content clockwise",
         of_camera(ROLL.camera),
         _ROLL.find,
@@ -211,12 +229,15 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "y_up",
         "the camera is placed in a world with Y up, the meshes in one with Z up (or reversed)",
+        "In glTF Y is up, and Blender writes OBJ files so, unless it is told otherwise; a "
+        "camera that other code writes is not turned with the meshes.",
         "convert both, or none",
         *_TURNED,
     ),
     Fault(
         "forward",
         "the camera looks along +Z in place of -Z",
+        "OpenCV's and COLMAP's cameras look along +Z, Blender's and OpenGL's along -Z.",
         "Blender's cameras look along their own -Z, with +Y up",
         *_BACKWARDS,
     ),

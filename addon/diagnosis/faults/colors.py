@@ -12,7 +12,7 @@ from ...arrays import Array
 from ...causes.case import Case
 from ...scene import Instance, Scene
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
+from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 from .climbing import values_of
 from .fault import (
@@ -22,7 +22,6 @@ from .fault import (
     Numbers,
     Pair,
     Pick,
-    at_once,
     instances_named,
     of_object,
     with_instances,
@@ -121,6 +120,7 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "swapped_colors",
         "{words} have each other's colours",
+        "Objects and colours come in two lists in different orders.",
         "check by which index colours are taken",
         _swapped,
         _first_suspects,
@@ -132,6 +132,8 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "recolored",
         "'{object}' is shown in another colour: ({red:.3f}, {green:.3f}, {blue:.3f}), linear",
+        "A material has one colour for the viewport and another in its shader. Hexadecimal "
+        "colours are sRGB, those in Blender's Python are linear.",
         "check its material, and in which colour space its colour is stored; a mesh is grey unless "
         "--colors names its colours",
         of_object(_in_color),

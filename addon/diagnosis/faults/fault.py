@@ -10,24 +10,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import Any, Generic, ParamSpec, TypeVar
+from typing import Any, Generic, TypeVar
 
 from ...arrays import Colors
 from ...causes.case import Case
 from ...scene import Camera, Instance, Mesh, Scene
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
+from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 
-P = ParamSpec("P")
-T = TypeVar("T")
 G = TypeVar("G", bound="Guess")
 Values = tuple[float, ...]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Guess:
-    """Which fault it is exactly. The base record says whose it is, and no more."""
+    """A guess of what a fault is exactly. The base record names its object, if it has one."""
 
     object: str = ""  # that has it; empty where it is the whole scene's, or the picture's
     words: str = ""  # what else the sentence says
@@ -99,16 +97,6 @@ def with_option(number: int) -> Pick:
     return lambda case, frame: Option(number)
 
 
-def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
-    """Turn a plain function into work without steps."""
-
-    def work(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
-        yield from ()
-        return function(*args, **kwargs)
-
-    return work
-
-
 def always(*guesses: G) -> Find[G]:
     """Return a function that finds the same guesses in every picture."""
     return at_once(lambda evidence: [*guesses])
@@ -135,7 +123,8 @@ class Fault(Generic[G]):
 
     name: str  # in JSON
     sentence: str  # with the names of `numbers`, {object} and {words}
-    advice: str  # what to do, with the same names
+    why: str  # who makes it, and how: for the documents
+    advice: str  # what to do, with the names of `sentence`
     # Return the case that agrees if the picture has the fault: the scene with it, or the picture
     # without it.
     assume: Make[G]

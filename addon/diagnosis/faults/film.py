@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Array, Floats
 from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, ViewWindow
+from ...scene import Camera
 from ...tracer.camera import pixel_size
 from ..evidence import Evidence
 from .fault import Values
@@ -20,9 +20,8 @@ STEP = 4.0  # pixels that the picture's corners move from one start to the next
 
 def offset(camera: Camera, dx: float, dy: float) -> Camera:
     """Return the camera with its rays offset on the film by (dx, dy) pixels."""
-    (width, height), w = pixel_size(camera), camera.window
-    x, y = dx * width, dy * height
-    return replace(camera, window=ViewWindow(w.left + x, w.right + x, w.bottom + y, w.top + y))
+    width, height = pixel_size(camera)
+    return replace(camera, window=camera.window.moved(dx * width, dy * height))
 
 
 def _zoomed(camera: Camera, percent: float) -> Camera | None:
@@ -35,9 +34,7 @@ def _stretched(camera: Camera, x: float, y: float) -> Camera | None:
     across, up = 1 + x / 100, 1 + y / 100
     if not camera.projection.is_linear or min(across, up) <= 0:
         return None
-    w = camera.window
-    sides = (w.left / across, w.right / across, w.bottom / up, w.top / up)
-    return replace(camera, window=ViewWindow(*sides))
+    return replace(camera, window=camera.window.scaled(1 / across, 1 / up))
 
 
 def _rolled(camera: Camera, degrees: float) -> Camera:

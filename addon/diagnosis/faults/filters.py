@@ -164,21 +164,22 @@ def _made_of_means(case: Case, guess: MeanFrom) -> Case:
 
 def _two_pixels(case: Case, frame: Frame) -> MeanFrom | None:
     """Pick a mean of 2 x 2 pixels; None where a filter's mixes are excused."""
-    return None if case.picture.filter_radius else MeanFrom(2, CODINGS[0], 0, 0)
+    return None if case.picture.sampling.filter_radius else MeanFrom(2, CODINGS[0], 0, 0)
 
 
 # ---- any filter
 
 
 def _filtered(case: Case, guess: Numbers) -> Case:
-    return replace(case, picture=replace(case.picture, filter_radius=guess.values[0]))
+    sampling = replace(case.picture.sampling, filter_radius=guess.values[0])
+    return replace(case, picture=replace(case.picture, sampling=sampling))
 
 
 def _find_filter(evidence: Evidence) -> Work[list[Numbers]]:
     """Guess radii beyond the picture's own, if most unexplained pixels mix colours."""
     if not (yield from _shows_mixes(evidence)):
         return []
-    larger = [r for r in RADII if r > evidence.picture.filter_radius]
+    larger = [r for r in RADII if r > evidence.picture.sampling.filter_radius]
     fits = (r for r in larger if _may_mix(evidence, r) and _edges_mix(evidence, r))
     return [Numbers((r,), (r,), (r,)) for r in fits]
 
@@ -189,7 +190,7 @@ def _edges_mix(evidence: Evidence, radius: float) -> bool:
     Of the pixels beside an edge, two wide, a filter of half a pixel mixes about half (44 % in the
     test bed), one of a pixel nearly all. A picture that is blurred in a part has crisp edges, too.
     """
-    if evidence.picture.filter_radius:
+    if evidence.picture.sampling.filter_radius:
         return True  # most are mixed already
     made = evidence.picture.made_of(evidence.frame.color)
     edge = beside_edges(made, 2 * NEAR)
@@ -214,6 +215,7 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "supersampled",
         "each pixel is the mean of {n:.0f} x {n:.0f} samples within it{words}",
+        "The renderer smooths edges by a grid of samples in each pixel.",
         "render one sample in each pixel's centre, or compare with --filter 0.75",
         _supersampled,
         _find_samples,
@@ -226,6 +228,8 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "averaged",
         "each pixel is the mean of {n:.0f} x {n:.0f} pixels{words}",
+        "A picture read half a pixel beside its centres, with interpolation, is the mean of 2 "
+        "x 2 pixels; larger means come from a blur.",
         "compare the picture as it was rendered, before it was blurred",
         unchanged,
         _find_mean,
@@ -241,6 +245,8 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "filter_radius",
         "the picture is filtered: its pixels mix what is within {radius:g} px",
+        "Renderers weight samples by a filter that reaches beyond the pixel: that of Cycles "
+        "is 1.5 px wide by default.",
         "render one sample in each pixel's centre, or compare with --filter {radius:g}",
         _filtered,
         _find_filter,

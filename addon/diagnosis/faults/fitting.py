@@ -87,8 +87,8 @@ def _share(evidence: Evidence, shown: Picture, traced: tuple[Array, ...]) -> flo
     """Return the share of n pixels that agree with n traced ones, by row and column."""
     made = shown.made_of(evidence.frame.color[traced])
     right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
-    if shown.owner is not None and shown.owners is not None:
-        right &= shown.owners[evidence.frame.instance_index[traced]] == shown.owner
+    if shown.owners:
+        right &= shown.owners.same(evidence.frame.instance_index[traced])
     return float(right.mean())
 
 

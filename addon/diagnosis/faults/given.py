@@ -40,96 +40,123 @@ def _a_frame_later(case: Case, frame: Frame) -> Given | None:
     return None if case.next_frame is None else Given(case.next_frame)
 
 
-def _given(name: str, sentence: str, advice: str, *examples: Example) -> Fault[Given]:
-    return Fault(name, sentence, advice, in_its_scene, always(), examples=examples)
+def _given(name: str, sentence: str, why: str, advice: str, *examples: Example) -> Fault[Given]:
+    return Fault(name, sentence, why, advice, in_its_scene, always(), examples=examples)
 
 
 GIVEN_FAULTS = (
     _given(
         "other_frame",
         "the picture is of another frame: {words}",
+        "A script renders the frame at which the file was saved, or counts frames from 0.",
         "render the frame that the scene is at, or compare with --frame",
         Example("wrong_frame", "the scene a frame later", _a_frame_later),
     ),
     _given(
         "other_camera",
         "the picture is taken by another camera of the scene: {words}",
+        "An exporter takes the first camera that it finds, or a marker on the timeline has made"
+        " another one active.",
         "make that camera active, or compare with --camera",
     ),
     _given(
         "sensor_width_for_height",
         "the sensor's width is taken for its height, or the height for the width",
+        "Blender uses the sensor's height with sensor fit Vertical only. Code that always "
+        "takes the width, or takes the height for every portrait, is wrong.",
         "with sensor fit Vertical, the sensor's height spans the picture's height; else its width "
         "is what the lens is fitted to",
     ),
     _given(
         "sensor_fit_setting",
         "the camera's sensor fit is another: {words}",
+        "An exporter follows one rule for all cameras, and does not read the setting.",
         "take the sensor fit of the camera: it says which side of the sensor and the picture fit",
     ),
     _given(
         "camera_scale",
         "the scale of the camera, or of its parents, is not removed",
+        "`matrix_world` includes the scale of the camera and of its parents, which Blender "
+        "itself ignores. An exporter that writes the matrix unchanged scales the rays.",
         "divide each axis of the camera's matrix by its length: Blender's cameras have no scale",
     ),
     _given(
         "parent_left_out",
         "the parent's transform is left out: {words}",
+        "An object's `location`, `rotation_euler` and `scale` are relative to its parent, and "
+        "without its constraints.",
         "use matrix_world, which has the parent's transform and its inverse",
     ),
     _given(
         "parent_scale",
         "the parent's scale is left out: {words}",
+        "The chain of parents is rebuilt from locations and rotations alone, as rigid bodies "
+        "and bones have them.",
         "use matrix_world: the parent's scale moves and scales what is parented to it",
     ),
     _given(
         "parent_inverse",
         "the parent's inverse is left out: {words}",
+        "When an object is parented, Blender keeps it in place by storing the parent's "
+        "inverse of that moment (matrix_parent_inverse). Other programs have no such matrix.",
         "world = parent's world @ matrix_parent_inverse @ matrix_basis",
     ),
     _given(
         "perspective_for_orthographic",
         "a perspective camera is taken for an orthographic one",
+        "The renderer has one type of camera so far, or the type is set by hand.",
         "take the camera's type from the scene",
     ),
     _given(
         "orthographic_for_perspective",
         "an orthographic camera is taken for a perspective one",
+        "The exporter writes every camera as a perspective one, as Mitsuba's does.",
         "take the camera's type from the scene",
     ),
     _given(
         "rest_pose",
         "{words} at rest pose: the armature or the shape keys are left out",
+        "`object.data` is the mesh before its armature and its shape keys.",
         "export the evaluated mesh",
     ),
     _given(
         "viewport_modifiers",
         "modifiers are as in the viewport, not as in a render: {words}",
+        "`context.evaluated_depsgraph_get()` evaluates for the viewport, also in the "
+        "background; only a render engine gets a depsgraph for a render.",
         "evaluate the depsgraph for a render",
     ),
     _given(
         "no_modifiers",
         "modifiers are left out: {words}",
+        "`object.data` is the mesh before its modifiers.",
         "export the evaluated mesh, not the object's data",
     ),
     _given(
         "subdivision",
         "subdivision at another level: {words}",
+        "A subdivision has one level for the viewport and one for renders, and Simplify limits "
+        "both.",
         "use the render levels of the modifier",
     ),
     _given(
         "instance_transform",
         "the transform of instances is left out: {words}",
+        "`object.matrix_world` is the same for all instances of an object: the matrix of each "
+        "is in `depsgraph.object_instances`.",
         "each instance has a world matrix of its own, beside its object's",
     ),
     _given(
         "hidden_shown",
         "'{object}' is shown, and the scene hides it: {words}",
+        "Blender hides objects for the viewport, for renders, by the eye, and by collections. "
+        "An exporter that asks for one of these shows what another one hides.",
         "leave out what is hidden in renders",
     ),
     _given(
         "other_layer",
         "the picture is of another view layer: {words}",
+        "Blender renders all view layers that are switched on; an exporter writes the active one.",
         "render the view layer that is compared",
     ),
 )

@@ -47,9 +47,9 @@ Grading = Iterator[tuple[Values, Transform, str]]  # the numbers, what it is, in
 
 def _ends(picture: Picture, shown: Colors) -> tuple[Floats, Floats]:
     """Return the straight linear values between which rounding leaves colours (k, 4)."""
-    _, allowed = difference(shown, shown, False, picture.levels, picture.sums, picture.dither)
+    _, allowed = difference(shown, shown, stored=picture.storage)
     middle = straight(shown)
-    if not picture.levels:
+    if not picture.storage.levels:
         return middle - allowed[..., :3], middle + allowed[..., :3]
     coded = curve(np.clip(middle, 0, 1))
     low, high = coded - allowed[..., :3], coded + allowed[..., :3]
@@ -136,6 +136,8 @@ GRADING_FAULTS = (
         "white_balance",
         "the picture's white balance is another: red times {red:.4g}, green times {green:.4g}, "
         "blue times {blue:.4g}, {words}",
+        "Blender's color management has a white balance from 4.3 on, and photo programs apply "
+        "one by themselves.",
         "switch off white balance and colour grading",
         _by_grading,
         _find_graded(_balances),
@@ -152,6 +154,7 @@ GRADING_FAULTS = (
     Fault(
         "saturation",
         "the picture's saturation is {saturation:.4g} times what it should be, {words}",
+        "Set by a look in Blender's color management, or by a filter of a photo program.",
         "switch off colour grading, and filters of the viewer that saved it",
         _by_grading,
         _find_graded(_saturations),

@@ -179,6 +179,8 @@ LAID_OVER = Fault(
     "overlay",
     "something is laid over the picture: opacity {opacity:.2f}, "
     "colour ({red:.3f}, {green:.3f}, {blue:.3f}){words}",
+    "Blender can burn metadata into pictures, viewports draw overlays, and trial versions "
+    "of programs a watermark.",
     "switch off stamps, overlays, watermarks and cursors",
     unchanged,
     _find_overlay,

@@ -16,31 +16,20 @@ from .fault import Example, Fault, Option, options, with_option
 Change = Callable[[Camera], Camera | None]
 
 
-def window(camera: Camera, x: float, y: float, centre: tuple[float, float]) -> Camera:
-    """Return the camera with its view window scaled by (x, y), and moved to a centre."""
-    w = camera.window
-    half_x, half_y = x * (w.right - w.left) / 2, y * (w.top - w.bottom) / 2
-    cx, cy = centre
-    made = ViewWindow(cx - half_x, cx + half_x, cy - half_y, cy + half_y)
-    return replace(camera, window=made)
-
-
-def centre(camera: Camera) -> tuple[float, float]:
-    """Return the centre of the view window."""
-    w = camera.window
-    return (w.left + w.right) / 2, (w.bottom + w.top) / 2
-
-
 def _scaled(x: float, y: float, camera: Camera) -> Camera:
     """Scale the view window about the axis."""
-    cx, cy = centre(camera)
-    return window(camera, x, y, (x * cx, y * cy))
+    return replace(camera, window=camera.window.scaled(x, y))
+
+
+def _about_centre(camera: Camera, x: float, y: float) -> Camera:
+    """Scale the view window about its own centre."""
+    return replace(camera, window=camera.window.about(camera.window.centre, x, y))
 
 
 def _aspect(camera: Camera) -> float:
     """Return the aspect ratio of the view window, width / height."""
-    w = camera.window
-    return (w.right - w.left) / (w.top - w.bottom)
+    width, height = camera.window.size
+    return width / height
 
 
 def _fits(power: float, shifted: bool) -> Change:
@@ -50,24 +39,22 @@ def _fits(power: float, shifted: bool) -> Change:
         factor = _aspect(camera) ** power
         if not camera.projection.is_linear or factor == 1:  # a panorama has no sensor to fit
             return None
-        return _scaled(factor, factor, camera) if shifted else _about_centre(camera, factor)
+        if shifted:
+            return _scaled(factor, factor, camera)
+        return _about_centre(camera, factor, factor) if any(camera.window.centre) else None
 
     return change
-
-
-def _about_centre(camera: Camera, factor: float) -> Camera | None:
-    """Scale the view window about its own centre; None if that is the axis."""
-    own = centre(camera)
-    return window(camera, factor, factor, own) if any(own) else None
 
 
 def _shifts(of: Callable[[Camera, float, float], tuple[float, float]]) -> Change:
     """Return a function that moves the centre of the view window; None if it stays."""
 
     def change(camera: Camera) -> Camera | None:
-        own = centre(camera)
+        own = camera.window.centre
         other = of(camera, *own)
-        return None if np.allclose(own, other, rtol=1e-9, atol=0) else window(camera, 1, 1, other)
+        if np.allclose(own, other, rtol=1e-9, atol=0):
+            return None
+        return replace(camera, window=camera.window.about(other))
 
     return change
 
@@ -83,7 +70,7 @@ def _square(by_width: bool, shifted: bool) -> Change:
         if np.isclose(width, height, rtol=1e-6):
             return None
         x, y = (1, width / height) if by_width else (height / width, 1)
-        return _scaled(x, y, camera) if shifted else window(camera, x, y, centre(camera))
+        return _scaled(x, y, camera) if shifted else _about_centre(camera, x, y)
 
     return change
 
@@ -96,7 +83,7 @@ def _spanned(across: bool, up: bool) -> Callable[[Camera], Camera | None]:
         if not camera.projection.is_linear or min(w, h) < 2:
             return None
         x, y = (w / (w - 1) if across else 1, h / (h - 1) if up else 1)
-        return window(camera, x, y, centre(camera))
+        return _about_centre(camera, x, y)
 
     return change
 
@@ -106,7 +93,7 @@ def _in_length(factor: Callable[[Camera], float]) -> Change:
     return _shifts(lambda camera, x, y: (factor(camera) * x, factor(camera) * y))
 
 
-def _sides(camera: Camera) -> tuple[float, float]:
+def _lengths(camera: Camera) -> tuple[float, float]:
     """Return the width and the height of the picture in pixels' widths."""
     width, height = pixel_size(camera)
     return camera.width, camera.height * height / width
@@ -126,9 +113,9 @@ def _part(scale: float, top: bool) -> Callable[[Camera], Camera]:
 
     def change(camera: Camera) -> Camera:
         w = camera.window
-        half_x, half_y = scale * (w.right - w.left) / 2, scale * (w.top - w.bottom) / 2
-        y = w.top - half_y if top else w.bottom + half_y
-        return window(camera, scale, scale, (w.left + half_x, y))
+        width, height = (scale * length for length in w.size)
+        bottom = w.top - height if top else w.bottom
+        return replace(camera, window=ViewWindow(w.left, w.left + width, bottom, bottom + height))
 
     return change
 
@@ -175,8 +162,8 @@ _LENGTH = options(
         for power in (-1, 1)
         for factor in (
             lambda camera, power: SENSOR**power,
-            lambda camera, power: max(_sides(camera)) ** power,
-            lambda camera, power: min(_sides(camera)) ** power,
+            lambda camera, power: max(_lengths(camera)) ** power,
+            lambda camera, power: min(_lengths(camera)) ** power,
         )
     )
 )
@@ -198,6 +185,8 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "sensor_fit",
         "the lens is fitted to the other side of the picture (sensor fit)",
+        "The exporter takes the sensor's width for the picture's width in every case, which "
+        "is wrong for portraits. Exporters for Mitsuba, LuxCore and Arnold had this fault.",
         "with sensor fit Auto, the sensor's width spans the longer side of the picture, pixel "
         "aspect included",
         *_FIT,
@@ -205,16 +194,26 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
             Example("sensor_fit", "the lens fitted to the picture's other side", with_option(0)),
         ),
     ),
-    Fault("shift_left_out", "the camera's shift is left out", "add shift X and Y", *_LEFT_OUT),
+    Fault(
+        "shift_left_out",
+        "the camera's shift is left out",
+        "The renderer's camera has no shift, or the exporter doesn't write it.",
+        "add shift X and Y",
+        *_LEFT_OUT,
+    ),
     Fault(
         "shift_sign",
         "the camera's shift has the wrong sign",
+        "A principal point moves against the shift in x, and with it in y, since its y counts "
+        "from the top.",
         "a positive shift X shows more of what is to the right, a positive shift Y more of the top",
         *_SIGN,
     ),
     Fault(
         "shift_unit",
         "the camera's shift is in another unit",
+        "Each shift is multiplied by its own side of the picture, which is right for square "
+        "pictures only.",
         "both shifts are in lengths of the side that the sensor is fitted to",
         *_UNIT,
     ),
@@ -222,6 +221,8 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "shift_length",
         f"the camera's shift is taken for millimetres (of a sensor {SENSOR:g} mm wide) or pixels, "
         "or these for a shift",
+        "Other programs give the offset of the film in millimetres or inches, or as a principal"
+        " point in pixels.",
         "a shift is in lengths of the side that the sensor is fitted to: divide millimetres by the "
         "sensor's width, pixels by the picture's",
         *_LENGTH,
@@ -230,6 +231,8 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "last_pixel",
         "the picture is spanned from the first pixel's centre to the last one's: by width - 1 and "
         "height - 1",
+        "`numpy.linspace(-1, 1, width)` puts the outer pixels' centres on the edge of the film:"
+        " its steps are 2 / (width - 1).",
         "the edge of the view is the edge of the outer pixels: u = (i + 1/2) / width",
         *_SPANNED,
         examples=(
@@ -239,24 +242,32 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "pixel_aspect_left_out",
         "the pixel aspect is left out: pixels are taken for squares",
+        "The renderer has square pixels only, or the exporter takes the ratio of the "
+        "resolution for the ratio of the picture's sides.",
         "a pixel is pixel aspect Y / X as high as it is wide",
         *_SQUARE,
     ),
     Fault(
         "resolution_percentage",
         "the camera is made for another resolution than the picture's (resolution percentage)",
+        "In Blender `resolution_x` and `resolution_y` are the size before the percentage is "
+        "applied.",
         "take the width and height times the resolution's percentage, also in the principal point",
         *_PERCENTAGE,
     ),
     Fault(
         "ortho_scale",
         "the orthographic scale is taken for another length of the picture",
+        "Blender's scale is the whole longer side; glTF's xmag and ymag are half of the width "
+        "and half of the height.",
         "it is the whole width or height of the picture, whichever is longer (sensor fit Auto)",
         *_SCALE,
     ),
     Fault(
         "border",
         "the render border is not the part of the picture that is shown",
+        "Blender counts a border's rows from the lowest, image files and many renderers from "
+        "the topmost. Or the whole view is rendered at the border's size.",
         "a border's rows count from the lowest, and its pixels are those of the whole picture",
         *_BORDER,
     ),

@@ -130,10 +130,8 @@ class Looked:
         """Return which of the n pixels are in a mask and agree with the hits of a scene."""
         out = np.zeros(len(where), bool)
         here = np.flatnonzero(where)
-        case = self.evidence.case.in_scene(scene)
-        picture = replace(
-            self.picture.at(here), owners=case.picture.owners, colorless=case.colorless
-        )
+        case = replace(self.evidence.case, picture=self.picture.at(here)).in_scene(scene)
+        picture = replace(case.picture, colorless=case.colorless)
         out[here] = ~picture.differ(scene, hits.take(here))
         return out
 
@@ -187,8 +185,8 @@ class Looked:
 def _shown(evidence: Evidence, own: list[int]) -> Bools:
     """Return which pixels (h, w) of a picture show some instances, by object or colour."""
     picture, scene = evidence.picture, evidence.case.scene
-    if picture.owner is not None and picture.owners is not None:
-        return np.isin(picture.owner, picture.owners[own])
+    if picture.owners:
+        return np.isin(picture.owners.pixels, picture.owners.instances[own])
     first, last = scene.color_rows[:, own]
     rows = np.unique(
         np.concatenate([np.arange(a, b + 1) for a, b in zip(first, last, strict=True)])

@@ -13,7 +13,7 @@ from ...causes.case import Case
 from ...scene import Instance, Scene
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
-from ...tracer.progress import Work
+from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 from .climbing import values_of
 from .fault import (
@@ -27,7 +27,6 @@ from .fault import (
     Option,
     Pair,
     always,
-    at_once,
     instances_named,
     of_meshes,
     of_object,
@@ -152,6 +151,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "nothing_shown",
         "nothing of the scene is in the picture",
+        "The camera looks elsewhere, or stands inside an object or too far away; or "
+        "everything was hidden or skipped.",
         "check where the camera is and looks, and whether anything is rendered",
         lambda case, guess: case.with_scenes(lambda scene: replace(scene, instances=(), planes=())),
         sums_up=True,
@@ -159,6 +160,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "object_missing",
         "'{object}' is missing",
+        "Exporters skip what is not a mesh (curves, texts, metaballs), instances, or what is "
+        "hidden in the viewport only; some of them say nothing.",
         "check why it was not exported, or is hidden",
         of_object(lambda instance: None),
         suspects(),
@@ -168,6 +171,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "transform_left_out",
         "the transform of '{object}' is left out",
+        "Vertices are stored in the object's own coordinates. STL and PLY have no transforms, "
+        "so it must be applied to the vertices.",
         "multiply its vertices by its world matrix",
         of_object(lambda instance: replace(instance, world_from_object=np.eye(4))),
         suspects(),
@@ -175,6 +180,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "rotation_left_out",
         "the rotation of '{object}' is left out",
+        "`rotation_euler` is not used where the object's rotation mode is Quaternion or Axis "
+        "Angle, and stays as it was.",
         "multiply its vertices by its whole world matrix",
         _with_axes(lambda axes, lengths: np.diag(np.where(lengths > 0, lengths, 1))),
         suspects(),
@@ -182,6 +189,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "scale_left_out",
         "the scale of '{object}' is left out",
+        "A pose made of a rotation and a translation, as for robots and rigid bodies, has no "
+        "scale.",
         "multiply its vertices by its whole world matrix",
         _with_axes(lambda axes, lengths: axes),
         suspects(),
@@ -189,6 +198,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "place_left_out",
         "'{object}' is at the world's origin",
+        "Only the (3, 3) part of the matrix was used, or each asset was exported at the origin.",
         "multiply its vertices by its whole world matrix",
         of_object(_at_origin),
         suspects(),
@@ -196,6 +206,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "shear_left_out",
         "the shear of '{object}' is left out: it has the location, rotation and scale alone",
+        "Translation, rotation and scale, as in glTF's nodes or from `Matrix.decompose()`, "
+        "cannot hold a shear.",
         "a child that is turned in a parent with a scale is sheared: store its whole world matrix",
         one_of(  # the scale is the length of the axes
             _with_axes(lambda axes, lengths: _rotation(axes) * lengths),
@@ -206,6 +218,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "swapped_transforms",
         "{words} have each other's transforms",
+        "Meshes and matrices come in two lists in different orders: bpy.data is sorted by "
+        "name, the objects of a scene are not.",
         "check by which index, or in which order, world matrices are taken",
         _exchanged,
         _pairs,
@@ -215,6 +229,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "object_scaled",
         "'{object}' is {factor:.4g} times as large",
+        "FBX files are in centimetres, CAD files often in millimetres, Blender's in metres.",
         "check the units: a factor of 100 is metres for centimetres",
         of_object(scaled),
         _units_or_fitted,
@@ -225,6 +240,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "scene_scaled",
         "all objects are {factor:.4g} times as large, and the camera is not",
+        "The unit of the scene, or of the file format, is applied to the meshes only.",
         "use the same unit for the meshes and the camera",
         of_object(_whole),
         always(*(Numbers((factor,)) for factor in UNITS)),
@@ -233,6 +249,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "object_moved",
         "'{object}' is moved by ({x:+.4g}, {y:+.4g}, {z:+.4g}) m",
+        "Its delta transform, a constraint or its animation is left out, or the exporter "
+        "centred its mesh.",
         "compare its world matrix with the one that the scene has",
         of_object(moved),
         MOVED.find,
@@ -246,6 +264,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "object_twice",
         "'{object}' is there twice: again at ({x:+.4g}, {y:+.4g}, {z:+.4g}) m from its place",
+        "Blender doesn't draw the object itself where its parent instances it on vertices or "
+        "faces. An exporter that writes both has it twice.",
         "look for a second export of it, as an instance or a duplicate",
         copied,
         TWICE.find,
@@ -256,6 +276,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "smooth_displaced",
         "the vertices of '{object}' are displaced along their normals by {distance:+.4g} m",
+        "Blender's Displace modifier has a midlevel of 0.5; other programs have none, or "
+        "another one.",
         "check a displacement's strength and midlevel, and whether normals are smooth",
         of_meshes(displaced),
         DISPLACED.find,

@@ -131,6 +131,9 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "picture_turned",
         "the picture is turned by {words}",
+        "Arrays are indexed by row and column, pictures by x and y. Behind a pinhole the "
+        "picture is upside down. Some viewers apply the orientation that a photo stores, "
+        "others don't.",
         "check the order of its rows and columns: both are reversed, or one is taken for the other",
         lambda case, guess: _quarter_turned(case, -guess.number),
         always(*(Option(n, words=words) for n, words in _QUARTERS.items())),
@@ -147,6 +150,8 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "depth_order",
         "{words}",
+        "The depth test is off or reversed, or objects are sorted and drawn over one another, "
+        "as transparent ones are.",
         "keep the nearest depth of every pixel: what is nearer than that is drawn, nothing else",
         unchanged,
         _orders,

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...causes.case import Case
+from ...tracer.progress import at_once
 from ..evidence import Evidence
-from .fault import AnyFault, Example, Fault, Guess, Make, always, at_once
+from .fault import AnyFault, Example, Fault, Guess, Make, always
 from .filters import FILTER_FAULTS
 from .grading import GRADING_FAULTS
 from .pixels import PIXEL_FAULTS
@@ -66,6 +67,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "row_off",
         "the picture's {words}",
+        "A buffer is read or written from one pixel or row too far, as when counting from 1.",
         "check where the border begins, and from which row or column counting starts",
         _rolled(-1),
         always(*(Rolled(x, y, words=words) for x, y, words in _ROLLS)),
@@ -79,6 +81,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "rows",
         "the picture's rows are from top to bottom, or were turned once too often",
+        "Blender and OpenGL begin with the lowest row, most files with the topmost.",
         "Blender's row 0 is at the bottom, that of most files at the top",
         _upside_down,
         examples=(Example("rows", "the picture's rows from top to bottom"),),
@@ -89,6 +92,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "premultiplied",
         "the picture's colours are multiplied by alpha twice",
+        "Blender's render results and EXR files are premultiplied already.",
         "store premultiplied colours as they are, straight ones as straight",
         recolored(alpha_divided),
         _find_partly,
@@ -97,6 +101,8 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "straight_alpha",
         "the picture's colours are straight, not premultiplied by alpha",
+        "PNG stores straight colours, EXR premultiplied ones; the values were copied from one "
+        "to the other.",
         "multiply them by alpha",
         recolored(alpha_multiplied),
         _find_partly,

@@ -52,9 +52,9 @@ def _find_jpeg(evidence: Evidence) -> Work[list[Jpeg]]:
     """Guess the quality whose errors come nearest to the picture's, if it has 8 bits."""
     try:
         import PIL.Image  # noqa: F401
-    except ImportError:  # an extra, which Blender lacks: nobody stores a reference as a JPEG
+    except ImportError:  # the extra `jpeg`, which Blender lacks
         return []
-    if evidence.picture.levels not in (0, 255):
+    if evidence.picture.storage.levels not in (0, 255):
         return []
     shown = encoded(evidence.picture.color)[..., :3]
     traced = encoded(evidence.frame.color)[..., :3]
@@ -82,14 +82,16 @@ def _find_jpeg(evidence: Evidence) -> Work[list[Jpeg]]:
 
 def _as_jpeg(case: Case, guess: Jpeg) -> Case:
     """Allow the tolerance between two writers of JPEGs."""
-    picture = replace(case.picture, levels=255, dither=JPEG_LEVELS, opaque=True)
-    return replace(case, picture=picture)
+    storage = replace(case.picture.storage, levels=255, dither=JPEG_LEVELS, opaque=True)
+    return replace(case, picture=replace(case.picture, storage=storage))
 
 
 PIXEL_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "jpeg",
         "the picture was stored as a JPEG of about quality {quality:.0f}",
+        "Programs that send or show pictures store them as JPEG, which changes all blocks of 8 "
+        "x 8 pixels.",
         "store it as PNG or EXR",
         _as_jpeg,
         _find_jpeg,

@@ -29,8 +29,10 @@ def recolored(change: Callable[[Array], Array]) -> Make[Guess]:
 
     def make(case: Case, guess: Guess) -> Case:
         picture = case.picture
-        beneath = None if picture.beneath is None else change(picture.beneath)
-        changed = replace(picture, color=change(picture.color), beneath=beneath)
+        drawn = picture.drawn
+        if drawn and drawn.beneath is not None:
+            drawn = replace(drawn, beneath=change(drawn.beneath))
+        changed = replace(picture, color=change(picture.color), drawn=drawn)
         case = replace(case, picture=changed)
         return case if picture.background is None else case.before(change(picture.background))
 
@@ -59,4 +61,5 @@ def with_slack(picture: Picture, slack: float) -> Picture:
     """Return a picture with a tolerance of some levels of 8 bits beyond its own rounding."""
     if slack < 0:
         return picture
-    return replace(picture, levels=picture.levels or EIGHT_BITS, dither=picture.dither + slack)
+    levels, dither = picture.storage.levels or EIGHT_BITS, picture.storage.dither + slack
+    return replace(picture, storage=replace(picture.storage, levels=levels, dither=dither))

@@ -13,8 +13,9 @@ from ...arrays import Array
 from ...causes.case import Case
 from ...images import EIGHT_BITS, curve, curve_undone
 from ...pictures.curves import FITTED_SHARE
+from ...tracer.progress import at_once
 from ..evidence import Evidence
-from .fault import Example, Fault, Numbers, at_once, with_values
+from .fault import Example, Fault, Numbers, with_values
 from .recolor import of_straight, with_slack
 from .surfaces import Surfaces, surfaces
 
@@ -40,7 +41,7 @@ def _find_rounding(evidence: Evidence) -> list[Numbers]:
     if _is_noisy(surfaces(evidence)):
         return []
     more = Numbers((1.0,), words=", and up to one level more off")
-    return [more] if evidence.picture.levels else [Numbers((0.0,)), more]
+    return [more] if evidence.picture.storage.levels else [Numbers((0.0,)), more]
 
 
 @at_once
@@ -62,6 +63,8 @@ ROUNDING_FAULTS = (
     Fault(
         "rounding_level",
         "the picture's colours are rounded to 8 bits{words}",
+        "Programs round to 8 bits differently: to the nearest level, down, or after one more "
+        "conversion.",
         "round, do not cut off; or store 16 bits or floats",
         _of_levels,
         _find_rounding,
@@ -71,6 +74,7 @@ ROUNDING_FAULTS = (
     Fault(
         "dithered",
         "noise of up to {levels:.0f} level{words} of 8 bits lies over the picture, as of dithering",
+        "Blender adds noise to files of 8 bits, by the output setting *Dither*.",
         "switch dithering off, or compare a PNG with --dither {levels:.0f}",
         _of_levels,
         _find_noise,

@@ -16,6 +16,7 @@ from ...arrays import Array, Colors, Floats, Places
 from ...causes.case import Case
 from ...scene import Region, ViewWindow
 from ...tracer import shading
+from ...tracer.camera import pixel_size
 from ...tracer.progress import Work
 from ..evidence import Evidence
 from .fault import AnyFault, Effort, Fault, Guess, Values, unchanged
@@ -53,7 +54,7 @@ def at_size(case: Case, size: float) -> Case:
     """Return the case with its region, which may be a border's, traced at another size."""
     camera = case.scene.camera
     r, w = camera.region, camera.window
-    across, up = (w.right - w.left) / camera.width, (w.top - w.bottom) / camera.height
+    across, up = pixel_size(camera)
     window = ViewWindow(
         w.left + r.x0 * across, w.left + r.x1 * across, w.bottom + r.y0 * up, w.bottom + r.y1 * up
     )
@@ -197,6 +198,7 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "resampled",
         "the picture was rendered at {words}",
+        "A screenshot, or the scaling of a screen or a program, changes the size after rendering.",
         "render it at the size at which it is compared",
         lambda case, guess: at_size(case, guess.size),
         _find_size,
@@ -210,6 +212,7 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "shrunk",
         "the picture was shrunk to {words}",
+        "A preview or a thumbnail was rendered or stored small, and enlarged to be compared.",
         "compare the picture as it was rendered",
         unchanged,
         _find_shrunk,

@@ -11,10 +11,10 @@ from ...arrays import Bools, Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
 from ...tracer.camera import pixel_size
-from ...tracer.progress import result_of
+from ...tracer.progress import at_once, result_of
 from ..evidence import Evidence
 from .climbing import Climb
-from .fault import Values, at_once
+from .fault import Values
 from .film import offsets, radius
 from .fitting import LOOKED_UP, Family, projected
 

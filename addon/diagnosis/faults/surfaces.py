@@ -70,5 +70,5 @@ def _looked_at(evidence: Evidence) -> Surfaces | None:
 
 def agree(picture: Picture, found: Surfaces, of: Transform | None) -> Bools:
     """Return which of k surfaces agree after a transform of the traced colours, (k,)."""
-    one = replace(picture, color=found.shown.astype(np.float32), owner=None)
+    one = replace(picture, color=found.shown.astype(np.float32), owners=None)
     return ~replace(one, transform=of).other_color(found.traced)

@@ -6,7 +6,8 @@ import numpy as np
 
 from ...causes.case import Case
 from ...tracer.frame import Frame
-from .fault import Find, Guess, Numbers, Values, at_once
+from ...tracer.progress import at_once
+from .fault import Find, Guess, Numbers, Values
 
 
 def suspects(*values: float) -> Find[Numbers]:

@@ -20,6 +20,23 @@ from .surfaces import agree, inside, surfaces
 
 _BGRA = [2, 1, 0, 3]
 _TWICE = next(c for c in ROUNDED if c.key == "twice_rounded")
+_WHY = {  # for each of `KEYS`, why it happens
+    "channels": "OpenCV and BMP files have blue first, most others red.",
+    "gamma": "A screen's gamma was applied to linear values, or undone.",
+    "srgb_twice": "The renderer wrote sRGB values, and the program that saved or read them took "
+    "them for linear ones.",
+    "srgb_left_out": "Linear values were written unchanged into a file of 8 bits, which is read "
+    "as sRGB.",
+    "power_for_srgb": "A power of 2.2 is close to sRGB's curve, which is linear near black and "
+    "then has an exponent of 2.4.",
+    "cut_off": "`int(255 * x)` and numpy's `astype(uint8)` cut off instead of rounding.",
+    "coded_gamma": "The *Gamma* of Blender's color management, or of a viewer, is applied to the "
+    "displayed values.",
+    "exposure": "Blender's color management, cameras and tone mappers have an exposure.",
+    "coded_factor": "An editor's brightness multiplies the stored values, not the linear ones.",
+    "view_transform": "A new scene in Blender has the view transform AgX (Filmic from 2.80 to "
+    "3.6), and every PNG is saved with it.",
+}
 
 
 def _gamma(color: Array) -> Array:
@@ -82,6 +99,7 @@ def _colors(key: str) -> Fault[OfCurve]:
     return Fault(
         key,
         "the picture's colours: {words}",
+        _WHY[key],
         "check the colour space of each file, and what is applied when it is saved or loaded",
         _through,
         _find_curve(key),
@@ -106,6 +124,8 @@ CURVE_FAULTS = (
     Fault(
         "twice_rounded",
         "the picture's colours were rounded to 8 bits more than once: {words}",
+        "A picture of 8 bits was converted, for example to another colour space, and stored "
+        "with 8 bits again.",
         "convert colours as floats, and round them once, when the file is written",
         _through,
         _find_curve("twice_rounded"),

@@ -11,7 +11,7 @@ from ...causes.case import Case
 from ...causes.checks.probe import SOUND
 from ...projections import ORTHOGRAPHIC
 from ...rendering import steps
-from ...scene import Camera, Instance, Mesh, Scene
+from ...scene import Camera, Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
@@ -50,18 +50,16 @@ def _culled(case: Case, guess: Guess) -> Case:
     """Leave out the back faces."""
 
     def culled(scene: Scene) -> Scene:
-        meshes: list[Mesh] = []
-        instances: list[Instance] = []
-        for instance in scene.instances:
+        meshes: dict[int, Mesh] = {}
+        for n, instance in enumerate(scene.instances):
             mesh = scene.meshes[instance.mesh]
             matrix = instance.world_from_object
             world = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
             a, b, c = (world[mesh.triangles[:, k]] for k in range(3))
             front = _towards(scene.camera, a, np.cross(b - a, c - a))
             front *= np.sign(np.linalg.det(matrix[:3, :3]))  # Blender turns the normals back
-            instances.append(replace(instance, mesh=len(meshes)))
-            meshes.append(with_triangles(mesh, front >= 0))
-        return replace(scene, meshes=tuple(meshes), instances=tuple(instances))
+            meshes[n] = with_triangles(mesh, front >= 0)
+        return scene.with_meshes(meshes)
 
     return case.with_scenes(culled)
 
@@ -106,10 +104,7 @@ def _without_triangles(case: Case, guess: Triangles) -> Case:
             return scene
         mesh = scene.meshes[scene.instances[own[rank]].mesh]
         left = ~np.isin(np.arange(len(mesh.triangles)), guess.missing)
-        instances = list(scene.instances)
-        instances[own[rank]] = replace(instances[own[rank]], mesh=len(scene.meshes))
-        meshes = (*scene.meshes, with_triangles(mesh, left))
-        return replace(scene, meshes=meshes, instances=tuple(instances))
+        return scene.with_meshes({own[rank]: with_triangles(mesh, left)})
 
     return case.with_scenes(less)
 
@@ -175,6 +170,8 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "culled",
         "back faces are left out (culled)",
+        "Game engines and rasterisers leave out faces that are seen from behind, and so does "
+        "glTF unless a material is doubleSided.",
         "Blender shows both sides of a face, unless its material says otherwise",
         _culled,
         effort=Effort.PIXELS,
@@ -182,6 +179,8 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "flipped_winding",
         "all normals are turned over",
+        "A negative scale, or a change between right- and left-handed coordinates, reverses "
+        "the order of the corners.",
         "keep the order of each triangle's corners",
         of_meshes(_flipped),
         examples=(Example("flipped_winding", "all normals turned over"),),
@@ -189,12 +188,16 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "other_diagonal",
         "quads are cut along their other diagonal",
+        "OBJ keeps quads, and each reader cuts them in its own way. Where a quad is not flat, "
+        "the two ways give two surfaces.",
         "cut each quad as Blender's loop triangles do",
         of_meshes(_other_diagonal),
     ),
     Fault(
         "triangles_missing",
         "'{object}' lacks {count:.0f} of its triangles",
+        "The exporter leaves out faces whose material slot is empty, the reader takes only "
+        "the first three corners of each polygon, or 16-bit indices end at 65,535.",
         "check which faces are exported: hidden ones, large polygons, the end of the list",
         _without_triangles,
         _missing_triangles,

@@ -110,6 +110,7 @@ VIEW_FAULTS = (
     Fault(
         "clip_start",
         "the clip start is {words}",
+        "Many ray tracers have no clip start, or one of their own, or the exporter leaves it out.",
         "take the camera's own clip start; it is a depth along the view axis",
         of_camera(_start),
         _find_start,
@@ -120,6 +121,8 @@ VIEW_FAULTS = (
     Fault(
         "clip_end",
         "the clip end is {words}",
+        "Many ray tracers have no clip end; rasterisers have one, and a large scene may reach "
+        "beyond its default.",
         "take the camera's own clip end; it is a depth along the view axis",
         of_camera(_end),
         _find_end,

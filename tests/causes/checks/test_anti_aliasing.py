@@ -7,6 +7,7 @@ import pytest
 from reference_tracer.causes.checks.anti_aliasing import NEAR, is_mix
 from reference_tracer.causes.explain import AGREE, ANTI_ALIASING, UNEXPLAINED
 from reference_tracer.causes.hull import distance_to_triangles
+from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
@@ -96,5 +97,5 @@ def test_sums_of_half_floats_lose_a_little(room):
     frame = render(room)
     low = frame.color * np.float32(1 - 32 * 2.0**-12)
     for sums, cause in ((0, UNEXPLAINED), (32, AGREE)):
-        found = result_of(find_causes(room, frame, Picture(low, sums=sums)))
+        found = result_of(find_causes(room, frame, Picture(low, storage=Storage(sums=sums))))
         assert (found.cause[frame.instance_index >= 0] == cause).all()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.causes.explain import AGREE, COLOR, UNEXPLAINED
 from reference_tracer.images import curve, curve_undone, decoded
+from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.metrics import boundary
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
@@ -61,7 +62,7 @@ def test_a_file_that_was_cut_off_not_rounded(room, frame):
     stored = np.floor(255 * curve(frame.color[..., :3].astype(np.float64)))
     color = frame.color.copy()
     color[..., :3] = decoded(stored / 255)
-    causes = found(room, frame, Picture(color, levels=255))
+    causes = found(room, frame, Picture(color, storage=Storage(255)))
     assert causes.transform == "values cut off, not rounded"
     assert not (causes.cause == UNEXPLAINED).any()
 
@@ -69,7 +70,7 @@ def test_a_file_that_was_cut_off_not_rounded(room, frame):
 def test_linear_values_in_a_png(room, frame):
     color = frame.color.copy()
     color[..., :3] = decoded(np.rint(255 * frame.color[..., :3].astype(np.float64)) / 255)
-    causes = found(room, frame, Picture(color, levels=255))
+    causes = found(room, frame, Picture(color, storage=Storage(255)))
     assert causes.transform.startswith("sRGB's curve left out")
     assert not (causes.cause == UNEXPLAINED).any()
 
@@ -80,7 +81,7 @@ def test_a_gamma_of_coded_values(room, frame, power):
     once = np.rint(255 * curve(frame.color[..., :3].astype(np.float64))) / 255
     color = frame.color.copy()
     color[..., :3] = decoded(np.rint(255 * once**power) / 255)
-    causes = found(room, frame, Picture(color, levels=255))
+    causes = found(room, frame, Picture(color, storage=Storage(255)))
     name = causes.transform
     assert name.startswith("a gamma of ") and name.endswith(" applied to coded (sRGB) values")
     assert float(name.split()[3]) == pytest.approx(1 / power, rel=0.02)

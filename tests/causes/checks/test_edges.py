@@ -14,6 +14,7 @@ from reference_tracer.causes.checks import probe as probing
 from reference_tracer.causes.checks.probe import may_be_seen
 from reference_tracer.causes.explain import AGREE, DEPTH_TIE, EDGE, UNEXPLAINED
 from reference_tracer.pictures.bounds import SNAPPING
+from reference_tracer.pictures.identity import Owners
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
@@ -177,8 +178,8 @@ def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, rng):
         asked.append((pixels.open.sum(), (yield from may_be_seen(pixels, plan)).sum()))
         return np.ones_like(pixels.open)
 
-    for known in ({}, {"owner": owner, "owners": owners, "names": ("a", "b", "c")}):
-        picture, found = Picture(color, **known), []
+    for known in (None, Owners(("a", "b", "c"), owner, owners)):
+        picture, found = Picture(color, owners=known), []
         for asks in (may_be_seen, counted):
             monkeypatch.setattr(probing, "may_be_seen", asks)
             found.append(result_of(find_causes(stripes, frame, picture)))

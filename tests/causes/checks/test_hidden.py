@@ -11,11 +11,12 @@ from reference_tracer.causes.cause import Hidden
 from reference_tracer.causes.checks.hidden import with_object
 from reference_tracer.causes.explain import HIDDEN, UNEXPLAINED
 from reference_tracer.manifest import ObjectEntry
-from reference_tracer.pictures.picture import Picture, numbered
+from reference_tracer.pictures.identity import Owners
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
-from ...cases import find_causes
+from ...cases import find_causes, owners_of
 
 WHY = "hidden in the viewport"
 
@@ -61,10 +62,10 @@ def test_an_object_that_is_known_to_be_shown(named):
     lacking = without(named, ["Box"])
     names, why = ("Ball", "Box", "Wall"), "hidden in renders"
     frame = render(lacking)
-    owners = numbered(names, [lacking.objects[i.object] for i in lacking.instances])
     whole = render(named)
-    owner = np.append(np.arange(3), -1).astype(np.int32)[whole.instance_index]
-    shown = Picture(whole.color, owner=owner, owners=owners, names=names)
+    owner = owners_of(names, whole).pixels
+    there = [lacking.objects[i.object] for i in lacking.instances]
+    shown = Picture(whole.color, owners=Owners.of(names, owner, there))
     entry = ObjectEntry("Box", "MESH", False, why, hidden=True)
     causes = result_of(find_causes(lacking, frame, shown, objects=[entry]))
     assert causes.hidden == [Hidden("Box", why)]

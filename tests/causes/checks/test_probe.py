@@ -9,9 +9,9 @@ import pytest
 from reference_tracer.causes.checks.probe import Probe
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
 from reference_tracer.tracer import candidates
-from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.nearest import film_positions, plan, trace_tile
+from reference_tracer.tracer.nearest import plan, trace_tile
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.triangle import TESTS
@@ -72,7 +72,9 @@ def test_layers_come_in_order_each_once(scene, settings, wanted):
     """Asked again and again for what is behind, the probe names every hit of a ray, in order."""
     probe = probe_of(scene, settings, wanted)
     count, dtype = int(wanted.sum()), settings.precision.dtype
-    rays = camera_rays(scene.camera, *(v[wanted] for v in film_positions(TILE, 0.0, 0.0)), dtype)
+    rays = camera_rays(
+        scene.camera, *(v[wanted] for v in film_positions(TILE, 0.0, 0.0)), dtype=dtype
+    )
     mesh = scene.meshes[0]
     expected = [[] for _ in range(count)]
     for k, triangle in enumerate(mesh.triangles):

@@ -12,6 +12,7 @@ from reference_tracer.causes.checks import color as coloring
 from reference_tracer.causes.checks import coverage, probe
 from reference_tracer.causes.explain import explain
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.rendering import render
 from reference_tracer.tracer import candidates, nearest
 from reference_tracer.tracer import render as rendering
@@ -65,7 +66,7 @@ def test_a_step_is_bounded_whatever_differs(make, work, radius):
     color = render(scene, replace(settings, samples=2)).color.copy()
     color[::3] = (0.3, 0.9, 0.1, 1)
     color[1::3] = color[1, 0]  # of what is behind the ball
-    picture = Picture(color, filter_radius=radius)
+    picture = Picture(color, sampling=Sampling(filter_radius=radius))
     frame, longest, total = render(scene, settings), Counter(), Counter()
 
     def between(_):

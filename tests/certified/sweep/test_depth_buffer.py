@@ -92,15 +92,15 @@ def test_winners_and_fragments_are_all_that_may_be_the_nearest(rng, order, pixel
     pixel, surface, most, least = np.concatenate(every, axis=1)
     pixel = pixel.astype(int)
     expected = np.flatnonzero(most >= depths.nearness[pixel])
-    fragments = Fragments.joined(fragments)
-    fragments = fragments.take(depths.not_hidden(fragments))
+    whole = Fragments.joined(fragments)
+    whole = whole.take(depths.not_hidden(whole))
     winner = depths.winners[depths.pixels(pixel)]
     assert (least[winner] == depths.nearness[pixel]).all()
-    assert set(winner.tolist()) | set(fragments.surface.tolist()) == set(expected.tolist())
-    assert np.array_equal(pixel[fragments.surface], fragments.pixel)
-    assert np.array_equal(most[fragments.surface], fragments.nearest)
-    assert not np.isin(fragments.surface, winner).any()  # so a winner without any is alone
-    assert len(fragments) > 0 or order not in ("equal", "few values")
+    assert set(winner.tolist()) | set(whole.surface.tolist()) == set(expected.tolist())
+    assert np.array_equal(pixel[whole.surface], whole.pixel)
+    assert np.array_equal(most[whole.surface], whole.nearest)
+    assert not np.isin(whole.surface, winner).any()  # so a winner without any is alone
+    assert len(whole) > 0 or order not in ("equal", "few values")
 
 
 def test_what_is_not_a_number_is_not_entered(rng):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -61,13 +60,8 @@ def _names(some: dict[str, Any]) -> str:
 
 def _with_meshes(scene: Scene, others: dict[str, Mesh]) -> Scene:
     """Return the scene with other meshes of some objects."""
-    meshes = [*scene.meshes]
-    number = {}
-    for name, mesh in others.items():
-        number[scene.objects.index(name)] = len(meshes)
-        meshes.append(mesh)
-    instances = tuple(replace(i, mesh=number.get(i.object, i.mesh)) for i in scene.instances)
-    return replace(scene, meshes=tuple(meshes), instances=instances)
+    named = ((n, scene.objects[i.object]) for n, i in enumerate(scene.instances))
+    return scene.with_meshes({n: others[name] for n, name in named if name in others})
 
 
 def _as_in_the_viewport(origin: Origin) -> Iterator[Variant]:

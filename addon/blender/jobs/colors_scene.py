@@ -1,0 +1,146 @@
+"""Makes a copy of a scene for other renderers: its materials emit the colours of a comparison.
+
+The copy is what was exported: every instance is an object with a mesh of triangles, where Blender's
+modifiers have put it. So a renderer that knows no more than meshes and emission can draw it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ...arrays import Colors, Floats
+from ...pictures.palette import By, eight_bits
+from ...scene import Mesh, Scene, SceneError
+from ..drawing.judges import RENDER_RESULT
+from ..reading.view_volume import polygon
+from .against import exported_in
+
+# What is kept of a scene's `render`: the picture's size, and its engine.
+_KEPT = (
+    *("engine", "resolution_x", "resolution_y", "resolution_percentage"),
+    *("pixel_aspect_x", "pixel_aspect_y", "use_border", "use_crop_to_border"),
+    *("border_min_x", "border_max_x", "border_min_y", "border_max_y"),
+)
+
+
+def colors_scene(context: Any, colors: By) -> Any:
+    """Add a scene in which the context's scene has constant colours; return it.
+
+    A comparison of it is with its Render Result. Infinite planes are polygons that fill the view.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced, or shows colours that are no material's.
+    """
+    user = context.scene
+    _, exported, _ = exported_in(context, colors)
+    for mesh in exported.meshes:
+        if mesh.corner_colors is not None:
+            raise SceneError(
+                f"Mesh '{mesh.name}' shows a colour attribute, which is no material's colour: set "
+                "Colors to Object."
+            )
+    scene = bpy.data.scenes.new(f"{user.name} colors")
+    _set(scene, user)
+    camera = user.camera.copy()
+    camera.data = user.camera.data.copy()
+    camera.data.dof.use_dof = False
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    _add_surfaces(scene, exported)
+    return scene
+
+
+def _set(scene: Any, user: Any) -> None:
+    """Set a new scene up to be rendered as a scene of the user's, flat and without effects."""
+    for name in _KEPT:
+        setattr(scene.render, name, getattr(user.render, name))
+    scene.frame_set(user.frame_current)
+    scene.render.film_transparent = True
+    scene.view_settings.view_transform = "Standard"
+    scene.render.dither_intensity = 0.0
+    scene.display.shading.light = "FLAT"
+    scene.display.shading.color_type = "MATERIAL"
+    scene.display.shading.show_specular_highlight = False
+    scene.display.render_aa = "OFF"
+    scene.reference_tracer.judge = RENDER_RESULT
+    scene.reference_tracer.colors = "VIEWPORT"
+
+
+def _add_surfaces(scene: Any, exported: Scene) -> None:
+    """Add an object for each instance and plane, below an empty that gives them exact matrices."""
+    above = bpy.data.objects.new(scene.name, None)
+    scene.collection.objects.link(above)
+    shown = {k: m for k, m in enumerate(exported.meshes) if k in exported.instance_meshes}
+    meshes = {k: _mesh(m.name, m.vertices, m.triangles, m) for k, m in shown.items()}
+    palette = _Palette()
+    for instance in exported.instances:
+        own = bpy.data.objects.new(exported.objects[instance.object], meshes[instance.mesh])
+        _place(scene, own, above, instance.world_from_object)
+        palette.give(own, instance.colors)
+    for plane in exported.planes:
+        corners = polygon(exported.camera, plane)
+        if len(corners):
+            name = exported.objects[plane.object]
+            mesh = _mesh(name, corners, np.arange(len(corners))[None])
+            own = bpy.data.objects.new(name, mesh)
+            _place(scene, own, above, np.eye(4))
+            palette.give(own, plane.color[None])
+
+
+def _place(scene: Any, obj: Any, above: Any, matrix: Floats) -> None:
+    """Link an object; as the inverse of its parent's matrix, one with a shear is kept, too."""
+    obj.parent = above
+    obj.matrix_parent_inverse = Matrix(matrix.tolist())
+    scene.collection.objects.link(obj)
+
+
+def _mesh(name: str, vertices: Floats, faces: Any, of: Mesh | None = None) -> Any:
+    """Return a mesh of Blender's with as many empty material slots as its faces need."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(vertices.tolist(), [], faces.tolist())
+    slots = [0] * len(faces) if of is None else of.slots.tolist()
+    for _ in range(max(slots, default=0) + 1):
+        mesh.materials.append(None)
+    mesh.polygons.foreach_set("material_index", slots)
+    return mesh
+
+
+class _Palette:
+    """The materials of a scene, one for each colour."""
+
+    def __init__(self) -> None:
+        self._of: dict[bytes, Any] = {}
+
+    def give(self, obj: Any, colors: Sequence[Any] | Colors) -> None:
+        """Show an object in colours by its slots; a slot past the end has the last one."""
+        for number, slot in enumerate(obj.material_slots):
+            slot.link = "OBJECT"
+            slot.material = self._material(colors[min(number, len(colors) - 1)])
+        obj.color = (*map(float, colors[0][:3]), 1.0)
+
+    def _material(self, color: Any) -> Any:
+        key = color[:3].tobytes()
+        if key not in self._of:
+            self._of[key] = _emission(color[:3])
+        return self._of[key]
+
+
+def _emission(color: Colors) -> Any:
+    rgba = (*map(float, color), 1.0)
+    material = bpy.data.materials.new("#" + eight_bits(color).tobytes().hex())
+    material.diffuse_color = rgba
+    material.use_nodes = True
+    tree: Any = material.node_tree
+    tree.nodes.clear()
+    emission = tree.nodes.new("ShaderNodeEmission")
+    emission.inputs["Color"].default_value = rgba
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    return material

@@ -1,0 +1,98 @@
+"""Compares with a picture that nothing is known of: another engine's, the Render Result, an image.
+
+It is judged as a file of `--against` is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Colors
+from ...causes.case import Case
+from ...pictures.given import Making, picture_of_array, picture_of_file
+from ...pictures.palette import APART, By, eight_bits
+from ...pictures.picture import Picture, Source
+from ...scene import Scene
+from ..drawing.drawings import Drawing
+from ..drawing.judge import Judge
+from ..drawing.judges import RENDER_RESULT
+from ..reading.camera import export_camera
+from ..reading.pictures import image_file, render_result
+from ..versions import DITHER
+from .against import gather_against
+from .compare import Choices
+
+_MOST = 256  # colours of a picture that are looked at
+_OTHER_COLORS = (
+    "most that {} drew has none of the colours that it was given: by an emission that overrides "
+    "all materials, the objects' colours, and the materials' viewport colours"
+)
+
+
+def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
+    """Export the context's scene as a render has it, with the picture that is chosen.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    chosen : Choices
+        Colours that are to be found automatically are the viewport's: a picture has its own.
+    judge : Judge, optional
+        The engine that is to render; None for the Render Result, or an image.
+
+    Raises
+    ------
+    SceneError, OSError, SizeError
+        If the scene cannot be traced, or there is no such picture of it.
+    """
+    engine = context.scene.render.engine if judge is None else ""
+    making = Making(chosen.renderer, chosen.filter, engine=engine)
+    if judge:
+        shown: Any = partial(_rendered, judge=judge, like_for_like=not chosen.as_is, making=making)
+    elif chosen.judge == RENDER_RESULT:
+        with render_result(context.scene) as file:
+            shown = picture_of_file(file, export_camera(context.scene), making)
+    else:
+        dither = DITHER * context.scene.render.dither_intensity
+        file = image_file(context.scene.reference_tracer.image)
+        making = replace(making, default_dither=dither)
+        shown = picture_of_file(file, export_camera(context.scene), making)
+    colors = chosen.colors
+    if colors == By.AUTOMATIC and (chosen.as_is or not judge):
+        colors = By.VIEWPORT
+    case = gather_against(context, shown, chosen.settings, chosen.self_check, colors)
+    return replace(case, tracer=chosen.tracer)
+
+
+def _rendered(drawing: Drawing, judge: Judge, like_for_like: bool, making: Making) -> Picture:
+    """Have an engine render what was exported."""
+    own = replace(drawing, judge=judge, like_for_like=like_for_like)
+    with own.begun() as (tmp, scene):
+        pixels = own.picture(tmp, like_for_like)
+    shown = picture_of_array(pixels, scene.camera, making)
+    source = Source(
+        judge.name,
+        bpy.app.version_string,
+        f"{judge.label}'s render",
+        shown.source.known,
+        () if _shows_the_colors(pixels, scene) else (_OTHER_COLORS.format(judge.label),),
+    )
+    return replace(shown, source=source)
+
+
+def _shows_the_colors(pixels: Colors, scene: Scene) -> bool:
+    """Return whether most that is drawn, (h, w, 4), has colours that a scene has."""
+    if any(mesh.corner_colors is not None for mesh in scene.meshes):
+        return True  # any colour between them
+    table = np.concatenate((scene.color_table, *(p.color[None] for p in scene.planes)))
+    drawn = eight_bits(pixels[pixels[..., 3] > 0.5][:, :3])
+    shown, count = np.unique(drawn, axis=0, return_counts=True)
+    often = np.argsort(-count)[:_MOST]
+    colors = np.unique(eight_bits(table[:, :3]), axis=0).astype(np.int32)
+    near = [(np.abs(colors - color).max(axis=1) < APART).any() for color in shown[often]]
+    return bool(2 * count[often][near].sum() >= len(drawn))

@@ -1,0 +1,123 @@
+"""Reads pictures that are open in Blender, as files are read: an image, and the Render Result."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...exr import MissingLibraryError
+from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
+from ...runs import by_runs
+from ...scene import SceneError
+from ..versions import set_format
+
+_READ = (".png", ".exr")  # as files: what Blender makes of 16 bits, and who wrote it, is lost else
+_KINDS = "FILE", "GENERATED"
+# Of an image's file, each after those that it depends on.
+_SETTINGS = (
+    *("media_type", "file_format", "color_mode", "color_depth", "exr_codec"),
+    "color_management",
+)
+
+
+@dataclass(frozen=True)
+class _Held(PictureFile):
+    """The pixels that Blender holds of an image."""
+
+    image: Any
+    engine: str = ""  # as `StoredPicture` has it
+
+    def read(self) -> StoredPicture:
+        """Read the pixels: floats are linear, bytes have sRGB's curve and a straight alpha."""
+        image = self.image
+        pixels = np.empty(self.height * self.width * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        color = pixels.reshape(self.height, self.width, 4)
+        opaque = image.channels < 4 or image.alpha_mode == "NONE"
+        if image.is_float:
+            return StoredPicture(color, 0, opaque, engine=self.engine)
+        color = by_runs(lambda some: decoded(some).astype(np.float32), color.reshape(-1, 4))
+        return StoredPicture(color.reshape(self.height, self.width, 4), EIGHT_BITS, opaque)
+
+
+def image_file(image: Any) -> PictureFile:
+    """Return an image of Blender's, by its file where it shows no more than that.
+
+    Raises
+    ------
+    SceneError
+        If it has no pixels that could be compared, saying why.
+    OSError
+        If its file is damaged.
+    """
+    if image is None:
+        raise SceneError("There is no image to compare with: choose one below Compare With.")
+    name = f"Image '{image.name}'"
+    if image.source not in _KINDS:
+        raise SceneError(f"{name} is a {image.source.lower()}: save the one picture of it.")
+    path = Path(bpy.path.abspath(image.filepath, library=image.library))
+    if image.source == "FILE" and not image.is_dirty and not image.packed_file:
+        if not path.is_file():
+            raise SceneError(f"{name} has no file '{path}': find it, or choose another image.")
+        if path.suffix.lower() in _READ:
+            with suppress(MissingLibraryError):  # of an EXR: not every Blender brings it
+                return open_picture(path)
+    width, height = image.size
+    if not width * height:
+        raise SceneError(f"{name} has no pixels: load it again, or choose another one.")
+    space = image.colorspace_settings.name
+    if not image.is_float and space != "sRGB":
+        raise SceneError(
+            f"{name} has 8 bits a channel in the colour space '{space}': what it shows is known of "
+            "sRGB. Save it as a float image, or set its Color Space to sRGB if it is that."
+        )
+    return _Held(Path(image.name), width, height, image)
+
+
+@contextmanager
+def render_result(scene: Any) -> Iterator[PictureFile]:
+    """Give a scene's Render Result as a file, for a while: its pixels cannot be read otherwise.
+
+    Raises
+    ------
+    SceneError
+        If there is none.
+    """
+    image = next((i for i in bpy.data.images if i.type == "RENDER_RESULT"), None)
+    settings = scene.render.image_settings
+    with tempfile.TemporaryDirectory() as folder, _kept(settings):
+        path = Path(folder) / "Render Result.exr"
+        settings.color_management = "FOLLOW_SCENE"
+        set_format(scene.render, "OPEN_EXR", "RGBA", "32")
+        try:
+            if image is None:
+                raise RuntimeError("nothing was rendered")
+            image.save_render(str(path), scene=scene)
+            loaded: Any = bpy.data.images.load(str(path))
+        except RuntimeError as error:
+            raise SceneError(
+                f"Scene '{scene.name}' has no Render Result: render it first ({error})."
+            ) from error
+        width, height = loaded.size
+        try:
+            yield _Held(Path(image.name), width, height, loaded, "other")
+        finally:
+            bpy.data.images.remove(loaded)
+
+
+@contextmanager
+def _kept(settings: Any) -> Iterator[None]:
+    """Put a scene's settings of files back."""
+    before = {name: getattr(settings, name) for name in _SETTINGS if hasattr(settings, name)}
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            setattr(settings, name, value)

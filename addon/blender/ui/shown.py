@@ -1,0 +1,127 @@
+"""Shows the images of a comparison in Image Editors, opened as F12 opens its own.
+
+The header of such an editor has a switch between the images; with *Both* the traced picture and the
+other one share the editor, and a line between them is dragged: see `split.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+import bpy
+from bpy.props import EnumProperty
+
+from . import results
+from .long_work import Answer, named
+
+# By the identifiers of the switch; Both is the traced picture with the other one over it.
+IMAGES = {
+    "DIFFERENCE": results.DIFFERENCE,
+    "CAUSES": results.CAUSES,
+    "TRACED": results.TRACED,
+    "OTHER": results.BLENDER,
+    "BOTH": results.TRACED,
+}
+_CHOICES = (
+    ("DIFFERENCE", "Difference", "How far apart the colours are; black where they are the same"),
+    ("CAUSES", "Causes", "Why pixels differ, a colour for each cause"),
+    ("TRACED", "Traced", "What the tracer sees"),
+    ("OTHER", "Other", "The picture that it is compared with"),
+    ("BOTH", "Both", "The traced picture on the left of a line, the other one on its right"),
+)
+
+
+@named
+class REFERENCE_TRACER_OT_show_image(bpy.types.Operator):
+    bl_label = "Show Image"
+    bl_description = "Show another image of the comparison in this editor"
+    bl_options = set()  # it changes no data
+
+    image: EnumProperty(name="Image", description="Which", items=_CHOICES)
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it in an Image Editor, once there are images."""
+        return context.area is not None and chosen(context.space_data) is not None
+
+    @classmethod
+    def description(cls, context: Any, properties: Any) -> str:
+        """Return the choice's own."""
+        return next(text for key, _, text in _CHOICES if key == properties.image)
+
+    def execute(self, context: Any) -> Answer:
+        context.window_manager.reference_tracer.both = self.image == "BOTH"
+        context.space_data.image = results.ours(IMAGES[self.image])
+        context.area.tag_redraw()
+        return {"FINISHED"}
+
+
+def chosen(space: Any) -> str | None:
+    """Return which image of the comparison a space shows, as the switch names it, or None."""
+    image = space.image if space.type == "IMAGE_EDITOR" else None
+    if image is None or image.get(results.MARK) not in IMAGES.values():
+        return None
+    if image.get(results.MARK) == results.TRACED:
+        manager: Any = bpy.context.window_manager
+        return "BOTH" if manager.reference_tracer.both else "TRACED"
+    return next(key for key, name in IMAGES.items() if name == image[results.MARK])
+
+
+def open_as_render(context: Any, image: Any) -> None:
+    """Show an image where F12 would show its own: the user's preference decides.
+
+    An editor that shows an image of a comparison already is taken first, in any window. A new one
+    is opened in a moment: within an operator, Blender would lose track of the operator's window.
+    """
+    if not show_where_shown(context, image):
+        opening = partial(_open, context.window.as_pointer(), image[results.MARK])
+        bpy.app.timers.register(opening, first_interval=0.0)
+
+
+def _open(window: int, name: str) -> None:
+    """Have Blender open its editor for renders from a window's address; show our image in it."""
+    context: Any = bpy.context
+    image = results.ours(name)
+    found = [w for w in context.window_manager.windows if w.as_pointer() == window]
+    if not (image and found):  # another file was opened since
+        return
+    had = {i.name for i in bpy.data.images}
+    if context.preferences.view.render_display_type != "NONE":
+        with context.temp_override(window=found[0]):
+            bpy.ops.render.view_show("INVOKE_DEFAULT")
+    for space in _spaces(context):
+        if space.image and space.image.type == "RENDER_RESULT":
+            space.image = image
+            break
+    for extra in bpy.data.images[:]:  # Blender makes it to be shown, where there is none
+        if extra.type == "RENDER_RESULT" and extra.name not in had:
+            bpy.data.images.remove(extra)
+
+
+def show_where_shown(context: Any, image: Any) -> bool:
+    """Show an image in an editor that shows one of a comparison, or none; return whether it is."""
+    found = [s for s in _spaces(context) if s.image is None or chosen(s)]
+    for space in sorted(found, key=lambda s: s.image is None)[:1]:
+        space.image = image
+    return bool(found)
+
+
+def _spaces(context: Any) -> Iterator[Any]:
+    """Yield the spaces of all Image Editors that view; those of the context's window first."""
+    own = context.window
+    for window in sorted(context.window_manager.windows, key=lambda w: w != own):
+        for area in window.screen.areas:
+            if area.type == "IMAGE_EDITOR" and area.spaces.active.mode == "VIEW":
+                yield area.spaces.active
+
+
+def draw_switch(layout: Any, space: Any) -> None:
+    """Draw the switch of a space that shows an image of a comparison."""
+    now = chosen(space)
+    for key, label, _ in _CHOICES if now else ():
+        button = layout.operator(
+            REFERENCE_TRACER_OT_show_image.bl_idname, text=label, depress=key == now
+        )
+        button.image = key

@@ -1,0 +1,119 @@
+"""The folder of a class: a page for each student, with no other's name, and tables for the teacher.
+
+What is judged is written at once. So after Ctrl-C the same command goes on where it was: a student
+whose file, or whose program, and all options are the same is not judged again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from itertools import chain, count
+from pathlib import Path
+
+from reference_tracer import __version__
+from reference_tracer.report.folders import write_json, write_text
+
+from .external import Run
+from .formats import FORMATS
+from .judging import Judgement
+from .page import class_page, page
+from .report import Student, student, to_dict
+
+JSON, PAGE, STUDENTS = "judge.json", "judge.html", "students"
+_LONGEST = 60  # characters of a file's name
+
+
+class ClassFolder:
+    """Where judgements are kept.
+
+    Parameters
+    ----------
+    directory : Path
+    names : sequence of str
+        What a reader calls the students.
+    options : object
+        All that they depend on besides the student: what differs is judged anew.
+    """
+
+    def __init__(self, directory: Path, names: Sequence[str], options: object = None) -> None:
+        self._directory = directory
+        self._options = repr(options)
+        self._files = _file_names(names)
+
+    def kept_of(self, submissions: Mapping[str, Path | Run]) -> dict[str, Student]:
+        """Return what was said before of those that have not changed since, by name."""
+        found = {name: self._kept(name, each) for name, each in submissions.items()}
+        return {name: said for name, said in found.items() if said}
+
+    def keep(self, submission: Path | Run, j: Judgement) -> Student:
+        """Write a student's page, and what is said of him; return that.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written.
+        """
+        said = student(j)
+        write_text(self._page(j.name), page(j))
+        write_json(self._record(j.name), {"key": self._key(submission), "student": said})
+        return said
+
+    def write(self, students: Sequence[Student], formats: Iterable[str] = ()) -> None:
+        """Write the tables of all students.
+
+        Raises
+        ------
+        OSError
+            If one cannot be written.
+        """
+        pages = [(s, f"{STUDENTS}/{self._page(s['file']).name}") for s in students]
+        for name in formats:
+            for path, text in FORMATS[name](pages):
+                write_text(self._directory / path, text)
+        alone = [self._page(s["file"]) for s in students] if len(students) == 1 else []
+        text = alone[0].read_text(encoding="utf-8") if alone else class_page(pages)
+        write_text(self._directory / PAGE, text)
+        write_json(self._directory / JSON, to_dict(students))
+
+    def _kept(self, name: str, submission: Path | Run) -> Student | None:
+        with suppress(OSError, ValueError, KeyError, TypeError):
+            found = json.loads(self._record(name).read_text(encoding="utf-8"))
+            if found["key"] == self._key(submission) and self._page(name).exists():
+                return dict(found["student"])
+        return None
+
+    def _page(self, name: str) -> Path:
+        return self._directory / STUDENTS / f"{self._files[name]}.html"
+
+    def _record(self, name: str) -> Path:
+        return self._page(name).with_suffix(".json")
+
+    def _key(self, submission: Path | Run) -> str:
+        """Return what tells a student's code, and the options, from any other.
+
+        Of a program that is all files that its command names, and all in folders that it names.
+        """
+        named = [submission] if isinstance(submission, Path) else map(Path, submission.words)
+        parts = [__version__, self._options, str(submission)]
+        for path in named:
+            with suppress(OSError):
+                for file in sorted(path.iterdir()) if path.is_dir() else [path]:
+                    if file.is_file():
+                        parts.append(hashlib.sha256(file.read_bytes()).hexdigest())
+        return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def _file_names(names: Sequence[str]) -> dict[str, str]:
+    """Return a file's name for each student, of plain characters, none twice."""
+    out: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in names:
+        short = re.sub(r"[^\w.-]+", "_", name).strip("._")[:_LONGEST] or "student"
+        numbered = chain([short], (f"{short}_{n}" for n in count(2)))
+        out[name] = next(own for own in numbered if own.casefold() not in taken)
+        taken.add(out[name].casefold())
+    return out

@@ -1,0 +1,84 @@
+"""What other programs read of a class: a table, JUnit's XML, Gradescope's results.
+
+Each takes the students with their pages' paths, and yields files: a path in the folder, its text.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import PurePosixPath
+from xml.etree import ElementTree
+
+from .judging import CHECKS
+from .report import Student
+from .tables import wrong_names
+
+Pages = Sequence[tuple[Student, str]]
+Files = Iterator[tuple[str, str]]
+
+
+def as_csv(pages: Pages) -> Files:
+    """Yield a table with a row for each student."""
+    text = io.StringIO(newline="")
+    table = csv.writer(text)
+    table.writerow(("file", "score", "score_as_is", "verdict", "what is wrong"))
+    for s, _ in pages:
+        wrong = ", ".join(wrong_names(s))
+        table.writerow((s["file"], s["score"], s["score_as_is"], s["verdict"], wrong))
+    yield "judge.csv", text.getvalue()
+
+
+def as_junit(pages: Pages) -> Files:
+    """Yield JUnit's XML: a suite for each student, a case for the checks and for each scene."""
+    root = ElementTree.Element("testsuites", name="reftrace judge")
+    for s, _ in pages:
+        parts = _parts(s)
+        failures = str(sum(not right for _, _, right in parts))
+        own = {"name": s["file"], "tests": str(len(parts)), "failures": failures}
+        suite = ElementTree.SubElement(root, "testsuite", own)
+        for name, score, right in parts:
+            case = ElementTree.SubElement(suite, "testcase", name=name, classname=s["file"])
+            if not right:
+                message = f"{score:.1f} of 100: {', '.join(wrong_names(s))}"
+                failure = ElementTree.SubElement(case, "failure", message=message)
+                failure.text = "\n".join(_sentences(s))
+    ElementTree.indent(root)
+    yield "judge.xml", ElementTree.tostring(root, encoding="unicode", xml_declaration=True)
+
+
+def as_gradescope(pages: Pages) -> Files:
+    """Yield what an autograder of Gradescope leaves as results.json, for each student."""
+    for s, page in pages:
+        tests = [{"name": name, "score": v, "max_score": 100.0} for name, v, _ in _parts(s)]
+        found = {
+            "score": s["score"],
+            "execution_time": s["seconds"],
+            "output": "\n".join(_sentences(s)) or "All right.",
+            "output_format": "text",
+            "tests": tests,
+        }
+        path = f"gradescope/{PurePosixPath(page).stem}/results.json"
+        yield path, json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+
+
+FORMATS: dict[str, Callable[[Pages], Files]] = {
+    "csv": as_csv,
+    "gradescope": as_gradescope,
+    "json": lambda pages: iter(()),  # judge.json is always there
+    "junit": as_junit,
+}
+
+
+def _parts(s: Student) -> list[tuple[str, float, bool]]:
+    """Return the checks and each scene: name, score, and whether all is right."""
+    tallies = [(CHECKS, s["checks"]), *((k["name"], k["tally"]) for k in s["scenes"])]
+    parts = [(name, t["score"], t["score"] == 100) for name, t in tallies if t]
+    return parts + [(error["where"], 0.0, False) for error in s["errors"]]
+
+
+def _sentences(s: Student) -> list[str]:
+    errors = [f"{e['where']}: {e['message']}" for e in s["errors"]]
+    return errors + [f"{f['name']}: {f['sentence']}" for f in s["faults"]]

@@ -1,0 +1,80 @@
+"""EEVEE as a judge: where its sample lies, and what it draws like for like.
+
+Its shaders take a quarter of a minute to compile in software, so the scenes are `torture`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.drawing.judges import JUDGES
+from reference_tracer.blender.drawing.rasteriser import OFFSETS, covered, snapping_of
+from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.pictures.bounds import SNAPPING
+from reference_tracer.tracer.progress import result_of
+
+from . import hard_cases as hard
+
+SAMPLES = sorted(p.stem for p in (Path(__file__).parents[2] / "sample_scenes").glob("*.blend"))
+WIDTH = 128
+EEVEE = JUDGES["eevee"]
+
+
+@pytest.fixture
+def solids(build):
+    build.scene(96, 54, "OBJECT")
+    build.solids()
+    for number, obj in enumerate(bpy.data.objects):
+        obj.color = (0.2 * number, 0.5, 1 - 0.2 * number, 1)
+    build.corner_camera(lens=40)
+
+
+def test_a_small_scene(solids, compare):
+    """Its sample lies in the pixel's centre; a picture from beside the centre is not excused."""
+    moved = np.stack((-OFFSETS, OFFSETS), axis=1).ravel()
+    is_wrong = covered(EEVEE, moved, turned=True) != (moved > 0)
+    assert np.abs(moved[is_wrong]).max(initial=0) <= SNAPPING
+    assert snapping_of(EEVEE) == SNAPPING and EEVEE.sample_radius == 0
+    found = compare(judge="EEVEE", identity=False)
+    assert found.verdict == "agree" and found.counts.unexplained == 0
+    assert found.counts.differ <= 0.01 * found.counts.total
+    assert found.case.picture.source.name == "eevee"
+    assert set(np.unique(found.picture[..., 3])) == {0.0, 1.0}  # nothing is mixed
+    aside = replace(found.case.picture, color=np.roll(found.picture, 1, axis=1))
+    wrong = result_of(trace_and_compare(replace(found.case, picture=aside)))
+    assert wrong.verdict == "differences" and wrong.counts.unexplained > 50
+
+
+@pytest.mark.torture
+@pytest.mark.parametrize("name", SAMPLES)
+def test_a_sample_scene(name, opened, compare):
+    opened(name, WIDTH)
+    found = compare(judge="EEVEE")
+    assert found.counts.unexplained == 0
+    assert found.verdict == ("warnings" if name == "far_away" else "agree")
+
+
+@pytest.mark.torture
+@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "VERTEX", "RANDOM"])
+def test_the_same_colors(color_type, solids, build, compare):
+    bpy.context.scene.display.shading.color_type = color_type
+    build.color_attribute(bpy.data.objects["Green"], "POINT")
+    slots = bpy.data.objects["Red"].data
+    for material in (None, build.material("Second", 0.7, 0.6, 0.1)):
+        slots.materials.append(material)
+    for polygon in slots.polygons:
+        polygon.material_index = polygon.index % 4
+    found = compare(judge="EEVEE")
+    assert found.counts.unexplained == 0 and found.verdict == "agree"
+
+
+@pytest.mark.torture
+@pytest.mark.parametrize("make", hard.ALL, ids=lambda make: make.__name__)
+def test_a_hard_scene(make, build, compare):
+    """What it draws otherwise than the solid viewport is explained, or said."""
+    make(build)
+    assert compare(judge="EEVEE").counts.unexplained == 0

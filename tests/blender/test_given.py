@@ -1,0 +1,256 @@
+"""Pictures that no judge of ours drew: of an engine that is registered, rendered, or an image."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.drawing.engines import others
+from reference_tracer.blender.drawing.judges import judge_named
+from reference_tracer.blender.ui import properties, results
+from reference_tracer.blender.ui.results import Kind
+from reference_tracer.blender.versions import set_format
+from reference_tracer.cli import in_blender
+from reference_tracer.scene import SceneError
+
+from .toy_engine import ToyEngine
+
+OPS = bpy.ops.reference_tracer
+
+
+@pytest.fixture
+def toy(monkeypatch):
+    """Register the engine; its faults are put back."""
+    for name in ("offset", "left_out", "is_opaque"):
+        monkeypatch.setattr(ToyEngine, name, getattr(ToyEngine, name))
+    bpy.utils.register_class(ToyEngine)
+    yield ToyEngine
+    bpy.utils.unregister_class(ToyEngine)
+
+
+@pytest.fixture
+def solids(build):
+    scene = build.scene(96, 54, "OBJECT")
+    build.solids()
+    for obj, rgb in zip(
+        ("Floor", "Red", "Green", "Blue"),
+        ((0.3, 0.3, 0.3), (0.8, 0.1, 0.1), (0.1, 0.7, 0.2), (0.1, 0.2, 0.9)),
+        strict=True,
+    ):
+        bpy.data.objects[obj].color = (*rgb, 1)
+    build.corner_camera(lens=40)
+    return scene
+
+
+def told():
+    """Return the names of the faults that the latest comparison tells."""
+    diagnosis = results.content(Kind.COMPARISON, bpy.context.scene).diagnosis
+    return [t.fault.name for t in diagnosis.told] if diagnosis else []
+
+
+def test_an_engine_that_is_right_agrees(toy, solids):
+    solids.reference_tracer.judge = "ENGINE"
+    solids.reference_tracer.engine = "TOY_TRACER"
+    engine, names = solids.render.engine, set(bpy.data.objects.keys())
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, solids)
+    assert found.verdict == "agree" and found.counts.unexplained == 0
+    assert (found.frame.instance_index >= 0).mean() > 0.3
+    assert found.case.picture.source.name == "toy_tracer"
+    assert "'Toy Tracer's render'" in found.lines()[0]
+    assert found.case.picture.renderer.name == "rays"
+    assert (solids.render.engine, set(bpy.data.objects.keys())) == (engine, names)
+
+
+def test_a_half_pixel_fault_of_an_engine_is_named(toy, solids):
+    toy.offset = (0.5, 0.0)
+    solids.reference_tracer.judge = "ENGINE"
+    solids.reference_tracer.engine = "toy_tracer"
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, solids)
+    assert found.verdict == "differences" and found.counts.unexplained > 20
+    assert told() == ["pixel_offset"]
+    assert found.diagnosis.told[0].guess.values == pytest.approx((0.5, 0), abs=0.02)
+
+
+def test_another_fault_has_another_name(toy, solids):
+    toy.left_out = "Green"
+    solids.reference_tracer.judge = "ENGINE"
+    solids.reference_tracer.engine = "TOY_TRACER"
+    OPS.compare()
+    [found] = results.content(Kind.COMPARISON, solids).diagnosis.told
+    assert found.guess.object == "Green" and found.fault.name != "pixel_offset"
+    assert OPS.select_finding(number=0) == {"FINISHED"}
+    assert bpy.context.selected_objects == [bpy.data.objects["Green"]]
+
+
+def test_only_what_is_registered_is_a_judge(toy, solids, compare):
+    assert others()["toy_tracer"].label == "Toy Tracer" and "cycles" not in others()
+    assert judge_named("Toy_Tracer", background=True).engine == "TOY_TRACER"
+    with pytest.raises(SceneError, match=r"no judge 'TOY'.*workbench, cycles, eevee, toy_tracer"):
+        compare(judge="TOY")
+    bpy.utils.unregister_class(toy)
+    try:
+        assert others() == {}
+        with pytest.raises(SceneError, match="no judge 'TOY_TRACER'"):
+            compare(judge="TOY_TRACER")
+    finally:
+        bpy.utils.register_class(toy)
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_an_engine_that_does_not_show_the_colors_is_told(own, toy, solids, monkeypatch, compare):
+    """It has a light of its own, or only one wrong colour: that is a fault, not another palette."""
+    real = toy.triangles
+
+    def lit(self, depsgraph):
+        for number, (corners, rgb) in enumerate(real(self, depsgraph)):
+            wrong = own or number == 0
+            yield corners, 0.5 * np.array(rgb) + 0.01 * (number % 7) if wrong else rgb
+
+    monkeypatch.setattr(toy, "triangles", lit)
+    found = compare(judge="TOY_TRACER", diagnose=False)
+    assert found.verdict == "differences"
+    told = [note for note in found.manifest.notes if "none of the colours" in note]
+    assert len(told) == own
+
+
+def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
+    toy.is_opaque = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    compare = "compare", "--out", str(tmp_path / "out"), "--judge"
+    code = in_blender.run([*compare, "Toy_Tracer", "--renderer", "raster"])
+    said = capsys.readouterr().out
+    assert code == 1 and "Toy Tracer's render" in said
+    assert "the picture's background is" in said and "as was asked for" in said
+    assert in_blender.run([*compare, "cycles", "--filter", "1"]) == 4
+    assert in_blender.run([*compare, "storm"]) == 4
+
+
+@pytest.fixture
+def rendered_png(solids, tmp_path):
+    """Render by Workbench, flat, and save a PNG; returns its path."""
+    solids.display.shading.light = "FLAT"
+    solids.display.shading.show_specular_highlight = False
+    solids.display.render_aa = "OFF"
+    solids.render.film_transparent = True
+    solids.render.engine = "BLENDER_WORKBENCH"
+    solids.view_settings.view_transform = "Standard"
+    set_format(solids.render, "PNG", "RGBA", "8")
+    path = tmp_path / "rendered.png"
+    solids.render.filepath = str(path)
+    solids.reference_tracer.judge = "IMAGE"
+
+    def run():
+        bpy.ops.render.render(write_still=True)
+        return path
+
+    return run
+
+
+def compared_with(image):
+    bpy.context.scene.reference_tracer.image = image
+    OPS.compare()
+    return results.content(Kind.COMPARISON, bpy.context.scene)
+
+
+def test_an_image_of_a_file(rendered_png):
+    found = compared_with(bpy.data.images.load(str(rendered_png())))
+    assert found.verdict == "agree" and found.counts.unexplained == 0
+    assert found.case.picture.levels == 255 and not found.case.picture.opaque
+    assert found.case.picture.source.file == "rendered.png"
+
+
+@pytest.mark.parametrize("kind", ["packed", "painted", "float"])
+def test_an_image_that_blender_alone_holds(kind, rendered_png, solids):
+    if kind == "float":
+        set_format(solids.render, "OPEN_EXR", "RGBA", "32")
+    path = next(rendered_png().parent.glob("rendered.*"))
+    loaded = bpy.data.images.load(str(path))
+    pixels = np.empty(96 * 54 * 4, np.float32)
+    loaded.pixels.foreach_get(pixels)
+    own = loaded
+    if kind == "packed":
+        own.pack()
+    else:
+        own = bpy.data.images.new("Painted", 96, 54, alpha=True, float_buffer=kind == "float")
+        own.pixels.foreach_set(pixels)
+    found = compared_with(own)
+    assert found.verdict == "agree" and found.counts.unexplained == 0
+    assert found.case.picture.levels == (0 if kind == "float" else 255)
+    assert found.case.picture.source.file == own.name
+
+
+def test_a_wrong_image_is_put_right_on_a_copy(rendered_png, solids):
+    camera = solids.camera
+    camera.data.lens = 44.0
+    path = rendered_png()
+    camera.data.lens = 40.0
+    found = compared_with(bpy.data.images.load(str(path)))
+    assert found.verdict == "differences" and told() == ["focal_length"]
+    assert OPS.copy_camera(number=0) == {"FINISHED"}
+    solids.camera = bpy.context.view_layer.objects.active
+    assert solids.camera != camera and camera.data.lens == 40
+    assert compared_with(solids.reference_tracer.image).verdict == "agree"
+
+
+def non_color(path):
+    image = bpy.data.images.load(str(path))
+    image.colorspace_settings.name = "Non-Color"
+    image.pack()
+    return image
+
+
+def gone(path):
+    image = bpy.data.images.load(str(path))
+    path.unlink()
+    return image
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda path: None, "no image to compare with"),
+        (
+            lambda path: bpy.data.images.new("Small", 48, 27),
+            "48 x 27 pixels, the traced one 96 x 54",
+        ),
+        (non_color, "colour space 'Non-Color'"),
+        (gone, "has no file"),
+    ],
+    ids=["none", "size", "color space", "gone"],
+)
+def test_an_image_that_cannot_be_compared(make, said, rendered_png):
+    with pytest.raises(RuntimeError, match=said):
+        compared_with(make(rendered_png()))
+
+
+def test_the_render_result(rendered_png, solids):
+    rendered_png()
+    solids.reference_tracer.judge = "RENDER_RESULT"
+    settings = solids.render.image_settings
+    before = settings.file_format, settings.color_mode, settings.color_depth
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, solids)
+    assert found.verdict == "agree" and found.counts.unexplained == 0
+    assert found.case.picture.levels == 0  # its own floats, not what a view transform makes
+    assert (settings.file_format, settings.color_mode, settings.color_depth) == before
+    assert found.case.picture.source.file == "Render Result"
+    bpy.data.objects["Green"].location.x += 0.2
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, solids)
+    assert found.verdict == "differences" and found.counts.unexplained > 20
+
+
+def test_without_a_render_there_is_no_result(solids):
+    solids.reference_tracer.judge = "RENDER_RESULT"
+    with pytest.raises(RuntimeError, match="no Render Result: render it first"):
+        OPS.compare()
+
+
+def test_images_of_the_comparison_are_not_offered(solids):
+    offered = solids.reference_tracer.bl_rna.properties["image"]
+    assert offered.fixed_type.identifier == "Image"
+    own = results.show("Reference Tracer Traced", np.zeros((4, 4, 4), np.float32))
+    assert not properties._is_a_picture(solids.reference_tracer, own)
+    assert properties._is_a_picture(solids.reference_tracer, bpy.data.images.new("Mine", 4, 4))

@@ -1,0 +1,164 @@
+"""A program is kept from the network and from files; what it does wrong is its own error."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+import time
+
+import numpy as np
+import pytest
+from reference_tracer.cli.main import main
+from reference_tracer.tracer.progress import result_of
+from reference_tracer_grading.external import Program, Run, sandbox
+from reference_tracer_grading.judging import judge, names
+from reference_tracer_grading.student import KEPT, Limits
+from reference_tracer_grading.student_error import StudentError
+
+RAYS = np.zeros((5, 3)), np.ones((5, 3)), np.arange(45.0).reshape(5, 3, 3)
+PYTHON = shlex.quote(sys.executable)
+
+
+def program(written, text, arguments="{rays} {answers}", exchange="csv", limits=None):
+    path = written("import sys\n" + text, "program.py")
+    command = f"{PYTHON} {shlex.quote(str(path))} {arguments}"
+    return Program(Run.parsed(command, exchange), limits)
+
+
+ECHO = """
+lines = open(sys.argv[1]).read().split()
+with open(sys.argv[2], "w") as out:
+    for line in lines:
+        v = line.split(",")
+        out.write(",".join((v[3], v[6], v[7], v[8])) + "\\n")
+"""
+
+
+def test_rays_come_as_they_are_and_answers_go_as_they_are(written):
+    rng = np.random.default_rng(3)
+    o, d, p = rng.normal(size=(7, 3)), rng.normal(size=(7, 3)) * 1e-300, rng.normal(size=(7, 3, 3))
+    t, s = program(written, ECHO).ask(o, d, p)
+    assert (t == d[:, 0]).all() and (s == p[:, 0]).all()  # to the last bit
+
+
+def test_by_pipe_and_raw(written):
+    o, d, p = RAYS
+    text = """
+import struct
+data = sys.stdin.buffer.read()
+for k in range(0, len(data), 120):
+    v = struct.unpack("<15d", data[k : k + 120])
+    sys.stdout.buffer.write(struct.pack("<4d", v[6], *v[3:6]))
+"""
+    t, s = program(written, text, "", "raw").ask(o, d, p)
+    assert (t == p[:, 0, 0]).all() and (s == d).all()
+
+
+@pytest.mark.parametrize("miss", ["inf", "nan", "Infinity", "inf,0,0,0", "-inf"])
+def test_a_miss_may_be_written_in_several_ways(miss, written):
+    text = f"for line in open(sys.argv[1]): print('{miss}', file=open(sys.argv[2], 'a'))"
+    t, _ = program(written, text).ask(*RAYS)
+    assert not np.isfinite(t).any()
+
+
+HOSTILE = {
+    "a word": ("open(sys.argv[2], 'w').write('1,2,3,4\\nhello\\n')", "answer", "line 2"),
+    "three numbers": ("open(sys.argv[2], 'w').write('1,2,3\\n' * 5)", "answer", "t,s1,s2,s3"),
+    "a number alone": ("open(sys.argv[2], 'w').write('1\\n' * 5)", "answer", "line 1"),
+    "too few": ("open(sys.argv[2], 'w').write('inf\\n' * 4)", "answer", "4 rays of 5"),
+    "too many": ("open(sys.argv[2], 'w').write('inf\\n' * 6)", "answer", "6 rays of 5"),
+    "no file": ("pass", "answer", "wrote no answers"),
+    "bytes": ("open(sys.argv[2], 'wb').write(bytes(range(128, 200)))", "answer", "line 1"),
+    "raises": ("1 / 0", "ended", "exit code 1: ZeroDivisionError"),
+    "exit code": ("sys.exit(3)", "ended", "exit code 3"),
+    "ends itself": ("import os; os.kill(os.getpid(), 9)", "ended", "137|SIGKILL"),
+    "memory": ("x = bytearray(3 << 30); open(sys.argv[2], 'w')", "ended", "MemoryError"),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_what_it_does_wrong_is_its_own_error(name, written):
+    text, kind, words = HOSTILE[name]
+    with pytest.raises(StudentError, match="|".join(words.split("|"))) as caught:
+        program(written, text).ask(*RAYS)
+    assert caught.value.kind == kind
+
+
+def test_one_that_is_not_there(tmp_path):
+    with pytest.raises(StudentError):
+        Program(Run.parsed(str(tmp_path / "nothing"))).ask(*RAYS)
+
+
+def test_one_that_never_ends_is_ended_with_all_that_it_started(written):
+    text = "import subprocess; subprocess.Popen(['sleep', '60']).wait()"
+    began = time.monotonic()
+    with pytest.raises(StudentError, match="time limit") as caught:
+        program(written, text, limits=Limits(seconds=0.5)).ask(*RAYS)
+    assert caught.value.kind == "time" and time.monotonic() - began < 30
+
+
+def test_what_it_prints_is_kept_but_not_all(written):
+    text = "print('x' * 99_999)\nopen(sys.argv[2], 'w').write('inf\\n' * 5)"
+    own = program(written, text)
+    own.ask(*RAYS)
+    assert own.printed == 100_000 and own.said == "x" * KEPT
+
+
+def test_what_a_program_may_reach(written, tmp_path, capsys):
+    """In the sandbox no network and no file but its own; without one, the user is told."""
+    text = """
+import socket
+wrote, reached = True, True
+try:
+    open({path!r}, "w").write("")
+except OSError:
+    wrote = False
+try:
+    socket.create_connection((socket.gethostbyname("localhost"), {port}), 1)
+except OSError:
+    reached = False
+open(sys.argv[2], "w").write(f"{{wrote:d}},{{reached:d}},0,0\\n" * 5)
+"""
+    import socket
+
+    with socket.create_server(("localhost", 0)) as server:
+        port = server.getsockname()[1]
+        t, s = program(written, text.format(path=str(tmp_path / "x"), port=port)).ask(*RAYS)
+    kept_in = bool(sandbox())
+    assert t[0] == s[0, 0] == (not kept_in)
+    path = written("print('inf')", "one.py")
+    main(["judge", "--run", f"{PYTHON} {path}"])
+    assert ("bubblewrap is missing" in capsys.readouterr().out) == (not kept_in)
+
+
+def test_a_program_is_judged_as_a_file_is(written, right, checks):
+    """The same mistake gets the same name and the same points."""
+    wrong = right["textbook"].replace("t = -dot", "t = dot")
+    file = result_of(judge(written(wrong), checks, []))
+    bridge = """
+import numpy as np
+v = np.loadtxt(sys.argv[1], delimiter=",", ndmin=2)
+with np.errstate(all="ignore"):
+    t, s = intersect(v[:, :3], v[:, 3:6], v[:, 6:].reshape(-1, 3, 3))
+np.savetxt(sys.argv[2], np.column_stack((t, s)), fmt="%.17g", delimiter=",")
+"""
+    path = written("import sys\n" + wrong + bridge, "bridge.py")
+    run = Run.parsed(f"{PYTHON} {path} {{rays}} {{answers}}")
+    other = result_of(judge(run, checks, []))
+    assert [f.name for f in other.faults] == [f.name for f in file.faults] == ["t_sign"]
+    assert other.score == file.score and other.checks == file.checks
+    assert names([run, path]) == [run.command, "bridge.py"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--run", "'unclosed"], "No closing quotation"),
+        (["--run", ""], "there is no command"),
+        (["--exchange", "raw"], "--exchange is for --run"),
+        ([], "--run for a program in another language"),
+    ],
+)
+def test_options_that_mean_nothing(arguments, words, capsys):
+    assert main(["judge", *arguments]) == 4
+    assert words in capsys.readouterr().err

@@ -1,0 +1,175 @@
+"""A wrong program is named by what is wrong with it, and no other gets its name."""
+
+from __future__ import annotations
+
+from itertools import permutations
+
+import numpy as np
+import pytest
+from reference_tracer.derivation.expressions import Negated, Operation
+from reference_tracer.tracer.progress import result_of
+from reference_tracer_grading.answers import Answers
+from reference_tracer_grading.checks import make_checks
+from reference_tracer_grading.faults import find_faults
+from reference_tracer_grading.judging import judge
+from reference_tracer_grading.matching import Replies, alike
+from reference_tracer_grading.mutations import mutations
+from reference_tracer_grading.programs import PROGRAMS
+from reference_tracer_grading.subject import prepare
+from reference_tracer_grading.tally import COST
+
+ALL = [(p, m) for p in PROGRAMS for m in mutations(p)]
+
+
+def answered(program, checks, silent):
+    """Return what a program makes of the checks; `silent`: where it misses, it gives zeros."""
+    t, s = program.answers(checks.origins, checks.directions, checks.triangles)
+    return Answers(checks, t, np.where(np.isfinite(t)[:, None], s, 0.0) if silent else s)
+
+
+def test_there_are_hundreds_of_wrong_programs():
+    assert len(ALL) > 280
+    assert len({m.sentence for _, m in ALL}) > 0.9 * len(ALL)
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_programs_are_right(program, checks):
+    assert not answered(program, checks, False).wrong.any()
+
+
+def test_every_mutation_is_named(checks):
+    """By its own sentence, or by that of one that no pair of the checks tells from it."""
+    unnamed = 0
+    for program, mutation in ALL:
+        answers = answered(mutation.of(program), checks, silent=False)
+        faults, found = find_faults(answers)
+        if not answers.wrong.any():
+            assert faults == [] and found is None
+        elif not np.isfinite(answers.s).any():
+            unnamed += 1  # no normal, no plane, no number: nothing says why
+            assert [f.name for f in faults] == ["no_hits"]
+        else:
+            assert found and len(found.wrong) == 1
+            again = answered(found.program, checks, silent=False)
+            assert alike(Replies(answers.t, answers.s), Replies(again.t, again.s))
+    assert unnamed < 20
+
+
+def test_a_mistake_of_which_nothing_is_seen_gets_no_name(checks):
+    """It never hits, and gives zeros for all that it misses: what is wrong may be anything."""
+    program, mutation = next((p, m) for p, m in ALL if m.name == "n_order")
+    [fault], found = find_faults(answered(mutation.of(program), checks, silent=True))
+    assert fault.name == "no_hits" and found is None
+
+
+def test_two_at_once(checks):
+    rng = np.random.default_rng(7)
+    named = 0
+    for program in PROGRAMS:
+        own = list(mutations(program))
+        for one, two in rng.choice(len(own), (20, 2)):
+            one, two = own[one], own[two]
+            if not one.apart_from(two):
+                continue
+            answers = answered(two.of(one.of(program)), checks, silent=False)
+            faults, found = find_faults(answers)
+            if found is None:
+                continue
+            named += 1
+            assert len(faults) <= 2
+            again = answered(found.program, checks, silent=False)
+            assert alike(Replies(answers.t, answers.s), Replies(again.t, again.s))
+    assert named > 20
+
+
+def reordered(tree, rng):
+    """Write a formula otherwise, in real numbers the same: operands and signs change places."""
+    match tree:
+        case Operation(sign, left, right):
+            left, right = reordered(left, rng), reordered(right, rng)
+            if rng.random() < 0.5:
+                if sign in ("+", "·", " "):
+                    return Operation(sign, right, left)
+                if sign in ("−", "×"):
+                    return Negated(Operation(sign, right, left))
+            return Operation(sign, left, right)
+        case Negated(of):
+            return Negated(reordered(of, rng))
+    return tree
+
+
+def test_right_programs_in_another_order_have_no_fault(checks):
+    """A thousand of them: the formulas' operands and the corners' order are chosen at random."""
+    rng = np.random.default_rng(11)
+    some = rng.permutation(len(checks.group))[:300]
+    turns = list(permutations(range(3)))
+    for k in range(1000):
+        program = PROGRAMS[k % 2]
+        formulas = {f: reordered(tree, rng) for f, tree in program.formulas.items()}
+        turn = list(turns[rng.integers(6)])
+        other = type(program)(formulas, program.conditions, program.kinds)
+        rays = checks.origins[some], checks.directions[some], checks.triangles[some][:, turn]
+        t, s = other.answers(*rays)
+        full = np.full(len(checks.group), np.inf), np.zeros((len(checks.group), 3))
+        full[0][some], full[1][some] = t, s[:, np.argsort(turn)]
+        answers = Answers(checks, *full)
+        assert not answers.wrong[some].any()
+
+
+def test_other_faults_do_not_get_a_mutations_name(right, checks):
+    """What no single formula explains keeps the name of its own test, or none."""
+    for old, new in (
+        ("(t > 0)", "(t > 1e-3)"),
+        ("np.where(hit, t, ", "np.where(hit, np.float32(t), "),
+        ("np.where(hit, t, ", "np.where(hit, t + 0.01, "),
+        ("(s1 >= 0)", "(s1 >= 1e-6)"),
+    ):
+        text = right["textbook"]
+        assert old in text
+        space = {}
+        exec(text.replace(old, new), space)
+        with np.errstate(all="ignore"):
+            t, s = space["intersect"](checks.origins, checks.directions, checks.triangles)
+        assert find_faults(Answers(checks, t, s))[1] is None
+
+
+@pytest.fixture(scope="module")
+def subject(make):
+    front, back = make.quad(-3.1, 3.3, -2.7, 2.9, -5.25), make.quad(-9, 9, -8, 8.3, -9)
+    scene = make.scene(make.camera(24, 18, half=1), front, back)
+    return result_of(prepare("two", scene, pixels=None))
+
+
+def judged(text, written, subject):
+    return result_of(judge(written(text), make_checks(), [subject]))
+
+
+def test_a_forgotten_minus_costs_its_share(right, written, subject):
+    """Every hit is lost with it: the file would have 0."""
+    text = right["textbook"].replace("t = -dot", "t = dot")
+    found = judged(text, written, subject)
+    assert [f.name for f in found.faults] == ["t_sign"] and "minus is missing" in (
+        found.faults[0].sentence
+    )
+    assert found.as_is < 20 and found.score == 100 - COST and found.verdict == "wrong"
+
+
+def test_an_exchanged_cross_product(right, written, subject):
+    text = right["textbook"].replace("cross(p2 - p3, x - p3)", "cross(x - p3, p2 - p3)")
+    found = judged(text, written, subject)
+    assert [f.name for f in found.faults] == ["ns1_order"]
+    assert found.score == 100 - COST
+    both = judged(text.replace("t = -dot", "t = dot"), written, subject)
+    assert len(both.faults) == 2 and both.score == 100 - 2 * COST
+
+
+def test_what_a_scene_shows_beside_it_is_not_forgiven(right, written, subject):
+    """The mistake explains the checks; in the scene something else is wrong, too."""
+    text = right["textbook"].replace("t = -dot", "t = dot")
+    more = text.replace(
+        "    return np.where", "    hit = hit | (p1[:, 2] == -5.25)\n    return np.where"
+    )
+    assert more != text
+    found = judged(more, written, subject)
+    assert [f.name for f in found.faults] == ["t_sign"]
+    assert found.alike is None and found.score == found.as_is

@@ -1,0 +1,395 @@
+"""What a user sees before and after the button, played in Blender's window: see `play.py`."""
+
+import subprocess
+
+import bpy
+import numpy as np
+from drawn import cut, noting, scale
+from story import (
+    OUT,
+    compared,
+    module,
+    noted,
+    press,
+    press_compare,
+    result,
+    running,
+    screenshot,
+    show_panel,
+    until,
+    window,
+)
+
+PARTS = ("_inspector", "_trade", "_extremes", "_export")
+SIDEBAR, PROPERTIES = "VIEW3D_PT_reference_tracer", "RENDER_PT_reference_tracer"
+
+
+def at_rest():
+    return compared() and not running()
+
+
+def front(kind="VIEW_3D"):
+    """Bring our tab of a sidebar to the front, and every area to be drawn."""
+    for area in window().screen.areas:
+        if area.type == kind:
+            area.spaces.active.show_region_ui = True
+            yield 0.3
+            sidebar = next(r for r in area.regions if r.type == "UI")
+            sidebar.active_panel_category = "Reference Tracer"
+        area.tag_redraw()
+    yield 0.5
+
+
+def drawn_anew(kind):
+    """Have a panel drawn with all that is folded; gives what it draws."""
+    with noting(kind, [kind + part for part in PARTS]) as found:
+        for area in window().screen.areas:
+            area.tag_redraw()
+        yield 0.7
+    return found
+
+
+def resized(width, height):
+    """Make the window so large, as a hand would."""
+    names = subprocess.run(
+        ["xdotool", "search", "--onlyvisible", "--name", "Blender"], capture_output=True, text=True
+    )
+    for name in names.stdout.split():
+        subprocess.run(["xdotool", "windowsize", name, str(width), str(height)], check=True)
+
+    def it_is():
+        return window().width == width
+
+    yield from until(it_is, 20)
+    yield 0.5
+
+
+def panel():
+    """The panel of a new file, and after the button, at all sizes."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    yield 0.5
+    show_panel()
+    yield from front()
+    scene, view = window().scene, bpy.context.preferences.view
+    scene.render.resolution_percentage = 25
+    found = yield from drawn_anew(SIDEBAR)
+    noted["folded"] = found[SIDEBAR]["folded"]
+    noted["new"] = [(e["kind"], e["text"]) for e in found[SIDEBAR]["drawn"]]
+    yield 0.3
+    screenshot("panel_new")
+    press_compare()
+    yield from until(at_rest)
+    yield from front()
+    screenshot("panel_compared")
+    before = view.ui_scale, bpy.context.preferences.is_dirty
+    noted["cut"] = {}
+    size = window().width, window().height
+    for name, shown, width, kind in (
+        ("properties", 1, size[0], PROPERTIES),
+        ("sidebar", 1, size[0], SIDEBAR),
+        ("large", 2, size[0], SIDEBAR),
+        ("narrow", 1, 1280, SIDEBAR),
+        ("narrow_large", 2, 1280, SIDEBAR),
+    ):
+        if window().width != width:
+            yield from resized(width, 720)
+        view.ui_scale = shown
+        yield 0.3
+        found = yield from drawn_anew(kind)
+        screenshot(f"panel_{name}")
+        noted["cut"][name] = cut(found)
+        noted["half"] = cut(found, 0.5)
+        noted.setdefault("drawn", {})[name] = [len(found[kind]["drawn"]), round(scale(), 2)]
+    icons = [e["icon"] for p in found.values() for e in p.get("drawn", ()) if e["kind"] == "button"]
+    noted["icons"] = [i for i in icons if i != "NONE"]
+    view.ui_scale, bpy.context.preferences.is_dirty = before
+    yield from resized(*size)
+
+
+def editor():
+    """The first Image Editor, with its window."""
+    for each in bpy.context.window_manager.windows:
+        for area in each.screen.areas:
+            if area.type == "IMAGE_EDITOR":
+                return each, area
+    return None, None
+
+
+def opened():
+    """What is open: the editors of each window, and the image that the first Image Editor shows."""
+    areas = [sorted(a.type for a in w.screen.areas) for w in bpy.context.window_manager.windows]
+    _, area = editor()
+    return areas, area and area.spaces.active.image.name
+
+
+def pressed(mode):
+    """Press the button with a preference for where renders are shown."""
+    view = bpy.context.preferences.view
+    before = view.render_display_type, bpy.context.preferences.is_dirty
+    view.render_display_type = mode
+    press_compare()
+    yield from until(at_rest, 60)
+    yield 0.7
+    view.render_display_type, bpy.context.preferences.is_dirty = before
+
+
+def shown():
+    """Where the button shows its result, for each choice of where F12 shows its own; Esc; again."""
+    window().scene.render.resolution_percentage = 20
+    before = opened()[0]
+    for mode in ("NONE", "AREA", "SCREEN"):
+        yield from pressed(mode)
+        once = opened()
+        yield from pressed(mode)
+        found = noted[mode] = {"once": once, "again": opened() == once}
+        screenshot(f"shown_{mode.lower()}")
+        where, area = editor()
+        if area:
+            x, y = area.x + area.width // 4, where.height - area.y - area.height // 4
+            keys = ["mousemove", str(x), str(y), "key", "Escape"]
+            subprocess.run(["xdotool", *keys], check=True)
+            yield 0.7
+        found["back"] = opened()[0] == before
+    noted["images"] = sorted(i.name for i in bpy.data.images)
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.reference_tracer.compare("EXEC_DEFAULT")  # as a script calls it
+    yield 0.7
+    noted["by_script"] = opened()[0] == before
+    yield from pressed("WINDOW")
+    noted["WINDOW"] = opened()
+    screenshot("shown_window")
+    where, area = editor()
+    with bpy.context.temp_override(window=where):
+        bpy.ops.wm.window_close()
+    yield 0.5
+
+
+def colors_at(name, area, places):
+    """The colours of a screenshot at places of an editor's image, 0 to 1, by rows."""
+    region = next(r for r in area.regions if r.type == "WINDOW")
+    screenshot(name)
+    image = bpy.data.images.load(str(OUT / f"{name}.png"))
+    width, height = image.size
+    pixels = np.array(image.pixels[:]).reshape(height, width, 4)[..., :3]
+    bpy.data.images.remove(image)
+    at = module("blender.ui.split").place_of(region, 0)
+    x = (region.x + at.left + places[:, 0] * (at.right - at.left)).astype(int)
+    y = (region.y + at.bottom + places[:, 1] * (at.top - at.bottom)).astype(int)
+    return pixels[y, x]
+
+
+def compared_images():
+    """The switch, the line between both pictures, dragged by hand, and the regions."""
+    scene = window().scene
+    scene.render.resolution_percentage = 50
+    scene.display.shading.color_type = "RANDOM"
+    yield from pressed("AREA")
+    where, area = editor()
+    region = next(r for r in area.regions if r.type == "WINDOW")
+    yield from front("IMAGE_EDITOR")
+    with bpy.context.temp_override(window=where, area=area, region=region):
+        bpy.ops.image.view_zoom_ratio(ratio=1)
+    other = bpy.data.images["Reference Tracer Blender"]
+    pixels = np.array(other.pixels[:]).reshape(-1, 4)
+    pixels[:, :3] = pixels[:, 1::-1].repeat(2, axis=1)[:, :3]  # so that it is seen whose they are
+    other.pixels.foreach_set(pixels.astype(np.float32).ravel())
+    other.update()
+    places = np.random.default_rng(7).uniform(0.02, 0.98, (400, 2))
+    seen = {}
+    for image in ("DIFFERENCE", "CAUSES", "TRACED", "OTHER", "BOTH"):
+        with bpy.context.temp_override(window=where, area=area):
+            bpy.ops.reference_tracer.show_image(image=image)
+        yield 0.5
+        seen[image] = colors_at(f"image_{image.lower()}", area, places)
+    manager = bpy.context.window_manager.reference_tracer
+    width, height = other.size
+    x, y = (places * (width, height)).astype(int).T
+    opaque = pixels.reshape(height, width, 4)[y, x, 3]
+    far = (abs(places[:, 0] - manager.split) > 0.02) & (opaque == 1)
+    left = far & (places[:, 0] < manager.split)
+    right = far & ~left
+    noted["both"] = {
+        # The share of places that are other there, by more than rounding.
+        "left": float((abs(seen["BOTH"] - seen["TRACED"])[left] > 0.03).any(axis=1).mean()),
+        "right": float((abs(seen["BOTH"] - seen["OTHER"])[right] > 0.03).any(axis=1).mean()),
+        "apart": float((abs(seen["TRACED"] - seen["OTHER"])[right] > 0.03).any(axis=1).mean()),
+    }
+    at = module("blender.ui.split").place_of(region, manager.split)
+    y = where.height - 1 - region.y - int((at.bottom + at.top) / 2)
+    x = int(region.x + at.line)
+    for action in (
+        ["mousemove", str(x), str(y)],
+        ["mousedown", "1"],
+        ["mousemove", str(x + 40), str(y)],
+        ["mousemove", str(x + 96), str(y)],
+        ["mouseup", "1"],
+    ):
+        subprocess.run(["xdotool", *action], check=True)
+        yield 0.3
+    noted["dragged"] = [manager.split, 0.5 + 96 / (at.right - at.left)]
+    screenshot("image_dragged")
+    regions = result().regions
+    noted["regions"] = [[r.pixels, list(r.objects)] for r in regions]
+    differ = result().content.counts.differ
+    noted["differ"] = differ
+    view = region.view2d
+    with bpy.context.temp_override(window=window()):
+        noted["framed"] = list(bpy.ops.reference_tracer.frame_region(number=0))
+    yield 0.5
+    screenshot("image_framed")
+    low = view.region_to_view(0, 0)
+    high = view.region_to_view(region.width, region.height)
+    first = regions[0]
+    noted["inside"] = [
+        low[0] * width <= first.left,
+        low[1] * height <= first.bottom,
+        first.left + first.width <= high[0] * width,
+        first.top + 1 <= high[1] * height,
+    ]
+    noted["across"] = [(high[0] - low[0]) * width, first.width]
+    noted["selected"] = [o.name for o in window().view_layer.objects if o.select_get()]
+    area.type = "VIEW_3D"
+    views = area.spaces.active.region_3d
+    views.view_perspective = "PERSP"
+    before = views.view_location.copy()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.reference_tracer.frame_region(number=0)
+    yield 0.7
+    noted["moved"] = (views.view_location - before).length
+    screenshot("view_framed")
+
+
+def said():
+    """What the status bar says, by workspace."""
+    return [w.name for w in bpy.data.workspaces if status.get(w.name)]
+
+
+status = {}  # what was said last in each workspace, else None
+
+
+def listened():
+    """Have noted what is said in the status bar, at once."""
+    kind = type(window().workspace)
+    real, heard = kind.status_text_set, []
+
+    def noting_text(workspace, text):
+        status[workspace.name] = text
+        heard.append(text)
+        real(workspace, text)
+
+    kind.status_text_set = noting_text
+    return heard, lambda: setattr(kind, "status_text_set", real)
+
+
+def status_bar():
+    """What is said while it runs, and what is left of it: at the end, by Esc, by an error."""
+    scene = window().scene
+    scene.render.resolution_percentage = 100
+    heard, stop = listened()
+    press_compare()
+    noted["at_once"] = heard[-1]
+    yield 0.02
+    screenshot("status_drawing")
+    yield from until(at_rest, 100)
+    noted["heard"] = [text for text in heard if text]
+    noted["left"] = said()
+    press_compare()
+    yield 2
+    other = next(w for w in bpy.data.workspaces if w != window().workspace)
+    window().workspace = other
+    yield 1.5
+    noted["moved"] = said()
+    press("Escape")
+    yield 1
+    noted["after_escape"] = [running(), said()]
+    scene.camera.data.type = "PANO"
+    press_compare()
+    yield 1
+    noted["after_error"] = [running(), said()]
+    stop()
+
+
+def ours():
+    """Our images, by name, with how many editors show each."""
+    editors = [
+        a.spaces.active
+        for w in bpy.context.window_manager.windows
+        for a in w.screen.areas
+        if a.type == "IMAGE_EDITOR"
+    ]
+    return {
+        i.name: sum(e.image == i for e in editors) for i in bpy.data.images if i.source != "VIEWER"
+    }
+
+
+def step(name):
+    with bpy.context.temp_override(window=window()):
+        getattr(bpy.ops.ed, name)()
+    yield 0.5
+
+
+def left_behind():
+    """What undo, redo, a second run, and closing the editor leave of the images."""
+    window().scene.render.resolution_percentage = 20
+    yield from pressed("AREA")
+    noted["once"] = ours()
+    window().scene.objects["Cone"].location.x += 0.2
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo_push(message="Move")
+    yield from pressed("AREA")
+    noted["twice"] = ours()
+    noted["undone"] = []
+    for name in ("undo", "undo", "undo", "redo"):
+        yield from step(name)
+        noted["undone"].append(ours())
+    screenshot("undone")
+    yield from pressed("AREA")
+    noted["again"] = ours()
+    _, area = editor()
+    area.type = "VIEW_3D"  # the editor is closed
+    yield 0.3
+    yield from pressed("AREA")
+    noted["reopened"] = ours()
+    path = OUT / "saved.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    yield 1
+    noted["loaded"] = ours()
+
+
+def sample():
+    """Open a sample scene as the menu does: as a new file, and not over unsaved changes."""
+    files = module("blender.ui.samples").scenes()
+    noted["files"] = [f.name for f in files]
+    area = window().screen.areas[0]
+    with bpy.context.temp_override(window=window(), area=area):
+        bpy.ops.wm.call_menu(name="TOPBAR_MT_file_new")
+    yield 0.7
+    screenshot("file_new")
+    press("Escape")
+    yield 0.3
+    scene = next(f for f in files if f.name == "exercise_triangle.blend")
+
+    def choose():
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.wm.read_homefile("INVOKE_DEFAULT", filepath=str(scene))
+
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.ed.undo_push(message="Add")
+    noted["dirty"] = bpy.data.is_dirty
+    choose()
+    yield 1
+    screenshot("unsaved")
+    noted["kept"] = [window().scene.name, bpy.data.filepath != ""]
+    press("Escape")
+    yield 0.5
+    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+    yield 1
+    choose()
+    yield 1
+    noted["opened"] = [window().scene.name, bpy.data.filepath]
+    screenshot("sample")
+
+
+SCENE = "suzanne"
+STORIES = (panel, shown, compared_images, status_bar, left_behind, sample)

@@ -1,0 +1,98 @@
+"""What is seen before and after the button. Screenshots are left in out/gui."""
+
+import re
+
+import pytest
+
+pytestmark = pytest.mark.gui
+
+
+@pytest.mark.story("panel")
+def test_a_new_file_shows_one_button_and_one_sentence(noted):
+    assert all(noted["folded"])
+    first = noted["new"][0]
+    assert first == ["button", "Trace and Compare"]
+    kinds = [kind for kind, _ in noted["new"]]
+    texts = [text for _, text in noted["new"]]
+    shown = kinds[: texts.index("Settings")]
+    assert shown == ["button", *["label"] * (len(shown) - 1)] and 2 <= len(shown) <= 3
+
+
+@pytest.mark.story("panel")
+def test_nothing_is_cut_at_any_size(noted):
+    assert {name: n > 20 for name, (n, _) in noted["drawn"].items()} == dict.fromkeys(
+        ("properties", "sidebar", "large", "narrow", "narrow_large"), True
+    )
+    assert noted["drawn"]["large"][1] == 2 * noted["drawn"]["sidebar"][1]
+    assert noted["cut"] == {name: {} for name in noted["cut"]}
+    assert noted["half"]  # in half the room something would be
+
+
+@pytest.mark.story("panel")
+def test_no_two_buttons_have_one_icon(noted):
+    assert len(noted["icons"]) > 5
+    assert len(set(noted["icons"])) == len(noted["icons"])
+
+
+OURS = [f"Reference Tracer {name}" for name in ("Blender", "Causes", "Difference", "Traced")]
+
+
+@pytest.mark.story("shown")
+def test_the_result_opens_as_a_render_does_and_esc_goes_back(noted):
+    [none, shows_none] = noted["NONE"]["once"]
+    assert shows_none is None and "IMAGE_EDITOR" not in none[0]
+    [areas], image = noted["AREA"]["once"]
+    assert areas.count("IMAGE_EDITOR") == 1 and len(areas) == len(none[0])
+    assert image == "Reference Tracer Difference"
+    assert noted["SCREEN"]["once"] == [[["IMAGE_EDITOR"]], image]
+    assert noted["WINDOW"] == [[none[0], ["IMAGE_EDITOR"]], image]
+    for mode in ("NONE", "AREA", "SCREEN"):
+        assert noted[mode]["again"] and noted[mode]["back"], mode
+    assert noted["by_script"]  # opens nothing
+    assert noted["images"] == OURS
+
+
+@pytest.mark.story("compared_images")
+def test_the_line_divides_the_traced_picture_from_the_other(noted):
+    both = noted["both"]
+    assert both["apart"] > 0.8  # so it is seen whose each pixel is
+    assert both["left"] < 0.02 and both["right"] < 0.02
+    assert noted["dragged"][0] == pytest.approx(noted["dragged"][1], abs=0.005)
+
+
+@pytest.mark.story("compared_images")
+def test_a_region_is_framed_in_the_picture_and_in_the_view(noted):
+    pixels = [n for n, _ in noted["regions"]]
+    assert sum(pixels) == noted["differ"] > 0 and pixels == sorted(pixels, reverse=True)
+    assert noted["framed"] == ["FINISHED"] and all(noted["inside"])
+    across, width = noted["across"]
+    assert across < 40 * (width + 16)  # enlarged
+    assert noted["selected"] == noted["regions"][0][1][:1] and noted["moved"] > 0.1
+
+
+@pytest.mark.story("status_bar")
+def test_the_status_bar_says_what_is_done_and_is_cleared_however_it_ends(noted):
+    assert noted["at_once"] == "Trace and Compare, Blender draws the scene  (Esc: cancel)"
+    shares = [int(m[1]) for m in (re.search(r": (\d+) %", t) for t in noted["heard"]) if m]
+    assert len(shares) > 2 and shares == sorted(shares) and shares[-1] <= 100
+    assert all("Esc" in text for text in noted["heard"])
+    assert any(", tracing" in text for text in noted["heard"])
+    assert noted["left"] == []
+    assert noted["moved"]  # it was still at work
+    assert noted["after_escape"] == noted["after_error"] == [[], []]
+
+
+@pytest.mark.story("sample")
+def test_a_sample_scene_is_opened_as_a_new_file_and_not_over_unsaved_changes(noted):
+    assert "exercise_triangle.blend" in noted["files"] and len(noted["files"]) >= 10
+    assert noted["dirty"] and noted["kept"] == ["Suzanne", True]
+    assert noted["opened"] == ["Exercise: Triangle", ""]
+
+
+@pytest.mark.story("left_behind")
+def test_images_are_used_again_and_go_with_undo_and_with_another_file(noted):
+    once = {name: int(name == "Reference Tracer Difference") for name in OURS}
+    assert noted["once"] == noted["twice"] == noted["again"] == noted["reopened"] == once
+    run, moved, first, redone = noted["undone"]
+    assert run == moved == once and first == {} and redone.keys() == once.keys()
+    assert noted["loaded"] == {}
