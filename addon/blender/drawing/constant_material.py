@@ -83,13 +83,17 @@ def _object_color(tree: Any, _: object = None) -> Any:
     return _attribute(tree, "OBJECT", "color").outputs["Color"]
 
 
+def attribute_names() -> set[str]:
+    """Return the active colour attributes of the file's meshes: these the material asks for."""
+    return {m.color_attributes.active_color_name or "" for m in bpy.data.meshes} - {""}
+
+
 def _vertex_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:
     """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
     without = _material_color if WITHOUT_ATTRIBUTE == "MATERIAL" else _object_color
     found = without(tree, slots_of)
     # By name: Cycles itself would take the one that is active for renders.
-    names = {m.color_attributes.active_color_name or "" for m in bpy.data.meshes}
-    for name in sorted(names - {""}):
+    for name in sorted(attribute_names()):
         node = tree.nodes.new("ShaderNodeVertexColor")  # alpha 0 where a mesh has none of this name
         node.layer_name = name
         found = _where_found(tree, node, found)
