@@ -66,8 +66,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Print the comparison; report its first line."""
-        found = results.latest(Kind.COMPARISON, context.scene)
-        lines = found.lines if found else ()
+        lines = result.lines()  # of the comparison: the context's scene may be another one by now
         say(*result.manifest.lines(), *lines)
         return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
 
