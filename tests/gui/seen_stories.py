@@ -322,6 +322,30 @@ def ours():
     }
 
 
+def after_a_render():
+    """The button where the editor of F12 is still open."""
+    window().scene.render.engine = "BLENDER_WORKBENCH"
+    window().scene.render.resolution_percentage = 20
+    view = bpy.context.preferences.view
+    before = view.render_display_type, bpy.context.preferences.is_dirty
+    for mode in ("AREA", "SCREEN"):
+        view.render_display_type = mode
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.render.render("INVOKE_DEFAULT")
+        yield from until(lambda: editor()[1] and not bpy.app.is_job_running("RENDER"), 60)
+        yield 0.7
+        rendered = opened()
+        yield from pressed(mode)
+        noted[mode] = rendered, opened()
+        where, area = editor()
+        if area:
+            x, y = area.x + area.width // 4, where.height - area.y - area.height // 4
+            keys = ["mousemove", str(x), str(y), "key", "Escape"]
+            subprocess.run(["xdotool", *keys], check=True)
+            yield 0.7
+    view.render_display_type, bpy.context.preferences.is_dirty = before
+
+
 def step(name):
     with bpy.context.temp_override(window=window()):
         getattr(bpy.ops.ed, name)()
@@ -392,4 +416,4 @@ def sample():
 
 
 SCENE = "suzanne"
-STORIES = (panel, shown, compared_images, status_bar, left_behind, sample)
+STORIES = (panel, shown, after_a_render, compared_images, status_bar, left_behind, sample)

@@ -52,6 +52,14 @@ def test_the_result_opens_as_a_render_does_and_esc_goes_back(noted):
     assert noted["images"] == OURS
 
 
+@pytest.mark.story("after_a_render")
+def test_the_result_opens_where_a_render_is_still_shown(noted):
+    for mode in ("AREA", "SCREEN"):
+        [[areas, rendered], [after, image]] = noted[mode]
+        assert rendered == "Render Result" and image == "Reference Tracer Difference"
+        assert after == areas
+
+
 @pytest.mark.story("compared_images")
 def test_the_line_divides_the_traced_picture_from_the_other(noted):
     both = noted["both"]
