@@ -214,6 +214,13 @@ def compared_images():
         "right": float((abs(seen["BOTH"] - seen["OTHER"])[right] > 0.03).any(axis=1).mean()),
         "apart": float((abs(seen["TRACED"] - seen["OTHER"])[right] > 0.03).any(axis=1).mean()),
     }
+    system = bpy.context.preferences.system
+    limit, is_dirty = system.gl_texture_limit, bpy.context.preferences.is_dirty
+    system.gl_texture_limit = "CLAMP_256"  # of textures: a coarse picture, at the same place
+    yield 0.5
+    seen["COARSE"] = colors_at("image_coarse", area, places)
+    noted["coarse"] = float((abs(seen["COARSE"] - seen["OTHER"])[right] > 0.1).any(axis=1).mean())
+    system.gl_texture_limit, bpy.context.preferences.is_dirty = limit, is_dirty
     at = module("blender.ui.split").place_of(region, manager.split)
     y = where.height - 1 - region.y - int((at.bottom + at.top) / 2)
     x = int(region.x + at.line)
