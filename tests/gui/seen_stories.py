@@ -5,6 +5,7 @@ import subprocess
 import bpy
 import numpy as np
 from drawn import cut, noting, scale
+from mathutils import Vector
 from story import (
     OUT,
     compared,
@@ -264,6 +265,17 @@ def compared_images():
     yield 0.7
     noted["moved"] = (views.view_location - before).length
     screenshot("view_framed")
+    before = views.view_location.copy()
+    with bpy.context.temp_override(window=window()):
+        bpy.context.view_layer.objects.active = bpy.data.objects["Cone"]
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        views.view_location = before + Vector((1, 0, 0))
+        bpy.ops.reference_tracer.frame_region(number=0)
+    yield 0.7
+    noted["editing"] = (views.view_location - before).length
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def said():

@@ -77,6 +77,7 @@ def test_a_region_is_framed_in_the_picture_and_in_the_view(noted):
     across, width = noted["across"]
     assert across < 40 * (width + 16)  # enlarged
     assert noted["selected"] == noted["regions"][0][1][:1] and noted["moved"] > 0.1
+    assert noted["editing"] == pytest.approx(1)  # nothing is selected then, so nothing framed
 
 
 @pytest.mark.story("status_bar")
