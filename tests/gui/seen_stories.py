@@ -313,10 +313,10 @@ def status_bar():
     noted["heard"] = [text for text in heard if text]
     noted["left"] = said()
     press_compare()
-    yield 2
+    yield 1
     other = next(w for w in bpy.data.workspaces if w != window().workspace)
     window().workspace = other
-    yield 1.5
+    yield from until(lambda: other.name in said(), 10)
     noted["moved"] = said()
     press("Escape")
     yield 1
@@ -325,6 +325,14 @@ def status_bar():
     press_compare()
     yield 1
     noted["after_error"] = [running(), said()]
+    scene.camera.data.type = "PERSP"
+    scene.render.resolution_percentage = 20
+    other = next(w for w in bpy.data.workspaces if w != window().workspace)
+    other.status_text_set("what another add-on says")
+    press_compare()
+    yield from until(at_rest, 60)
+    noted["of_another"] = [said(), other.name]
+    other.status_text_set(None)
     stop()
 
 

@@ -90,6 +90,8 @@ def test_the_status_bar_says_what_is_done_and_is_cleared_however_it_ends(noted):
     assert noted["left"] == []
     assert noted["moved"]  # it was still at work
     assert noted["after_escape"] == noted["after_error"] == [[], []]
+    still, other = noted["of_another"]
+    assert still == [other]
 
 
 @pytest.mark.story("sample")
