@@ -82,7 +82,7 @@ def test_the_share_of_the_work_is_about_that_of_the_time(make):
     shade = partial(Color.OBJECT.of, scene, (0.0, 0.0))
     for share in _Band(Frame.empty(scene), band, every, shade, True).steps(trace):
         shares.append(share)
-    assert shares == sorted(shares) and shares[-1] == pytest.approx(1.0)
+    assert (np.diff(shares) > -1e-12).all() and shares[-1] == pytest.approx(1.0)
     assert asked[1] < 0.2 and asked[2] > 0.8  # the first sample begins, and has ended
 
 
