@@ -115,6 +115,33 @@ def test_an_engine_that_does_not_show_the_colors_is_told(own, toy, solids, monke
     assert len(told) == own
 
 
+def raises(self, depsgraph):
+    raise ValueError("a fault of the engine")
+
+
+def begins(self, depsgraph):
+    self.begin_result(0, 0, 96, 54)
+
+
+def begins_and_raises(self, depsgraph):
+    begins(self, depsgraph)
+    raises(self, depsgraph)
+
+
+@pytest.mark.parametrize(
+    "render", [raises, begins, begins_and_raises, lambda self, depsgraph: None]
+)
+def test_an_engine_that_fails_is_told(render, toy, solids, monkeypatch, compare):
+    """Blender itself would crash if it were to write such a render to a file."""
+    assert compare(judge="TOY_TRACER", diagnose=False).verdict == "agree"
+    monkeypatch.setattr(toy, "render", render)
+    for as_is in (False, True):
+        with pytest.raises(SceneError, match="Toy Tracer made no picture: see the console"):
+            compare(judge="TOY_TRACER", as_is=as_is)
+    monkeypatch.undo()
+    assert compare(judge="TOY_TRACER", diagnose=False).verdict == "agree"
+
+
 def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
     toy.is_opaque = True
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
