@@ -269,6 +269,31 @@ def test_the_render_result(rendered_png, solids):
     assert found.verdict == "differences" and found.counts.unexplained > 20
 
 
+@pytest.mark.parametrize("kind", ["PNG", "OPEN_EXR"])
+def test_the_render_result_leaves_the_output_settings(kind, rendered_png, solids):
+    """A scene may save by another color management than it shows."""
+    rendered_png()
+    set_format(solids.render, kind, "RGB", "16")
+    solids.reference_tracer.judge = "RENDER_RESULT"
+    settings = solids.render.image_settings
+    settings.color_management = "OVERRIDE"
+    settings.linear_colorspace_settings.name = "ACEScg"
+    view = settings.view_settings
+    view.view_transform, view.exposure, view.use_curve_mapping = "Filmic", 2.0, True
+    view.curve_mapping.curves[0].points.new(0.25, 0.75)
+
+    def set_now():
+        points = [tuple(p.location) for curve in view.curve_mapping.curves for p in curve.points]
+        own = settings.color_management, settings.linear_colorspace_settings.name
+        form = settings.file_format, settings.color_mode, settings.color_depth
+        return form, own, view.view_transform, view.exposure, view.use_curve_mapping, points
+
+    before = set_now()
+    OPS.compare()
+    assert results.content(Kind.COMPARISON, solids).verdict == "agree"
+    assert set_now() == before
+
+
 def test_without_a_render_there_is_no_result(solids):
     solids.reference_tracer.judge = "RENDER_RESULT"
     with pytest.raises(RuntimeError, match="no Render Result: render it first"):

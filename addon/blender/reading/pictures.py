@@ -21,10 +21,7 @@ from ..versions import set_format
 _READ = (".png", ".exr")  # as files: what Blender makes of 16 bits, and who wrote it, is lost else
 _KINDS = "FILE", "GENERATED"
 # Of an image's file, each after those that it depends on.
-_SETTINGS = (
-    *("media_type", "file_format", "color_mode", "color_depth", "exr_codec"),
-    "color_management",
-)
+_SETTINGS = "media_type", "file_format", "color_mode", "color_depth", "exr_codec"
 
 
 @dataclass(frozen=True)
@@ -94,7 +91,8 @@ def render_result(scene: Any) -> Iterator[PictureFile]:
     settings = scene.render.image_settings
     with tempfile.TemporaryDirectory() as folder, _kept(settings):
         path = Path(folder) / "Render Result.exr"
-        settings.color_management = "FOLLOW_SCENE"
+        # Its own colour management stays: switching that off and on has Blender overwrite it. The
+        # format makes its linear space the scene's.
         set_format(scene.render, "OPEN_EXR", "RGBA", "32")
         try:
             if image is None:
@@ -116,8 +114,12 @@ def render_result(scene: Any) -> Iterator[PictureFile]:
 def _kept(settings: Any) -> Iterator[None]:
     """Put a scene's settings of files back."""
     before = {name: getattr(settings, name) for name in _SETTINGS if hasattr(settings, name)}
+    own = settings.linear_colorspace_settings  # used if these settings are not the scene's
+    space = settings.color_management == "OVERRIDE" and own.name
     try:
         yield
     finally:
         for name, value in before.items():
             setattr(settings, name, value)
+        if space:  # last: a format brings its own
+            own.name = space
