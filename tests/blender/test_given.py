@@ -263,10 +263,39 @@ def test_the_render_result(rendered_png, solids):
     assert found.case.picture.storage.levels == 0  # its own floats, not what a view transform makes
     assert (settings.file_format, settings.color_mode, settings.color_depth) == before
     assert found.case.picture.source.file == "Render Result"
+    assert found.case.picture.sampling.renderer.name == "raster"  # as Workbench made it
     bpy.data.objects["Green"].location.x += 0.2
     OPS.compare()
     found = results.content(Kind.COMPARISON, solids)
     assert found.verdict == "differences" and found.counts.unexplained > 20
+
+
+def test_a_result_of_rays_has_no_excuse_of_a_rasteriser(build):
+    """Cycles' render shows the wall behind, and then the scene is set to a rasteriser."""
+    scene = build.scene(96, 54)
+    for name, y, rgba in ("Near", 1000.0, (1, 0, 0, 1)), ("Far", 1000.1, (0, 1, 0, 1)):
+        corners = [(-500, y, -500), (500, y, -500), (500, y, 500), (-500, y, 500)]
+        material = build.material(name, *rgba)
+        material.use_nodes = True
+        emission = material.node_tree.nodes.new("ShaderNodeEmission")
+        emission.inputs["Color"].default_value = rgba
+        surface = material.node_tree.nodes["Material Output"].inputs["Surface"]
+        material.node_tree.links.new(emission.outputs[0], surface)
+        build.mesh(name, corners, [(0, 1, 2, 3)]).data.materials.append(material)
+    build.camera((0, 0, 0), (np.pi / 2, 0, 0), clip_end=10_000)
+    scene.render.engine, scene.render.film_transparent = "CYCLES", True
+    scene.cycles.samples, scene.cycles.filter_width = 1, 0.01
+    near = bpy.data.objects["Near"]
+    near.location.y = 0.2
+    bpy.ops.render.render()
+    near.location.y = 0
+    scene.render.engine = "BLENDER_WORKBENCH"
+    scene.reference_tracer.judge = "RENDER_RESULT"
+    scene.reference_tracer.diagnose = False
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, scene)
+    assert found.case.picture.sampling.renderer.name == "rays"
+    assert found.verdict == "differences" and found.counts.unexplained > 1000
 
 
 @pytest.mark.parametrize("kind", ["PNG", "OPEN_EXR"])

@@ -12,8 +12,9 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ... import exr
 from ...exr import MissingLibraryError
-from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
+from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, engine_of, open_picture
 from ...runs import by_runs
 from ...scene import SceneError
 from ..versions import set_format
@@ -104,8 +105,11 @@ def render_result(scene: Any) -> Iterator[PictureFile]:
                 f"Scene '{scene.name}' has no Render Result: render it first ({error})."
             ) from error
         width, height = loaded.size
+        engine = ""
+        with suppress(MissingLibraryError):  # then nothing excuses as a rasteriser's rounding
+            engine = engine_of(exr.notes(path))  # the scene may have another one set by now
         try:
-            yield _Held(Path(image.name), width, height, loaded, "other")
+            yield _Held(Path(image.name), width, height, loaded, engine)
         finally:
             bpy.data.images.remove(loaded)
 
