@@ -11,6 +11,7 @@ from reference_tracer.blender.ui import properties, results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.blender.versions import set_format
 from reference_tracer.cli import in_blender
+from reference_tracer.pictures.palette import By
 from reference_tracer.scene import SceneError
 
 from .toy_engine import ToyEngine
@@ -113,6 +114,21 @@ def test_an_engine_that_does_not_show_the_colors_is_told(own, toy, solids, monke
     assert found.verdict == "differences"
     told = [note for note in found.manifest.notes if "none of the colours" in note]
     assert len(told) == own
+
+
+def test_random_colors_of_instances_are_refused(toy, build, compare):
+    """An engine would give them the colour of the object that instances them."""
+    build.scene(color_type="RANDOM")
+    build.camera()
+    build.square(size=1)
+    alone = {"judge": "TOY_TRACER", "colors": By.VIEWPORT, "diagnose": False}
+    assert compare(**alone).verdict == "agree"
+    kit = build.collection("Kit", build.square("Part", 1, link=False))
+    instancer = build.empty("Instancer", location=(1.5, 0, 0))
+    instancer.instance_type, instancer.instance_collection = "COLLECTION", kit
+    with pytest.raises(SceneError, match="Toy Tracer cannot draw the viewport's random colours"):
+        compare(**alone)
+    assert compare(judge="TOY_TRACER", colors=By.OBJECT, diagnose=False).verdict == "agree"
 
 
 def raises(self, depsgraph):

@@ -73,6 +73,8 @@ def _rendered(drawing: Drawing, judge: Judge, like_for_like: bool, making: Makin
     """Have an engine render what was exported."""
     own = replace(drawing, judge=judge, like_for_like=like_for_like)
     with own.begun() as (tmp, scene):
+        if like_for_like and tmp.display.shading.color_type == "RANDOM":
+            judge.check_random(drawing.exported, drawing.manifest.owners)
         pixels = own.picture(tmp, like_for_like)
     shown = picture_of_array(pixels, scene.camera, making)
     source = Source(
