@@ -339,6 +339,39 @@ def test_the_render_result_leaves_the_output_settings(kind, rendered_png, solids
     assert set_now() == before
 
 
+def test_a_result_of_another_view_layer_is_told(rendered_png, solids, compare):
+    """Of several view layers it shows the first; the one that is active is traced."""
+    first = solids.view_layers[0]
+    other = solids.view_layers.new("Other")
+    solids.collection.objects.unlink(solids.objects["Green"])
+    solids.collection.children.link(own := bpy.data.collections.new("Own"))
+    own.objects.link(bpy.data.objects["Green"])
+    other.layer_collection.children["Own"].exclude = True
+    rendered_png()
+    solids.reference_tracer.judge = "RENDER_RESULT"
+
+    def told(layer):
+        with bpy.context.temp_override(scene=solids, view_layer=layer):
+            found = compare(diagnose=False)
+        return found.verdict, [n for n in found.manifest.notes if "the picture" in n]
+
+    assert told(first) == ("agree", [])
+    verdict, [note] = told(other)
+    assert verdict == "differences"
+    assert note == f"of the picture: it shows the view layer '{first.name}', and 'Other' was traced"
+    first.use = False
+    rendered_png()
+    assert told(other) == ("agree", [])
+
+
+def test_metadata_that_is_burned_in_is_told(rendered_png, solids, compare):
+    solids.render.use_stamp = True
+    rendered_png()
+    found = compare(judge="RENDER_RESULT", diagnose=False)
+    assert found.verdict == "differences"
+    assert "of the picture: metadata is burned into it" in found.manifest.notes
+
+
 def test_without_a_render_there_is_no_result(solids):
     solids.reference_tracer.judge = "RENDER_RESULT"
     with pytest.raises(RuntimeError, match="no Render Result: render it first"):

@@ -55,7 +55,7 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
     if judge:
         shown: Any = partial(_rendered, judge=judge, like_for_like=not chosen.as_is, making=making)
     elif chosen.judge == RENDER_RESULT:
-        with render_result(context.scene) as file:
+        with render_result(context.scene, context.view_layer.name) as file:
             shown = picture_of_file(file, export_camera(context.scene), making)
     else:
         dither = DITHER * context.scene.render.dither_intensity

@@ -30,7 +30,8 @@ class _Held(PictureFile):
     """The pixels that Blender holds of an image."""
 
     image: Any
-    engine: str = ""  # as `StoredPicture` has it
+    engine: str = ""  # this and the remarks as `StoredPicture` has them
+    remarks: tuple[str, ...] = ()
 
     def read(self) -> StoredPicture:
         """Read the pixels: floats are linear, bytes have sRGB's curve and a straight alpha."""
@@ -40,7 +41,7 @@ class _Held(PictureFile):
         color = pixels.reshape(self.height, self.width, 4)
         opaque = image.channels < 4 or image.alpha_mode == "NONE"
         if image.is_float:
-            return StoredPicture(color, 0, opaque, engine=self.engine)
+            return StoredPicture(color, 0, opaque, self.remarks, self.engine)
         color = by_runs(lambda some: decoded(some).astype(np.float32), color.reshape(-1, 4))
         return StoredPicture(color.reshape(self.height, self.width, 4), EIGHT_BITS, opaque)
 
@@ -80,8 +81,10 @@ def image_file(image: Any) -> PictureFile:
 
 
 @contextmanager
-def render_result(scene: Any) -> Iterator[PictureFile]:
+def render_result(scene: Any, layer: str) -> Iterator[PictureFile]:
     """Give a scene's Render Result as a file, for a while: its pixels cannot be read otherwise.
+
+    It says so where it may show more, or less, than the view layer that is compared.
 
     Raises
     ------
@@ -109,9 +112,22 @@ def render_result(scene: Any) -> Iterator[PictureFile]:
         with suppress(MissingLibraryError):  # then nothing excuses as a rasteriser's rounding
             engine = engine_of(exr.notes(path))  # the scene may have another one set by now
         try:
-            yield _Held(Path(image.name), width, height, loaded, engine)
+            remarks = tuple(_remarks(scene, layer))
+            yield _Held(Path(image.name), width, height, loaded, engine, remarks)
         finally:
             bpy.data.images.remove(loaded)
+
+
+def _remarks(scene: Any, layer: str) -> Iterator[str]:
+    """Say what a scene's Render Result shows beside a view layer, as far as its settings tell.
+
+    Of several view layers that are rendered, the first is the picture.
+    """
+    rendered = [v.name for v in scene.view_layers if v.use]
+    if not scene.render.use_single_layer and rendered and rendered[0] != layer:
+        yield f"it shows the view layer '{rendered[0]}', and '{layer}' was traced"
+    if scene.render.use_stamp:
+        yield "metadata is burned into it"
 
 
 @contextmanager
