@@ -372,6 +372,26 @@ def test_metadata_that_is_burned_in_is_told(rendered_png, solids, compare):
     assert "of the picture: metadata is burned into it" in found.manifest.notes
 
 
+def test_a_stereo_result_is_refused(rendered_png, solids, compare):
+    solids.render.use_multiview = True
+    rendered_png()
+    settings = solids.render.image_settings
+    settings.views_format = "STEREO_3D"
+    for is_on in (True, False):
+        solids.render.use_multiview = is_on
+        with pytest.raises(SceneError, match="stereo Render Result: switch off Stereoscopy"):
+            compare(judge="RENDER_RESULT")
+    assert settings.views_format == "STEREO_3D"
+    rendered_png()
+    assert compare(judge="RENDER_RESULT").verdict == "agree"
+
+
+def test_an_engine_without_a_name_is_asked_for(solids):
+    solids.reference_tracer.judge = "ENGINE"
+    with pytest.raises(RuntimeError, match="No engine is named: type its name below Compare With"):
+        OPS.compare()
+
+
 def test_without_a_render_there_is_no_result(solids):
     solids.reference_tracer.judge = "RENDER_RESULT"
     with pytest.raises(RuntimeError, match="no Render Result: render it first"):

@@ -56,6 +56,8 @@ def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge
     if name == AUTO:
         rasteriser = WORKBENCH if background else VIEWPORT
         return CYCLES if is_panorama else rasteriser
+    if name == ENGINE:
+        raise SceneError("No engine is named: type its name below Compare With, as MY_ENGINE.")
     judge = JUDGES.get(name.lower())
     if judge is None:
         from .engines import others

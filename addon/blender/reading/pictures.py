@@ -22,7 +22,7 @@ from ..versions import set_format
 _READ = (".png", ".exr")  # as files: what Blender makes of 16 bits, and who wrote it, is lost else
 _KINDS = "FILE", "GENERATED"
 # Of an image's file, each after those that it depends on.
-_SETTINGS = "media_type", "file_format", "color_mode", "color_depth", "exr_codec"
+_SETTINGS = "media_type", "file_format", "color_mode", "color_depth", "exr_codec", "views_format"
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ def render_result(scene: Any, layer: str) -> Iterator[PictureFile]:
     Raises
     ------
     SceneError
-        If there is none.
+        If there is none, or it is stereo.
     """
     image = next((i for i in bpy.data.images if i.type == "RENDER_RESULT"), None)
     settings = scene.render.image_settings
@@ -98,15 +98,17 @@ def render_result(scene: Any, layer: str) -> Iterator[PictureFile]:
         # Its own colour management stays: switching that off and on has Blender overwrite it. The
         # format makes its linear space the scene's.
         set_format(scene.render, "OPEN_EXR", "RGBA", "32")
+        settings.views_format = "INDIVIDUAL"
         try:
             if image is None:
                 raise RuntimeError("nothing was rendered")
             image.save_render(str(path), scene=scene)
             loaded: Any = bpy.data.images.load(str(path))
         except RuntimeError as error:
-            raise SceneError(
-                f"Scene '{scene.name}' has no Render Result: render it first ({error})."
-            ) from error
+            why = f"has no Render Result: render it first ({error})"
+            if any(Path(folder).iterdir()):  # a file for each view
+                why = "has a stereo Render Result: switch off Stereoscopy, and render again"
+            raise SceneError(f"Scene '{scene.name}' {why}.") from error
         width, height = loaded.size
         engine = ""
         with suppress(MissingLibraryError):  # then nothing excuses as a rasteriser's rounding
