@@ -170,6 +170,27 @@ def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
     assert in_blender.run([*compare, "storm"]) == 4
 
 
+@pytest.mark.parametrize(
+    ("stored", "options", "said"),
+    [
+        ("ENGINE", ["--filter", "1.5"], ""),
+        ("AUTO", ["--filter", "1.5"], "--filter is for a picture of --against, or of an add-on's"),
+        ("ENGINE", ["--judge", "Cycles", "--renderer", "raster"], "--renderer is for a picture of"),
+        ("AUTO", ["--judge", "image"], "--judge image names no engine"),
+        ("AUTO", ["--judge", "Render_Result"], "--judge Render_Result names no engine"),
+        ("AUTO", ["--judge", "engine"], "--judge engine names no engine"),
+    ],
+)
+def test_options_for_an_engine_that_the_file_stores(
+    stored, options, said, toy, solids, tmp_path, capsys
+):
+    solids.reference_tracer.judge, solids.reference_tracer.engine = stored, "TOY_TRACER"
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    code = in_blender.run(["compare", "--out", str(tmp_path / "out"), *options])
+    assert code == (4 if said else 0)
+    assert said in capsys.readouterr().err
+
+
 @pytest.fixture
 def rendered_png(solids, tmp_path):
     """Render by Workbench, flat, and save a PNG; returns its path."""

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 ENGINE = "ENGINE"
 RENDER_RESULT = "RENDER_RESULT"
 IMAGE = "IMAGE"
+GIVEN = (ENGINE, RENDER_RESULT, IMAGE)
 AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
 JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES, EEVEE)}
