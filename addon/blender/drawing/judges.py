@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 ENGINE = "ENGINE"
 RENDER_RESULT = "RENDER_RESULT"
 IMAGE = "IMAGE"
+GIVEN = (ENGINE, RENDER_RESULT, IMAGE)
 AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
 JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES, EEVEE)}
@@ -56,6 +57,8 @@ def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge
     if name == AUTO:
         rasteriser = WORKBENCH if background else VIEWPORT
         return CYCLES if is_panorama else rasteriser
+    if name == ENGINE:
+        raise SceneError("No engine is named: type its name below Compare With, as MY_ENGINE.")
     judge = JUDGES.get(name.lower())
     if judge is None:
         from .engines import others
