@@ -166,7 +166,7 @@ def _png_of(path: Path) -> StoredPicture:
     for row, own in zip(color, values[::-1], strict=True):
         row[:, : len(order)] = by_runs(lambda some: decoded(some / stored.levels), own[:, order])
     levels = max(stored.levels, EIGHT_BITS)
-    engine = _engine_of(stored.notes)
+    engine = engine_of(stored.notes)
     return StoredPicture(color, levels, not has_alpha, stored.remarks, engine)
 
 
@@ -181,10 +181,10 @@ def _damage_named(path: Path) -> Iterator[None]:
 
 def _exr_of(path: Path) -> StoredPicture:
     color, opaque, notes = exr.read(path)
-    return StoredPicture(color, 0, opaque, engine=_engine_of(notes))
+    return StoredPicture(color, 0, opaque, engine=engine_of(notes))
 
 
-def _engine_of(notes: Collection[str]) -> str:
+def engine_of(notes: Collection[str]) -> str:
     """Return which of Blender's engines made a picture; '' where Blender did not write the header.
 
     Blender notes the scene, the camera and how long it rendered; Cycles also notes its samples, for

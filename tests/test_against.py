@@ -248,8 +248,9 @@ def test_options_that_do_not_fit(scene, against, options, message):
 
 
 def test_a_filter_needs_a_picture(tmp_path, capsys):
-    arguments = ["compare", str(tmp_path / "a.blend"), "--filter", "1", "--out", str(tmp_path)]
-    assert main(arguments) == 4
+    """A judge that is known has its own: that is said before the file is opened."""
+    options = "--judge", "workbench", "--filter", "1", "--out", str(tmp_path)
+    assert main(["compare", str(tmp_path / "a.blend"), *options]) == 4
     assert "--filter is for a picture of --against" in capsys.readouterr().err
 
 

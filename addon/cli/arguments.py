@@ -89,7 +89,7 @@ def place_from(given: Namespace) -> Place:
     return place(given) if place else nullcontext({})
 
 
-def refuse(given: Namespace, names: Iterable[str], why: str) -> None:
+def refuse(given: object, names: Iterable[str], why: str) -> None:
     """Raise a SceneError if one of these options is given, since it would have no effect."""
     for name in names:
         value = getattr(given, name, None)

@@ -25,6 +25,10 @@ from .parser import AT_LEAST_0, Parser
 # A frame of an animation stays the same whatever these are.
 _NOT_OF_A_FRAME = "scene", "out", "frames", "against", "colors_out", "place"
 
+# Options for a picture of which nothing is known.
+_OF_GIVEN = "filter", "renderer"
+_WHY_GIVEN = "is for a picture of --against, or of an add-on's engine"
+
 
 @dataclass(frozen=True)
 class CompareOptions:
@@ -61,12 +65,8 @@ class CompareOptions:
             refuse(given, ("colors_out",), "is for one judge, not for --judge all")
         if given.as_is:
             refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
-        from ..blender.drawing.judges import choices
-
-        known = (None, "auto", "all", *choices())
-        if given.against is None and given.judge in known:
-            why = "is for a picture of --against, or of an add-on's engine"
-            refuse(given, ("filter", "renderer"), why)
+        if given.against is None and given.judge:
+            _check_judge(given.judge, given)
         if given.against is None:
             refuse(given, ("dither",), "is for a picture of --against")
         else:
@@ -94,9 +94,34 @@ class CompareOptions:
             place=place_from(given),
         )
 
+    def check_stored(self, judge: str) -> None:
+        """Refuse what has no effect on the judge that a .blend stores, as it is chosen there.
+
+        Raises
+        ------
+        SceneError
+            If an option has none.
+        """
+        from ..blender.drawing.judges import GIVEN
+
+        if not self.judge and judge not in GIVEN:
+            refuse(self, _OF_GIVEN, _WHY_GIVEN)
+
     def of_a_frame(self) -> dict[str, str]:
         """Return the options that a frame's comparison depends on, in words that can be stored."""
         return {k: str(v) for k, v in vars(self).items() if k not in _NOT_OF_A_FRAME}
+
+
+def _check_judge(judge: str, given: Namespace) -> None:
+    from ..blender.drawing.judges import GIVEN, choices
+
+    if judge.upper() in GIVEN:
+        raise SceneError(
+            f"--judge {judge} names no engine: name one that an add-on registers, such as "
+            "MY_ENGINE, or a picture with --against"
+        )
+    if judge.lower() in ("auto", "all", *choices()):
+        refuse(given, _OF_GIVEN, _WHY_GIVEN)
 
 
 def _refuse_beside_frames(given: Namespace) -> None:

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,13 +108,15 @@ def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> It
     reach = max((abs(v) for each in every_round for at in each.offsets for v in at), default=0.0)
     trace_band = yield from tracer(scene, settings, reach, statistics)
     every_band = bands(scene.camera, settings)
+    together = samples_together(scene.camera, settings)
     share = WHOLE / (len(every_round) * len(every_band))
     done = 0.0
     for each in every_round:
         depths = frame.depths() if each.is_traced else (0.0, 0.0)
         shade = partial(each.color.of, scene, depths) if each.color else None
         for band in every_band:
-            yield from scaled(_Band(frame, band, each, shade).steps(trace_band), done, share)
+            work = _Band(frame, band, each, shade, together and bool(each.offsets))
+            yield from scaled(work.steps(trace_band), done, share)
             done += share
     yield 1.0
 
@@ -126,6 +129,7 @@ class _Band:
     region: Region
     wanted: Round
     shade: Shade | None
+    together: bool  # all samples are traced with the first
 
     @property
     def rows(self) -> slice:
@@ -136,18 +140,28 @@ class _Band:
     def steps(self, trace_band: TraceBand) -> Work[None]:
         """Trace and shade the band, and write it into the frame."""
         offsets = self.wanted.offsets
-        share = 1 / (1 + len(offsets))
+        starts, shares = self._shares()
         if self.wanted.is_traced:
             hits = self.frame.hits(self.rows)
         else:
-            hits = yield from scaled(trace_band(self.region, 0.0, 0.0), 0.0, share)
+            hits = yield from scaled(trace_band(self.region, 0.0, 0.0), 0.0, shares[0])
         color = np.zeros((len(hits) if offsets else 0, 4))
         for number, offset in enumerate(offsets, start=1):
-            other = yield from scaled(trace_band(self.region, *offset), number * share, share)
+            own = starts[number], shares[number]
+            other = yield from scaled(trace_band(self.region, *offset), *own)
             for part in parts(len(hits), PIXELS // 8):
                 color[part] += self._shaded(other.take(part), part, offset) / len(offsets)
-                yield (number + 1) * share
+                yield min(sum(own), 1.0)
         yield from timed(self._write(hits, color), self.frame.statistics.stages, 1.0)
+
+    def _shares(self) -> tuple[list[float], list[float]]:
+        """Return where the work on the centres and on each sample begins, and their shares."""
+        count = len(self.wanted.offsets)
+        work = [1.0, *(1.0 for _ in range(count))]
+        if self.together:  # the first of them finds all
+            work[1:] = [count**0.5, *(0.1 * count**0.5 / count for _ in range(count - 1))]
+        shares = [each / sum(work) for each in work]
+        return [0.0, *accumulate(shares)][:-1], shares
 
     def _shaded(self, hits: Hits, part: slice, offset: Offset = (0.0, 0.0)) -> NDArray[np.float32]:
         """Return the colours of some of the band's rays, (n, 4)."""
@@ -213,6 +227,7 @@ def samples_together(camera: Camera, settings: Settings) -> bool:
     n = settings.samples
     is_proven = settings.method.is_proven and camera.projection.is_linear
     fits = n * max(camera.width, camera.height) <= FINEST
+    fits &= n * n * camera.region.width * BYTES_PER_PIXEL <= settings.memory  # one row of pixels
     return is_proven and fits and n > 1 and n & (n - 1) == 0
 
 

@@ -195,7 +195,7 @@ def test_one_object_in_another_shade_is_named_and_is_no_transform(shade, every, 
         if made is None or not made.changed.any():
             continue
         attacked += 1
-        causes = explained(made).causes
+        causes = result_of(explain(made.case, made.frame)).causes  # of all pixels, as for a user
         shades = getattr(causes, "shades", ())
         if causes.transform or {s.object for s in shades} != {made.object}:
             wrong[name] = (causes.transform, [(s.object, s.pixels, s.transform) for s in shades])

@@ -11,6 +11,7 @@ from reference_tracer.blender.ui import properties, results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.blender.versions import set_format
 from reference_tracer.cli import in_blender
+from reference_tracer.pictures.palette import By
 from reference_tracer.scene import SceneError
 
 from .toy_engine import ToyEngine
@@ -115,6 +116,48 @@ def test_an_engine_that_does_not_show_the_colors_is_told(own, toy, solids, monke
     assert len(told) == own
 
 
+def test_random_colors_of_instances_are_refused(toy, build, compare):
+    """An engine would give them the colour of the object that instances them."""
+    build.scene(color_type="RANDOM")
+    build.camera()
+    build.square(size=1)
+    alone = {"judge": "TOY_TRACER", "colors": By.VIEWPORT, "diagnose": False}
+    assert compare(**alone).verdict == "agree"
+    kit = build.collection("Kit", build.square("Part", 1, link=False))
+    instancer = build.empty("Instancer", location=(1.5, 0, 0))
+    instancer.instance_type, instancer.instance_collection = "COLLECTION", kit
+    with pytest.raises(SceneError, match="Toy Tracer cannot draw the viewport's random colours"):
+        compare(**alone)
+    assert compare(judge="TOY_TRACER", colors=By.OBJECT, diagnose=False).verdict == "agree"
+
+
+def raises(self, depsgraph):
+    raise ValueError("a fault of the engine")
+
+
+def begins(self, depsgraph):
+    self.begin_result(0, 0, 96, 54)
+
+
+def begins_and_raises(self, depsgraph):
+    begins(self, depsgraph)
+    raises(self, depsgraph)
+
+
+@pytest.mark.parametrize(
+    "render", [raises, begins, begins_and_raises, lambda self, depsgraph: None]
+)
+def test_an_engine_that_fails_is_told(render, toy, solids, monkeypatch, compare):
+    """Blender itself would crash if it were to write such a render to a file."""
+    assert compare(judge="TOY_TRACER", diagnose=False).verdict == "agree"
+    monkeypatch.setattr(toy, "render", render)
+    for as_is in (False, True):
+        with pytest.raises(SceneError, match="Toy Tracer made no picture: see the console"):
+            compare(judge="TOY_TRACER", as_is=as_is)
+    monkeypatch.undo()
+    assert compare(judge="TOY_TRACER", diagnose=False).verdict == "agree"
+
+
 def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
     toy.is_opaque = True
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
@@ -125,6 +168,27 @@ def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
     assert "the picture's background is" in said and "as was asked for" in said
     assert in_blender.run([*compare, "cycles", "--filter", "1"]) == 4
     assert in_blender.run([*compare, "storm"]) == 4
+
+
+@pytest.mark.parametrize(
+    ("stored", "options", "said"),
+    [
+        ("ENGINE", ["--filter", "1.5"], ""),
+        ("AUTO", ["--filter", "1.5"], "--filter is for a picture of --against, or of an add-on's"),
+        ("ENGINE", ["--judge", "Cycles", "--renderer", "raster"], "--renderer is for a picture of"),
+        ("AUTO", ["--judge", "image"], "--judge image names no engine"),
+        ("AUTO", ["--judge", "Render_Result"], "--judge Render_Result names no engine"),
+        ("AUTO", ["--judge", "engine"], "--judge engine names no engine"),
+    ],
+)
+def test_options_for_an_engine_that_the_file_stores(
+    stored, options, said, toy, solids, tmp_path, capsys
+):
+    solids.reference_tracer.judge, solids.reference_tracer.engine = stored, "TOY_TRACER"
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    code = in_blender.run(["compare", "--out", str(tmp_path / "out"), *options])
+    assert code == (4 if said else 0)
+    assert said in capsys.readouterr().err
 
 
 @pytest.fixture
@@ -236,10 +300,117 @@ def test_the_render_result(rendered_png, solids):
     assert found.case.picture.storage.levels == 0  # its own floats, not what a view transform makes
     assert (settings.file_format, settings.color_mode, settings.color_depth) == before
     assert found.case.picture.source.file == "Render Result"
+    assert found.case.picture.sampling.renderer.name == "raster"  # as Workbench made it
     bpy.data.objects["Green"].location.x += 0.2
     OPS.compare()
     found = results.content(Kind.COMPARISON, solids)
     assert found.verdict == "differences" and found.counts.unexplained > 20
+
+
+def test_a_result_of_rays_has_no_excuse_of_a_rasteriser(build):
+    """Cycles' render shows the wall behind, and then the scene is set to a rasteriser."""
+    scene = build.scene(96, 54)
+    for name, y, rgba in ("Near", 1000.0, (1, 0, 0, 1)), ("Far", 1000.1, (0, 1, 0, 1)):
+        corners = [(-500, y, -500), (500, y, -500), (500, y, 500), (-500, y, 500)]
+        material = build.material(name, *rgba)
+        material.use_nodes = True
+        emission = material.node_tree.nodes.new("ShaderNodeEmission")
+        emission.inputs["Color"].default_value = rgba
+        surface = material.node_tree.nodes["Material Output"].inputs["Surface"]
+        material.node_tree.links.new(emission.outputs[0], surface)
+        build.mesh(name, corners, [(0, 1, 2, 3)]).data.materials.append(material)
+    build.camera((0, 0, 0), (np.pi / 2, 0, 0), clip_end=10_000)
+    scene.render.engine, scene.render.film_transparent = "CYCLES", True
+    scene.cycles.samples, scene.cycles.filter_width = 1, 0.01
+    near = bpy.data.objects["Near"]
+    near.location.y = 0.2
+    bpy.ops.render.render()
+    near.location.y = 0
+    scene.render.engine = "BLENDER_WORKBENCH"
+    scene.reference_tracer.judge = "RENDER_RESULT"
+    scene.reference_tracer.diagnose = False
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, scene)
+    assert found.case.picture.sampling.renderer.name == "rays"
+    assert found.verdict == "differences" and found.counts.unexplained > 1000
+
+
+@pytest.mark.parametrize("kind", ["PNG", "OPEN_EXR"])
+def test_the_render_result_leaves_the_output_settings(kind, rendered_png, solids):
+    """A scene may save by another color management than it shows."""
+    rendered_png()
+    set_format(solids.render, kind, "RGB", "16")
+    solids.reference_tracer.judge = "RENDER_RESULT"
+    settings = solids.render.image_settings
+    settings.color_management = "OVERRIDE"
+    settings.linear_colorspace_settings.name = "ACEScg"
+    view = settings.view_settings
+    view.view_transform, view.exposure, view.use_curve_mapping = "Filmic", 2.0, True
+    view.curve_mapping.curves[0].points.new(0.25, 0.75)
+
+    def set_now():
+        points = [tuple(p.location) for curve in view.curve_mapping.curves for p in curve.points]
+        own = settings.color_management, settings.linear_colorspace_settings.name
+        form = settings.file_format, settings.color_mode, settings.color_depth
+        return form, own, view.view_transform, view.exposure, view.use_curve_mapping, points
+
+    before = set_now()
+    OPS.compare()
+    assert results.content(Kind.COMPARISON, solids).verdict == "agree"
+    assert set_now() == before
+
+
+def test_a_result_of_another_view_layer_is_told(rendered_png, solids, compare):
+    """Of several view layers it shows the first; the one that is active is traced."""
+    first = solids.view_layers[0]
+    other = solids.view_layers.new("Other")
+    solids.collection.objects.unlink(solids.objects["Green"])
+    solids.collection.children.link(own := bpy.data.collections.new("Own"))
+    own.objects.link(bpy.data.objects["Green"])
+    other.layer_collection.children["Own"].exclude = True
+    rendered_png()
+    solids.reference_tracer.judge = "RENDER_RESULT"
+
+    def told(layer):
+        with bpy.context.temp_override(scene=solids, view_layer=layer):
+            found = compare(diagnose=False)
+        return found.verdict, [n for n in found.manifest.notes if "the picture" in n]
+
+    assert told(first) == ("agree", [])
+    verdict, [note] = told(other)
+    assert verdict == "differences"
+    assert note == f"of the picture: it shows the view layer '{first.name}', and 'Other' was traced"
+    first.use = False
+    rendered_png()
+    assert told(other) == ("agree", [])
+
+
+def test_metadata_that_is_burned_in_is_told(rendered_png, solids, compare):
+    solids.render.use_stamp = True
+    rendered_png()
+    found = compare(judge="RENDER_RESULT", diagnose=False)
+    assert found.verdict == "differences"
+    assert "of the picture: metadata is burned into it" in found.manifest.notes
+
+
+def test_a_stereo_result_is_refused(rendered_png, solids, compare):
+    solids.render.use_multiview = True
+    rendered_png()
+    settings = solids.render.image_settings
+    settings.views_format = "STEREO_3D"
+    for is_on in (True, False):
+        solids.render.use_multiview = is_on
+        with pytest.raises(SceneError, match="stereo Render Result: switch off Stereoscopy"):
+            compare(judge="RENDER_RESULT")
+    assert settings.views_format == "STEREO_3D"
+    rendered_png()
+    assert compare(judge="RENDER_RESULT").verdict == "agree"
+
+
+def test_an_engine_without_a_name_is_asked_for(solids):
+    solids.reference_tracer.judge = "ENGINE"
+    with pytest.raises(RuntimeError, match="No engine is named: type its name below Compare With"):
+        OPS.compare()
 
 
 def test_without_a_render_there_is_no_result(solids):

@@ -61,7 +61,7 @@ def test_every_engine_in_one_table(saved, tmp_path, capsys):
     out = tmp_path / "out"
     assert in_blender.run(["compare", "--judge", "all", "--out", str(out)]) == 0
     found = json.loads((out / "engines.json").read_text(encoding="utf-8"))
-    assert [row["engine"] for row in found["engines"]] == ["workbench", "cycles"]
+    assert [row["engine"] for row in found["engines"]] == ["workbench", "cycles", "eevee"]
     assert found["verdict"] == "agree"
     assert {row["verdict"] for row in found["engines"]} == {"agree"}
     assert (out / "workbench/comparison.json").exists() and (out / "cycles/traced.png").exists()
@@ -76,7 +76,7 @@ def test_an_engine_that_cannot_is_named(saved, build, tmp_path, capsys):
     assert in_blender.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 1
     assert "cycles     no picture: Cycles cannot draw" in capsys.readouterr().out
     found = json.loads((tmp_path / "out/engines.json").read_text(encoding="utf-8"))
-    assert [row["verdict"] for row in found["engines"]] == ["agree", "failed"]
+    assert [row["verdict"] for row in found["engines"]] == ["agree", "failed", "failed"]
 
 
 def test_no_engine_at_all_is_an_error(saved, tmp_path, capsys):

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 from reference_tracer.rendering import certified_tracer, render
 from reference_tracer.scene import Region
 from reference_tracer.tracer.coloring import Color
-from reference_tracer.tracer.render import FINEST, samples_together
+from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.hits import Hits
+from reference_tracer.tracer.render import FINEST, _Band, rounds, samples_together
 from reference_tracer.tracer.settings import Settings
 
 from ..tracer.hostile_scenes import hostile_scene
@@ -60,3 +63,31 @@ def test_a_band_in_the_midst_of_a_picture(make, rng):
 def test_what_is_not_found_at_once(make, settings, width):
     assert not samples_together(make.camera(width, 8), settings)
     assert samples_together(make.camera(8, 8), replace(CERTIFIED, samples=64))
+
+
+def test_the_share_of_the_work_is_about_that_of_the_time(make):
+    """The first sample finds all: it is not one of many steps of one size."""
+    scene = make.scene(make.camera(64, 64), make.quad(-1, 1, -1, 1, -4))
+    settings = Settings("certified", samples=8)
+    band = Region(0, 0, 64, 64)
+    asked: list[float] = []
+    shares: list[float] = []
+
+    def trace(region, dx, dy):
+        asked.append(shares[-1] if shares else 0.0)
+        yield 1.0
+        return Hits.none(64 * 64)
+
+    every = rounds(settings)[0]
+    shade = partial(Color.OBJECT.of, scene, (0.0, 0.0))
+    for share in _Band(Frame.empty(scene), band, every, shade, True).steps(trace):
+        shares.append(share)
+    assert (np.diff(shares) > -1e-12).all() and shares[-1] == pytest.approx(1.0)
+    assert asked[1] < 0.2 and asked[2] > 0.8  # the first sample begins, and has ended
+
+
+def test_one_row_of_samples_fits_into_the_memory(make):
+    camera = make.camera(256, 16)
+    settings = Settings("certified", samples=64)
+    assert samples_together(camera, settings)
+    assert not samples_together(camera, replace(settings, memory=16 << 20))

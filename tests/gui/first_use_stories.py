@@ -1,6 +1,5 @@
 """A first use with the pointer and the keys alone: each event comes as from a user's hand."""
 
-import os
 import time
 from pathlib import Path
 
@@ -9,10 +8,10 @@ from hands import click, click_on
 from interruption_stories import ended, still_running
 from story import (
     MODULE,
-    OUT,
     compared,
     module,
     noted,
+    opened,
     press,
     result,
     running,
@@ -21,9 +20,9 @@ from story import (
     show_panel,
     until,
     window,
+    with_browser,
 )
 
-OPENED = OUT / "opened_by_a_click"
 COMPARE = "reference_tracer.compare("
 LARGE = 400  # percent: it takes long enough to be interrupted
 
@@ -45,11 +44,7 @@ def at_the_panel(percentage=50):
 
 def first_use():
     """Press the button, see the verdict, go to what differs, open the page, undo."""
-    browser = OUT / "browser_of_a_click"
-    browser.write_text(f'#!/bin/sh\necho "$1" > {OPENED}\n')
-    browser.chmod(0o755)
-    os.environ["BROWSER"] = str(browser)
-    OPENED.unlink(missing_ok=True)
+    with_browser()
     yield from at_the_panel()
     screenshot("first_use_opened")
     yield from click_on(properties(), COMPARE)
@@ -64,16 +59,12 @@ def first_use():
     screenshot("first_use_framed")
     yield from click_on(properties(), "reference_tracer.open_page(")
     yield from until(opened)
-    noted["page"] = Path(OPENED.read_text().strip().removeprefix("file://")).exists()
+    noted["page"] = Path(opened().removeprefix("file://")).exists()
     for _ in range(2):  # what was selected, and the comparison
         press("ctrl+z")
         yield 1
     noted["after_undo"] = images()
     screenshot("first_use_undone")
-
-
-def opened():
-    return OPENED.exists() and OPENED.read_text().strip()
 
 
 def second_press():

@@ -64,7 +64,7 @@ def place_in_view(area, x, y):
     scene = window().scene
     derived = module("derivation.pixel")
     with bpy.context.temp_override(window=window()):
-        camera = module("blender.jobs.compare").export_open_file(bpy.context)[0].camera
+        camera = module("blender.jobs.open_file").export_open_file(bpy.context)[0].camera
     looking = derived.Pixel(camera, x, y, (), None)
     point = looking.origin + 5 * looking.direction
     assert scene.camera

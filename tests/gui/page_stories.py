@@ -1,6 +1,5 @@
 """The button that opens the page, pressed inside Blender's window: see `play.py`."""
 
-import os
 from pathlib import Path
 
 import bpy
@@ -11,23 +10,19 @@ from story import (
     invoke,
     noted,
     open_tab,
+    opened,
     press_compare,
     screenshot,
     settings,
     show_panel,
     until,
+    with_browser,
 )
-
-OPENED = OUT / "opened"  # where the browser of this story writes what it is asked to open
 
 
 def page():
     """Compare, then the button: a file that the browser is told to open, and nothing else."""
-    browser = OUT / "browser"
-    browser.write_text(f'#!/bin/sh\necho "$1" > {OPENED}\n')
-    browser.chmod(0o755)
-    os.environ["BROWSER"] = str(browser)
-    OPENED.unlink(missing_ok=True)
+    with_browser()
     show_panel()
     yield 1
     yield from open_tab()
@@ -38,9 +33,6 @@ def page():
     screenshot("page_button")
     before = settings(), data_blocks()
     noted["pressed"] = list(invoke("open_page"))
-
-    def opened():
-        return OPENED.exists() and OPENED.read_text().strip()
 
     yield from until(opened)
     noted["address"] = opened()

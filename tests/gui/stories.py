@@ -28,6 +28,7 @@ from story import (
 def f12():
     """F12 with the engine: the picture is there, and it is the tracer's."""
     window().scene.render.engine = "REFERENCE_TRACER"
+    bpy.context.preferences.view.render_display_type = "AREA"
     done = []
     bpy.app.handlers.render_complete.append(lambda *a: done.append(True))
     yield 1
@@ -41,6 +42,7 @@ def f12():
     screenshot("f12")
     noted["result"] = render_result()
     noted["areas"] = [a.type for w in bpy.context.window_manager.windows for a in w.screen.areas]
+    bpy.context.preferences.view.render_display_type = "NONE"  # as `play.py` sets it
 
 
 def f12_escape():

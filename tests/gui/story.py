@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib
+import os
 import subprocess
 import time
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import bpy
 
 OUT = Path("/project/out/gui")
+OPENED = OUT / "opened"  # what the browser was asked to open
 MODULE = "bl_ext.user_default.reference_tracer"
 SIDEBAR_TAB = "Reference Tracer"
 KEYS = {"F12": "96"}  # by its number: by its name, newer tools press Alt with it
@@ -90,6 +92,23 @@ def until(condition, seconds=300):
         if time.monotonic() > end:
             raise TimeoutError(condition.__name__)
         yield 0.05
+
+
+def with_browser():
+    """Have whatever opens a page write its address down: see `opened`.
+
+    Python asks for the browser once a process, so all stories have the same.
+    """
+    browser = OUT / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$1" > {OPENED}\n')
+    browser.chmod(0o755)
+    os.environ["BROWSER"] = str(browser)
+    OPENED.unlink(missing_ok=True)
+
+
+def opened():
+    """Return the address that the browser was asked to open, if it was."""
+    return OPENED.exists() and OPENED.read_text().strip()
 
 
 def reports():

@@ -26,7 +26,7 @@ def test_button_leaves_four_images_and_nothing_else(noted):
 
 @pytest.mark.story("engines")
 def test_every_engine_in_one_table(noted):
-    assert [row["engine"] for row in noted["rows"]] == ["viewport", "workbench", "cycles"]
+    assert [row["engine"] for row in noted["rows"]] == ["viewport", "workbench", "cycles", "eevee"]
     for row in noted["rows"]:
         assert row["verdict"] == "agree" and row["pixels"]["unexplained"] == 0
         assert row["wrong_objects"] <= row["pixels"]["differ"] < 25

@@ -56,6 +56,7 @@ FOLDED = {
 }
 # Of what is argued by hand, and not in Coq (docs/proof.md lists it): by module, and the expression.
 HAND = {
+    "samples": {"0.5": "where in its pixel a sample is: which row and column that makes, exactly"},
     "sweep.boxes": {
         "4": "the boxes of instances: what lies between the corners is rounded like them",
         "0.25 * _MARGIN": "the boxes of instances: a corner is off by less than their margin",

@@ -56,6 +56,11 @@ LEFT_OUT = {
     "plain.py": {CALLS: "plain _tile"},
     "reasons.py": {WORDS: "of_doubts reasons _length"},
     "rounding.py": {BEFORE: "rounding", WORDS: "Rounding.__str__"},
+    "samples.py": {
+        "which pixel of a larger picture a sample is: test_samples.py holds it to the bit": (
+            "traced_together traced_together.<locals>.trace"
+        ),
+    },
     "surfaces.py": {
         WHICH: "Candidates.none Candidates.by_ray Surfaces.planes_of Surfaces.only Surfaces.names "
         "Surfaces.integers",

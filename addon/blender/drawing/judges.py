@@ -23,6 +23,7 @@ RENDER_RESULT = "RENDER_RESULT"
 IMAGE = "IMAGE"
 STILLS = (RENDER_RESULT, IMAGE)
 OF_ONE_FRAME = "A Render Result or an image is of one frame: compare the frames with an engine"
+GIVEN = (ENGINE, *STILLS)
 AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
 JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES, EEVEE)}
@@ -58,6 +59,8 @@ def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge
     if name == AUTO:
         rasteriser = WORKBENCH if background else VIEWPORT
         return CYCLES if is_panorama else rasteriser
+    if name == ENGINE:
+        raise SceneError("No engine is named: type its name below Compare With, as MY_ENGINE.")
     judge = JUDGES.get(name.lower())
     if judge is None:
         from .engines import others

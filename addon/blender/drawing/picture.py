@@ -131,7 +131,14 @@ def _draw(scene: Any, layer: str, judge: Judge) -> None:
         return
     scene.render.engine = ENGINES.get(judge.engine or "", judge.engine)
     with values_restored():
-        bpy.ops.render.render(scene=scene.name, write_still=True)
+        bpy.ops.render.render(scene=scene.name, write_still=judge.known)
+    if not judge.known:
+        # Blender crashes if it is to write, within the render, what an engine did not finish (5.2).
+        result = next(image for image in bpy.data.images if image.type == "RENDER_RESULT")
+        try:
+            result.save_render(f"{scene.render.filepath}.exr", scene=scene)
+        except RuntimeError:
+            raise SceneError(f"{judge.label} made no picture: see the console.") from None
 
 
 def read(path: Path, colorspace: str = "") -> Colors:

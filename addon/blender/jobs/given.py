@@ -55,7 +55,7 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
     if judge:
         shown: Any = partial(_rendered, judge=judge, like_for_like=not chosen.as_is, making=making)
     elif chosen.judge == RENDER_RESULT:
-        with render_result(context.scene) as file:
+        with render_result(context.scene, context.view_layer.name) as file:
             shown = picture_of_file(file, export_camera(context.scene), making)
     else:
         dither = DITHER * context.scene.render.dither_intensity
@@ -73,6 +73,8 @@ def _rendered(drawing: Drawing, judge: Judge, like_for_like: bool, making: Makin
     """Have an engine render what was exported."""
     own = replace(drawing, judge=judge, like_for_like=like_for_like)
     with own.begun() as (tmp, scene):
+        if like_for_like and tmp.display.shading.color_type == "RANDOM":
+            judge.check_random(drawing.exported, drawing.manifest.owners)
         pixels = own.picture(tmp, like_for_like)
     shown = picture_of_array(pixels, scene.camera, making)
     source = Source(

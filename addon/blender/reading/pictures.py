@@ -12,8 +12,9 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ... import exr
 from ...exr import MissingLibraryError
-from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
+from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, engine_of, open_picture
 from ...runs import by_runs
 from ...scene import SceneError
 from ..versions import set_format
@@ -21,10 +22,7 @@ from ..versions import set_format
 _READ = (".png", ".exr")  # as files: what Blender makes of 16 bits, and who wrote it, is lost else
 _KINDS = "FILE", "GENERATED"
 # Of an image's file, each after those that it depends on.
-_SETTINGS = (
-    *("media_type", "file_format", "color_mode", "color_depth", "exr_codec"),
-    "color_management",
-)
+_SETTINGS = "media_type", "file_format", "color_mode", "color_depth", "exr_codec", "views_format"
 
 
 @dataclass(frozen=True)
@@ -32,7 +30,8 @@ class _Held(PictureFile):
     """The pixels that Blender holds of an image."""
 
     image: Any
-    engine: str = ""  # as `StoredPicture` has it
+    engine: str = ""  # this and the remarks as `StoredPicture` has them
+    remarks: tuple[str, ...] = ()
 
     def read(self) -> StoredPicture:
         """Read the pixels: floats are linear, bytes have sRGB's curve and a straight alpha."""
@@ -42,7 +41,7 @@ class _Held(PictureFile):
         color = pixels.reshape(self.height, self.width, 4)
         opaque = image.channels < 4 or image.alpha_mode == "NONE"
         if image.is_float:
-            return StoredPicture(color, 0, opaque, engine=self.engine)
+            return StoredPicture(color, 0, opaque, self.remarks, self.engine)
         color = by_runs(lambda some: decoded(some).astype(np.float32), color.reshape(-1, 4))
         return StoredPicture(color.reshape(self.height, self.width, 4), EIGHT_BITS, opaque)
 
@@ -82,42 +81,67 @@ def image_file(image: Any) -> PictureFile:
 
 
 @contextmanager
-def render_result(scene: Any) -> Iterator[PictureFile]:
+def render_result(scene: Any, layer: str) -> Iterator[PictureFile]:
     """Give a scene's Render Result as a file, for a while: its pixels cannot be read otherwise.
+
+    It says so where it may show more, or less, than the view layer that is compared.
 
     Raises
     ------
     SceneError
-        If there is none.
+        If there is none, or it is stereo.
     """
     image = next((i for i in bpy.data.images if i.type == "RENDER_RESULT"), None)
     settings = scene.render.image_settings
     with tempfile.TemporaryDirectory() as folder, _kept(settings):
         path = Path(folder) / "Render Result.exr"
-        settings.color_management = "FOLLOW_SCENE"
+        # Its own colour management stays: switching that off and on has Blender overwrite it. The
+        # format makes its linear space the scene's.
         set_format(scene.render, "OPEN_EXR", "RGBA", "32")
+        settings.views_format = "INDIVIDUAL"
         try:
             if image is None:
                 raise RuntimeError("nothing was rendered")
             image.save_render(str(path), scene=scene)
             loaded: Any = bpy.data.images.load(str(path))
         except RuntimeError as error:
-            raise SceneError(
-                f"Scene '{scene.name}' has no Render Result: render it first ({error})."
-            ) from error
+            why = f"has no Render Result: render it first ({error})"
+            if any(Path(folder).iterdir()):  # a file for each view
+                why = "has a stereo Render Result: switch off Stereoscopy, and render again"
+            raise SceneError(f"Scene '{scene.name}' {why}.") from error
         width, height = loaded.size
+        engine = ""
+        with suppress(MissingLibraryError):  # then nothing excuses as a rasteriser's rounding
+            engine = engine_of(exr.notes(path))  # the scene may have another one set by now
         try:
-            yield _Held(Path(image.name), width, height, loaded, "other")
+            remarks = tuple(_remarks(scene, layer))
+            yield _Held(Path(image.name), width, height, loaded, engine, remarks)
         finally:
             bpy.data.images.remove(loaded)
+
+
+def _remarks(scene: Any, layer: str) -> Iterator[str]:
+    """Say what a scene's Render Result shows beside a view layer, as far as its settings tell.
+
+    Of several view layers that are rendered, the first is the picture.
+    """
+    rendered = [v.name for v in scene.view_layers if v.use]
+    if not scene.render.use_single_layer and rendered and rendered[0] != layer:
+        yield f"it shows the view layer '{rendered[0]}', and '{layer}' was traced"
+    if scene.render.use_stamp:
+        yield "metadata is burned into it"
 
 
 @contextmanager
 def _kept(settings: Any) -> Iterator[None]:
     """Put a scene's settings of files back."""
     before = {name: getattr(settings, name) for name in _SETTINGS if hasattr(settings, name)}
+    own = settings.linear_colorspace_settings  # used if these settings are not the scene's
+    space = settings.color_management == "OVERRIDE" and own.name
     try:
         yield
     finally:
         for name, value in before.items():
             setattr(settings, name, value)
+        if space:  # last: a format brings its own
+            own.name = space

@@ -149,7 +149,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
             layout.template_ID(self, "image", open="image.open", text="Image")
         if self.judge == judges.ENGINE:
             layout.prop(self, "engine")
-        if self.judge in (judges.IMAGE, judges.ENGINE, judges.RENDER_RESULT):
+        if self.judge in judges.GIVEN:
             layout.prop(self, "renderer")
             layout.prop(self, "filter")
             layout.operator("reference_tracer.write_colors", icon="COLOR")

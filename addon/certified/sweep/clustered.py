@@ -95,13 +95,17 @@ class Clustered:
         margin = (_ERRORS * constant + (slope + far * film.weight) * size) / least + _ROUNDING
         clear = (least > 2.0**11 * film.weight * size) & (margin < far)
         in_view = ~(scale + more < -film.weight * size)  # `pixel_bounds`: what is behind the eye
-        low, high = np.empty((2, 2, len(scale)))
-        area = clear.astype(np.float64)
-        ends = (region.x0, region.x1), (region.y0, region.y1)
-        for axis, (row, (start, end)) in enumerate(zip(across, ends, strict=True)):
+        places = []
+        for row in across:
             # Far beside the picture it does not matter where: X is any film position.
             at = np.clip(span(row)[0] / scale, -far, far)
             reach = span(row - at * w)[1] / least
+            clear &= np.isfinite(at) & np.isfinite(reach)  # else a number has overflowed
+            places.append((at, reach))
+        low, high = np.empty((2, 2, len(scale)))
+        area = clear.astype(np.float64)
+        ends = (region.x0, region.x1), (region.y0, region.y1)
+        for axis, ((at, reach), (start, end)) in enumerate(zip(places, ends, strict=True)):
             area *= np.where(clear, np.minimum(2 * reach, end - start), 1.0)
             reach += margin
             low[axis] = np.where(clear, np.ceil(at - reach - 0.5), start)

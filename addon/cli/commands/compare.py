@@ -83,7 +83,9 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         from ...blender.jobs.compare import compare_open_file
         from ...blender.jobs.engines import compare_all
 
-        stored = blender.context.scene.reference_tracer.settings()
+        own = blender.context.scene.reference_tracer
+        options.check_stored(own.judge)
+        stored = own.settings()
         judge = options.judge.upper() if options.judge else None
         out = str(options.out)
         chosen: dict[str, Any] = {

@@ -188,3 +188,21 @@ def test_bands_and_samples_share_them(sphere, make):
     for dx in (-0.25, 0.25):
         swept(scene, beside=(dx, 0.0))
     assert clusters._KNOWN[sphere] is not None
+
+
+def test_what_overflows_is_not_left_out(make):
+    """A flat grid that is scaled across its plane by so much that rows of its matrix overflow."""
+    x, y = np.meshgrid(np.linspace(-1, 1, 71), np.linspace(-1, 1, 71))
+    vertices = np.stack((x.ravel(), y.ravel(), np.zeros(x.size)), axis=1)
+    corner = (np.arange(70)[:, None] * 71 + np.arange(70)).ravel()
+    below = np.stack((corner, corner + 1, corner + 71), axis=1)
+    above = np.stack((corner + 1, corner + 72, corner + 71), axis=1)
+    mesh = Mesh(vertices, np.concatenate((below, above)))
+    assert len(mesh.triangles) >= clusters.LEAST
+    matrix = np.diag([1.0, 1.0, 1e308, 1.0])
+    matrix[2, 3] = -3
+    scene = Scene(make.camera(40, 40), (mesh,), (Instance(0, 0, matrix),), objects=("Grid",))
+    first, second = (render(scene, CERTIFIED) for _ in range(2))
+    assert clusters_of(mesh) is not None and (first.instance_index == 0).any()
+    for name in FIELDS:
+        assert getattr(first, name).tobytes() == getattr(second, name).tobytes(), name
