@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 ENGINE = "ENGINE"
 RENDER_RESULT = "RENDER_RESULT"
 IMAGE = "IMAGE"
-GIVEN = (ENGINE, RENDER_RESULT, IMAGE)
 AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
 JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES, EEVEE)}
+GIVEN = (ENGINE, RENDER_RESULT, IMAGE)  # of these nothing is known, but what a user says
 
 
 def label_of(source: Source) -> str:
