@@ -31,7 +31,7 @@ def watched(wait: Callable[[float], bool] | None = None) -> Iterator[None]:
             past += running.LINE_EVERY
             for words in running.named[-1:]:
                 with suppress(OSError, ValueError):  # nobody reads it; it is closed
-                    over_bar = "\r\033[K" if sys.stderr.isatty() else ""
+                    over_bar = "\r\033[K" if getattr(sys.stderr, "isatty", bool)() else ""
                     print(f"{over_bar}{words} ({past:.0f} s)", file=sys.stderr, flush=True)
 
     thread = Thread(target=tell, daemon=True)

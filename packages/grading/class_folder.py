@@ -6,18 +6,19 @@ whose file, or whose program, and all options are the same is not judged again.
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import json
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from itertools import chain, count
+from itertools import chain, count, islice
 from pathlib import Path
 
 from reference_tracer import __version__
 from reference_tracer.report.folders import write_json, write_text
 
-from .external import Run
+from .external import Run, sandbox
 from .formats import FORMATS
 from .judging import Judgement
 from .page import class_page, page
@@ -25,6 +26,7 @@ from .report import Student, student, to_dict
 
 JSON, PAGE, STUDENTS = "judge.json", "judge.html", "students"
 _LONGEST = 60  # characters of a file's name
+MOST_FILES = 2000  # of a folder that are looked at
 
 
 class ClassFolder:
@@ -82,8 +84,10 @@ class ClassFolder:
     def _kept(self, name: str, submission: Path | Run) -> Student | None:
         with suppress(OSError, ValueError, KeyError, TypeError):
             found = json.loads(self._record(name).read_text(encoding="utf-8"))
-            if found["key"] == self._key(submission) and self._page(name).exists():
-                return dict(found["student"])
+            said = dict(found["student"])
+            is_same = found["key"] == self._key(submission) and self._page(name).exists()
+            if is_same and not said["errors"]:  # an error may have been the machine's
+                return said
         return None
 
     def _page(self, name: str) -> Path:
@@ -95,16 +99,54 @@ class ClassFolder:
     def _key(self, submission: Path | Run) -> str:
         """Return what tells a student's code, and the options, from any other.
 
-        Of a program that is all files that its command names, and all in folders that it names.
+        Of a Python file that is what it imports of its own folder, too; of a program all files that
+        its command names, and all in folders that it names. What these start is not known.
         """
-        named = [submission] if isinstance(submission, Path) else map(Path, submission.words)
-        parts = [__version__, self._options, str(submission)]
-        for path in named:
+        if isinstance(submission, Path):
+            files = _with_imports(submission)
+            parts = [__version__, self._options, str(submission)]
+        else:
+            words = (part for word in submission.words for part in re.split(r"[\s=]", word))
+            named = [file for word in words if word for file in _files_in(Path(word))]
+            results = self._directory.resolve()  # may lie in such a folder
+            files = [file for file in named if results not in file.resolve().parents]
+            parts = [__version__, self._options, str(submission), str(bool(sandbox()))]
+        for path in files:
             with suppress(OSError):
-                for file in sorted(path.iterdir()) if path.is_dir() else [path]:
-                    if file.is_file():
-                        parts.append(hashlib.sha256(file.read_bytes()).hexdigest())
+                parts.append(hashlib.sha256(path.read_bytes()).hexdigest())
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def _files_in(path: Path) -> list[Path]:
+    """Return a file, or all files in a folder."""
+    if not path.is_dir():
+        return [path] if path.is_file() else []
+    return sorted(file for file in islice(path.rglob("*"), MOST_FILES) if file.is_file())
+
+
+def _with_imports(path: Path) -> list[Path]:
+    """Return a Python file, and those of its folder that it imports, directly or not."""
+    found, left = [], [path]
+    while left:
+        file = left.pop()
+        if file in found:
+            continue
+        found.append(file)
+        with suppress(OSError, SyntaxError, ValueError):
+            for name in _imported(ast.parse(file.read_bytes())):
+                top = file.parent / name.partition(".")[0]
+                module = top.with_suffix(".py")
+                left += [module] if module.is_file() else sorted(top.rglob("*.py"))
+    return found
+
+
+def _imported(tree: ast.Module) -> Iterator[str]:
+    """Yield the names that a file imports, and those that it imports from a module."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            yield from (alias.name for alias in node.names)
+        if isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module
 
 
 def _file_names(names: Sequence[str]) -> dict[str, str]:

@@ -76,6 +76,7 @@ class JudgeOptions:
     time_limit: float  # seconds for each scene
     memory_limit: int  # bytes
     extremes: bool
+    again: bool  # also those who were judged before
     formats: tuple[str, ...]  # what is written besides the pages and the JSON
 
     @classmethod
@@ -114,6 +115,7 @@ class JudgeOptions:
             time_limit=given.time_limit,
             memory_limit=int(given.memory_limit * 2**30),
             extremes=given.extremes,
+            again=given.again,
             formats=tuple(dict.fromkeys(given.format or ())),
         )
 
@@ -155,6 +157,9 @@ def add(parser: Parser) -> None:
         metavar="DIR",
         help="folder for judge.html, judge.json and a page for each student; after Ctrl-C the "
         "same command goes on there",
+    )
+    parser.add_argument(
+        "--again", action="store_true", help="judge also those whom the folder has, unchanged"
     )
     parser.add_argument(
         "--format",
@@ -207,7 +212,7 @@ def judge(options: JudgeOptions) -> int:
     submissions = dict(zip(names(options.students), options.students, strict=True))
     with folders.made(options.out) if options.out else nullcontext():
         folder = _folder(options, submissions)
-        found = folder.kept_of(submissions) if folder else {}
+        found = folder.kept_of(submissions) if folder and not options.again else {}
         if found:
             print(f"{count_of(len(found), 'student')} judged before, unchanged: not judged again")
         new = {name: each for name, each in submissions.items() if name not in found}

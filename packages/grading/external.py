@@ -1,8 +1,8 @@
 """A student's program in any language: it reads rays from a file or a pipe, and writes answers.
 
 It is started anew for each call, in `bubblewrap` where that works: then it reaches no network, sees
-no other process, and writes nowhere but to a folder of its own. It may still read what its user
-may. `docs/programs.md` says what it reads and writes.
+no other process, knows nothing of its user's environment, and writes nowhere but to a folder of its
+own. It may still read what its user may. `docs/programs.md` says what it reads and writes.
 """
 
 from __future__ import annotations
@@ -11,10 +11,11 @@ import os
 import shlex
 import shutil
 import signal
+import stat
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterable
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
@@ -35,7 +36,13 @@ _LARGEST_FILE = 1 << 30  # bytes that a program may write to one
 _SANDBOX = (
     *("bwrap", "--die-with-parent", "--unshare-all", "--ro-bind", "/", "/"),
     *("--dev", "/dev", "--proc", "/proc"),
+    # Sockets of other programs lie here, which a read-only folder would not keep it from.
+    *("--tmpfs", "/run", "--tmpfs", "/tmp", "--tmpfs", "/var/tmp"),
+    "--clearenv",
 )
+_KEPT_ENVIRONMENT = "PATH", "LANG", "HOME", "JAVA_HOME"
+_BYTES = 1 << 10  # of one answer, at most
+_SPELT = {"1.#INF": "inf", "-1.#INF": "-inf", "1.#QNAN": "nan", "-1.#IND": "nan"}  # by old C
 
 
 @cache
@@ -83,9 +90,11 @@ EXCHANGES = {"csv": Exchange(".csv", True), "raw": Exchange(".raw", False)}
 def _from_text(data: bytes) -> Floats:
     """Return answers from lines of t, s1, s2, s3; of a miss `inf` is enough."""
     out = []
-    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), start=1):
+    lines = data.decode("utf-8-sig", "replace").rstrip().splitlines()
+    for number, line in enumerate(lines, start=1):
         try:
-            values = [float(v) for v in line.split(",")]
+            words = [word.strip() for word in line.split(",")]
+            values = [float(_SPELT.get(word.rstrip("0"), word)) for word in words]
         except ValueError:
             values = []
         if len(values) == 1 and not np.isfinite(values[0]):
@@ -117,7 +126,7 @@ class Run:
         ValueError
             If a quotation has no end, or there is no word.
         """
-        words = tuple(shlex.split(command))
+        words = tuple(w.strip('"') for w in shlex.split(command, posix=os.name != "nt"))
         if not words:
             raise ValueError("there is no command")
         return cls(command, words, exchange)
@@ -161,7 +170,9 @@ class Program:
         if not count:
             return np.zeros(0), np.zeros((0, 3))
         rays = np.concatenate((origins, directions, triangles.reshape(count, 9)), axis=1)
-        with tempfile.TemporaryDirectory(prefix="reftrace-judge-") as name:
+        with tempfile.TemporaryDirectory(
+            prefix="reftrace-judge-", ignore_cleanup_errors=True
+        ) as name:
             answers = self._exchange.read(self._run(Path(name), rays))
         if len(answers) != count:
             text = f"it answered {len(answers):,} rays of {count:,}: one line for each is wanted"
@@ -169,40 +180,39 @@ class Program:
         return answers[:, 0].copy(), answers[:, 1:].copy()
 
     def _run(self, folder: Path, rays: Floats) -> bytes:
-        """Run the program in its folder, and return what it wrote as its answers."""
-        given = folder / f"rays{self._exchange.ending}"
-        made = folder / f"answers{self._exchange.ending}"
-        said, printed = folder / "said.txt", folder / "printed.txt"
+        """Run the program, and return what it wrote as its answers.
+
+        What it prints is kept outside of the folder that it may write to.
+        """
+        own = folder / "own"
+        own.mkdir()
+        given, made = (own / f"{name}{self._exchange.ending}" for name in ("rays", "answers"))
         self._exchange.write(given, rays)
-        own = {RAYS: str(given), ANSWERS: str(made)}
-        words = [_filled(word, own) for word in self.words]
+        paths = {RAYS: str(given), ANSWERS: str(made)}
+        words = [_filled(word, paths) for word in self.words]
         by_pipe = not any(ANSWERS in word for word in self.words)
-        with given.open("rb") as source, said.open("wb") as err, printed.open("wb") as out:
-            code = self._waited(words, folder, source, out, err)
-        self._keep(said, *(() if by_pipe else (printed,)))
-        answers = printed if by_pipe else made
-        if code:
-            raise StudentError("ended", f"{_how(code)}: {_last(said)}".rstrip(": "))
-        if not answers.exists():
-            raise StudentError("answer", f"it wrote no answers to {ANSWERS}, its second file")
-        return answers.read_bytes()
+        with (
+            given.open("rb") as source,
+            (folder / "said").open("w+b") as err,
+            (folder / "printed").open("w+b") as out,
+        ):
+            code = self._waited(words, own, source, out, err)
+            self._keep(err, *(() if by_pipe else (out,)))
+            if code:
+                raise StudentError("ended", f"{_how(code)}: {_last(err)}".rstrip(": "))
+            most = _BYTES * (len(rays) + 1)
+            if by_pipe:
+                out.seek(0)
+                return _all_of(out, most)
+            return _answers_in(made, most)
 
     def _waited(
         self, words: list[str], folder: Path, source: IO[bytes], out: IO[bytes], err: IO[bytes]
     ) -> int:
-        kept = sandbox()
-        if kept:
-            words = [
-                *kept,
-                "--bind",
-                str(folder),
-                str(folder),
-                "--chdir",
-                os.getcwd(),
-                "--",
-                *words,
-            ]
         own = {"TMPDIR": str(folder), "OMP_NUM_THREADS": "1"}
+        if kept := sandbox():
+            own |= {k: os.environ[k] for k in _KEPT_ENVIRONMENT if k in os.environ}
+            words = [*kept, *_seen(words, folder, own), "--", *words]
         began = time.monotonic()
         try:
             process = subprocess.Popen(
@@ -226,12 +236,51 @@ class Program:
             self._left -= time.monotonic() - began
             self.seconds += time.monotonic() - began
 
-    def _keep(self, *printed: Path) -> None:
+    def _keep(self, *printed: IO[bytes]) -> None:
         """Keep the first of what it printed."""
-        for path in printed:
-            self.printed += path.stat().st_size
-            with path.open("rb") as file:
-                self._said += file.read(KEPT - len(self._said))
+        for file in printed:
+            self.printed += file.seek(0, os.SEEK_END)
+            file.seek(0)
+            self._said += file.read(KEPT - len(self._said))
+
+
+def _seen(words: list[str], folder: Path, environment: dict[str, str]) -> Iterator[str]:
+    """Yield the sandbox's options for what a program may see and write, and its environment."""
+    named = [Path(word).resolve() for word in words if Path(word).is_absolute()]
+    folders = [path if path.is_dir() else path.parent for path in named if path.exists()]
+    for path in dict.fromkeys((*folders, Path.cwd())):
+        yield from ("--ro-bind", str(path), str(path))
+    yield from ("--bind", str(folder), str(folder), "--chdir", str(Path.cwd()))
+    for name, value in environment.items():
+        yield from ("--setenv", name, value)
+
+
+def _answers_in(path: Path, most: int) -> bytes:
+    """Return what a program left as its answers: it may have left anything there.
+
+    Raises
+    ------
+    StudentError
+        If it is no file, or too large a one.
+    """
+    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+    try:
+        with os.fdopen(os.open(path, flags | getattr(os, "O_BINARY", 0)), "rb") as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise StudentError("answer", f"what it left as {ANSWERS} is no file")
+            return _all_of(file, most)
+    except FileNotFoundError as error:
+        raise StudentError("answer", f"it wrote no answers to {ANSWERS}") from error
+    except OSError as error:
+        raise StudentError("answer", f"its answers cannot be read: {error.strerror}") from error
+
+
+def _all_of(file: IO[bytes], most: int) -> bytes:
+    data = file.read(most + 1)
+    if len(data) > most:
+        text = f"its answers take more than {most:,} bytes, which is too much for so few rays"
+        raise StudentError("answer", text)
+    return data
 
 
 def _filled(word: str, own: dict[str, str]) -> str:
@@ -256,7 +305,7 @@ def _limited(limits: Limits) -> dict[str, Any]:
             with suppress(ValueError, OSError):
                 resource.setrlimit(kind, (most, most))
 
-    return {"preexec_fn": limit}
+    return {"preexec_fn": limit}  # beside a thread it may import nothing and take no lock
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
@@ -275,7 +324,8 @@ def _how(code: int) -> str:
     return f"the program ended with exit code {code}"
 
 
-def _last(path: Path) -> str:
+def _last(file: IO[bytes]) -> str:
     """Return the last line of what a program has printed."""
-    lines: Iterable[str] = path.read_text("utf-8", "replace")[-KEPT:].strip().splitlines()
-    return printable([*lines][-1])[:200] if lines else ""
+    file.seek(max(0, file.seek(0, os.SEEK_END) - KEPT))
+    lines = file.read().decode("utf-8", "replace").strip().splitlines()
+    return printable(lines[-1])[:200] if lines else ""

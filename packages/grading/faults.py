@@ -48,17 +48,27 @@ class Fault:
 
 
 def find_faults(answers: Answers) -> tuple[list[Fault], Match | None]:
-    """Return what is wrong with a function, and the wrong program that answers alike, if any."""
+    """Return what is wrong with a function, and the wrong program of which that is all, if any."""
     if not answers.wrong.any():
         return [], None
     if ways := with_one(answers):
-        return _named(answers, ways), ways[0]
-    faults = _tested(answers)
+        return _matched(answers, ways)
+    faults = _tested(answers, answers.wrong)
     if any(f.name in _UNEXPLAINED for f in faults):
         ways = with_two(answers)
         if 0 < len(ways) <= MOST_WAYS:
-            return _named(answers, ways), ways[0]
+            return _matched(answers, ways)
     return faults, None
+
+
+def _matched(answers: Answers, ways: Sequence[Match]) -> tuple[list[Fault], Match | None]:
+    """Return the faults of a wrong program that answers alike, and of what it does not explain."""
+    checks = answers.checks
+    rays = checks.origins, checks.directions, checks.triangles
+    theirs = Answers(checks, *ways[0].program.answers(*rays))
+    left = answers.wrong & ~theirs.wrong  # that program is right there
+    faults = _named(answers, ways)
+    return (faults + _tested(answers, left), None) if left.any() else (faults, ways[0])
 
 
 def _named(answers: Answers, ways: Sequence[Match]) -> list[Fault]:
@@ -72,15 +82,15 @@ def _named(answers: Answers, ways: Sequence[Match]) -> list[Fault]:
     return [Fault(m.name, m.sentence + rest, wrong) for m in ways[0].wrong]
 
 
-def _tested(answers: Answers) -> list[Fault]:
-    """Return the faults that pass their tests, and what is unrecognised."""
+def _tested(answers: Answers, among: Mask) -> list[Fault]:
+    """Return the faults of some wrong answers that pass their tests, and what is unrecognised."""
     faults: list[Fault] = []
     for wrong, tests, what in (
         (answers.wrong_hit, HIT_TESTS, "hits"),
         (answers.wrong_t, T_TESTS, "values of t"),
         (answers.wrong_s, S_TESTS, "barycentrics"),
     ):
-        left = wrong.copy()
+        left = wrong & among
         for test in tests:
             for name, sentence, explained in test(answers):
                 if pairs := int((explained & left).sum()):

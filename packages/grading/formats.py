@@ -27,8 +27,14 @@ def as_csv(pages: Pages) -> Files:
     table.writerow(("file", "score", "score_as_is", "verdict", "what is wrong"))
     for s, _ in pages:
         wrong = ", ".join(wrong_names(s))
-        table.writerow((s["file"], s["score"], s["score_as_is"], s["verdict"], wrong))
+        name = _as_text(s["file"])
+        table.writerow((name, s["score"], s["score_as_is"], s["verdict"], wrong))
     yield "judge.csv", text.getvalue()
+
+
+def _as_text(name: str) -> str:
+    """Return a name that a spreadsheet takes for no formula."""
+    return f"'{name}" if name.startswith(("=", "+", "-", "@", "\t", "\r")) else name
 
 
 def as_junit(pages: Pages) -> Files:

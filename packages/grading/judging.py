@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain, count
 from pathlib import Path
 from typing import TypeVar
 
@@ -137,9 +138,14 @@ def _started(submission: Path | Run, limits: Limits | None) -> Student | Program
 
 
 def names(submissions: Sequence[Path | Run]) -> list[str]:
-    """Return what a reader calls each: a file's name, or a command."""
+    """Return what a reader calls each: a file's name, or a command; none twice."""
     files = iter(distinct([s for s in submissions if isinstance(s, Path)]))
-    return [printable(s.command) if isinstance(s, Run) else next(files) for s in submissions]
+    out: list[str] = []
+    for each in submissions:
+        name = printable(each.command) if isinstance(each, Run) else next(files)
+        numbered = chain([name], (f"{name} ({n})" for n in count(2)))
+        out.append(next(own for own in numbered if own not in out))
+    return out
 
 
 def _on_checks(out: Judgement, student: Student | Program, checks: Checks) -> None:

@@ -21,7 +21,7 @@ from .checks import Checks, Group
 from .mutations import Mutation, mutations
 from .programs import PROGRAMS, Program
 
-DIGITS = 1e-6  # relative: two orders of summation of a wrong formula differ by far less
+DIGITS = 1e-9  # relative: two orders of summation of a wrong formula differ by far less
 FEW = 2e-3  # share of pairs in which rounding may decide what a wrong program answers
 NEARLY = 0.03  # share of the few pairs that are asked first
 LEAST = 30  # answers with numbers that have to agree: fewer say little

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
 
@@ -75,6 +76,28 @@ def test_a_wrong_render_of_it_does_not(scene):
     assert found.verdict == "differences" and found.counts.unexplained > 20
     [told] = found.diagnosis.told
     assert told.fault.name == "pixel_offset"
+
+
+def test_its_camera_is_where_it_was_between_two_frames(scene, build):
+    """Whatever moves the user's: keys, a parent, a constraint, keys of its lens."""
+    camera = scene.camera
+    for frame, x, lens in ((1, 3.0, 30.0), (4, 6.0, 50.0)):
+        camera.location.x, camera.data.lens = x, lens
+        camera.keyframe_insert("location", frame=frame)
+        camera.data.keyframe_insert("lens", frame=frame)
+    camera.parent = build.empty("Crane", rotation=(0.1, 0.2, 0.3), scale=(1, 1, 2))
+    camera.constraints.new("TRACK_TO").target = bpy.data.objects["Red"]
+    scene.reference_tracer.renderer, scene.reference_tracer.filter = "RAYS", 1.5
+    scene.frame_set(2, subframe=0.37)
+    seen = export_camera(scene)
+    OPS.write_colors()
+    copy = bpy.data.scenes["Scene colors"]
+    for frame in (2, 4):
+        copy.frame_set(frame)
+        own = export_camera(copy)
+        assert np.allclose(own.world_from_camera, seen.world_from_camera, atol=1e-6)
+        assert own.window == seen.window
+    assert (copy.reference_tracer.renderer, copy.reference_tracer.filter) == ("RAYS", 1.5)
 
 
 def test_colors_that_are_no_materials_are_refused(scene, build):

@@ -285,3 +285,55 @@ def test_strips_that_reach_far_in_any_direction(far, to, kind, build, compare):
     assert found.counts.unexplained == 0
     if far <= 1e4:  # but for some beside its edges
         assert found.counts.not_decidable < 10
+
+
+def fog(scene) -> None:
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")
+    absorption.inputs["Density"].default_value = 0.1
+    output = next(n for n in tree.nodes if n.type == "OUTPUT_WORLD")
+    tree.links.new(absorption.outputs[0], output.inputs["Volume"])
+
+
+def lamp(scene) -> None:
+    light = bpy.data.lights.new("Lamp", "POINT")
+    light.shadow_soft_size = 1.0
+    lamp = bpy.data.objects.new("Lamp", light)
+    lamp.location = 1.5, -1.5, 1.5
+    lamp.visible_camera = True
+    scene.collection.objects.link(lamp)
+
+
+def own_exposure(scene) -> None:
+    scene.cycles.film_exposure = 2.0
+
+
+def clamped(scene) -> None:
+    scene.cycles.sample_clamp_direct = 0.1
+
+
+def own_samples(scene) -> None:
+    scene.view_layers[0].samples = 8
+
+
+def no_surfaces(scene) -> None:
+    scene.view_layers[0].use_solid = False
+
+
+@pytest.mark.parametrize(
+    "change",
+    [fog, lamp, own_exposure, clamped, own_samples, no_surfaces],
+    ids=lambda change: change.__name__,
+)
+def test_settings_of_a_render_do_not_change_constant_colors(change, build, compare):
+    scene = build.scene(48, 27)
+    build.solids()
+    build.corner_camera(lens=40)
+    change(scene)
+    world = scene.world
+    found = compare(judge="CYCLES", identity=False)
+    assert found.verdict == "agree" and found.counts.unexplained == 0
+    assert scene.world == world
+    assert all(o.visible_camera for o in scene.objects if o.name == "Lamp")

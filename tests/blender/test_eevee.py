@@ -11,6 +11,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.drawing import constant_material
 from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.blender.drawing.rasteriser import OFFSETS, covered, snapping_of
 from reference_tracer.comparison.comparing import trace_and_compare
@@ -79,6 +80,43 @@ def test_a_colour_attribute_that_not_all_have_is_refused(solids, build, compare)
     build.color_attribute(bpy.data.objects["Green"], "POINT")
     with pytest.raises(SceneError, match=r"shows a mesh black.*Colors to Object"):
         compare(judge="EEVEE", colors=By.VIEWPORT)
+
+
+@pytest.fixture
+def attributes(build, monkeypatch):
+    """A mesh with a colour attribute, and EEVEE that stops before its shader takes long."""
+
+    def stop(scene, layer):
+        raise SceneError("it would draw")
+
+    build.scene(48, 27, "VERTEX")
+    monkeypatch.setattr(constant_material, "constant_colors", stop)
+    build.color_attribute(build.cube("Own", 1.0), "POINT")
+    build.corner_camera(lens=40)
+
+
+def said(compare) -> str:
+    with pytest.raises(SceneError) as raised:
+        compare(judge="EEVEE", colors=By.VIEWPORT)
+    return str(raised.value)
+
+
+def test_what_is_not_drawn_needs_no_colour_attribute(attributes, build, compare):
+    build.cube("Hidden", 1.0).hide_render = True
+    picture = build.empty("Picture")
+    picture.empty_display_type = "IMAGE"
+    picture.data = bpy.data.images.new("Reference", 4, 4)
+    assert said(compare) == "it would draw"
+
+
+def test_what_is_only_instanced_needs_a_colour_attribute(attributes, build, compare):
+    empty = build.empty("Instances", location=(1, 0, 0))
+    empty.instance_type = "COLLECTION"
+    child = build.cube("Child", 0.5, link=False)
+    empty.instance_collection = build.collection("Kit", child)
+    assert "shows a mesh black" in said(compare)
+    build.color_attribute(child, "POINT")
+    assert said(compare) == "it would draw"
 
 
 @pytest.mark.torture

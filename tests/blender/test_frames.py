@@ -151,6 +151,17 @@ def test_no_camera_is_said_once(moving, run, out, capsys):
     assert not out.exists() or not list(out.iterdir())
 
 
+@pytest.mark.parametrize("judge", ["RENDER_RESULT", "IMAGE"])
+def test_a_still_is_not_held_against_every_frame(judge, moving, run, out, capsys, tmp_path):
+    assert bpy.ops.reference_tracer.compare_animation.poll()
+    moving.reference_tracer.judge = judge
+    assert not bpy.ops.reference_tracer.compare_animation.poll()
+    save(tmp_path)
+    assert run("all") == 4
+    assert "is of one frame" in capsys.readouterr().err
+    assert not out.exists()
+
+
 def test_an_interruption_keeps_what_is_done(moving, run, out, monkeypatch, capsys):
     def interrupted(frame: int) -> None:
         if frame == 3:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.operators import REFERENCE_TRACER_OT_compare
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.causes.cause import AGREE, UNEXPLAINED
 from reference_tracer.causes.checks.edges import EDGE
@@ -86,3 +88,16 @@ def test_a_file_that_was_saved_while_an_image_was_shown_has_none_when_it_is_open
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
     assert named() == [results.TRACED]
     assert bpy.data.images[results.TRACED].pixels[0] == 1.0
+
+
+def test_a_comparison_is_told_in_another_scene_too(build, compare, capsys):
+    """The user may have gone there, or renamed the scene, while it was at work."""
+    build.scene()
+    build.solids()
+    build.corner_camera()
+    found = compare(identity=False)
+    result_of(results.keep_comparison(found))
+    context = SimpleNamespace(scene=bpy.data.scenes.new("Other"))
+    told = REFERENCE_TRACER_OT_compare.finish(None, context, found)
+    assert told == ("INFO", found.lines()[0])
+    assert found.lines()[0] in capsys.readouterr().out

@@ -54,7 +54,9 @@ for k in range(0, len(data), 120):
     assert (t == p[:, 0, 0]).all() and (s == d).all()
 
 
-@pytest.mark.parametrize("miss", ["inf", "nan", "Infinity", "inf,0,0,0", "-inf"])
+@pytest.mark.parametrize(
+    "miss", ["inf", "nan", "Infinity", "inf,0,0,0", "-inf", "1.#INF", "1.#INF00"]
+)
 def test_a_miss_may_be_written_in_several_ways(miss, written):
     text = f"for line in open(sys.argv[1]): print('{miss}', file=open(sys.argv[2], 'a'))"
     t, _ = program(written, text).ask(*RAYS)
@@ -72,6 +74,16 @@ HOSTILE = {
     "raises": ("1 / 0", "ended", "exit code 1: ZeroDivisionError"),
     "exit code": ("sys.exit(3)", "ended", "exit code 3"),
     "ends itself": ("import os; os.kill(os.getpid(), 9)", "ended", "137|SIGKILL"),
+    "a fifo": ("import os; os.mkfifo(sys.argv[2])", "answer", "no file"),
+    "a folder": ("import os; os.mkdir(sys.argv[2])", "answer", "no file|directory"),
+    "a link": ("import os; os.symlink('/dev/zero', sys.argv[2])", "answer", "cannot be read"),
+    "endless": ("open(sys.argv[2], 'w').write('inf\\n' * 99_999)", "answer", "too much"),
+    "its folder": (
+        "import os, shutil\nown = os.environ['TMPDIR']\n"
+        "[os.remove(os.path.join(own, name)) for name in os.listdir(own)]",
+        "answer",
+        "wrote no answers",
+    ),
     "memory": ("x = bytearray(3 << 30); open(sys.argv[2], 'w')", "ended", "MemoryError"),
 }
 
@@ -162,3 +174,47 @@ np.savetxt(sys.argv[2], np.column_stack((t, s)), fmt="%.17g", delimiter=",")
 def test_options_that_mean_nothing(arguments, words, capsys):
     assert main(["judge", *arguments]) == 4
     assert words in capsys.readouterr().err
+
+
+def test_marks_of_an_encoding_and_empty_last_lines_are_no_answers(written):
+    text = """
+with open(sys.argv[2], "w", encoding="utf-8-sig") as out:
+    out.write("inf\\n" * 5 + "\\n\\n")
+"""
+    t, _ = program(written, text).ask(*RAYS)
+    assert len(t) == 5 and not np.isfinite(t).any()
+
+
+def test_a_program_knows_nothing_of_the_teachers_environment(written, monkeypatch):
+    """In the sandbox; nor does it reach the socket of another program."""
+    import socket
+    import tempfile
+
+    monkeypatch.setenv("TOKEN_OF_A_TEACHER", "secret")
+    with tempfile.TemporaryDirectory() as folder:
+        path = f"{folder}/socket"
+        with socket.socket(socket.AF_UNIX) as server:
+            server.bind(path)
+            server.listen()
+            text = f"""
+import os, socket
+reached = True
+try:
+    socket.socket(socket.AF_UNIX).connect({path!r})
+except OSError:
+    reached = False
+told = "TOKEN_OF_A_TEACHER" in os.environ
+open(sys.argv[2], "w").write(f"{{told:d}},{{reached:d}},0,0\\n" * 5)
+"""
+            t, s = program(written, text).ask(*RAYS)
+    kept_in = bool(sandbox())
+    assert t[0] == s[0, 0] == (not kept_in)
+
+
+def test_two_of_one_name_are_two(written):
+    path = written("pass", "same.py")
+    assert names([path, Run.parsed("same.py"), Run.parsed("same.py")]) == [
+        "same.py",
+        "same.py (2)",
+        "same.py (3)",
+    ]

@@ -173,3 +173,19 @@ def test_what_a_scene_shows_beside_it_is_not_forgiven(right, written, subject):
     found = judged(more, written, subject)
     assert [f.name for f in found.faults] == ["t_sign"]
     assert found.alike is None and found.score == found.as_is
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "more"),
+    [
+        ("np.where(hit, t, np.inf)", "np.where(hit, np.float32(t), np.inf)", "float32"),
+        ("    return np.where", "    hit |= slope == 0\n    t = np.where(slope == 0, 1.0, t)\n"
+         "    return np.where", "parallel"),
+    ],
+)  # fmt: skip
+def test_who_has_more_wrong_has_no_more_points(old, new, more, right, written, subject):
+    """What a mutation does not explain is named, too, and is not forgiven."""
+    swapped = right["textbook"].replace("stack((s1, s2, s3)", "stack((s1, s3, s2)")
+    both = judged(swapped.replace(old, new), written, subject)
+    assert both.alike is None and both.score == both.as_is < 100 - COST
+    assert more in [f.name for f in both.faults]

@@ -285,6 +285,33 @@ def test_who_has_not_changed_is_not_judged_again(judged, tmp_path):
     assert not kept.kept_of(files)
 
 
+def test_who_imports_a_file_that_has_changed_is_judged_again(judged, tmp_path):
+    (tmp_path / "own.py").write_text("import numpy\nfrom helper import intersect\n")
+    (tmp_path / "helper.py").write_text("import deeper\n")
+    (tmp_path / "deeper.py").write_text("x = 1\n")
+    files = {"own.py": tmp_path / "own.py"}
+    kept = ClassFolder(tmp_path / "out", list(files))
+    kept.keep(files["own.py"], replace(judged["right.py"], name="own.py"))
+    assert kept.kept_of(files)
+    (tmp_path / "deeper.py").write_text("x = 2\n")
+    assert not kept.kept_of(files)
+
+
+def test_an_error_is_not_kept(judged, tmp_path):
+    """It may have been the machine's: a compiler that was missing, a memory that was full."""
+    path = tmp_path / "broken.py"
+    path.write_text(FILES["broken.py"])
+    kept = ClassFolder(tmp_path / "out", ["broken.py"])
+    kept.keep(path, judged["broken.py"])
+    assert not kept.kept_of({"broken.py": path})
+
+
+def test_a_name_is_no_formula(judged):
+    said = student(replace(judged["right.py"], name="=1+1.py"))
+    [(_, text)] = FORMATS["csv"]([(said, "students/x.html")])
+    assert "\n'=1+1.py," in text.replace("\r", "")
+
+
 def test_a_program_that_is_compiled_anew_is_judged_again(judged, tmp_path):
     (tmp_path / "Own.class").write_bytes(b"1")
     runs = {"own": Run.parsed(f"java -cp {tmp_path} Own")}

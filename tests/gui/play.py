@@ -17,6 +17,7 @@ sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
 import diagnosis_stories
 import first_use_stories
+import given_stories
 import hard_stories
 import house_stories
 import inspector_stories
@@ -35,6 +36,7 @@ STORIES = {
         stories,
         diagnosis_stories,
         first_use_stories,
+        given_stories,
         hard_stories,
         house_stories,
         inspector_stories,

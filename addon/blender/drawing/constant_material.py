@@ -2,8 +2,8 @@
 
 One emission material is the override of a whole view layer, since materials are the user's own and
 stay as they are. It asks for the viewport colour of the face's slot by its data path. It lives as
-long as one picture. For as long, the camera has no depth of field, and random colours are set as
-the objects' own.
+long as one picture. For as long, the camera has no depth of field and sees no lights, and random
+colours are set as the objects' own. The temporary scene has no world: one may hold a fog.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from ...scene import GREY, SceneError
 from ..reading.colors import random_color, slot_materials
 from ..temporary import drawn
-from ..values import in_colors, is_animated
+from ..values import in_colors, is_animated, untold
 from ..versions import WITHOUT_ATTRIBUTE
 
 Color = tuple[float, ...]
@@ -47,9 +47,14 @@ def constant_colors(scene: Any, layer: str) -> Iterator[None]:
         lens = scene.camera.data.dof
         material = bpy.data.materials.new("Reference Tracer Constant")
         blurred = lens.use_dof
+        lamps = [o for o in bpy.data.objects if o.type == "LIGHT"]  # instances may be of any
+        unseen = dict.fromkeys(lamps, np.bool_(False))
+        stack.enter_context(untold(bpy.data.objects, "visible_camera", unseen))
         try:
             lens.use_dof = False
             _emission(material, scene, layer)
+            scene.world = None
+            scene.view_layers[layer].use_solid = True
             scene.view_layers[layer].material_override = material
             yield
         finally:
@@ -78,13 +83,17 @@ def _object_color(tree: Any, _: object = None) -> Any:
     return _attribute(tree, "OBJECT", "color").outputs["Color"]
 
 
+def attribute_names() -> set[str]:
+    """Return the active colour attributes of the file's meshes: these the material asks for."""
+    return {m.color_attributes.active_color_name or "" for m in bpy.data.meshes} - {""}
+
+
 def _vertex_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:
     """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
     without = _material_color if WITHOUT_ATTRIBUTE == "MATERIAL" else _object_color
     found = without(tree, slots_of)
     # By name: Cycles itself would take the one that is active for renders.
-    names = {m.color_attributes.active_color_name or "" for m in bpy.data.meshes}
-    for name in sorted(names - {""}):
+    for name in sorted(attribute_names()):
         node = tree.nodes.new("ShaderNodeVertexColor")  # alpha 0 where a mesh has none of this name
         node.layer_name = name
         found = _where_found(tree, node, found)

@@ -20,6 +20,9 @@ def _one_sample_a_pixel(scene: Any, layer: str) -> Iterator[None]:
     from .constant_material import constant_colors
 
     scene.cycles.samples = 1
+    scene.view_layers[layer].samples = 0  # the scene's
+    scene.cycles.film_exposure = 1.0
+    scene.cycles.sample_clamp_direct = 0.0
     scene.cycles.use_denoising = False
     scene.cycles.use_adaptive_sampling = False
     scene.cycles.pixel_filter_type = "BOX"

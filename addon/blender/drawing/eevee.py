@@ -10,35 +10,43 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .judge import Judge
+
+if TYPE_CHECKING:
+    from ...scene import Scene
 
 
 @contextmanager
 def _one_sample_a_pixel(scene: Any, layer: str) -> Iterator[None]:
     from .constant_material import constant_colors
 
-    if scene.display.shading.color_type == "VERTEX":
-        _check_all_have_one(scene.view_layers[layer].objects)
     scene.eevee.taa_render_samples = 1
     scene.render.filter_size = 0.0
     with constant_colors(scene, layer):
         yield
 
 
-def _check_all_have_one(objects: Any) -> None:
-    """Refuse objects of which some have a colour attribute: EEVEE shows the others black."""
-    from ...scene import SceneError
-    from ..temporary import NOT_DRAWN
+def _check_attributes(scene: Scene) -> None:
+    """Refuse meshes that lack a colour attribute of the file's: EEVEE shows them black."""
+    import bpy
 
-    drawn = [o for o in objects if o.data and o.type not in NOT_DRAWN]
-    colors = [getattr(o.data, "color_attributes", None) for o in drawn]
-    if len({attributes.active_color_name if attributes else "" for attributes in colors}) > 1:
-        raise SceneError(
-            "EEVEE shows a mesh black that lacks the colour attribute of another: set Colors to "
-            "Object, or compare with Workbench or Cycles."
-        )
+    from ...scene import SceneError
+    from .constant_material import attribute_names
+
+    asked = attribute_names()
+    data = {o.name_full: o.data for o in bpy.data.objects}
+    for instance in scene.instances:
+        mesh: Any = data.get(scene.objects[instance.object])
+        has_one = scene.meshes[instance.mesh].corner_colors is not None
+        attributes = getattr(mesh, "color_attributes", None) if has_one else None
+        own = {attributes.active_color_name} if attributes else set()
+        if asked - own:
+            raise SceneError(
+                "EEVEE shows a mesh black that lacks the colour attribute of another: set Colors "
+                "to Object, or compare with Workbench or Cycles."
+            )
 
 
 EEVEE = Judge(
@@ -49,6 +57,7 @@ EEVEE = Judge(
     engine="BLENDER_EEVEE",
     ignores=("display type", "transparency", "texture", "in-front drawing", "hidden faces"),
     set_up=_one_sample_a_pixel,
+    check_attributes=_check_attributes,
     solid=False,
     random_instances=False,
 )

@@ -19,6 +19,10 @@ def _as_it_is(scene: Any, layer: str) -> AbstractContextManager[None]:
     return nullcontext()
 
 
+def _any(scene: Scene) -> None:
+    pass
+
+
 @dataclass(frozen=True)
 class Judge:
     """One of Blender's engines, and what a comparison has to know of it.
@@ -51,6 +55,8 @@ class Judge:
     solid: bool = True  # drawn by the scene's solid shading; others have materials and light
     known: bool = True  # how it samples and rounds: else its picture is compared as anybody's
     random_instances: bool = True  # where colours are random, each instance has its own
+    # Refuses meshes whose colour attributes it cannot draw; raises SceneError.
+    check_attributes: Callable[[Scene], None] = _any
 
     def __post_init__(self) -> None:
         problem = ""

@@ -21,10 +21,12 @@ if TYPE_CHECKING:
 ENGINE = "ENGINE"
 RENDER_RESULT = "RENDER_RESULT"
 IMAGE = "IMAGE"
+STILLS = (RENDER_RESULT, IMAGE)
+OF_ONE_FRAME = "A Render Result or an image is of one frame: compare the frames with an engine"
+GIVEN = (ENGINE, *STILLS)
 AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
 JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES, EEVEE)}
-GIVEN = (ENGINE, RENDER_RESULT, IMAGE)  # of these nothing is known, but what a user says
 
 
 def label_of(source: Source) -> str:
@@ -39,7 +41,7 @@ def choices() -> dict[str, Judge]:
 
 def judge_or_none(name: str, background: bool, is_panorama: bool = False) -> Judge | None:
     """Return the judge of a name as :func:`judge_named` does; None for a picture that is there."""
-    return None if name in (RENDER_RESULT, IMAGE) else judge_named(name, background, is_panorama)
+    return None if name in STILLS else judge_named(name, background, is_panorama)
 
 
 def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge:

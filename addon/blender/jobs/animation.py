@@ -18,10 +18,12 @@ from ...errors import words
 from ...report import animation as report
 from ...scene import SceneError
 from ...tracer.progress import Share, Work, doing, mapped, scaled
+from ..drawing.judges import OF_ONE_FRAME, STILLS
 from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..values import values_restored
 from .compare import compare_open_file
+from .open_file import Choices
 from .stepping import visited
 
 _ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be imported here
@@ -54,9 +56,12 @@ def compare_frames(
     Raises
     ------
     SceneError, OSError
-        If there is no camera, or the folder cannot be written.
+        If there is no camera, the picture to compare with is a still, or the folder cannot be
+        written.
     """
     scene: Any = bpy.context.scene
+    if Choices.of(scene, choices).judge in STILLS:
+        raise SceneError(f"{OF_ONE_FRAME}.")
     folder = made_folder(directory)
     if not (scene.camera or any(marker.camera for marker in scene.timeline_markers)):
         export_camera(scene)  # says so once, not in each frame

@@ -48,12 +48,14 @@ def colors_scene(context: Any, colors: By) -> Any:
             )
     scene = bpy.data.scenes.new(f"{user.name} colors")
     _set(scene, user)
-    camera = user.camera.copy()
-    camera.data = user.camera.data.copy()
-    camera.data.dof.use_dof = False
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    _add_surfaces(scene, exported)
+    above = bpy.data.objects.new(scene.name, None)  # an empty that gives all exact matrices
+    scene.collection.objects.link(above)
+    lens = user.camera.data.copy()
+    lens.animation_data_clear()
+    lens.dof.use_dof = False
+    scene.camera = bpy.data.objects.new(user.camera.name, lens)  # as it is now, whatever moves it
+    _place(scene, scene.camera, above, exported.camera.world_from_camera)
+    _add_surfaces(scene, above, exported)
     return scene
 
 
@@ -61,7 +63,9 @@ def _set(scene: Any, user: Any) -> None:
     """Set a new scene up to be rendered as a scene of the user's, flat and without effects."""
     for name in _KEPT:
         setattr(scene.render, name, getattr(user.render, name))
-    scene.frame_set(user.frame_current)
+    for name in ("renderer", "filter"):
+        setattr(scene.reference_tracer, name, getattr(user.reference_tracer, name))
+    scene.frame_set(user.frame_current, subframe=user.frame_subframe)
     scene.render.film_transparent = True
     scene.view_settings.view_transform = "Standard"
     scene.render.dither_intensity = 0.0
@@ -73,10 +77,8 @@ def _set(scene: Any, user: Any) -> None:
     scene.reference_tracer.colors = "VIEWPORT"
 
 
-def _add_surfaces(scene: Any, exported: Scene) -> None:
-    """Add an object for each instance and plane, below an empty that gives them exact matrices."""
-    above = bpy.data.objects.new(scene.name, None)
-    scene.collection.objects.link(above)
+def _add_surfaces(scene: Any, above: Any, exported: Scene) -> None:
+    """Add an object for each instance and plane, below an empty."""
     shown = {k: m for k, m in enumerate(exported.meshes) if k in exported.instance_meshes}
     meshes = {k: _mesh(m.name, m.vertices, m.triangles, m) for k, m in shown.items()}
     palette = _Palette()

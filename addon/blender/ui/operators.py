@@ -13,6 +13,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from ...tracer.progress import Work, mapped
 from ...wording import count_of, say
+from ..drawing.judges import OF_ONE_FRAME, STILLS
 from . import results
 from .long_work import Answer, LongWork, named, with_ending
 from .results import Kind, redraw
@@ -66,8 +67,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Print the comparison; report its first line."""
-        found = results.latest(Kind.COMPARISON, context.scene)
-        lines = found.lines if found else ()
+        lines = result.lines()  # of the comparison: the context's scene may be another one by now
         say(*result.manifest.lines(), *lines)
         return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
 
@@ -108,6 +108,14 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
     )
     needs_camera = True
     alone = True
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it where every frame has a picture of its own."""
+        is_still = context.scene.reference_tracer.judge in STILLS
+        if is_still:
+            cls.poll_message_set(OF_ONE_FRAME)
+        return not is_still and super().poll(context)
 
     def begin(self, context: Any) -> Work[Any]:
         from ...comparison.animation import worst_first

@@ -1,0 +1,156 @@
+"""Pictures that no judge of ours drew, judged by clicks: an image, another engine, a render."""
+
+import sys
+from contextlib import contextmanager
+
+import bpy
+from first_use_stories import COMPARE, properties
+from hands import click, click_on
+from interruption_stories import ended
+from story import OUT, noted, press, result, running, screenshot, show_panel, until, window
+
+sys.path.insert(0, "/project/tests/blender")
+
+from toy_engine import ToyEngine
+
+SELECT, APPLY = "reference_tracer.select_finding(", "reference_tracer.copy_camera("
+
+
+def at_the_panel(judge, percentage=25, **chosen):
+    scene = window().scene
+    scene.render.engine = "REFERENCE_TRACER"  # its tab is short: our panel is in sight
+    scene.render.resolution_percentage = percentage
+    scene.reference_tracer.judge = judge
+    for name, value in chosen.items():
+        setattr(scene.reference_tracer, name, value)
+    show_panel()
+    yield 1
+
+
+@contextmanager
+def made_wrong(owner, name, value):
+    """Have the scene otherwise while a picture of it is made."""
+    before = getattr(owner, name)
+    setattr(owner, name, value)
+    yield
+    setattr(owner, name, before)
+
+
+def picture(name):
+    """Render the scene as it is now, with the engine that is chosen; return its image."""
+    render = window().scene.render
+    before = render.filepath
+    with values_kept(render.image_settings, "file_format", "color_depth"):
+        render.image_settings.file_format = "OPEN_EXR"
+        render.image_settings.color_depth = "32"
+        render.filepath = str(OUT / f"{name}.exr")
+        bpy.ops.render.render(write_still=True)
+        render.filepath = before
+    return bpy.data.images.load(str(OUT / f"{name}.exr"))
+
+
+@contextmanager
+def values_kept(owner, *names):
+    before = [getattr(owner, name) for name in names]
+    yield
+    for name, value in zip(names, before, strict=True):
+        setattr(owner, name, value)
+
+
+def judged(name):
+    """Press the button, wait for the end, and note what is said."""
+    before = result()
+
+    def another():
+        return result() is not before
+
+    where = yield from click_on(properties(), COMPARE)
+    yield 2
+    if (
+        not running() and not another()
+    ):  # a click while Blender is busy is lost: a user clicks again
+        yield from click(*where)
+    yield from until(another, 30)
+    yield from until(ended, 120)
+    yield 1  # Blender's panels slide to their new places, and hear no click meanwhile
+    screenshot(name)
+    found = result().content
+    noted[name] = {
+        "verdict": found.verdict,
+        "unexplained": found.counts.unexplained,
+        "told": [t.fault.name for t in found.diagnosis.told] if found.diagnosis else [],
+    }
+
+
+def selected():
+    return [o.name for o in window().view_layer.objects if o.select_get()]
+
+
+def given_image():
+    """A moved object is selected and moved; a focal length is put right in a copy of the camera."""
+    scene = window().scene
+    yield from at_the_panel("IMAGE", 25)
+    moved = scene.objects["Cone"]
+    with made_wrong(moved.location, "x", moved.location.x + 0.2):
+        scene.reference_tracer.image = picture("moved")
+    yield from judged("given_moved")
+    yield from click_on(properties(), SELECT)
+    noted["selected"] = selected()
+    screenshot("given_selected")
+    for key in ("g", "x", "0", "period", "2", "Return"):  # as the panel says
+        press(key)
+        yield 0.2
+    yield from judged("given_moved_too")
+    with made_wrong(scene.camera.data, "lens", scene.camera.data.lens * 1.05):
+        scene.reference_tracer.image = picture("lens")
+    yield from judged("given_lens")
+    yield from click_on(properties(), APPLY)
+    noted["copied"] = [selected(), scene.camera.name]
+    press("ctrl+KP_0")  # the active object is the scene's camera
+    yield 1
+    noted["camera"] = scene.camera.name
+    screenshot("given_seen_through")
+    yield from judged("given_put_right")
+
+
+def given_engine():
+    """An engine that an add-on registers, which samples half a pixel beside the centres."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    yield 0.5
+    bpy.ops.mesh.primitive_cone_add(location=(2, 0, 1))
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=1, location=(0, -2, 1))
+    for number, obj in enumerate(o for o in window().scene.objects if o.type == "MESH"):
+        obj.color = (0.1 + 0.3 * number, 0.2, 0.9 - 0.3 * number, 1)
+    bpy.utils.register_class(ToyEngine)
+    ToyEngine.offset = (0.5, 0.0)
+    try:
+        yield from at_the_panel("ENGINE", 15, engine=ToyEngine.bl_idname)
+        yield from judged("given_offset")
+        ToyEngine.offset = (0.0, 0.0)
+        yield from judged("given_right")
+    finally:
+        ToyEngine.offset = (0.0, 0.0)
+        bpy.utils.unregister_class(ToyEngine)
+
+
+def given_render():
+    """F12, by Workbench with flat colours; then an object is moved."""
+    scene = window().scene
+    scene.render.engine = "BLENDER_WORKBENCH"
+    scene.render.resolution_percentage = 25
+    scene.display.render_aa = "OFF"
+    scene.display.shading.light = "FLAT"
+    for name in ("show_cavity", "show_shadows", "show_object_outline", "show_specular_highlight"):
+        setattr(scene.display.shading, name, False)
+    yield 0.5
+    press("F12")
+    yield 3
+    yield from at_the_panel("RENDER_RESULT")
+    yield from judged("given_rendered")
+    scene.objects["Suzanne"].location.x += 0.2
+    scene.reference_tracer.diagnose = False
+    yield from judged("given_rendered_before")
+
+
+SCENE = "suzanne"
+STORIES = (given_image, given_engine, given_render)

@@ -1,0 +1,33 @@
+"""Any picture and any engine is judged in the window; what is wrong is put right by clicks."""
+
+import pytest
+
+pytestmark = pytest.mark.gui
+
+
+def agrees(found):
+    return found == {"verdict": "agree", "unexplained": 0, "told": []}
+
+
+@pytest.mark.story("given_image")
+def test_what_is_wrong_with_an_image_is_found_selected_and_put_right(noted):
+    assert noted["given_moved"]["told"] == ["object_moved"] and noted["selected"] == ["Cone"]
+    assert agrees(noted["given_moved_too"])
+    assert noted["given_lens"]["told"] == ["focal_length"]
+    assert noted["copied"] == [["Camera as in the picture"], "Camera"]
+    assert noted["camera"] == "Camera as in the picture"
+    assert agrees(noted["given_put_right"])
+
+
+@pytest.mark.story("given_engine")
+def test_half_a_pixel_of_another_engine_is_named(noted):
+    assert noted["given_offset"]["verdict"] == "differences"
+    assert noted["given_offset"]["told"] == ["pixel_offset"]
+    assert agrees(noted["given_right"])
+
+
+@pytest.mark.story("given_render")
+def test_the_render_result_agrees_until_an_object_is_moved(noted):
+    assert agrees(noted["given_rendered"])
+    later = noted["given_rendered_before"]
+    assert later["verdict"] == "differences" and later["unexplained"] > 1000
