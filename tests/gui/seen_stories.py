@@ -5,6 +5,7 @@ import subprocess
 import bpy
 import numpy as np
 from drawn import cut, noting, scale
+from mathutils import Vector
 from story import (
     OUT,
     compared,
@@ -214,6 +215,13 @@ def compared_images():
         "right": float((abs(seen["BOTH"] - seen["OTHER"])[right] > 0.03).any(axis=1).mean()),
         "apart": float((abs(seen["TRACED"] - seen["OTHER"])[right] > 0.03).any(axis=1).mean()),
     }
+    system = bpy.context.preferences.system
+    limit, is_dirty = system.gl_texture_limit, bpy.context.preferences.is_dirty
+    system.gl_texture_limit = "CLAMP_256"  # of textures: a coarse picture, at the same place
+    yield 0.5
+    seen["COARSE"] = colors_at("image_coarse", area, places)
+    noted["coarse"] = float((abs(seen["COARSE"] - seen["OTHER"])[right] > 0.1).any(axis=1).mean())
+    system.gl_texture_limit, bpy.context.preferences.is_dirty = limit, is_dirty
     at = module("blender.ui.split").place_of(region, manager.split)
     y = where.height - 1 - region.y - int((at.bottom + at.top) / 2)
     x = int(region.x + at.line)
@@ -257,6 +265,17 @@ def compared_images():
     yield 0.7
     noted["moved"] = (views.view_location - before).length
     screenshot("view_framed")
+    before = views.view_location.copy()
+    with bpy.context.temp_override(window=window()):
+        bpy.context.view_layer.objects.active = bpy.data.objects["Cone"]
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        views.view_location = before + Vector((1, 0, 0))
+        bpy.ops.reference_tracer.frame_region(number=0)
+    yield 0.7
+    noted["editing"] = (views.view_location - before).length
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def said():
@@ -294,10 +313,10 @@ def status_bar():
     noted["heard"] = [text for text in heard if text]
     noted["left"] = said()
     press_compare()
-    yield 2
+    yield 1
     other = next(w for w in bpy.data.workspaces if w != window().workspace)
     window().workspace = other
-    yield 1.5
+    yield from until(lambda: other.name in said(), 10)
     noted["moved"] = said()
     press("Escape")
     yield 1
@@ -306,6 +325,14 @@ def status_bar():
     press_compare()
     yield 1
     noted["after_error"] = [running(), said()]
+    scene.camera.data.type = "PERSP"
+    scene.render.resolution_percentage = 20
+    other = next(w for w in bpy.data.workspaces if w != window().workspace)
+    other.status_text_set("what another add-on says")
+    press_compare()
+    yield from until(at_rest, 60)
+    noted["of_another"] = [said(), other.name]
+    other.status_text_set(None)
     stop()
 
 
@@ -320,6 +347,30 @@ def ours():
     return {
         i.name: sum(e.image == i for e in editors) for i in bpy.data.images if i.source != "VIEWER"
     }
+
+
+def after_a_render():
+    """The button where the editor of F12 is still open."""
+    window().scene.render.engine = "BLENDER_WORKBENCH"
+    window().scene.render.resolution_percentage = 20
+    view = bpy.context.preferences.view
+    before = view.render_display_type, bpy.context.preferences.is_dirty
+    for mode in ("AREA", "SCREEN"):
+        view.render_display_type = mode
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.render.render("INVOKE_DEFAULT")
+        yield from until(lambda: editor()[1] and not bpy.app.is_job_running("RENDER"), 60)
+        yield 0.7
+        rendered = opened()
+        yield from pressed(mode)
+        noted[mode] = rendered, opened()
+        where, area = editor()
+        if area:
+            x, y = area.x + area.width // 4, where.height - area.y - area.height // 4
+            keys = ["mousemove", str(x), str(y), "key", "Escape"]
+            subprocess.run(["xdotool", *keys], check=True)
+            yield 0.7
+    view.render_display_type, bpy.context.preferences.is_dirty = before
 
 
 def step(name):
@@ -392,4 +443,4 @@ def sample():
 
 
 SCENE = "suzanne"
-STORIES = (panel, shown, compared_images, status_bar, left_behind, sample)
+STORIES = (panel, shown, after_a_render, compared_images, status_bar, left_behind, sample)

@@ -52,11 +52,20 @@ def test_the_result_opens_as_a_render_does_and_esc_goes_back(noted):
     assert noted["images"] == OURS
 
 
+@pytest.mark.story("after_a_render")
+def test_the_result_opens_where_a_render_is_still_shown(noted):
+    for mode in ("AREA", "SCREEN"):
+        [[areas, rendered], [after, image]] = noted[mode]
+        assert rendered == "Render Result" and image == "Reference Tracer Difference"
+        assert after == areas
+
+
 @pytest.mark.story("compared_images")
 def test_the_line_divides_the_traced_picture_from_the_other(noted):
     both = noted["both"]
     assert both["apart"] > 0.8  # so it is seen whose each pixel is
     assert both["left"] < 0.02 and both["right"] < 0.02
+    assert noted["coarse"] < 0.1
     assert noted["dragged"][0] == pytest.approx(noted["dragged"][1], abs=0.005)
 
 
@@ -68,6 +77,7 @@ def test_a_region_is_framed_in_the_picture_and_in_the_view(noted):
     across, width = noted["across"]
     assert across < 40 * (width + 16)  # enlarged
     assert noted["selected"] == noted["regions"][0][1][:1] and noted["moved"] > 0.1
+    assert noted["editing"] == pytest.approx(1)  # nothing is selected then, so nothing framed
 
 
 @pytest.mark.story("status_bar")
@@ -80,6 +90,8 @@ def test_the_status_bar_says_what_is_done_and_is_cleared_however_it_ends(noted):
     assert noted["left"] == []
     assert noted["moved"]  # it was still at work
     assert noted["after_escape"] == noted["after_error"] == [[], []]
+    still, other = noted["of_another"]
+    assert still == [other]
 
 
 @pytest.mark.story("sample")

@@ -42,16 +42,18 @@ class REFERENCE_TRACER_OT_frame_region(bpy.types.Operator):
         if self.number >= len(regions):
             raise SceneError(f"The comparison has {len(regions)} regions, numbered from 0.")
         region = regions[self.number]
-        if context.mode == "OBJECT":
-            _select(context, region.objects)
+        is_selected = context.mode == "OBJECT" and _select(context, region.objects)
         for window in () if bpy.app.background else context.window_manager.windows:
             for area in window.screen.areas:
-                _frame(window, area, region)
+                _frame(window, area, region, is_selected)
         return {"FINISHED"}
 
 
-def _select(context: Any, names: tuple[str, ...]) -> None:
-    """Select the first of these objects that the view layer has, alone, and make it active."""
+def _select(context: Any, names: tuple[str, ...]) -> bool:
+    """Select the first of these objects that the view layer has, alone, and make it active.
+
+    Returns whether there is one.
+    """
     by_name = {o.name_full: o for o in context.view_layer.objects}
     found = next((by_name[name] for name in names if name in by_name), None)
     if found is not None:
@@ -59,9 +61,11 @@ def _select(context: Any, names: tuple[str, ...]) -> None:
             obj.select_set(False)
         found.select_set(True)
         context.view_layer.objects.active = found
+    return found is not None
 
 
-def _frame(window: Any, area: Any, region: Region) -> None:
+def _frame(window: Any, area: Any, region: Region, is_selected: bool) -> None:
+    """Enlarge a region in an Image Editor, or frame its object in a 3D view if it is selected."""
     inside = next(r for r in area.regions if r.type == "WINDOW")
     space = area.spaces.active
     with bpy.context.temp_override(window=window, area=area, region=inside):
@@ -81,7 +85,7 @@ def _frame(window: Any, area: Any, region: Region) -> None:
             )
             bpy.ops.image.view_zoom_border(xmin=x0, xmax=x1, ymin=y0, ymax=y1)
         elif space.type == "VIEW_3D" and space.region_3d.view_perspective != "CAMERA":
-            if bpy.context.selected_objects:
+            if is_selected:
                 bpy.ops.view3d.view_selected()
 
 

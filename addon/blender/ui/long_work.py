@@ -64,6 +64,7 @@ class LongWork(Mixin):
     running: ClassVar[str] = ""  # the label of the one that is, in whichever window
     _work: ClassVar[Work[Any]]  # of that one
     _timer: ClassVar[Any]
+    _told: ClassVar[set[int]] = set()  # the addresses of the workspaces whose status bar says so
     needs_camera: ClassVar[bool] = False
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
@@ -163,6 +164,7 @@ class LongWork(Mixin):
     def _say(self, context: Any, what: str, rest: str = "") -> None:
         """Say in the status bar what is done, how far it is, and how to end it."""
         said = ", ".join(filter(None, (self.doing or rpt_(self.bl_label), what))) + rest
+        LongWork._told.add(context.workspace.as_pointer())
         context.workspace.status_text_set(f"{said}  ({rpt_('Esc: cancel')})")
 
     def cancel(self, context: Any) -> None:
@@ -177,7 +179,9 @@ class LongWork(Mixin):
         context.window_manager.event_timer_remove(LongWork._timer)
         context.window_manager.progress_end()
         for workspace in bpy.data.workspaces:  # the user may have gone to another one
-            workspace.status_text_set(None)
+            if workspace.as_pointer() in LongWork._told:
+                workspace.status_text_set(None)
+        LongWork._told.clear()
 
     def _end(self, context: Any, result: Any) -> Answer:
         """Show the result, and report it."""

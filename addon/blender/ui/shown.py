@@ -88,16 +88,22 @@ def _open(window: int, name: str) -> None:
     if not (image and found):  # another file was opened since
         return
     had = {i.name for i in bpy.data.images}
-    if context.preferences.view.render_display_type != "NONE":
+    # In an area, Blender's operator would put away a render that is shown already.
+    way = context.preferences.view.render_display_type
+    if way == "WINDOW" or (way != "NONE" and _of_render(context) is None):
         with context.temp_override(window=found[0]):
             bpy.ops.render.view_show("INVOKE_DEFAULT")
-    for space in _spaces(context):
-        if space.image and space.image.type == "RENDER_RESULT":
-            space.image = image
-            break
+    if space := _of_render(context):
+        space.image = image
     for extra in bpy.data.images[:]:  # Blender makes it to be shown, where there is none
         if extra.type == "RENDER_RESULT" and extra.name not in had:
             bpy.data.images.remove(extra)
+
+
+def _of_render(context: Any) -> Any:
+    """Return the first space that shows a Render Result, or None."""
+    shown = (s for s in _spaces(context) if s.image and s.image.type == "RENDER_RESULT")
+    return next(shown, None)
 
 
 def show_where_shown(context: Any, image: Any) -> bool:

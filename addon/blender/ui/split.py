@@ -72,7 +72,8 @@ class REFERENCE_TRACER_GT_split(bpy.types.Gizmo):
 
         region = context.region
         at = place_of(region, context.window_manager.reference_tracer.split)
-        width, height = other.size
+        texture = gpu.texture.from_image(other)  # which Blender may have scaled down
+        width, height = texture.width, texture.height
         column = (at.line - at.left) / (at.right - at.left) * width
         pos = [(x, y) for y in (at.bottom, at.top) for x in (at.line, at.right)]
         texel = [(x, y) for y in (0, height) for x in (column, width)]
@@ -83,7 +84,7 @@ class REFERENCE_TRACER_GT_split(bpy.types.Gizmo):
             gpu.matrix.load_projection_matrix(screen)
             shader = _shader()
             batch = batch_for_shader(shader, "TRI_STRIP", {"pos": pos, "at": texel})
-            shader.uniform_sampler("image", gpu.texture.from_image(other))
+            shader.uniform_sampler("image", texture)
             batch.draw(shader)
             plain = gpu.shader.from_builtin("UNIFORM_COLOR")
             for half, color in _RIM:
