@@ -116,6 +116,18 @@ def test_a_view_transform_that_the_scene_no_longer_has(scene, drawn, judged):
     assert "Filmic" in found["transform"] and found["pixels"]["unexplained"] == 0
 
 
+def test_a_view_transform_of_the_output_alone_is_named(scene, drawn, judged):
+    """What is saved goes through the output's own view settings, if these override the scene's."""
+    settings = scene.render.image_settings
+    settings.color_management = "OVERRIDE"
+    settings.view_settings.view_transform = "Filmic"
+    settings.view_settings.exposure = -1.0
+    drawn(view_transform="Standard")
+    _, found, _ = judged()
+    assert "'Filmic' with exposure -1" in found["transform"]
+    assert found["pixels"]["unexplained"] == 0
+
+
 def test_an_object_that_only_the_viewport_hides(scene, drawn, judged):
     """The picture is of the scene without it, as the viewport has it."""
     bpy.data.objects["Green"].hide_render = True

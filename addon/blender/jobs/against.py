@@ -170,7 +170,8 @@ def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
 
 def _shown(tmp: Any, table: Colors) -> Iterator[tuple[str, Floats]]:
     """Yield each view transform's name and what it makes of colours (n, 3), sRGB's curve undone."""
-    view = tmp.view_settings
+    output = tmp.render.image_settings
+    view = output.view_settings if output.color_management == "OVERRIDE" else tmp.view_settings
     own = view.view_transform
     plain = (view.exposure, view.gamma, view.look) == (0.0, 1.0, "None")
     more = f" with exposure {view.exposure:+.3g}, gamma {view.gamma:.3g}, look '{view.look}'"
