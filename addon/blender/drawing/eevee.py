@@ -28,6 +28,31 @@ def _one_sample_a_pixel(scene: Any, layer: str) -> Iterator[None]:
         yield
 
 
+def _check_colors(scene: Scene, color_type: str) -> None:
+    """Refuse meshes that EEVEE shows in other colours than the solid viewport."""
+    if color_type == "VERTEX":
+        _check_attributes(scene)
+    elif color_type == "MATERIAL":
+        _check_edited(scene)
+
+
+def _check_edited(scene: Scene) -> None:
+    """Refuse a mesh that is drawn as it is edited: EEVEE gives all its faces one material."""
+    import bpy
+
+    from ...scene import SceneError
+
+    for name in scene.objects:
+        obj: Any = bpy.data.objects.get(name)
+        if obj is None or obj.mode != "EDIT" or len(obj.material_slots) < 2:
+            continue
+        if not any(m.show_viewport and m.show_in_editmode for m in obj.modifiers):
+            raise SceneError(
+                f"EEVEE shows '{name}', which is in Edit Mode, in one material: leave Edit Mode, "
+                "set Colors to Object, or compare with Workbench or Cycles."
+            )
+
+
 def _check_attributes(scene: Scene) -> None:
     """Refuse meshes that lack a colour attribute of the file's: EEVEE shows them black."""
     import bpy
@@ -55,9 +80,9 @@ EEVEE = Judge(
     description="An EEVEE render of the same constant colours, one sample in each pixel's centre",
     number=3,
     engine="BLENDER_EEVEE",
-    ignores=("display type", "transparency", "texture", "in-front drawing", "hidden faces"),
+    ignores=("display type", "transparency", "texture", "in-front drawing"),
     set_up=_one_sample_a_pixel,
-    check_attributes=_check_attributes,
+    check_colors=_check_colors,
     solid=False,
     random_instances=False,
 )

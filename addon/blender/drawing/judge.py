@@ -19,7 +19,7 @@ def _as_it_is(scene: Any, layer: str) -> AbstractContextManager[None]:
     return nullcontext()
 
 
-def _any(scene: Scene) -> None:
+def _any(scene: Scene, color_type: str) -> None:
     pass
 
 
@@ -55,8 +55,8 @@ class Judge:
     solid: bool = True  # drawn by the scene's solid shading; others have materials and light
     known: bool = True  # how it samples and rounds: else its picture is compared as anybody's
     random_instances: bool = True  # where colours are random, each instance has its own
-    # Refuses meshes whose colour attributes it cannot draw; raises SceneError.
-    check_attributes: Callable[[Scene], None] = _any
+    # Refuses meshes whose colours of a type it cannot draw; raises SceneError.
+    check_colors: Callable[[Scene, str], None] = _any
 
     def __post_init__(self) -> None:
         problem = ""

@@ -131,8 +131,8 @@ def _exported(
                 certificate.check()
             if plan.like_for_like and used["color_type"] == "RANDOM":
                 plan.judge.check_random(scene, manifest.owners)
-            if plan.like_for_like and used["color_type"] == "VERTEX":
-                plan.judge.check_attributes(scene)
+            if plan.like_for_like:
+                plan.judge.check_colors(scene, used["color_type"])
             if not plan.like_for_like:
                 of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
                 name = f"scene '{plan.scene.name}'"
