@@ -47,6 +47,13 @@ bpy.context.scene.render.engine = "REFERENCE_TRACER"
 print("installed by address", flush=True)
 """
 
+# Of every day: the oldest, the newest, and the tests' own.
+DAILY = others.NAMES[0], others.NAMES[-1], others.OWN
+ALONE = [
+    name if name in DAILY else pytest.param(name, marks=pytest.mark.torture)
+    for name in dict.fromkeys((*others.NAMES, others.OWN))
+]
+
 
 def run(*command: object, **options) -> subprocess.CompletedProcess[str]:
     options = {"capture_output": True, "text": True} | options
@@ -166,7 +173,7 @@ def test_package_is_all_of_the_code_and_nothing_else(clone: Path, release: Path)
     assert names - made == {*code, *top, "PKG-INFO", "setup.cfg"}
 
 
-@pytest.mark.parametrize("name", dict.fromkeys((*others.NAMES, others.OWN)))
+@pytest.mark.parametrize("name", ALONE)
 def test_wheel_is_of_use_alone(name: str, release: Path, tmp_path: Path):
     """It has numpy and trimesh of an environment, and nothing of this project but the wheel."""
     base = others.python(name)

@@ -205,6 +205,7 @@ def test_sigterm_ends_a_command_as_ctrl_c_does(blender, folder):
     assert not [p.name for p in path.iterdir() if p.name.startswith(".reftrace-")]
 
 
+@pytest.mark.torture
 def test_both_backends_are_asked(blender):
     """In 4.3, and without a driver, there is no Vulkan: that is said."""
     shim = PROJECT / "tests" / "farms" / "bin" / "blender"
