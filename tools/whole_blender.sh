@@ -10,8 +10,8 @@
 #
 # BLENDER_VERSION=...  5.2, the default, of Debian's unstable; or 4.3, of Debian 13
 # BLENDER_ROOT=...     where its root folder is kept (default: under ~/.cache)
-# DEBIAN_MIRROR=...    where its packages come from: unstable changes, a day of
-#                      http://snapshot.debian.org/archive/debian/20261030T000000Z/ does not
+# DEBIAN_MIRROR=...    where its packages come from: unstable changes, a day in Debian's archive of
+#                      snapshots does not
 #
 # A command sees no variable of yours and an empty /tmp, and reaches no network; pass on what it
 # needs with env, and leave results somewhere below /project/out:

@@ -25,7 +25,7 @@ from .parser import AT_LEAST_0, Parser
 # A frame of an animation stays the same whatever these are.
 _NOT_OF_A_FRAME = "scene", "out", "frames", "against", "colors_out", "place"
 
-# Options for a picture of which nothing is known.
+# Options for a picture of unknown origin.
 _OF_GIVEN = "filter", "renderer"
 _WHY_GIVEN = "is for a picture of --against, or of an add-on's engine"
 

@@ -54,7 +54,7 @@ def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
     moved : (n,) float64
         Pixels by which each row's right edge lies beyond that centre.
     turned : bool
-        Draw them in columns instead, whose lower edges are moved.
+        Draw one quad in each column instead, and move its lower edge.
 
     Raises
     ------

@@ -168,8 +168,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "focal_lengths",
         "the focal length is {across:+.4g} % off across, and {up:+.4g} % up",
-        "The two are computed from the two sides of the sensor, whose ratio is not the "
-        "picture's; or only one of them has the pixel aspect in it.",
+        "Each is computed from its own side of the sensor, though the sensor has another shape "
+        "than the picture; or only one of them takes the pixel aspect into account.",
         "take one focal length for both, in pixels; a pixel is pixel aspect Y / X as high as it is "
         "wide; remove the scale of the camera and its parents",
         of_camera(FOCALS.camera),
