@@ -87,7 +87,7 @@ def _largest_triangle(case: Case, frame: Frame) -> Triangles | None:
     if not seen_instances(case, frame):
         return None
     seen = frame.triangle_index >= 0
-    most = int(frame.triangle_index.max()) + 1
+    most = int(np.max(frame.triangle_index)) + 1
     names = frame.instance_index[seen].astype(np.int64) * most + frame.triangle_index[seen]
     found, count = np.unique(names, return_counts=True)
     instance, triangle = divmod(int(found[np.argmax(count)]), most)
