@@ -78,7 +78,7 @@ def written(
 
     shares = (0.2, 0.8) if trade or extremes else (0.5, 0.6)
     with failure_written(folder):
-        comparison = yield from compared(case, diagnose, told, kept, shares)
+        comparison = yield from compared(case, diagnose, told, kept, shares, literal)
     yield 1.0
     return comparison
 
