@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
+from itertools import chain
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
@@ -24,12 +25,14 @@ from ..comparison.verdict import Verdict
 from ..diagnosis.regions import Region, regions, sides
 from ..tracer.frame import PASSES
 from ..tracer.progress import Work, called, scaled
+from ..tracer.vector import parts
 from . import page
 from .folders import replacing, write_json
 
 PICTURES = "traced", "blender", "difference"
 ARRAYS, JSON = "frame.npz", "comparison.json"
 _LEVEL = 1  # of zlib
+_ROWS = 32  # of an array that are copied and deflated at a time
 _DIGITS = "position", "barycentrics"  # where a surface is seen, nothing repeats but by accident
 NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 
@@ -52,7 +55,8 @@ def write(
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
             yield 0.1
-        yield from scaled(_write_arrays(new / ARRAYS, _arrays(comparison)), 0.2, 0.4)
+        height = comparison.frame.shape[0]
+        yield from scaled(_write_arrays(new / ARRAYS, height, _arrays(comparison)), 0.2, 0.4)
         page.write(new / page.NAME, comparison, extras)
         write_json(new / JSON, comparison.to_dict())
 
@@ -86,24 +90,29 @@ def written(
     return comparison
 
 
-def _arrays(comparison: Comparison) -> Iterator[tuple[str, Array]]:
-    """Yield all arrays by name, one after the other: together they take much memory."""
+def _arrays(comparison: Comparison) -> Iterator[tuple[str, Iterator[Array]]]:
+    """Yield all arrays by name, one after the other: together they take much memory.
+
+    Each comes as blocks of rows, below one another.
+    """
     for each in PASSES:
-        yield each.name, getattr(comparison.frame, each.name)
+        yield each.name, comparison.frame.blocks(each.name)
     # The object that each side shows, as a number among the JSON's names, where it is known.
     if owners := comparison.identity:
-        yield "owner_traced", owners.traced
-        yield "owner_shown", owners.shown
-    yield "blender", comparison.picture
+        yield "owner_traced", iter([owners.traced])
+        yield "owner_shown", iter([owners.shown])
+    yield "blender", iter([comparison.picture])
     for name in ("cause", "blind", "figure", "allowed"):
         values: Array = getattr(comparison.causes, name)
-        yield f"cause_{name}" if name in ("figure", "allowed") else name, values
+        yield f"cause_{name}" if name in ("figure", "allowed") else name, iter([values])
 
 
-def _write_arrays(path: Path, arrays: Iterable[tuple[str, Array]]) -> Work[None]:
+def _write_arrays(
+    path: Path, height: int, arrays: Iterable[tuple[str, Iterator[Array]]]
+) -> Work[None]:
     """Write what `numpy.savez_compressed` does, a few per cent larger in less time."""
     with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=_LEVEL) as stored:
-        for name, values in arrays:
+        for name, blocks in arrays:
             with stored.open(f"{name}.npy", "w", force_zip64=True) as file:
                 if name in _DIGITS:
                     # `zipfile` has no word for a strategy. Were this another's attribute, the file
@@ -112,7 +121,16 @@ def _write_arrays(path: Path, arrays: Iterable[tuple[str, Array]]) -> Work[None]
                         _LEVEL, zlib.DEFLATED, -zlib.MAX_WBITS, strategy=zlib.Z_RLE
                     )
                     file._compressor = runs  # type: ignore[attr-defined]
-                np.lib.format.write_array(file, values, allow_pickle=False)
+                first = next(blocks)
+                head = {
+                    "descr": np.lib.format.dtype_to_descr(first.dtype),
+                    "fortran_order": False,
+                    "shape": (height, *first.shape[1:]),
+                }
+                np.lib.format.write_array_header_1_0(file, head)
+                for block in chain([first], blocks):
+                    for rows in parts(len(block), _ROWS):
+                        file.write(np.ascontiguousarray(block[rows]))
             yield 0.0
 
 
