@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from zipfile import ZipFile
 
 import numpy as np
 import pytest
