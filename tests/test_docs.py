@@ -27,11 +27,11 @@ def tools():
     sys.path.insert(0, TOOLS)
     try:
         import make_docs
-        from documents import derivations, figures, markers, pictures, python, records
+        from documents import derivations, drawings, figures, markers, pictures, python, records
 
         yield {
             **{"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures},
-            "derivations": derivations,
+            **{"derivations": derivations, "drawings": drawings},
             **{"python": python, "records": records},
         }
     finally:
@@ -64,8 +64,8 @@ def test_commands_and_figures(path, tools, values):
     text = path.read_text(encoding="utf-8")
 
     def run(command):
-        if command.how == "here":
-            return "\n".join(command.body.splitlines()[2:-1])  # as it is: another machine's
+        if command.how.startswith("here"):
+            return tools["markers"].printed(command)  # as it is: another machine's
         return tools["make"].run(command)
 
     again = tools["markers"].refreshed(text, run, values)
@@ -109,6 +109,18 @@ def test_pictures(tools):
         fresh = make()
         assert stored.shape == fresh.shape, name
         assert (stored != fresh).any(axis=2).mean() < 0.001, name
+
+
+def test_drawings(tools):
+    """The lessons' drawings are what is derived today, to within a hundredth of their units."""
+    number = re.compile(r"-?\d+(?:\.\d+)?")
+    stored = {p.stem: p.read_text("utf-8") for p in DOCS.glob("images/lessons/*.svg")}
+    fresh = dict(tools["drawings"].drawings())
+    assert set(stored) == set(fresh)
+    for name, text in fresh.items():
+        assert number.sub("0", stored[name]) == number.sub("0", text), name
+        ours, theirs = ([float(n) for n in number.findall(t)] for t in (text, stored[name]))
+        assert ours == pytest.approx(theirs, abs=0.01), name
 
 
 def test_pictures_are_small():
@@ -164,9 +176,11 @@ def test_markers(tools):
     text = (
         "a <!-- one -->0<!-- / --> b\n<!-- run: reftrace x -->\nold\n<!-- /run -->\n"
         "<!-- run silently: reftrace y -->\n<!-- /run -->\n"
+        "<!-- run here folded: reftrace z -->\n<!-- /run -->\n"
     )
     found = [(c.how, c.text, c.body) for c in markers.commands(text)]
-    assert found == [("", "reftrace x", "old"), ("silently", "reftrace y", "")]
+    unfolded = [("", "reftrace x", "old"), ("silently", "reftrace y", "")]
+    assert found == [*unfolded, ("here folded", "reftrace z", "")]
     assert markers.figures(text) == ["one"]
 
     def run(command):
@@ -176,6 +190,9 @@ def test_markers(tools):
     assert "a <!-- one -->1<!-- / --> b" in once
     assert "```\n$ reftrace x\nreftrace x in … s\nend\n```" in once
     assert "```\n$ reftrace y\n```" in once
+    assert "$ reftrace z\n```\n\n<details>" in once and once.count("details>") == 2
+    printed = [markers.printed(c) for c in markers.commands(once)]
+    assert printed == ["reftrace x in … s\nend", "", "reftrace z in … s\nend"]
     assert markers.refreshed(once, run, {"one": "1"}) == once
     with pytest.raises(KeyError):
         markers.refreshed(text, run, {})
