@@ -19,7 +19,8 @@ from dataclasses import dataclass
 
 MARKED = "<!-- "  # a file without this has no markers
 _RUN = re.compile(
-    r"<!-- run(?P<how>| here| silently| folded| here folded): (?P<command>[^\n]+?) -->\n(?P<body>.*?)<!-- /run -->",
+    r"<!-- run(?P<how>| here| silently| folded| here folded): (?P<command>[^\n]+?) -->\n"
+    r"(?P<body>.*?)<!-- /run -->",
     re.S,
 )
 _FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>.*?)<!-- / -->", re.S)
