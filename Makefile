@@ -12,7 +12,7 @@ SHARED = -n $(WORKERS) --no-loadscope-reorder
 # Bytecode is kept, also where the machine says no: else each of hundreds of processes compiles anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu torture bench docs lessons lint \
+.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu torture bench docs lessons lesson-tools lint \
 	extension release clean
 
 help: ## list the commands
@@ -59,7 +59,7 @@ test-gpu: extension ## compare all sample scenes with what draws here, a graphic
 	$(PYTHON_IN_VENV) tools/gpu.py $(if $(BLENDER),--blender "$(BLENDER)")
 
 # What `make test` samples, at its full length.
-torture: extension ## run the long tests, too long for every day: the suites at their full size
+torture: extension lesson-tools ## run the long tests, too long for every day: the suites at their full size
 	$(PYTEST) -m torture
 
 # OPTIONS=--quick: two minutes instead; or any other option of `reftrace bench`.
@@ -82,11 +82,13 @@ docs: extension demo ## refresh the documents: run their commands, compute their
 	fi
 
 # PYODIDE=folder: Pyodide's full distribution, unpacked, to go into the pack, so that it needs no network.
-lessons: extension ## build the lesson pack, dist/lessons: needs npm, and Chromium, which root installs
+lessons: extension lesson-tools ## build the lesson pack, dist/lessons: needs npm, and Chromium, which root installs
+	$(PYTHON_IN_VENV) tools/make_lessons.py $(if $(PYODIDE),--pyodide "$(PYODIDE)")
+
+lesson-tools: .venv/.stamp
 	tools/browser.sh setup
 	$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --no-build-isolation \
 		--editable '.[lessons]'
-	$(PYTHON_IN_VENV) tools/make_lessons.py $(if $(PYODIDE),--pyodide "$(PYODIDE)")
 
 lint: .venv/.stamp ## check the style of all code, its format, and the types that it names
 	$(PYTHON_IN_VENV) -m ruff check .

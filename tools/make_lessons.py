@@ -18,7 +18,7 @@ import tomllib
 from pathlib import Path
 
 import jupytext
-from build_extension import PROJECT, checked_wheel, fetch, run, text_of
+from build_extension import PROJECT, run, text_of
 from documents import browser, lesson_pages
 
 DOCS = PROJECT / "docs"
@@ -101,17 +101,14 @@ def write_notebooks(folder: Path, kernel: str) -> None:
         jupytext.write(notebook, folder / f"{path.stem}.ipynb")
 
 
-def build_wheels(out: Path) -> list[Path]:
-    """Build the Python package, and fetch trimesh's; return the files."""
-    manifest = tomllib.loads(text_of("blender_manifest.toml"))
-    trimesh = checked_wheel(manifest, text_of("addon/__init__.py"), text_of("constraints.txt"))
-    fetch(trimesh)
-    shutil.copy(trimesh, out)
+def build_wheels(out: Path) -> None:
+    """Build the Python package, and fetch what it needs, and what its kernel does, in a browser."""
     run("-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation", "-w", out, PROJECT)
-    return sorted(out.glob("*.whl"))
+    fetched = ["--quiet", "--no-deps", "--constraint", PROJECT / "constraints.txt", "--dest", out]
+    run("-m", "pip", "download", *fetched, "comm", "trimesh")
 
 
-def build_lite(out: Path, wheels: list[Path], pyodide: Path | None) -> None:
+def build_lite(out: Path, pyodide: Path | None) -> None:
     """Build the site where the notebooks run in a browser.
 
     Without `pyodide`, an unpacked distribution of it, they fetch that from its public address.
@@ -122,20 +119,29 @@ def build_lite(out: Path, wheels: list[Path], pyodide: Path | None) -> None:
         shutil.copytree(pyodide, work / "static" / "pyodide")
     options = ["--contents", work / "contents", "--output-dir", out / "lite"]
     options += [f"--apps={name}" for name in APPS]
-    options += [f"--piplite-wheels={path}" for path in wheels]
+    options += [f"--piplite-wheels={path}" for path in out.glob("*.whl")]
     command = [sys.executable, "-m", "jupyterlite_core", "build", "--no-sourcemaps", *options]
     subprocess.run(list(map(str, command)), cwd=work, check=True, stdout=subprocess.DEVNULL)
     shutil.rmtree(work)
+
+
+def commit() -> str:
+    """Return the commit that this is, "" where files differ from it, or this is no clone."""
+    git = {"cwd": PROJECT, "capture_output": True, "text": True, "check": False}
+    changed = subprocess.run(["git", "status", "--porcelain"], **git).stdout
+    return "" if changed else subprocess.run(["git", "rev-parse", "HEAD"], **git).stdout
 
 
 def build(out: Path, pyodide: Path | None) -> None:
     """Build the pack into a folder, which is made anew."""
     shutil.rmtree(out, ignore_errors=True)
     copy(out)
+    (out / "commit.txt").write_text(commit(), encoding="ascii")
     write_pages(out)
     make_slides(out)
     write_notebooks(out / "lessons" / "notebooks", KERNELS["notebooks"])
-    build_lite(out, build_wheels(out), pyodide)
+    build_wheels(out)
+    build_lite(out, pyodide)
 
 
 def main() -> None:
