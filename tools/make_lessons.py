@@ -20,6 +20,7 @@ from pathlib import Path
 import jupytext
 from build_extension import PROJECT, run, text_of
 from documents import browser, lesson_pages
+from nbformat.v4 import new_code_cell
 
 DOCS = PROJECT / "docs"
 LESSONS = DOCS / "lessons"
@@ -27,6 +28,9 @@ MARP = "@marp-team/marp-cli@4.5.1"
 APPS = "lab", "notebooks", "tree"  # of JupyterLite
 # By where a notebook runs: a kernel that is not there has each student asked for one.
 KERNELS = {"notebooks": "python3", "lite": "python"}
+FROM_THE_PACK = (
+    "%pip install -q reference_tracer trimesh"  # in the browser, where both are beside it
+)
 START = (
     ("lessons/README.html", "the four lessons: begin here"),
     ("tutorial.html", "the first steps in Blender, with pictures"),
@@ -88,13 +92,15 @@ def make_slides(out: Path) -> None:
 
 
 def write_notebooks(folder: Path, kernel: str) -> None:
-    """Write the notebooks as .ipynb for a kernel, and what they import beside them."""
+    """Write the notebooks as .ipynb for a kernel, with what they import, and as programs."""
     folder.mkdir(parents=True)
     for path in (LESSONS / "notebooks").glob("*.py"):
+        shutil.copy(path, folder)
         if path.stem == "picture":
-            shutil.copy(path, folder)
             continue
         notebook = jupytext.read(path)
+        if kernel == KERNELS["lite"] and "reference_tracer" in path.read_text(encoding="utf-8"):
+            notebook.cells.insert(1, new_code_cell(FROM_THE_PACK))
         notebook.metadata["kernelspec"] = {"name": kernel, "display_name": "Python"}
         for number, cell in enumerate(notebook.cells):
             cell["id"] = f"{path.stem}-{number}"  # else another one each time

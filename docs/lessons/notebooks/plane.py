@@ -5,9 +5,6 @@
 # `reference_tracer`; no Blender.
 
 # %%
-# %pip install -q reference_tracer
-
-# %%
 from importlib.resources import files
 
 import numpy as np

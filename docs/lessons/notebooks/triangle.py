@@ -5,9 +5,6 @@
 # `reference_tracer`; no Blender.
 
 # %%
-# %pip install -q reference_tracer
-
-# %%
 from dataclasses import replace
 from importlib.resources import files
 
