@@ -29,7 +29,7 @@ APPS = "lab", "notebooks", "tree"  # of JupyterLite
 # By where a notebook runs: a kernel that is not there has each student asked for one.
 KERNELS = {"notebooks": "python3", "lite": "python"}
 FROM_THE_PACK = (
-    "%pip install -q reference_tracer trimesh"  # in the browser, where both are beside it
+    "%pip install -q reference_tracer trimesh"  # in the browser
 )
 START = (
     ("lessons/README.html", "the four lessons: begin here"),
