@@ -28,9 +28,7 @@ MARP = "@marp-team/marp-cli@4.5.1"
 APPS = "lab", "notebooks", "tree"  # of JupyterLite
 # By where a notebook runs: a kernel that is not there has each student asked for one.
 KERNELS = {"notebooks": "python3", "lite": "python"}
-FROM_THE_PACK = (
-    "%pip install -q reference_tracer trimesh"  # in the browser
-)
+FROM_THE_PACK = "%pip install -q reference_tracer trimesh"  # in the browser
 START = (
     ("lessons/README.html", "the four lessons: begin here"),
     ("tutorial.html", "the first steps in Blender, with pictures"),
