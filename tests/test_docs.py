@@ -6,6 +6,7 @@ import ast
 import re
 import shutil
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -151,6 +152,15 @@ def test_the_animation_turns_and_is_small():
     assert len(frames) >= 12 and min(red) > 0.02
     turned = zip(frames, frames[1:] + frames[:1], strict=True)
     assert all((a != b).any(axis=-1).mean() > 0.02 for a, b in turned)
+
+
+def test_the_clip_has_the_first_steps():
+    path = DOCS / "images" / "tutorial" / "steps.webp"
+    assert path.stat().st_size < 150_000
+    with Image.open(path) as clip:
+        frames = [np.asarray(f.convert("RGB"), int) for f in ImageSequence.Iterator(clip)]
+    changed = pairwise(frames)
+    assert len(frames) == 5 and all((a != b).any(axis=-1).mean() > 0.05 for a, b in changed)
 
 
 def test_every_fault_is_described():

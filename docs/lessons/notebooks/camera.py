@@ -52,7 +52,7 @@ rays = camera_rays(camera, i.ravel() + 0.5, j.ravel() + 0.5)
 axes = camera.world_from_camera[:3, :3]
 theirs = axes.T @ rays.directions
 ours = direction(i, j).reshape(3, -1)
-print("largest difference:", np.abs(theirs - ours).max())
+print(f"largest difference: {np.abs(theirs - ours).max():.0e}")
 assert np.abs(theirs - ours).max() < 1e-6
 
 # %% [markdown]
