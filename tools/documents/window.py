@@ -23,11 +23,8 @@ OUT = PROJECT / "out" / "tutorial"
 WINDOW, WIDTH = 1600, 1000  # pixels across the whole window, and what they are made
 NAMES = "traced", "blender", "difference"
 FRAME = 120  # milliseconds
-STEPS, STEP = (
-    ("empty", "panel", "compared", "traced", "inspector"),
-    2500,
-)  # of the clip; milliseconds
-CLIP = 800, 480  # pixels
+STEPS = "empty", "panel", "compared", "traced", "inspector"  # of the clip
+STEP, CLIP = 2500, (800, 480)  # milliseconds, pixels
 AROUND, ZOOM, GAP = (8, 7), 19, 12  # pixels around the one that is enlarged, and how much
 
 
