@@ -18,7 +18,17 @@ import subprocess
 import sys
 from pathlib import Path
 
-from documents import architecture, causes, derivations, figures, pictures, python, records, story
+from documents import (
+    architecture,
+    causes,
+    derivations,
+    drawings,
+    figures,
+    pictures,
+    python,
+    records,
+    story,
+)
 from documents.markers import MARKED, Command, refreshed
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -60,6 +70,7 @@ def main() -> None:
     for folder in MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     pictures.write(DOCS / "images" / "lessons")
+    drawings.write(DOCS / "images" / "lessons")
     causes.write(DOCS / "images" / "causes")
     if not options.files:  # it takes a minute
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
