@@ -22,6 +22,7 @@ from .hits import NOTHING, Hits, Measures, Names, Statistics, Ties
 from .memory import TRACED, check_memory
 
 _PIXELS = 1 << 15  # of which something is computed together
+FEW = 8  # one of so many pixels is few: its measures are found by themselves
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
 
 
@@ -147,8 +148,12 @@ class Frame:
 
     def hits(self, rows: slice = slice(None)) -> Hits:
         """Return what the centre rays of some rows met, row by row: views of the frame's arrays."""
+        first, last, _ = rows.indices(self.shape[0])
+        width = self.shape[1]
 
         def find(ray: Index, _instance: Names, _triangle: Names) -> Measures:
+            if FEW * len(ray) < (last - first) * width:  # the others may never be asked for
+                return self.measures.some(ray + first * width)
             return self.measures.of(rows).reshape(4, -1)[:, ray]
 
         return Hits(

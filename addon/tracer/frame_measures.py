@@ -49,6 +49,20 @@ class FrameMeasures:
             pass
         return self._values[:, rows]
 
+    def some(self, pixel: Index) -> Measures:
+        """Return t and the barycentrics of k pixels alone, numbered row by row, (4, k)."""
+        row, column = np.divmod(pixel, self._width)
+        band_of = self._band_of[row]
+        is_known = (band_of == _KNOWN).any()
+        out = self._values[:, row, column] if is_known else no_measures(len(pixel))
+        for band in np.unique(band_of[band_of != _KNOWN]).tolist():
+            first, find = self._bands[band]
+            own = np.flatnonzero(band_of == band)
+            at = row[own], column[own]
+            ray = pixel[own] - first * self._width
+            out[:, own] = find(ray, self._instance[at], self._triangle[at])
+        return out
+
     def steps(self, rows: slice) -> Iterator[None]:
         """Find what is not known yet of some rows, in small steps."""
         first, last, _ = rows.indices(self._height)

@@ -11,7 +11,6 @@ from story import (
     ended,
     noted,
     press,
-    press_compare,
     result,
     screenshot,
     show_panel,
@@ -67,20 +66,14 @@ def values_kept(owner, *names):
         setattr(owner, name, value)
 
 
-def judged(name, by_click=True):
-    """Press the button, wait for the end, and note what is said.
-
-    By a click the first time: a cursor that has not moved since is not always heard.
-    """
+def judged(name):
+    """Click on the button, wait for the end, and note what is said."""
     before = result()
 
     def another():
         return result() is not before
 
-    if by_click:
-        yield from click_on(properties(), COMPARE)
-    else:
-        press_compare()
+    yield from click_on(properties(), COMPARE)
     yield from until(another, 120)
     yield from until(ended, 120)
     yield 0.5  # Blender's panels slide to their new places, and hear no click meanwhile
@@ -113,17 +106,17 @@ def given_image():
     for key in ("g", "x", "0", "period", "2", "Return"):  # as the panel says
         press(key)
         yield
-    yield from judged("given_moved_too", by_click=False)
+    yield from judged("given_moved_too")
     with made_wrong(scene.camera.data, "lens", scene.camera.data.lens * 1.05):
         scene.reference_tracer.image = picture("lens")
-    yield from judged("given_lens", by_click=False)
+    yield from judged("given_lens")
     yield from click_on(properties(), APPLY)
     noted["copied"] = [selected(), scene.camera.name]
     press("ctrl+KP_0")  # the active object is the scene's camera
     yield
     noted["camera"] = scene.camera.name
     screenshot("given_seen_through")
-    yield from judged("given_put_right", by_click=False)
+    yield from judged("given_put_right")
 
 
 def given_engine():
@@ -140,7 +133,7 @@ def given_engine():
         yield from at_the_panel("ENGINE", 15, engine=ToyEngine.bl_idname)
         yield from judged("given_offset")
         ToyEngine.offset = (0.0, 0.0)
-        yield from judged("given_right", by_click=False)
+        yield from judged("given_right")
     finally:
         ToyEngine.offset = (0.0, 0.0)
         bpy.utils.unregister_class(ToyEngine)
@@ -166,7 +159,7 @@ def given_render():
     yield from judged("given_rendered")
     scene.objects["Suzanne"].location.x += 0.2
     scene.reference_tracer.diagnose = False
-    yield from judged("given_rendered_before", by_click=False)
+    yield from judged("given_rendered_before")
 
 
 SCENE = "suzanne"
