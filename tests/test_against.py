@@ -90,7 +90,7 @@ def test_its_own_picture_agrees(scene, against, name):
 def test_who_drew_with_light_is_told_that_surfaces_have_other_colours(scene, against):
     """A picture with another camera, or with an object less, has a reason of its own."""
     color = render(scene).color
-    told = "was the picture drawn with light"
+    told = "was it drawn with light"
     lit = color.copy()
     lit[..., :3] *= np.linspace(0.3, 0.9, 60)[:, None]
     assert told in against(lit)[2]

@@ -211,7 +211,7 @@ class Comparison:
         surfaces = self.causes.cause[self.frame.object_index != NOTHING]
         most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
         if most and not (self.diagnosis and self.diagnosis.told):
-            yield "most surfaces have other colours: was the picture drawn with light, or in others?"
+            yield "most surfaces have other colours: was it drawn with light, or in others?"
             yield "           Draw each flat, in those that --colors-out writes"
 
     def _measured(self) -> str:
