@@ -45,6 +45,8 @@ class Comparison:
     metrics: Metrics
     excused: Excused  # what rests on rounding
     methods: tuple[MethodRow, ...] = ()
+    # (h, w, 4) by the textbook as printed, NaN where it sees nothing; None: not traced yet.
+    literal: Colors | None = None
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
     background: Background | None = None  # where the picture's is not the scene's
