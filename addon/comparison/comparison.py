@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Colors
 from ..causes.case import Case
-from ..causes.cause import Causes
+from ..causes.cause import UNEXPLAINED, Causes
 from ..causes.checks.background import Background
 from ..causes.checks.color import COLOR
 from ..causes.checks.hidden import HIDDEN
@@ -180,6 +180,7 @@ class Comparison:
             *self._of_causes(),
             *self._evidence(),
             *(self.diagnosis.lines() if self.diagnosis else ()),
+            *self._of_other_colors(),
             self._measured(),
             f"traced {count_of(traced.triangles, 'triangle')} in {traced.seconds:.2f} s "
             f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
@@ -206,6 +207,14 @@ class Comparison:
                 first = self.counts.examples.get(cause.key, ())[:3]
                 at = ", ".join(f"({x}, {y})" for x, y in first)
                 yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
+
+    def _of_other_colors(self) -> Iterator[str]:
+        """Ask for the commonest reason why most surfaces differ, where no fault was found."""
+        surfaces = self.causes.cause[self.frame.object_index != NOTHING]
+        most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
+        if most and not (self.diagnosis and self.diagnosis.told):
+            yield "most surfaces have other colours: was it drawn with light, or in others?"
+            yield "           Draw each flat, in those that --colors-out writes"
 
     def _measured(self) -> str:
         m = self.metrics
