@@ -23,6 +23,7 @@ FLOORS = {
     "runs": 0,
     "scene": 0,
     "svg": 0,
+    "translations": 0,
     "wording": 0,
     "methods": 1,
     "tracer": 1,

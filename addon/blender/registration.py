@@ -8,11 +8,11 @@ from typing import Any
 import bpy
 
 from . import engine
-from .ui import inspector, menus, panels, preferences, properties, split, study_panels
+from .ui import inspector, language, menus, panels, preferences, properties, split, study_panels
 from .ui.long_work import OPERATORS, LongWork
 from .ui.results import forget, remove_stale_images
 
-MODULES = (properties, preferences, engine, menus, panels, study_panels, split)
+MODULES = (language, properties, preferences, engine, menus, panels, study_panels, split)
 # The panels import the operators.
 _register, _unregister = bpy.utils.register_classes_factory(OPERATORS)
 

@@ -28,7 +28,7 @@ def test_little_is_imported_to_register():
     new = set(json.loads(line.removeprefix("NEW")))
     own = {name for name in new if name.startswith("reference_tracer.")}
     assert "reference_tracer.blender.registration" in own, done.stderr
-    light = {"methods", "tracer", "tracer.progress", "wording"}
+    light = {"methods", "tracer", "tracer.progress", "translations", "wording"}
     assert {n for n in own if not n.startswith("reference_tracer.blender")} == {
         f"reference_tracer.{name}" for name in light
     }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 from bpy.props import IntProperty
 
 from . import results, shown
@@ -101,7 +102,7 @@ def draw_regions(layout: Any, context: Any) -> None:
         )
         button.number = number
     if more := len(regions[LISTED:]):
-        column.label(text=f"and {more} more regions")
+        column.label(text=iface_("and {} more regions").format(more))
 
 
 class IMAGE_PT_reference_tracer_shown(bpy.types.Panel):

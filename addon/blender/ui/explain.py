@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ...wording import count_of
@@ -128,7 +129,7 @@ class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
     def execute(self, context: Any) -> Answer:
         from . import ray_objects
 
-        self.report({"INFO"}, f"{ray_objects.remove()} objects removed")
+        self.report({"INFO"}, rpt_("{} objects removed").format(ray_objects.remove()))
         return {"FINISHED"}
 
 
@@ -164,5 +165,5 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
         else:
             text = html.page(found)
         folders.write_text(path, text)
-        self.report({"INFO"}, f"Saved {self.filepath}")
+        self.report({"INFO"}, rpt_("Saved {}").format(self.filepath))
         return {"FINISHED"}

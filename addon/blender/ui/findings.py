@@ -39,10 +39,10 @@ class _OfFinding:
         own: Any = cls
         comparison = results.content(Kind.COMPARISON, context.scene)
         if not (comparison and comparison.diagnosis and comparison.diagnosis.told):
-            own.poll_message_set("There is no comparison whose diagnosis has found something")
+            own.poll_message_set(rpt_("There is no comparison whose diagnosis has found something"))
             return False
         if context.mode != "OBJECT":
-            own.poll_message_set("Leave the mode that the active object is in: Tab")
+            own.poll_message_set(rpt_("Leave the mode that the active object is in: Tab"))
             return False
         return True
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .long_work import Answer, is_blocked, named
 
@@ -31,7 +32,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
     def poll(cls, context: Any) -> bool:
         """Allow one at a time, where there is a camera, and none beside long work."""
         if cls.running:
-            cls.poll_message_set("The inspector is on: click a pixel, or end it with Esc")
+            cls.poll_message_set(rpt_("The inspector is on: click a pixel, or end it with Esc"))
         return not (cls.running or is_blocked(cls, context, needs_camera=True))
 
     def execute(self, context: Any) -> Answer:
@@ -44,7 +45,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
             return self.execute(context)
         type(self).running = True
         context.window.cursor_modal_set("EYEDROPPER")
-        context.workspace.status_text_set(_HINT)
+        context.workspace.status_text_set(rpt_(_HINT))
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -72,7 +73,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
             self.report({"WARNING"}, said)
             context.workspace.status_text_set(f"{said}  (Esc: end)")
         else:
-            context.workspace.status_text_set(_HINT)
+            context.workspace.status_text_set(rpt_(_HINT))
         return {"RUNNING_MODAL"}
 
     def cancel(self, context: Any) -> None:

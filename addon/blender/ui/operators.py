@@ -114,7 +114,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         """Allow it where every frame has a picture of its own."""
         is_still = context.scene.reference_tracer.judge in STILLS
         if is_still:
-            cls.poll_message_set(OF_ONE_FRAME)
+            cls.poll_message_set(rpt_(OF_ONE_FRAME))
         return not is_still and super().poll(context)
 
     def begin(self, context: Any) -> Work[Any]:
@@ -164,7 +164,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         """Allow it where there is a comparison, and nothing else at work."""
         found = results.latest(Kind.COMPARISON, context.scene)
         if not found:
-            cls.poll_message_set("Trace and Compare comes first")
+            cls.poll_message_set(rpt_("Trace and Compare comes first"))
         return super().poll(context) and bool(found)
 
     def begin(self, context: Any) -> Work[Any]:
@@ -184,7 +184,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         page.write(path, self._comparison, replace(result, trade=trade, extremes=extremes))
         if self.open_browser:
             bpy.ops.wm.url_open(url=path.resolve().as_uri())
-        return "INFO", f"The page is {path}"
+        return "INFO", rpt_("The page is {}").format(path)
 
 
 @named

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from bpy.app.translations import pgettext_iface as iface_
+
 from ..drawing.judges import label_of
 from . import operators
 from .differing import draw_regions
@@ -22,8 +24,9 @@ def draw_outcome(layout: Any, context: Any, comparison: Comparison) -> None:
     """Draw the verdict, the way to the page, and what differs and why."""
     icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
     counts = comparison.counts
-    verdict = comparison.verdict.capitalize()
-    wrapped(layout, context, f"{verdict}: {counts.differ:,} px differ", icon)
+    verdict = iface_(comparison.verdict.capitalize())
+    said = iface_("{}: {:,} px differ").format(verdict, counts.differ)
+    wrapped(layout, context, said, icon)
     layout.operator(operators.REFERENCE_TRACER_OT_open_page.bl_idname, icon="URL")
     for line in comparison.excused.lines():
         wrapped(layout, context, line.strip(), "ERROR")

@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty
 
 from . import results
@@ -49,7 +50,7 @@ class REFERENCE_TRACER_OT_show_image(bpy.types.Operator):
     @classmethod
     def description(cls, context: Any, properties: Any) -> str:
         """Return the choice's own."""
-        return next(text for key, _, text in _CHOICES if key == properties.image)
+        return next(tip_(text) for key, _, text in _CHOICES if key == properties.image)
 
     def execute(self, context: Any) -> Answer:
         context.window_manager.reference_tracer.both = self.image == "BOTH"

@@ -53,7 +53,8 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
     box = layout.box()
     box.label(text=f"{iface_('Pixel')} ({pixel.x}, {pixel.y})", icon="IMAGE_DATA")
     wrapped(box, context, said)
-    wrapped(box, context, f"This is {CERTAINTY_SENTENCES[derivation.certified.certainty]}.")
+    certainty = iface_(CERTAINTY_SENTENCES[derivation.certified.certainty])
+    wrapped(box, context, iface_("This is {}.").format(certainty))
     if derivation.seen_test:
         _numbers(layout.box(), derivation.seen_test)
     box = layout.box()
