@@ -18,6 +18,7 @@ from pathlib import Path
 from ...comparison.comparison import Comparison
 from ...comparison.extras import Extras
 from ...derivation import html as explained
+from ...translations import tables
 from ..folders import replacing_file
 from .content import content
 
@@ -27,7 +28,7 @@ _HERE = Path(__file__).parent
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w.]+)" />')
 _SCRIPT = re.compile(r'<script src="([\w.]+)"></script>')
 _NO_SCRIPT = "script-src 'none'"  # of the template's policy
-_DATA = '<script type="application/json" id="data"></script>'
+_DATA = '<script type="application/json" id="{}"></script>'
 
 
 def write(path: str | Path, comparison: Comparison, extras: Extras | None = None) -> None:
@@ -49,7 +50,10 @@ def html(held: Mapping[str, object]) -> str:
     text = text.replace(_NO_SCRIPT, _policy([_text(name) for name in _SCRIPT.findall(text)]))
     text = text.replace("</head>", f"<style>{explained.STYLE}</style>\n</head>")
     text = _SCRIPT.sub(lambda m: f"<script>{_text(m[1])}</script>", text)
-    return text.replace(_DATA, _DATA.replace("></", f">{json_text(held)}</"))
+    for name, given in (("languages", tables("page")), ("data", held)):
+        empty = _DATA.format(name)
+        text = text.replace(empty, empty.replace("></", f">{json_text(given)}</"))
+    return text
 
 
 def template(name: str) -> str:

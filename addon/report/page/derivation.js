@@ -33,7 +33,7 @@ function drawDerivation() {
 
 /** The derivation that was written with the page: the project's own markup, names escaped in it. */
 function exactDerivation(html) {
-  const inner = element("div");
+  const inner = element("div", { lang: "en", translate: "no" });
   inner.innerHTML = html;
   for (const heading of inner.querySelectorAll("h1, h2, h3")) {
     // they stand below this page's own

@@ -9,7 +9,9 @@ const diagnosis = page.comparison.diagnosis;
 /** How many of the unexplained pixels a fault accounts for, and what it would break. */
 function settledBy({ settled, unexplained: all, broken }) {
   const lost = broken
-    ? `${count(broken)} that agreed ${broken === 1 ? "is" : "are"} lost`
+    ? broken === 1
+      ? "1 that agreed is lost"
+      : `${count(broken)} that agreed are lost`
     : "none that agreed is lost";
   const agree = `${count(settled)} of ${count(all)} unexplained pixels agree`;
   return `With this put right, ${agree}, and ${lost}.`;

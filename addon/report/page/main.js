@@ -117,6 +117,7 @@ async function main() {
   keepShape();
   connect();
   begin();
+  chooseLanguage();
   document.documentElement.dataset.ready = "yes"; // for whoever waits, such as a test
 }
 

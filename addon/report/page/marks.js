@@ -118,7 +118,8 @@ function drawCursor(context, pane) {
 function drawLabel(context, pane, layer, k) {
   const size = parseFloat(getComputedStyle(document.documentElement).fontSize) * 0.85;
   let y = pane.y + 8;
-  for (const [text, color] of [[layer.label, null], ...(layer.key ?? [])]) {
+  for (const [english, color] of [[layer.label, null], ...(layer.key ?? [])]) {
+    const text = translated(english);
     context.font = `${color ? 400 : 600} ${size}px system-ui, sans-serif`;
     const sign = color ? 1.2 * size : 0;
     const width = context.measureText(text).width + sign + size;
