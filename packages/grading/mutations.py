@@ -20,7 +20,7 @@ from reference_tracer.derivation.expressions import (
     printed,
 )
 
-from .programs import CONSTANTS, CORNERS, Condition, Program, condition
+from .programs import CONSTANTS, Condition, Program, condition
 
 _OPPOSITE = {"≥": "<", "≤": ">", ">": "<", "<": ">"}
 _ASCII = str.maketrans("₁₂₃ₛ²", "123s2", "‖")
@@ -42,12 +42,14 @@ class Mutation:
     sentence: str
     formulas: Mapping[str, Tree]
     conditions: Mapping[Condition, tuple[Condition, ...]]
+    choice: str = ""
 
     def apart_from(self, other: Mutation) -> bool:
         """Return whether the two change different places."""
         return not (
             self.formulas.keys() & other.formulas.keys()
             or self.conditions.keys() & other.conditions.keys()
+            or (self.choice and other.choice)
         )
 
     def of(self, program: Program) -> Program:
@@ -56,6 +58,7 @@ class Mutation:
             program,
             formulas={**program.formulas, **self.formulas},
             conditions=tuple(n for c in program.conditions for n in self.conditions.get(c, (c,))),
+            choice=self.choice or program.choice,
         )
 
 
@@ -66,8 +69,8 @@ def mutations(program: Program) -> Iterator[Mutation]:
         conditions = {
             condition(old): tuple(map(condition, new)) for old, new in slip.conditions.items()
         }
-        yield Mutation(slip.name, slip.sentence, formulas, conditions)
-    known = {"o", "d", *CORNERS}
+        yield Mutation(slip.name, slip.sentence, formulas, conditions, slip.choice)
+    known = set().union(*program.kinds) - program.formulas.keys()
     for label, right in program.formulas.items():
         kinds = tuple(kind & known for kind in program.kinds)
         for kind, what, tree in _edits(right, kinds):
