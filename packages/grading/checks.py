@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -96,6 +96,7 @@ class Checks:
         return np.isin(self.group, groups)
 
 
+@cache
 def make_checks(seed: int = SEED) -> Checks:
     """Return the checks; the same for the same seed."""
     rng = np.random.default_rng(seed)

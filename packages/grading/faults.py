@@ -22,7 +22,8 @@ from .matching import Match, differs, with_one, with_two
 from .programs import Mask
 from .subjects.subject import Cases
 
-ALONE = 3, 1  # sizes of the calls in which some pairs are asked about again
+ALONE = 3, 1  # sizes of the calls in which some cases are asked about again
+CALLS = 4  # of each size: a program is started for each
 # Relative: libraries sum in another order when there are fewer rows, in float32, too. What mixes up
 # rows is farther off.
 ALIKE = 1e-4
@@ -154,7 +155,7 @@ def dependence(answers: Answers, ask: Ask) -> list[Fault]:
         some = np.concatenate(
             [np.flatnonzero(cases.group == g)[:size] for g in np.unique(cases.group)]
         )
-        for first in range(0, len(some), size):
+        for first in _spread(len(some) // size) * size:
             rows = some[first : first + size]
             off = differs(
                 answers.table[rows],
@@ -171,6 +172,11 @@ def dependence(answers: Answers, ask: Ask) -> list[Fault]:
                 )
                 return [Fault("depends_on_the_call", text, count)]
     return []
+
+
+def _spread(count: int) -> NDArray[np.intp]:
+    """Return the numbers of CALLS things of so many, evenly spread."""
+    return np.unique(np.arange(CALLS) * (count - 1) // max(CALLS - 1, 1))
 
 
 def _again(cases: Cases, ask: Ask, rows: NDArray[np.intp]) -> Floats:

@@ -124,6 +124,7 @@ def prepare(
     rays = camera_rays(scene.camera, *film_positions(region, pixel=chosen))
     planes = Hits.none(len(chosen))
     test_planes(scene, rays, planes)
+    tied = set(frame.ties)
     judged = JudgedScene(
         name,
         source or name,
@@ -138,7 +139,7 @@ def prepare(
         frame.t.ravel()[chosen],
         frame.instance_index.ravel()[chosen],
         frame.triangle_index.ravel()[chosen],
-        {k: frame.ties[p] for k, p in enumerate(chosen.tolist()) if p in frame.ties},
+        {k: frame.ties[p] for k, p in enumerate(chosen.tolist()) if p in tied},
         frame.certainty.ravel()[chosen] == Certainty.AMBIGUOUS,
         np.zeros(len(chosen), bool),
         _near_planes(scene, rays, frame.t.ravel()[chosen], planes),

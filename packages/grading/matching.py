@@ -9,6 +9,7 @@ Answers are (n, m), m numbers of the parts; nothing is hit where the first is no
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property, reduce
 from itertools import combinations
@@ -25,7 +26,7 @@ from .subjects.subject import Cases
 DIGITS = 1e-9  # relative: two orders of summation of a wrong formula differ by far less
 FEW = 2e-3  # share of cases in which rounding may decide what a wrong program answers
 NEARLY = 0.03  # share of the few cases that are asked first
-LEAST = 30  # answers with numbers that have to agree: fewer say little
+LEAST = 8  # answers with numbers that have to agree: fewer say little
 EACH = 8  # cases of a group with which two mutations at once are tried first
 
 
@@ -48,12 +49,12 @@ class Match:
 
 def with_one(cases: Cases, replies: Floats) -> list[Match]:
     """Return the wrong programs with one mutation that answer as a function did, (n, m)."""
-    return _found(cases, replies, _single(cases))
+    return _found(cases, replies, _single)
 
 
 def with_two(cases: Cases, replies: Floats) -> list[Match]:
     """Return the wrong programs with two mutations that answer as a function did, (n, m)."""
-    return _found(cases, replies, _double(cases))
+    return _found(cases, replies, _double)
 
 
 def alike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> bool:
@@ -122,15 +123,15 @@ class _Known(NamedTuple):
     """Wrong programs, and what each makes of a few cases, (p, few, m)."""
 
     matches: list[Match]
-    few: NDArray[np.intp]  # which of the cases that tell
     replies: Floats
 
 
-def _found(cases: Cases, replies: Floats, known: _Known) -> list[Match]:
+def _found(cases: Cases, replies: Floats, programs: Callable[[Cases], _Known]) -> list[Match]:
     own, parts = replies[cases.tells], cases.subject.parts
     if _told(own, parts).sum() < LEAST:
         return []
-    near = _unlike(own[known.few], known.replies, parts) <= NEARLY
+    known = programs(cases)
+    near = _unlike(own[_few(cases)], known.replies, parts) <= NEARLY
     asked = _questions(cases)
     return [known.matches[k] for k in np.flatnonzero(near) if known.matches[k].agrees(asked, own)]
 
@@ -140,23 +141,33 @@ def _questions(cases: Cases) -> Letters:
     return cases.letters.take(np.flatnonzero(cases.tells))
 
 
-def _asked(cases: Cases, matches: list[Match]) -> _Known:
+@cache
+def _few(cases: Cases) -> NDArray[np.intp]:
+    """Return which of the cases that tell are tried first."""
     group = cases.group[cases.tells]
-    few = np.concatenate([np.flatnonzero(group == g)[:EACH] for g in np.unique(group)])
-    asked = _questions(cases).take(few)
-    return _Known(matches, few, np.stack([m.program.answers(asked) for m in matches]))
+    return np.concatenate([np.flatnonzero(group == g)[:EACH] for g in np.unique(group)])
+
+
+def _known(cases: Cases, matches: Iterable[Match]) -> _Known:
+    """Return wrong programs with what they make of the few; those that are right are left out."""
+    parts, asked = cases.subject.parts, _questions(cases)
+    few = asked.take(_few(cases))
+    expected = {id(p): (p.answers(few), p.answers(asked)) for p in cases.subject.programs}
+    found, replies = [], []
+    for match in matches:
+        own, (of_few, of_all) = match.program.answers(few), expected[id(match.right)]
+        unlike = differs(own, of_few, parts, DIGITS).sum()
+        if unlike > FEW * len(of_all) or not match.agrees(asked, of_all):
+            found.append(match)
+            replies.append(own)
+    return _Known(found, np.stack(replies))
 
 
 @cache
 def _single(cases: Cases) -> _Known:
     """Return all wrong programs with one mutation; some mutations make no wrong one."""
-    asked = _questions(cases)
-    out = []
-    for right in cases.subject.programs:
-        expected = right.answers(asked)
-        found = (Match(right, (m,)) for m in mutations(right))
-        out += [m for m in found if not m.agrees(asked, expected)]
-    return _asked(cases, out)
+    every = (Match(right, (m,)) for right in cases.subject.programs for m in mutations(right))
+    return _known(cases, every)
 
 
 @cache
@@ -167,9 +178,12 @@ def _double(cases: Cases) -> _Known:
     for k, own in enumerate(known.replies):
         if not (_unlike(own, known.replies[different], parts) == 0).any():
             different.append(k)
-    out = [
-        Match(one.right, one.wrong + two.wrong)
-        for one, two in combinations([known.matches[k] for k in different], 2)
-        if one.right is two.right and one.wrong[0].apart_from(two.wrong[0])
-    ]
-    return _asked(cases, out)
+    pairs = combinations([known.matches[k] for k in different], 2)
+    return _known(
+        cases,
+        (
+            Match(one.right, one.wrong + two.wrong)
+            for one, two in pairs
+            if one.right is two.right and one.wrong[0].apart_from(two.wrong[0])
+        ),
+    )

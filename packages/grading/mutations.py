@@ -63,13 +63,21 @@ class Mutation:
 
 
 def mutations(program: Program) -> Iterator[Mutation]:
-    """Yield all mutations of a program: its own slips, then a change at each place."""
+    """Yield all mutations of a program: its slips, its conditions, each place of its formulas.
+
+    Where several answer alike, the first gives the name.
+    """
     for slip in program.slips:
         formulas = {label: parse(right) for label, right in slip.formulas.items()}
         conditions = {
             condition(old): tuple(map(condition, new)) for old, new in slip.conditions.items()
         }
         yield Mutation(slip.name, slip.sentence, formulas, conditions, slip.choice)
+    for old in program.conditions:
+        name = "hits_behind" if old.left == Letter("t") else "edge_not_tested"
+        yield Mutation(name, f"{old} is not tested", {}, {old: ()})
+        turned = old._replace(comparison=_OPPOSITE[old.comparison])
+        yield Mutation("condition_opposite", f"{turned} is tested, for {old}", {}, {old: (turned,)})
     known = set().union(*program.kinds) - program.formulas.keys()
     for label, right in program.formulas.items():
         kinds = tuple(kind & known for kind in program.kinds)
@@ -77,11 +85,6 @@ def mutations(program: Program) -> Iterator[Mutation]:
             text = f"{what}: {label} = {printed(tree)} is computed, for {label} = {printed(right)}"
             yield Mutation(f"{label.translate(_ASCII)}_{kind}", text, {label: tree}, {})
         known.add(label)
-    for old in program.conditions:
-        name = "hits_behind" if old.left == Letter("t") else "edge_not_tested"
-        yield Mutation(name, f"{old} is not tested", {}, {old: ()})
-        turned = old._replace(comparison=_OPPOSITE[old.comparison])
-        yield Mutation("condition_opposite", f"{turned} is tested, for {old}", {}, {old: (turned,)})
 
 
 def _edits(tree: Tree, kinds: tuple[frozenset[str], ...]) -> Iterator[Edit]:

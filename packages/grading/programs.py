@@ -34,7 +34,6 @@ CHOICES: dict[str, Callable[[Floats, Mask], Index]] = {
     "last": lambda t, hit: hit.shape[1] - 1 - hit[:, ::-1].argmax(axis=1),
     "least": lambda t, hit: np.where(hit, np.abs(t), np.inf).argmin(axis=1),
 }
-OWNER = "owner"  # the number of the object that is taken
 
 
 class Condition(NamedTuple):
@@ -67,13 +66,15 @@ class Slip(NamedTuple):
 class Part(NamedTuple):
     """Numbers of an answer that are right or wrong together: the labels that give them.
 
-    Numbers below `least` are told apart as if they were as large.
+    Numbers below `least` are told apart as if they were as large. Of a `unit` vector only the
+    direction counts.
     """
 
     name: str
     labels: tuple[str, ...]
     size: int
     least: float = 0.0
+    unit: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +131,7 @@ class Program:
         names: dict[str, Any] = {**CONSTANTS, **letters.values}
         for label, right in self.formulas.items():
             names[label] = evaluate(right, names)
-        if self.conditions:
+        if self.conditions or self.choice:
             hit = np.isfinite(np.broadcast_to(names["t"], letters.shape))
             for left, comparison, bound in self.conditions:
                 hit = hit & COMPARISONS[comparison](evaluate(left, names), names[bound])
@@ -139,16 +140,34 @@ class Program:
                 names |= chosen(self.choice, names["t"], hit)
         count = letters.shape[0]
         numbers = [names[label] for part in self.parts for label in part.labels]
-        columns = [np.broadcast_to(v, (*v.shape[:-1], count)).reshape(-1, count) for v in numbers]
-        return np.concatenate(columns).T
+        rows = [np.broadcast_to(v, (*v.shape[:-1], count)).reshape(-1, count) for v in numbers]
+        out = np.concatenate(rows).T
+        for part, place in zip(self.parts, columns(self.parts), strict=True):
+            if part.unit:
+                out[:, place] = unit(out[:, place])
+        return out
 
 
 def chosen(choice: str, t: Floats, hit: Mask) -> dict[str, Floats]:
-    """Return t (n,) of the object that is taken, and its number; inf and 0 where none is hit."""
+    """Return t (n,) of the object that is taken, and its number; where none is hit inf and 0.
+
+    What a picture shows is its number, and infinite where none is hit.
+    """
     which = CHOICES[choice](t, hit)
     found = hit.any(axis=1)
     taken = np.take_along_axis(t, which[:, None], axis=1)[:, 0]
-    return {"t": np.where(found, taken, np.inf), OWNER: np.where(found, which, 0).astype(float)}
+    return {
+        "t": np.where(found, taken, np.inf),
+        "owner": np.where(found, which, 0).astype(float),
+        "shown": np.where(found, which, np.inf),
+    }
+
+
+@np.errstate(all="ignore")
+def unit(vectors: Floats) -> Floats:
+    """Return vectors (n, 3) with a length of 1."""
+    out: Floats = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    return out
 
 
 def columns(parts: tuple[Part, ...]) -> list[slice]:

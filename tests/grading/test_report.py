@@ -53,7 +53,7 @@ FILES = {
     "blind.py": TEXT.replace("(t > 0)", "False") + "\nprint('<script>alert(1)</script>')\n",
     "one_sided.py": TEXT.replace("(t > 0)", "(t > 0) & (dot(d, n) > 0)"),
     "broken.py": "def intersect(o, d, p):\n    return '<b>' + 1\n",
-    "endless <i>.py": "while True:\n    pass\n",
+    "endless <i>.py": "import time\nwhile True:\n    time.sleep(9)\n",
 }
 
 
