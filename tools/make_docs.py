@@ -18,7 +18,17 @@ import subprocess
 import sys
 from pathlib import Path
 
-from documents import architecture, causes, derivations, figures, pictures, python, records, story
+from documents import (
+    architecture,
+    causes,
+    derivations,
+    figures,
+    pictures,
+    python,
+    records,
+    story,
+    subjects,
+)
 from documents.markers import MARKED, Command, refreshed
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -75,7 +85,7 @@ def main() -> None:
         from documents import window
 
         window.write(DOCS / "images" / "tutorial")
-    values = figures.values() | derivations.values() | records.values()
+    values = figures.values() | derivations.values() | records.values() | subjects.values()
     values |= {"python_api": python.page()}
     page = PROJECT / "ARCHITECTURE.md"
     page.write_text(architecture.refreshed(page.read_text(encoding="utf-8")), encoding="utf-8")

@@ -44,7 +44,8 @@ _SLIPS = (
     ),
     Slip(
         "middle_off_by_a_half",
-        "the picture's middle is at columns − 1, not at columns, halves",
+        "the picture's middle is taken to be at (columns − 1) / 2: where centres are at column + ½ "
+        "it is at columns / 2",
         {
             "across": "column + ½ − ½ (columns − 1) + shift_x longer",
             "upward": "row + ½ − ½ (rows − 1) + shift_y longer",
@@ -142,17 +143,17 @@ _SLIPS = (
     ),
     Slip(
         "stretched",
-        "both sides of the picture get the whole width: pixels are square",
+        "both sides of the picture are as long, in space: pixels are square",
         {"u": "across (w / columns)", "v": "upward (w / rows)"},
     ),
     Slip(
         "half_width",
-        "the tangent of half the angle is half the picture's width, not the width",
+        "half the sensor's width is taken for all of it, as the tangent of half the angle gives it",
         {"w": "perspective ½ (sensor / lens) + orthographic scale"},
     ),
     Slip(
         "twice_the_width",
-        "the sensor's width is taken for half of it",
+        "the sensor's width is taken for half of the picture's",
         {"w": "perspective 2 (sensor / lens) + orthographic scale"},
     ),
     Slip(
