@@ -114,9 +114,14 @@ def _whole(rng: np.random.Generator) -> Planes:
 
 
 def _integers(rng: np.random.Generator) -> Planes:
-    """Return rays of integers along planes of integers, beside them."""
-    n = rng.integers(1, 9, (EACH, 3)).astype(float)
-    d = np.cross(n, rng.integers(-4, 5, (EACH, 3)) + 10.0 * np.eye(3)[rng.integers(0, 3, EACH)])
+    """Return rays of integers along planes across an axis, beside them.
+
+    d . n is exactly 0 in every formula, also where d or n is normalised first.
+    """
+    rows, axis = np.arange(EACH), rng.integers(0, 3, EACH)
+    n, d = np.zeros((EACH, 3)), rng.integers(1, 9, (EACH, 3)).astype(float)
+    n[rows, axis] = rng.integers(1, 9, EACH) * rng.choice((-1, 1), EACH)
+    d[rows, axis] = 0
     point = rng.integers(-8, 9, (EACH, 3)).astype(float)
     return point + n, d, point, n
 
