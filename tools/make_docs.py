@@ -22,6 +22,7 @@ from documents import (
     architecture,
     causes,
     derivations,
+    drawings,
     figures,
     pictures,
     python,
@@ -70,6 +71,7 @@ def main() -> None:
     for folder in MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     pictures.write(DOCS / "images" / "lessons")
+    drawings.write(DOCS / "images" / "lessons")
     causes.write(DOCS / "images" / "causes")
     if not options.files:  # it takes a minute
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))

@@ -6,12 +6,11 @@ from contextlib import contextmanager
 import bpy
 from first_use_stories import COMPARE, properties
 from hands import click_on
-from interruption_stories import ended
 from story import (
     OUT,
+    ended,
     noted,
     press,
-    press_compare,
     result,
     screenshot,
     show_panel,
@@ -34,7 +33,7 @@ def at_the_panel(judge, percentage=25, **chosen):
     for name, value in chosen.items():
         setattr(scene.reference_tracer, name, value)
     show_panel()
-    yield 1
+    yield
 
 
 @contextmanager
@@ -67,23 +66,17 @@ def values_kept(owner, *names):
         setattr(owner, name, value)
 
 
-def judged(name, by_click=True):
-    """Press the button, wait for the end, and note what is said.
-
-    By a click the first time: a cursor that has not moved since is not always heard.
-    """
+def judged(name):
+    """Click on the button, wait for the end, and note what is said."""
     before = result()
 
     def another():
         return result() is not before
 
-    if by_click:
-        yield from click_on(properties(), COMPARE)
-    else:
-        press_compare()
+    yield from click_on(properties(), COMPARE)
     yield from until(another, 120)
     yield from until(ended, 120)
-    yield 1  # Blender's panels slide to their new places, and hear no click meanwhile
+    yield 0.5  # Blender's panels slide to their new places, and hear no click meanwhile
     screenshot(name)
     found = result().content
     noted[name] = {
@@ -99,8 +92,10 @@ def selected():
 
 def given_image():
     """A moved object is selected and moved; a focal length is put right in a copy of the camera."""
+    bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_perspective.blend")
+    yield
     scene = window().scene
-    yield from at_the_panel("IMAGE", 25)
+    yield from at_the_panel("IMAGE", 12)  # where it was moved is soon found
     moved = scene.objects["Cone"]
     with made_wrong(moved.location, "x", moved.location.x + 0.2):
         scene.reference_tracer.image = picture("moved")
@@ -110,24 +105,24 @@ def given_image():
     screenshot("given_selected")
     for key in ("g", "x", "0", "period", "2", "Return"):  # as the panel says
         press(key)
-        yield 0.2
-    yield from judged("given_moved_too", by_click=False)
+        yield
+    yield from judged("given_moved_too")
     with made_wrong(scene.camera.data, "lens", scene.camera.data.lens * 1.05):
         scene.reference_tracer.image = picture("lens")
-    yield from judged("given_lens", by_click=False)
+    yield from judged("given_lens")
     yield from click_on(properties(), APPLY)
     noted["copied"] = [selected(), scene.camera.name]
     press("ctrl+KP_0")  # the active object is the scene's camera
-    yield 1
+    yield
     noted["camera"] = scene.camera.name
     screenshot("given_seen_through")
-    yield from judged("given_put_right", by_click=False)
+    yield from judged("given_put_right")
 
 
 def given_engine():
     """An engine that an add-on registers, which samples half a pixel beside the centres."""
     bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield 0.5
+    yield
     bpy.ops.mesh.primitive_cone_add(location=(2, 0, 1))
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=1, location=(0, -2, 1))
     for number, obj in enumerate(o for o in window().scene.objects if o.type == "MESH"):
@@ -138,10 +133,14 @@ def given_engine():
         yield from at_the_panel("ENGINE", 15, engine=ToyEngine.bl_idname)
         yield from judged("given_offset")
         ToyEngine.offset = (0.0, 0.0)
-        yield from judged("given_right", by_click=False)
+        yield from judged("given_right")
     finally:
         ToyEngine.offset = (0.0, 0.0)
         bpy.utils.unregister_class(ToyEngine)
+
+
+def rendered():
+    return "Render Result" in bpy.data.images and not bpy.app.is_job_running("RENDER")
 
 
 def given_render():
@@ -153,14 +152,14 @@ def given_render():
     scene.display.shading.light = "FLAT"
     for name in ("show_cavity", "show_shadows", "show_object_outline", "show_specular_highlight"):
         setattr(scene.display.shading, name, False)
-    yield 0.5
+    yield
     press("F12")
-    yield 3
+    yield from until(rendered, 60)
     yield from at_the_panel("RENDER_RESULT")
     yield from judged("given_rendered")
     scene.objects["Suzanne"].location.x += 0.2
     scene.reference_tracer.diagnose = False
-    yield from judged("given_rendered_before", by_click=False)
+    yield from judged("given_rendered_before")
 
 
 SCENE = "suzanne"

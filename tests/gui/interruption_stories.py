@@ -8,6 +8,7 @@ import bpy
 from story import (
     MODULE,
     compared,
+    ended,
     module,
     noted,
     press_compare,
@@ -34,7 +35,7 @@ def interruptions():
         except Exception as error:  # of one: the others are played all the same
             found["error"] = f"{type(error).__name__}: {error}"
             continue
-        yield 0.3
+        yield
         found["running"] = still_running()
         if found.get("same_file", True):
             found["left"] = changed(before)
@@ -44,7 +45,7 @@ def interruptions():
 
 def begun():
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/suzanne.blend")
-    yield 0.3
+    yield
     window().scene.render.resolution_percentage = 20
     bpy.context.view_layer.update()
     with bpy.context.temp_override(window=window()):
@@ -104,10 +105,6 @@ def wake():
         subprocess.run(["xdotool", "mousemove", x, "350"], check=True)
 
 
-def ended():
-    return not running()
-
-
 def undone(found):
     """Undo and redo."""
     window().scene.objects["Suzanne"].location.x += 0.001
@@ -116,10 +113,10 @@ def undone(found):
     yield from started()
     with bpy.context.temp_override(window=window()):
         bpy.ops.ed.undo()
-        yield 0.2
+        yield
         bpy.ops.ed.redo()
     yield from until(ended, 60)
-    yield 0.2
+    yield
     window().scene.objects["Suzanne"].location.x -= 0.001
 
 
@@ -137,11 +134,11 @@ def loaded(found):
     """Another file, and the one that Blender starts with."""
     yield from started()
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
-    yield 0.2
+    yield
     first = not still_running()
     yield from started_large()
     bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield 0.2
+    yield
     found["stopped"] = first and not still_running()
     found["same_file"] = False
 
@@ -156,7 +153,7 @@ def switched_off(found):
     yield from started()
     off_and_on()
     wake()
-    yield 0.2
+    yield
     found["stopped"] = not still_running()
 
 
@@ -167,7 +164,7 @@ def switched_often(found):
         off_and_on()
     found["classes"] = len(bpy.types.Operator.__subclasses__()) - before
     found["stopped"] = not still_running()
-    yield 0.2
+    yield
 
 
 def off_and_on():
@@ -180,7 +177,7 @@ def closed_area(found):
     area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
     yield from started()
     area.type = "TEXT_EDITOR"
-    yield 0.2
+    yield
     area.type = "VIEW_3D"
     yield from until(ended, 60)
 
@@ -189,14 +186,14 @@ def closed_window(found):
     """The window that it was started in is closed; another is there."""
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.window_new()
-    yield 0.5
+    yield
     _, second = bpy.context.window_manager.windows
     with bpy.context.temp_override(window=second):
         bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
-    yield 0.1
+    yield
     with bpy.context.temp_override(window=second):
         bpy.ops.wm.window_close()
-    yield 1
+    yield
     found["stopped"] = not still_running()
 
 
@@ -206,7 +203,7 @@ def removed_scene(found):
     other = bpy.data.scenes.new("Other")
     yield from started()
     window().scene = other
-    yield 0.2
+    yield
     copy = scene.copy()
     copy.name = name = "Kept"
     bpy.data.scenes.remove(scene)
