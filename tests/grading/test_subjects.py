@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from fractions import Fraction
 from functools import cache
+from importlib.resources import files
 
+import jsonschema
 import numpy as np
 import pytest
+import reference_tracer_grading
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR
 from reference_tracer.methods import Method
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.rendering import render
@@ -292,3 +298,33 @@ def test_marks_of_a_file(old, new, faults, score, written):
     for case in found.wrong:
         assert set(case.given) == {"origins", "directions", "points", "normals"}
         assert case.certified != case.student
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_command_and_all_that_it_writes(name, tmp_path, capsys):
+    """The template runs; the page, the JSON and all formats are those of every subject."""
+    path, out = tmp_path / "mine.py", tmp_path / "out"
+    assert main(["judge", "--subject", name, "--template", str(path)]) == AGREE
+    words = ["judge", "--subject", name, str(path), "--out", str(out), "--format", "csv"]
+    words += ["--format", "junit", "--format", "gradescope"]
+    assert main(words) == DIFFERENCES
+    fault = "not_finite" if name == "camera" else "no_hits"
+    assert "score 0.0 of 100" in (said := capsys.readouterr().out) and fault in said
+    schema = json.loads(files(reference_tracer_grading).joinpath("judge.schema.json").read_text())
+    found = json.loads((out / "judge.json").read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(found)
+    assert found["subject"] == name and found["students"][0]["wrong_cases"]
+    page = (out / "judge.html").read_text(encoding="utf-8")
+    assert "A wrong case" in page and f"print({subject(name).form.signature})" in page
+    written = {p.name for p in out.rglob("*") if p.is_file()}
+    assert {"judge.csv", "judge.xml", "results.json"} <= written
+    assert main(words) == DIFFERENCES and "1 student judged before" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [(["--extremes"], "--extremes is for"), (["scene.npz"], "scenes are for --subject triangle")],
+)
+def test_what_is_for_triangles_is_refused(words, text, written, capsys):
+    assert main(["judge", "--subject", "plane", str(written(PLANE)), *words]) == INPUT_ERROR
+    assert text in capsys.readouterr().err
