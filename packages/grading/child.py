@@ -128,6 +128,8 @@ def described(error: BaseException, path: Path) -> dict[str, Any]:
     except Exception:  # its own __str__ fails
         text = ""
     message = text if kind == "answer" else f"{type(error).__name__}: {text}".rstrip(": ")
+    if kind == "exception" and isinstance(error, TypeError | ValueError):  # as of code for one ray
+        message += " (what it is given are arrays, a row for each ray: reftrace judge --template)"
     trace = [
         [
             Path(f.filename).name,

@@ -76,7 +76,8 @@ def absolute_epsilon(a: Answers) -> Found:
         text = (
             "a triangle that is hit is missed when it and the ray's origin are 2^20 times larger, "
             "or 2^20 or 2^30 times smaller, though floats scale by powers of two without any "
-            "rounding: a constant (an epsilon, a largest t) is not relative to the scene"
+            "rounding: a constant (an epsilon, a largest t) is not relative to the scene; "
+            "0 is, at every scale"
         )
         yield "absolute_epsilon", text, lost
 

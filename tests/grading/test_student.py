@@ -44,6 +44,7 @@ HOSTILE = {
     "writes": (HEAD + "o -= 1\n    " + NOTHING, "exception", "must not be changed"),
     "sorts": (HEAD + "p.sort()\n    " + NOTHING, "exception", "must not be changed"),
     "reads input": (HEAD + "input()", "exception", "EOFError"),
+    "of one ray": (HEAD + "ox, oy, oz = o\n    " + NOTHING, "exception", "a row for each ray"),
     "changes json": ("import json\njson.dumps = lambda *_: '{}'", "ended", "no answer"),
     "forges an error": (
         "import json, os\nfor fd in range(3, 9):\n    try: os.write(fd, json.dumps("
