@@ -105,11 +105,21 @@ def said(compare) -> str:
 
 
 def test_what_is_not_drawn_needs_no_colour_attribute(attributes, build, compare):
-    build.cube("Hidden", 1.0).hide_render = True
+    hidden = build.cube("Hidden", 1.0)
+    hidden.hide_render = True
     picture = build.empty("Picture")
     picture.empty_display_type = "IMAGE"
     picture.data = bpy.data.images.new("Reference", 4, 4)
     assert said(compare) == "it would draw"
+    build.color_attribute(hidden, "POINT").name = "Other"
+    assert said(compare) == "it would draw"
+    hidden.hide_render = False
+    assert "shows a mesh black" in said(compare)
+
+
+def test_what_stands_for_a_plane_has_no_colour_attribute(attributes, build, compare):
+    build.square("Plane", 1.0).reference_tracer.infinite_plane = True
+    assert "shows a mesh black" in said(compare)
 
 
 def test_what_is_only_instanced_needs_a_colour_attribute(attributes, build, compare):
@@ -120,6 +130,9 @@ def test_what_is_only_instanced_needs_a_colour_attribute(attributes, build, comp
     assert "shows a mesh black" in said(compare)
     build.color_attribute(child, "POINT")
     assert said(compare) == "it would draw"
+    elsewhere = build.cube("Elsewhere", 0.5, link=False)
+    build.color_attribute(elsewhere, "POINT").name = "Other"
+    assert "shows a mesh black" in said(compare)  # it may be instanced
 
 
 @pytest.mark.torture

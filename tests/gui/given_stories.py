@@ -24,6 +24,7 @@ sys.path.insert(0, "/project/tests/blender")
 from toy_engine import ToyEngine
 
 SELECT, APPLY = "reference_tracer.select_finding(", "reference_tracer.copy_camera("
+SHOW, MAKE_ACTIVE = "reference_tracer.show_put_right(", "wm.context_set_id("
 
 
 def at_the_panel(judge, percentage=25, **chosen):
@@ -115,12 +116,19 @@ def given_image():
     with made_wrong(scene.camera.data, "lens", scene.camera.data.lens * 1.05):
         scene.reference_tracer.image = picture("lens")
     yield from judged("given_lens", by_click=False)
+    with values_kept(bpy.context.preferences.view, "render_display_type"):
+        bpy.context.preferences.view.render_display_type = "AREA"  # in place of the 3D view
+        yield from click_on(properties(), SHOW)
+    bpy.context.preferences.is_dirty = False
+    noted["shown"] = [
+        a.spaces.active.image.name for a in window().screen.areas if a.type == "IMAGE_EDITOR"
+    ]
+    screenshot("given_shown_put_right")
     yield from click_on(properties(), APPLY)
     noted["copied"] = [selected(), scene.camera.name]
-    press("ctrl+KP_0")  # the active object is the scene's camera
-    yield 1
+    yield from click_on(properties(), MAKE_ACTIVE)
     noted["camera"] = scene.camera.name
-    screenshot("given_seen_through")
+    screenshot("given_made_active")
     yield from judged("given_put_right", by_click=False)
 
 

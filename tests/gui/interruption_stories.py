@@ -1,12 +1,15 @@
 """What a user, or a script, does while a comparison runs: nothing is lost, and nothing is left."""
 
+import json
 import subprocess
 from pathlib import Path
 
 import addon_utils
 import bpy
+from hands import close, windows
 from story import (
     MODULE,
+    OUT,
     compared,
     module,
     noted,
@@ -194,9 +197,9 @@ def closed_window(found):
     with bpy.context.temp_override(window=second):
         bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
     yield 0.1
-    with bpy.context.temp_override(window=second):
-        bpy.ops.wm.window_close()
+    close(windows()[-1])
     yield 1
+    found["windows"] = len(bpy.context.window_manager.windows)
     found["stopped"] = not still_running()
 
 
@@ -255,6 +258,14 @@ def handled(found):
         bpy.data.images.remove(image)
 
 
+def closed():
+    """The last window is closed, which ends Blender: what is to be noted is written before."""
+    yield from started_large()
+    (OUT / "closed.json").write_text(json.dumps({"dirty": bpy.data.is_dirty}))
+    close(windows()[-1])
+    yield from until(lambda: False, 60)
+
+
 INTERRUPTIONS = (
     undone,
     saved,
@@ -268,4 +279,4 @@ INTERRUPTIONS = (
     handled,
 )
 SCENE = "suzanne"
-STORIES = (interruptions,)
+STORIES = (interruptions, closed)
