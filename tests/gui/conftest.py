@@ -32,6 +32,8 @@ class Blender:
             "run",
             "env",
             "BLENDER_USER_RESOURCES=/project/out/gui/user",
+            "python3",
+            "/project/tests/gui/with_window_manager.py",
             "blender",
             *map(str, arguments),
         ]

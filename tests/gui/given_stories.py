@@ -82,8 +82,8 @@ def judged(name, by_click=True):
         yield from click_on(properties(), COMPARE)
     else:
         press_compare()
-    yield from until(another, 120)
-    yield from until(ended, 120)
+    yield from until(another)
+    yield from until(ended)
     yield 1  # Blender's panels slide to their new places, and hear no click meanwhile
     screenshot(name)
     found = result().content

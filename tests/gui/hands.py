@@ -61,7 +61,7 @@ def click_on(area, command, **options):
 
 def windows():
     """Return the numbers that the screen gives to Blender's windows, the first one first."""
-    command = ["xdotool", "search", "--onlyvisible", "--name", "Blender"]
+    command = ["xdotool", "search", "--onlyvisible", "--class", "Blender"]
     return sorted(map(int, subprocess.run(command, capture_output=True, text=True).stdout.split()))
 
 

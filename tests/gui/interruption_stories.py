@@ -197,9 +197,13 @@ def closed_window(found):
     with bpy.context.temp_override(window=second):
         bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
     yield 0.1
-    close(windows()[-1])
-    yield 1
-    found["windows"] = len(bpy.context.window_manager.windows)
+    _, of_comparison = windows()
+    close(of_comparison)
+
+    def one_is_left():
+        return len(bpy.context.window_manager.windows) == 1
+
+    yield from until(one_is_left, 20)
     found["stopped"] = not still_running()
 
 

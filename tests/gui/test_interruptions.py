@@ -24,7 +24,6 @@ def test_the_next_comparison_works(noted):
 @pytest.mark.story("interruptions")
 def test_what_ends_it_ends_it(noted):
     assert {name: noted[name]["stopped"] for name in ENDING} == dict.fromkeys(ENDING, True)
-    assert noted["closed_window"]["windows"] == 1
     assert noted["switched_often"]["classes"] == 0
     assert noted["saved"]["saved"] == ["Suzanne"]
 
