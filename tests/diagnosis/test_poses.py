@@ -55,7 +55,7 @@ def test_a_camera_is_told_and_no_object(few, name, values, rivals):
     assert list(found) == [name]
 
 
-@pytest.mark.slow
+@pytest.mark.torture
 def test_an_object_that_moves_by_a_fraction_of_a_pixel(few):
     """Fitted roughly, it would break as many pixels at its edges as it settles."""
     scene = few(384, 216)

@@ -5,6 +5,7 @@ from contextlib import contextmanager
 import bpy
 from story import (
     compared,
+    ended,
     invoke,
     module,
     noted,
@@ -44,16 +45,12 @@ def drawn_otherwise(owner, name, value):
         compare.picture = real
 
 
-def ended():
-    return not running()
-
-
 def diagnosis():
     """The panel, Esc in the midst, and the copy of the camera."""
     scene = window().scene
     scene.render.resolution_percentage = 20
     scene.reference_tracer.identity = False
-    yield 0.2
+    yield
     lens = scene.camera.data.lens
     with drawn_otherwise(scene.camera.data, "lens", lens * 1.05):
         press_compare()
@@ -73,7 +70,7 @@ def diagnosis():
         yield from until(ended, 300)
     noted["told"] = [told.sentence for told in result().content.diagnosis.told]
     show_panel()
-    yield 0.5
+    yield
     yield from open_tab()
     screenshot("diagnosis")
     noted["pressed"] = sorted(invoke("copy_camera", number=0))
@@ -84,7 +81,7 @@ def diagnosis():
         "active_camera": scene.camera.name,
     }
     bpy.ops.ed.undo()
-    yield 0.3
+    yield
     noted["after_undo"] = copy_names()
     noted["reports"] = reports()
 

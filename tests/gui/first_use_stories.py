@@ -5,10 +5,11 @@ from pathlib import Path
 
 import bpy
 from hands import click, click_on
-from interruption_stories import ended, still_running
+from interruption_stories import still_running
 from story import (
     MODULE,
     compared,
+    ended,
     module,
     noted,
     opened,
@@ -39,7 +40,7 @@ def at_the_panel(percentage=50):
     window().scene.render.engine = "REFERENCE_TRACER"  # its tab is short: our panel is in sight
     window().scene.render.resolution_percentage = percentage
     show_panel()
-    yield 1
+    yield
 
 
 def first_use():
@@ -51,7 +52,7 @@ def first_use():
     noted["begun"] = running() or compared()
     yield from until(compared)
     yield from until(ended)
-    yield 0.5
+    yield
     screenshot("first_use_compared")
     noted["verdict"], noted["images"] = result().content.verdict, len(images())
     yield from click_on(properties(), "reference_tracer.frame_region(")
@@ -62,7 +63,7 @@ def first_use():
     noted["page"] = Path(opened().removeprefix("file://")).exists()
     for _ in range(2):  # what was selected, and the comparison
         press("ctrl+z")
-        yield 1
+        yield
     noted["after_undo"] = images()
     screenshot("first_use_undone")
 
@@ -80,7 +81,7 @@ def second_press():
     press("Escape")
     yield from until(ended, 60)
     noted["seconds_to_stop"] = time.monotonic() - pressed
-    yield 0.5
+    yield
     noted["changed"] = {k: v for k, v in settings().items() if before[k] != v}
     noted["left"] = [*still_running(), *images()]
     noted["compared"] = compared()
@@ -93,7 +94,7 @@ def new_file():
     noted["ran"] = running() != []
     for key in ("ctrl+n", "g"):
         press(key)
-        yield 1
+        yield
     screenshot("first_use_new_file")
     noted["file"] = bpy.data.filepath
     noted["left"] = [*still_running(), *images()]
@@ -107,7 +108,7 @@ def unticked():
     window_manager.addon_search = "Reference Tracer"
     area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
     area.type = "PREFERENCES"
-    yield 1
+    yield
     yield from click_on(properties(), COMPARE)
     noted["ran"] = running() != []
     yield from click_on(area, "preferences.addon_disable(", across=0.04)

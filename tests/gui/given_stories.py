@@ -6,9 +6,9 @@ from contextlib import contextmanager
 import bpy
 from first_use_stories import COMPARE, properties
 from hands import click_on
-from interruption_stories import ended
 from story import (
     OUT,
+    ended,
     noted,
     press,
     press_compare,
@@ -35,7 +35,7 @@ def at_the_panel(judge, percentage=25, **chosen):
     for name, value in chosen.items():
         setattr(scene.reference_tracer, name, value)
     show_panel()
-    yield 1
+    yield
 
 
 @contextmanager
@@ -84,7 +84,7 @@ def judged(name, by_click=True):
         press_compare()
     yield from until(another)
     yield from until(ended)
-    yield 1  # Blender's panels slide to their new places, and hear no click meanwhile
+    yield 0.5  # Blender's panels slide to their new places, and hear no click meanwhile
     screenshot(name)
     found = result().content
     noted[name] = {
@@ -98,10 +98,18 @@ def selected():
     return [o.name for o in window().view_layer.objects if o.select_get()]
 
 
+def shown_images():
+    """The names of the images that are open."""
+    spaces = [a.spaces.active for a in window().screen.areas if a.type == "IMAGE_EDITOR"]
+    return [space.image.name for space in spaces if space.image]
+
+
 def given_image():
     """A moved object is selected and moved; a focal length is put right in a copy of the camera."""
+    bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_perspective.blend")
+    yield
     scene = window().scene
-    yield from at_the_panel("IMAGE", 25)
+    yield from at_the_panel("IMAGE", 12)  # where it was moved is soon found
     moved = scene.objects["Cone"]
     with made_wrong(moved.location, "x", moved.location.x + 0.2):
         scene.reference_tracer.image = picture("moved")
@@ -111,7 +119,7 @@ def given_image():
     screenshot("given_selected")
     for key in ("g", "x", "0", "period", "2", "Return"):  # as the panel says
         press(key)
-        yield 0.2
+        yield
     yield from judged("given_moved_too", by_click=False)
     with made_wrong(scene.camera.data, "lens", scene.camera.data.lens * 1.05):
         scene.reference_tracer.image = picture("lens")
@@ -119,14 +127,14 @@ def given_image():
     with values_kept(bpy.context.preferences.view, "render_display_type"):
         bpy.context.preferences.view.render_display_type = "AREA"  # in place of the 3D view
         yield from click_on(properties(), SHOW)
+        yield from until(shown_images, 20)
     bpy.context.preferences.is_dirty = False
-    noted["shown"] = [
-        a.spaces.active.image.name for a in window().screen.areas if a.type == "IMAGE_EDITOR"
-    ]
+    noted["shown"] = shown_images()
     screenshot("given_shown_put_right")
     yield from click_on(properties(), APPLY)
     noted["copied"] = [selected(), scene.camera.name]
     yield from click_on(properties(), MAKE_ACTIVE)
+    yield
     noted["camera"] = scene.camera.name
     screenshot("given_made_active")
     yield from judged("given_put_right", by_click=False)
@@ -135,7 +143,7 @@ def given_image():
 def given_engine():
     """An engine that an add-on registers, which samples half a pixel beside the centres."""
     bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield 0.5
+    yield
     bpy.ops.mesh.primitive_cone_add(location=(2, 0, 1))
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=1, location=(0, -2, 1))
     for number, obj in enumerate(o for o in window().scene.objects if o.type == "MESH"):
@@ -152,6 +160,10 @@ def given_engine():
         bpy.utils.unregister_class(ToyEngine)
 
 
+def rendered():
+    return "Render Result" in bpy.data.images and not bpy.app.is_job_running("RENDER")
+
+
 def given_render():
     """F12, by Workbench with flat colours; then an object is moved."""
     scene = window().scene
@@ -161,9 +173,9 @@ def given_render():
     scene.display.shading.light = "FLAT"
     for name in ("show_cavity", "show_shadows", "show_object_outline", "show_specular_highlight"):
         setattr(scene.display.shading, name, False)
-    yield 0.5
+    yield
     press("F12")
-    yield 3
+    yield from until(rendered, 60)
     yield from at_the_panel("RENDER_RESULT")
     yield from judged("given_rendered")
     scene.objects["Suzanne"].location.x += 0.2

@@ -20,8 +20,7 @@ def click(region, x, y):
     """Click with the left button at a place of a region, as a hand does."""
     for action in (("mousemove", *on_screen(region, x, y)), ("mousedown", 1), ("mouseup", 1)):
         xdotool(*action)
-        yield 0.2
-    yield 0.8
+        yield
 
 
 def found(area, command, across=0.6, step=16):
@@ -41,14 +40,14 @@ def found(area, command, across=0.6, step=16):
     for _ in range(3):
         for y in range(region.height - step, 0, -step):
             xdotool("mousemove", *on_screen(region, x, y))
-            yield 0.06
+            yield
             with bpy.context.temp_override(window=window(), area=area, region=region):
                 if bpy.ops.ui.copy_python_command_button.poll():  # what Ctrl+C does on a button
                     bpy.ops.ui.copy_python_command_button()
                     if command in bpy.context.window_manager.clipboard:
                         return region, x, y
         xdotool("click", "--repeat", 8, 5)  # the wheel
-        yield 0.5
+        yield
     raise LookupError(f"there is no button {command}")
 
 

@@ -26,7 +26,7 @@ def played(scenes):
     """One after another, with the viewport as the judge, and whether each stayed as it was."""
     for make in scenes:
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-        yield 0.3
+        yield
         try:
             yield from built_and_compared(make)
         except RuntimeError as error:  # of one scene: the others are played all the same
@@ -36,7 +36,7 @@ def played(scenes):
 def built_and_compared(make):
     with bpy.context.temp_override(window=window()):
         make(Build())
-    yield 0.3
+    yield
     before = places()
     press_compare()
     yield from until(compared)

@@ -62,17 +62,17 @@ def house():
     show_panel()
     timeline = next(a for a in window().screen.areas if a.type == "DOPESHEET_EDITOR")
     timeline.type = "IMAGE_EDITOR"
-    yield 1
+    yield
     for menu, editor in MENUS.items():
         with over(editor):
             bpy.ops.wm.call_menu(name=menu)
-        yield 1
+        yield
         screenshot(menu)
         press("Escape")
-        yield 0.5
+        yield
     with over("PROPERTIES"):
         bpy.ops.wm.call_panel(name=PRESETS)
-    yield 1
+    yield
     screenshot("presets")
     press("Escape")
     noted["english"] = noted.pop("drawn")
@@ -82,7 +82,7 @@ def house():
     noted["preset"] = {name: getattr(stored, name) for name in stored.keys()}
     bpy.app.translations.register("story", {"es": WORDS})
     view.language = "es"
-    yield 1
+    yield
     noted["spanish"] = noted.pop("drawn")
     noted["formatted"] = module("blender.ui.panels").iface_("{} differ, {} open")
     view.language = before[1]
@@ -90,12 +90,12 @@ def house():
     view.ui_scale = 2.0
     with over("PROPERTIES"):
         bpy.ops.screen.screen_full_area()
-    yield 1
+    yield
     screenshot("twice_the_size")
     with over("PROPERTIES"):
         bpy.ops.screen.screen_full_area()
     view.ui_scale, bpy.context.preferences.is_dirty = before[0], before[2]
-    yield 1
+    yield
     for area in window().screen.areas:
         if area.type == "VIEW_3D":
             shading = area.spaces.active.shading

@@ -79,7 +79,7 @@ def in_images():
     comparison = result().content
     noted["frame"] = {}
     area = area_of("IMAGE_EDITOR")
-    yield 1
+    yield
     yield from open_tab(area)
     before = settings()
     sidebar = next(r for r in area.regions if r.type == "UI")
@@ -89,7 +89,7 @@ def in_images():
     for name, x, y in (("Traced", 470, 300), ("Difference", 400, 190), ("Blender", 600, 200)):
         area.spaces.active.image = bpy.data.images[f"Reference Tracer {name}"]
         zoom(area, 2)
-        yield 0.7
+        yield
         u, v = region.view2d.view_to_region((x + 0.5) / 960, (y + 0.5) / 540, clip=False)
         yield from click(region, u, v)
         noted[name] = {"clicked": [x, y], "pixel": pixel()}
@@ -97,19 +97,19 @@ def in_images():
         noted["frame"][name] = float(frame.t[y, x])
         screenshot(f"inspect_{name.lower()}")
     zoom(area, 0.5)
-    yield 0.5
+    yield
     u, v = region.view2d.view_to_region(-0.02, 0.5, clip=False)
     yield from click(region, u, v)
     noted["outside"] = pixel()
     bpy.data.images.new("Other", 64, 64)
     area.spaces.active.image = bpy.data.images["Other"]
-    yield 0.7
+    yield
     u, v = region.view2d.view_to_region(0.5, 0.5, clip=False)
     yield from click(region, u, v)
     noted["other"] = pixel()
     screenshot("inspect_refused")
     press("Escape")
-    yield 0.5
+    yield
     noted["after_escape"] = running()
     noted["changed"] = {k: v for k, v in settings().items() if before[k] != v}
     noted["texts"] = [t.name for t in bpy.data.texts]
@@ -130,14 +130,14 @@ def in_render():
             bpy.ops.render.render()
         area.spaces.active.image = bpy.data.images["Render Result"]
         zoom(area, 2)  # what is clicked is a whole number on the screen
-        yield 1
+        yield
         invoke("inspect")
         region = region_of(area)
         middle = 0.5 + 0.5 / 960, 0.5 + 0.5 / 540  # within a pixel, not between two
         yield from click(region, *region.view2d.view_to_region(*middle, clip=False))
         noted["clicks"].append([border, crop, pixel()])
         press("Escape")
-        yield 0.5
+        yield
     screenshot("inspect_render")
 
 
@@ -145,7 +145,7 @@ def in_view():
     """In the camera's view, with the ray drawn; undo and one button remove it."""
     area = area_of("VIEW_3D")
     look_through_camera(area)
-    yield 1
+    yield
     yield from open_tab(area)
     bpy.context.window_manager.reference_tracer.draw_ray = True
     clean = data_blocks()
@@ -164,25 +164,25 @@ def in_view():
     ]
     view = area.spaces.active.region_3d
     view.view_perspective = "PERSP"
-    yield 0.5
+    yield
     last = pixel()
     yield from click(region, region.width / 3, region.height / 2)
     noted["not_through_the_camera"] = pixel() == last
     screenshot("inspect_not_the_camera")
     press("Escape")
-    yield 0.5
+    yield
     noted["after_escape"] = running()
     frame_drawing(area)
-    yield 1
+    yield
     screenshot("inspect_ray")
     noted["after_undo"] = []
     for step in ("undo", "undo", "redo"):
         with bpy.context.temp_override(window=window()):
             getattr(bpy.ops.ed, step)()
-        yield 0.5
+        yield
         noted["after_undo"].append(len(set(data_blocks()["objects"]) - set(clean["objects"])))
     noted["removed"] = list(invoke("remove_ray"))
-    yield 0.5
+    yield
     noted["left"] = {
         k: sorted(set(v) - set(clean[k])) for k, v in data_blocks().items() if v != clean[k]
     }
@@ -206,15 +206,15 @@ def frame_drawing(area):
 def other_file():
     """Another file ends it, and it can be begun again."""
     area_of("VIEW_3D")
-    yield 0.5
+    yield
     invoke("inspect")
     noted["running"] = running()
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
-    yield 1
+    yield
     noted["left"] = running()
     noted["again"] = list(invoke("inspect"))
     press("Escape")
-    yield 0.5
+    yield
     noted["ended"] = running()
 
 

@@ -24,7 +24,7 @@ def from_disk():
     repositories = [r.module for r in bpy.context.preferences.extensions.repos]
     number = repositories.index("user_default")
     bpy.ops.extensions.package_uninstall(repo_index=number, pkg_id=ID)
-    yield 0.5
+    yield
     noted["gone"] = {
         "panel": hasattr(bpy.types, "RENDER_PT_reference_tracer"),
         "scene": hasattr(bpy.types.Scene, ID),
@@ -36,11 +36,11 @@ def from_disk():
             filepath=str(package), repo="user_default", enable_on_install=True
         )
         noted[name] = list(done)
-        yield 0.5
+        yield
     window().scene.render.engine = "REFERENCE_TRACER"
     window().scene.render.resolution_percentage = 25
     show_panel()
-    yield 0.5
+    yield
     press_compare()
     yield from until(compared, 60)
     noted["verdict"] = result().content.verdict

@@ -11,6 +11,7 @@ from story import (
     MODULE,
     OUT,
     compared,
+    ended,
     module,
     noted,
     press_compare,
@@ -37,7 +38,7 @@ def interruptions():
         except Exception as error:  # of one: the others are played all the same
             found["error"] = f"{type(error).__name__}: {error}"
             continue
-        yield 0.3
+        yield
         found["running"] = still_running()
         if found.get("same_file", True):
             found["left"] = changed(before)
@@ -47,7 +48,7 @@ def interruptions():
 
 def begun():
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/suzanne.blend")
-    yield 0.3
+    yield
     window().scene.render.resolution_percentage = 20
     bpy.context.view_layer.update()
     with bpy.context.temp_override(window=window()):
@@ -62,7 +63,7 @@ def state():
         if p.type == "COLLECTION" and p.identifier not in UNSTEADY
     }
     handlers = {
-        name: [getattr(h, "__qualname__", str(h)) for h in found]
+        name: sorted(getattr(h, "__qualname__", str(h)) for h in found)
         for name in dir(bpy.app.handlers)
         if isinstance(found := getattr(bpy.app.handlers, name), list)
     }
@@ -107,10 +108,6 @@ def wake():
         subprocess.run(["xdotool", "mousemove", x, "350"], check=True)
 
 
-def ended():
-    return not running()
-
-
 def undone(found):
     """Undo and redo."""
     window().scene.objects["Suzanne"].location.x += 0.001
@@ -119,10 +116,10 @@ def undone(found):
     yield from started()
     with bpy.context.temp_override(window=window()):
         bpy.ops.ed.undo()
-        yield 0.2
+        yield
         bpy.ops.ed.redo()
     yield from until(ended, 60)
-    yield 0.2
+    yield
     window().scene.objects["Suzanne"].location.x -= 0.001
 
 
@@ -140,11 +137,11 @@ def loaded(found):
     """Another file, and the one that Blender starts with."""
     yield from started()
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
-    yield 0.2
+    yield
     first = not still_running()
     yield from started_large()
     bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield 0.2
+    yield
     found["stopped"] = first and not still_running()
     found["same_file"] = False
 
@@ -159,7 +156,7 @@ def switched_off(found):
     yield from started()
     off_and_on()
     wake()
-    yield 0.2
+    yield
     found["stopped"] = not still_running()
 
 
@@ -170,7 +167,7 @@ def switched_often(found):
         off_and_on()
     found["classes"] = len(bpy.types.Operator.__subclasses__()) - before
     found["stopped"] = not still_running()
-    yield 0.2
+    yield
 
 
 def off_and_on():
@@ -183,7 +180,7 @@ def closed_area(found):
     area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
     yield from started()
     area.type = "TEXT_EDITOR"
-    yield 0.2
+    yield
     area.type = "VIEW_3D"
     yield from until(ended, 60)
 
@@ -192,11 +189,11 @@ def closed_window(found):
     """The window that it was started in is closed; another is there."""
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.window_new()
-    yield 0.5
+    yield
     _, second = bpy.context.window_manager.windows
     with bpy.context.temp_override(window=second):
         bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
-    yield 0.1
+    yield
     _, of_comparison = windows()
     close(of_comparison)
 
@@ -204,6 +201,7 @@ def closed_window(found):
         return len(bpy.context.window_manager.windows) == 1
 
     yield from until(one_is_left, 20)
+    yield
     found["stopped"] = not still_running()
 
 
@@ -213,7 +211,7 @@ def removed_scene(found):
     other = bpy.data.scenes.new("Other")
     yield from started()
     window().scene = other
-    yield 0.2
+    yield
     copy = scene.copy()
     copy.name = name = "Kept"
     bpy.data.scenes.remove(scene)

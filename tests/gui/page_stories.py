@@ -24,12 +24,12 @@ def page():
     """Compare, then the button: a file that the browser is told to open, and nothing else."""
     with_browser()
     show_panel()
-    yield 1
+    yield
     yield from open_tab()
     noted["before"] = bpy.ops.reference_tracer.open_page.poll()
     press_compare()
     yield from until(compared)
-    yield 1
+    yield
     screenshot("page_button")
     before = settings(), data_blocks()
     noted["pressed"] = list(invoke("open_page"))

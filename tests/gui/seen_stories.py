@@ -9,6 +9,7 @@ from mathutils import Vector
 from story import (
     OUT,
     compared,
+    ended,
     module,
     noted,
     press,
@@ -26,7 +27,7 @@ SIDEBAR, PROPERTIES = "VIEW3D_PT_reference_tracer", "RENDER_PT_reference_tracer"
 
 
 def at_rest():
-    return compared() and not running()
+    return compared() and ended()
 
 
 def front(kind="VIEW_3D"):
@@ -38,7 +39,7 @@ def front(kind="VIEW_3D"):
             sidebar = next(r for r in area.regions if r.type == "UI")
             sidebar.active_panel_category = "Reference Tracer"
         area.tag_redraw()
-    yield 0.5
+    yield
 
 
 def drawn_anew(kind):
@@ -46,7 +47,7 @@ def drawn_anew(kind):
     with noting(kind, [kind + part for part in PARTS]) as found:
         for area in window().screen.areas:
             area.tag_redraw()
-        yield 0.7
+        yield
     return found
 
 
@@ -62,13 +63,13 @@ def resized(width, height):
         return window().width == width
 
     yield from until(it_is, 20)
-    yield 0.5
+    yield
 
 
 def panel():
     """The panel of a new file, and after the button, at all sizes."""
     bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield 0.5
+    yield
     show_panel()
     yield from front()
     scene, view = window().scene, bpy.context.preferences.view
@@ -76,7 +77,7 @@ def panel():
     found = yield from drawn_anew(SIDEBAR)
     noted["folded"] = found[SIDEBAR]["folded"]
     noted["new"] = [(e["kind"], e["text"]) for e in found[SIDEBAR]["drawn"]]
-    yield 0.3
+    yield
     screenshot("panel_new")
     press_compare()
     yield from until(at_rest)
@@ -95,7 +96,7 @@ def panel():
         if window().width != width:
             yield from resized(width, 720)
         view.ui_scale = shown
-        yield 0.3
+        yield
         found = yield from drawn_anew(kind)
         screenshot(f"panel_{name}")
         noted["cut"][name] = cut(found)
@@ -130,7 +131,7 @@ def pressed(mode):
     view.render_display_type = mode
     press_compare()
     yield from until(at_rest, 60)
-    yield 0.7
+    yield
     view.render_display_type, bpy.context.preferences.is_dirty = before
 
 
@@ -149,12 +150,12 @@ def shown():
             x, y = area.x + area.width // 4, where.height - area.y - area.height // 4
             keys = ["mousemove", str(x), str(y), "key", "Escape"]
             subprocess.run(["xdotool", *keys], check=True)
-            yield 0.7
+            yield
         found["back"] = opened()[0] == before
     noted["images"] = sorted(i.name for i in bpy.data.images)
     with bpy.context.temp_override(window=window()):
         bpy.ops.reference_tracer.compare("EXEC_DEFAULT")  # as a script calls it
-    yield 0.7
+    yield
     noted["by_script"] = opened()[0] == before
     yield from pressed("WINDOW")
     noted["WINDOW"] = opened()
@@ -162,7 +163,7 @@ def shown():
     where, area = editor()
     with bpy.context.temp_override(window=where):
         bpy.ops.wm.window_close()
-    yield 0.5
+    yield
 
 
 def colors_at(name, area, places):
@@ -200,7 +201,7 @@ def compared_images():
     for image in ("DIFFERENCE", "CAUSES", "TRACED", "OTHER", "BOTH"):
         with bpy.context.temp_override(window=where, area=area):
             bpy.ops.reference_tracer.show_image(image=image)
-        yield 0.5
+        yield
         seen[image] = colors_at(f"image_{image.lower()}", area, places)
     manager = bpy.context.window_manager.reference_tracer
     width, height = other.size
@@ -218,7 +219,7 @@ def compared_images():
     system = bpy.context.preferences.system
     limit, is_dirty = system.gl_texture_limit, bpy.context.preferences.is_dirty
     system.gl_texture_limit = "CLAMP_256"  # of textures: a coarse picture, at the same place
-    yield 0.5
+    yield
     seen["COARSE"] = colors_at("image_coarse", area, places)
     noted["coarse"] = float((abs(seen["COARSE"] - seen["OTHER"])[right] > 0.1).any(axis=1).mean())
     system.gl_texture_limit, bpy.context.preferences.is_dirty = limit, is_dirty
@@ -233,7 +234,7 @@ def compared_images():
         ["mouseup", "1"],
     ):
         subprocess.run(["xdotool", *action], check=True)
-        yield 0.3
+        yield
     noted["dragged"] = [manager.split, 0.5 + 96 / (at.right - at.left)]
     screenshot("image_dragged")
     regions = result().regions
@@ -243,7 +244,7 @@ def compared_images():
     view = region.view2d
     with bpy.context.temp_override(window=window()):
         noted["framed"] = list(bpy.ops.reference_tracer.frame_region(number=0))
-    yield 0.5
+    yield
     screenshot("image_framed")
     low = view.region_to_view(0, 0)
     high = view.region_to_view(region.width, region.height)
@@ -262,7 +263,7 @@ def compared_images():
     before = views.view_location.copy()
     with bpy.context.temp_override(window=window()):
         bpy.ops.reference_tracer.frame_region(number=0)
-    yield 0.7
+    yield
     noted["moved"] = (views.view_location - before).length
     screenshot("view_framed")
     before = views.view_location.copy()
@@ -272,7 +273,7 @@ def compared_images():
         bpy.ops.mesh.select_all(action="SELECT")
         views.view_location = before + Vector((1, 0, 0))
         bpy.ops.reference_tracer.frame_region(number=0)
-    yield 0.7
+    yield
     noted["editing"] = (views.view_location - before).length
     with bpy.context.temp_override(window=window()):
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -307,23 +308,23 @@ def status_bar():
     heard, stop = listened()
     press_compare()
     noted["at_once"] = heard[-1]
-    yield 0.02
+    yield
     screenshot("status_drawing")
     yield from until(at_rest, 100)
     noted["heard"] = [text for text in heard if text]
     noted["left"] = said()
     press_compare()
-    yield 1
+    yield 0.5
     other = next(w for w in bpy.data.workspaces if w != window().workspace)
     window().workspace = other
     yield from until(lambda: other.name in said(), 10)
     noted["moved"] = said()
     press("Escape")
-    yield 1
+    yield
     noted["after_escape"] = [running(), said()]
     scene.camera.data.type = "PANO"
     press_compare()
-    yield 1
+    yield
     noted["after_error"] = [running(), said()]
     scene.camera.data.type = "PERSP"
     scene.render.resolution_percentage = 20
@@ -360,7 +361,7 @@ def after_a_render():
         with bpy.context.temp_override(window=window()):
             bpy.ops.render.render("INVOKE_DEFAULT")
         yield from until(lambda: editor()[1] and not bpy.app.is_job_running("RENDER"), 60)
-        yield 0.7
+        yield
         rendered = opened()
         yield from pressed(mode)
         noted[mode] = rendered, opened()
@@ -369,14 +370,14 @@ def after_a_render():
             x, y = area.x + area.width // 4, where.height - area.y - area.height // 4
             keys = ["mousemove", str(x), str(y), "key", "Escape"]
             subprocess.run(["xdotool", *keys], check=True)
-            yield 0.7
+            yield
     view.render_display_type, bpy.context.preferences.is_dirty = before
 
 
 def step(name):
     with bpy.context.temp_override(window=window()):
         getattr(bpy.ops.ed, name)()
-    yield 0.5
+    yield
 
 
 def left_behind():
@@ -398,13 +399,13 @@ def left_behind():
     noted["again"] = ours()
     _, area = editor()
     area.type = "VIEW_3D"  # the editor is closed
-    yield 0.3
+    yield
     yield from pressed("AREA")
     noted["reopened"] = ours()
     path = OUT / "saved.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     bpy.ops.wm.open_mainfile(filepath=str(path))
-    yield 1
+    yield
     noted["loaded"] = ours()
 
 
@@ -415,10 +416,10 @@ def sample():
     area = window().screen.areas[0]
     with bpy.context.temp_override(window=window(), area=area):
         bpy.ops.wm.call_menu(name="TOPBAR_MT_file_new")
-    yield 0.7
+    yield
     screenshot("file_new")
     press("Escape")
-    yield 0.3
+    yield
     scene = next(f for f in files if f.name == "exercise_triangle.blend")
 
     def choose():
@@ -429,15 +430,15 @@ def sample():
     bpy.ops.ed.undo_push(message="Add")
     noted["dirty"] = bpy.data.is_dirty
     choose()
-    yield 1
+    yield
     screenshot("unsaved")
     noted["kept"] = [window().scene.name, bpy.data.filepath != ""]
     press("Escape")
-    yield 0.5
+    yield
     bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
-    yield 1
+    yield
     choose()
-    yield 1
+    yield
     noted["opened"] = [window().scene.name, bpy.data.filepath]
     screenshot("sample")
 

@@ -8,6 +8,7 @@ import numpy as np
 from story import (
     compared,
     data_blocks,
+    ended,
     invoke,
     noted,
     open_tab,
@@ -31,14 +32,14 @@ def f12():
     bpy.context.preferences.view.render_display_type = "AREA"
     done = []
     bpy.app.handlers.render_complete.append(lambda *a: done.append(True))
-    yield 1
+    yield
     press("F12")
 
     def rendered():
         return done
 
     yield from until(rendered)
-    yield 1
+    yield
     screenshot("f12")
     noted["result"] = render_result()
     noted["areas"] = [a.type for w in bpy.context.window_manager.windows for a in w.screen.areas]
@@ -53,9 +54,10 @@ def f12_escape():
     scene.render.use_lock_interface = False
     cancelled = []
     bpy.app.handlers.render_cancel.append(lambda *a: cancelled.append(time.monotonic()))
-    yield 1
+    yield
     press("F12")
-    yield 6
+    yield from until(rendering)
+    yield 2
     screenshot("f12_running")
     pressed = time.monotonic()
     press("Escape")
@@ -65,19 +67,25 @@ def f12_escape():
 
     yield from until(stopped)
     noted["seconds_to_stop"] = cancelled[0] - pressed
-    yield 1
+    yield
     screenshot("f12_cancelled")
     noted["result"] = render_result()
+
+
+def rendering():
+    return bpy.app.is_job_running("RENDER")
 
 
 def f12_error():
     """F12 on a scene that cannot be traced: the window says why."""
     window().scene.render.engine = "REFERENCE_TRACER"
     window().scene.camera.data.type = "PANO"
-    yield 1
+    yield
     earlier = reports()
     press("F12")
-    yield 3
+    yield
+    yield from until(lambda: not rendering())
+    yield
     screenshot("f12_error")
     noted["reports"] = reports().removeprefix(earlier)
 
@@ -85,12 +93,15 @@ def f12_error():
 def compare():
     """The button: three images, the numbers in the panel, nothing else changed."""
     show_panel()
-    yield 1
+    preferences = bpy.context.preferences
+    preferences.system.viewport_aa = "FXAA"  # which must survive, too
+    preferences.is_dirty = False
+    yield
     bpy.ops.render.render()  # the user's own last render must survive
     before = settings(), data_blocks(), render_result()
     noted["pressed"] = list(press_compare())
     yield from until(compared)
-    yield 1
+    yield from until(ended)
     after = settings(), data_blocks(), render_result()
     comparison = result().content
     noted["comparison"] = comparison.to_dict()
@@ -106,7 +117,7 @@ def compare():
     }
     window().scene.render.engine = "REFERENCE_TRACER"  # its tab is short: our panel is in sight
     show_panel()
-    yield 0.5
+    yield
     yield from open_tab()
     screenshot("compare")
     for area in window().screen.areas:
@@ -114,11 +125,11 @@ def compare():
             area.type = "IMAGE_EDITOR"
             area.spaces.active.image = bpy.data.images["Reference Tracer Difference"]
             break
-    yield 1
+    yield
     screenshot("compare_difference")
     with bpy.context.temp_override(window=window()):
         noted["undo"] = list(bpy.ops.ed.undo())
-    yield 1
+    yield
     noted["after_undo"] = [i.name for i in bpy.data.images if i.name.startswith("Reference Tracer")]
 
 
@@ -127,7 +138,7 @@ def engines():
     window().scene.render.engine = "REFERENCE_TRACER"
     window().scene.render.resolution_percentage = 25
     show_panel()
-    yield 1
+    yield
     before = settings(), data_blocks()
     noted["pressed"] = list(invoke("compare_all"))
 
@@ -135,7 +146,7 @@ def engines():
         return result("ENGINES") is not None
 
     yield from until(compared_all)
-    yield 1
+    yield from until(ended)
     after = settings(), data_blocks()
     noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
     noted["new"] = {k: v for k, v in after[1].items() if v != before[1][k]}
@@ -151,7 +162,7 @@ def animation():
     scene.render.resolution_percentage = 10
     scene.frame_end, scene.frame_current = 60, 7
     show_panel()
-    yield 1
+    yield
     before = settings(), data_blocks()
     noted["pressed"] = list(invoke("compare_animation"))
 
@@ -159,13 +170,10 @@ def animation():
         found = result("FRAMES")
         return found and len(found.content[1]) > 2
 
-    def stopped():
-        return not running()
-
     yield from until(some_are_done)
     screenshot("animation_running")
     press("Escape")
-    yield from until(stopped)
+    yield from until(ended)
     page, rows = result("FRAMES").content
     noted["frames"] = [row.frame for row in rows]
     noted["on_disk"] = sorted(p.parent.name for p in page.parent.glob("*/made_by.json"))
@@ -177,9 +185,9 @@ def animation():
     yield from open_tab()
     screenshot("animation")
     noted["pressed_again"] = list(invoke("compare_animation"))
-    yield 1
+    yield 0.5
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
-    yield 1
+    yield
     noted["left"] = running()
 
 
@@ -187,8 +195,9 @@ def compare_as_is():
     """The user's own shading: what smooths a window's edges is a preference, not the scene's."""
     window().scene.reference_tracer.shading = "AS_IS"
     window().scene.display.viewport_aa = "OFF"
+    bpy.context.preferences.system.viewport_aa = "FXAA"
     window().scene.render.resolution_percentage = 50
-    yield 1
+    yield
     press_compare()
     yield from until(compared)
     noted["comparison"] = result().content.to_dict()
@@ -198,20 +207,16 @@ def compare_as_is():
 def compare_escape():
     """Esc midway: stopped at once, and everything as before."""
     scene = window().scene
-    scene.render.resolution_percentage = 400
-    yield 1
+    scene.render.resolution_percentage = 200
+    yield
     before = settings(), data_blocks()
     press_compare()
-    yield 1
+    yield 0.5
     noted["running"] = [o.bl_idname for o in window().modal_operators]
     screenshot("compare_running")
     pressed = time.monotonic()
     press("Escape")
-
-    def stopped():
-        return not any("compare" in o.bl_idname.lower() for o in window().modal_operators)
-
-    yield from until(stopped)
+    yield from until(ended)
     noted["seconds_to_stop"] = time.monotonic() - pressed
     after = settings(), data_blocks()
     noted["same"] = before == after
@@ -221,13 +226,13 @@ def compare_escape():
 
 def compare_another_file():
     """Another file is opened midway: that comparison ends, and the next one works."""
-    window().scene.render.resolution_percentage = 400
-    yield 1
+    window().scene.render.resolution_percentage = 200
+    yield
     press_compare()
-    yield 1
+    yield 0.5
     noted["running"] = [o.bl_idname for o in window().modal_operators]
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
-    yield 1
+    yield
     noted["left"] = [o.bl_idname for o in window().modal_operators]
     press_compare()
     yield from until(compared)
@@ -237,10 +242,10 @@ def compare_another_file():
 def compare_error():
     """A scene that cannot be traced: an error, and everything as before."""
     window().scene.camera.data.type = "PANO"
-    yield 1
+    yield
     before = settings(), data_blocks()
     press_compare()
-    yield 0.5
+    yield
     noted["running"] = running()
     noted["same"] = before == (settings(), data_blocks())
     noted["message"] = reports()
@@ -258,19 +263,19 @@ def no_camera():
     noted["before"] = [button.poll() for button in buttons]
     screenshot("no_camera")
     noted["pressed"] = list(invoke("frame_all"))
-    yield 1
+    yield
     noted["after"] = [button.poll() for button in buttons]
     for area in window().screen.areas:
         if area.type == "VIEW_3D":
             area.spaces.active.region_3d.view_perspective = "CAMERA"
-    yield 1
+    yield
     screenshot("frame_all")
     press_compare()
     yield from until(compared)
     noted["comparison"] = result().content.to_dict()
     with bpy.context.temp_override(window=window()):
         noted["undo"] = [list(bpy.ops.ed.undo()) for _ in range(2)]
-    yield 1
+    yield
     noted["cameras"] = [o.name for o in bpy.data.objects if o.type == "CAMERA"]
 
 
@@ -283,7 +288,7 @@ def scenes():
             bpy.ops.wm.read_homefile(use_factory_startup=True)
         # Few of the pixels: the whole of suzanne is in a story above.
         window().scene.render.resolution_percentage = 25
-        yield 0.5
+        yield
         press_compare()
         yield from until(compared)
         noted[path.stem] = result().content.to_dict()

@@ -27,8 +27,11 @@ def press(key):
     subprocess.run(["xdotool", "mousemove", "500", "350", "key", key], check=True)
 
 
-def screenshot(name):
-    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+def screenshot(name, *options):
+    """Write what the screen shows, or the part that options of `import` say, into a PNG."""
+    quick = ["-quality", "10"]  # by the default, it takes up to seconds
+    path = str(OUT / f"{name}.png")
+    subprocess.run(["import", "-window", "root", *options, *quick, path], check=True)
 
 
 def data_blocks():
@@ -153,14 +156,18 @@ def running():
     ]
 
 
+def ended():
+    return not running()
+
+
 def open_tab(area=None):
     """Bring our tab of an editor's sidebar to the front, of the 3D view's by default."""
     area = area or next(a for a in window().screen.areas if a.type == "VIEW_3D")
     area.spaces.active.show_region_ui = True
-    yield 0.5
+    yield 0.3  # it slides in
     next(r for r in area.regions if r.type == "UI").active_panel_category = SIDEBAR_TAB
     area.tag_redraw()
-    yield 0.5
+    yield
 
 
 def show_panel():

@@ -9,6 +9,7 @@ from urllib.request import url2pathname
 import bpy
 from story import (
     data_blocks,
+    ended,
     invoke,
     module,
     noted,
@@ -41,10 +42,10 @@ def show_study(name, picture):
     """Open a panel of our tab by its header."""
     window().scene.render.engine = "REFERENCE_TRACER"
     show_panel()
-    yield 0.5
+    yield
     yield from open_tab()
     subprocess.run(["xdotool", "mousemove", *PANELS[name], "click", "1"], check=True)
-    yield 1
+    yield
     screenshot(picture)
 
 
@@ -57,11 +58,11 @@ def images():
 
 def study(name, kind, **options):
     """Press a button, look at it run, and at what it shows."""
-    yield 1
+    yield
     bpy.ops.render.render()  # the user's own last render must survive
     before = settings(), data_blocks(), render_result()
     noted["pressed"] = list(invoke(name, **options))
-    yield 1
+    yield
     noted["running"] = running()
     noted["others"] = [
         operator.poll()
@@ -73,7 +74,7 @@ def study(name, kind, **options):
         return result(kind)
 
     yield from until(found, 900)
-    yield 1
+    yield
     note_changes(before)
     noted["lines"] = list(result(kind).lines)
     page = Path(url2pathname(urlparse(result(kind).page).path))  # what the panel's button opens
@@ -104,18 +105,14 @@ def extremes():
 
 def escape(name, kind, **options):
     """Esc midway: stopped, and everything as before."""
-    yield 1
+    yield
     before = settings(), data_blocks(), render_result()
     invoke(name, **options)
-    yield 2
+    yield 0.5
     noted["running"] = running()
     pressed = time.monotonic()
     press("Escape")
-
-    def stopped():
-        return not running()
-
-    yield from until(stopped)
+    yield from until(ended)
     noted["seconds_to_stop"] = time.monotonic() - pressed
     note_changes(before)
     noted["found"] = result(kind) is not None

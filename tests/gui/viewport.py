@@ -1,12 +1,11 @@
 """The 3D view that the viewport's stories turn, and what it shows on the screen."""
 
 import gc
-import subprocess
 import weakref
 
 import bpy
 import numpy as np
-from story import OUT, module, until, window
+from story import OUT, module, screenshot, until, window
 
 
 def prepared():
@@ -92,12 +91,10 @@ def settled():
 
 def screen(name):
     """The view on the screen, (h, w, 3) from 0 to 255, row 0 at the bottom; a file keeps it."""
-    path, r = str(OUT / f"{name}.png"), region()
+    r = region()
     bottom = window().height - r.y - r.height
-    part = ["-crop", f"{r.width}x{r.height}+{r.x}+{bottom}", "+repage"]
-    quick = ["-quality", "10"]  # of the default, a dithered picture takes seconds
-    subprocess.run(["import", "-window", "root", *part, *quick, path], check=True)
-    image = bpy.data.images.load(path)
+    screenshot(name, "-crop", f"{r.width}x{r.height}+{r.x}+{bottom}", "+repage")
+    image = bpy.data.images.load(str(OUT / f"{name}.png"))
     image.colorspace_settings.name = "Non-Color"
     pixels = np.empty(r.width * r.height * 4, np.float32)
     image.pixels.foreach_get(pixels)

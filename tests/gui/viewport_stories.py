@@ -33,16 +33,6 @@ TURNED = Euler((1.1, 0.1, 0.7)).to_quaternion()
 def viewport_pixels():
     """Views of all kinds beside Blender's own solid drawing of them."""
     yield from prepared()
-    preferences = bpy.context.preferences
-    before, dirty = preferences.system.viewport_aa, preferences.is_dirty
-    preferences.system.viewport_aa = "OFF"
-    try:
-        yield from all_beside()
-    finally:
-        preferences.system.viewport_aa, preferences.is_dirty = before, dirty
-
-
-def all_beside():
     for view in (frame, zoomed_border, parallel_camera, free, free_border, parallel):
         view()
         seen = yield from in_mode("RENDERED")
