@@ -12,8 +12,8 @@ SHARED = -n $(WORKERS) --no-loadscope-reorder
 # Bytecode is kept, also where the machine says no: else each of hundreds of processes compiles anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu torture bench docs lint extension \
-	release clean
+.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu torture bench docs lessons lesson-tools lint \
+	extension release clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -59,7 +59,7 @@ test-gpu: extension ## compare all sample scenes with what draws here, a graphic
 	$(PYTHON_IN_VENV) tools/gpu.py $(if $(BLENDER),--blender "$(BLENDER)")
 
 # What `make test` samples, at its full length.
-torture: extension ## run the long tests, too long for every day: the suites at their full size
+torture: extension lesson-tools ## run the long tests, too long for every day: the suites at their full size
 	$(PYTEST) -m torture
 
 # OPTIONS=--quick: two minutes instead; or any other option of `reftrace bench`.
@@ -80,6 +80,15 @@ docs: extension demo ## refresh the documents: run their commands, compute their
 	else \
 		$(PYTHON_IN_VENV) tools/make_docs.py; \
 	fi
+
+# PYODIDE=folder: Pyodide's full distribution, unpacked, to go into the pack, so that it needs no network.
+lessons: extension lesson-tools ## build the lesson pack, dist/lessons: needs npm, and Chromium, which root installs
+	$(PYTHON_IN_VENV) tools/make_lessons.py $(if $(PYODIDE),--pyodide "$(PYODIDE)")
+
+lesson-tools: .venv/.stamp
+	tools/browser.sh setup
+	$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --no-build-isolation \
+		--editable '.[lessons]'
 
 lint: .venv/.stamp ## check the style of all code, its format, and the types that it names
 	$(PYTHON_IN_VENV) -m ruff check .

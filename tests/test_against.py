@@ -30,6 +30,11 @@ def scene(make):
     return replace(make.scene(camera, *(make.mesh(s) for s in solids)), objects=("Ball", "Box"))
 
 
+def moved(camera):
+    """Return the camera with another angle of view."""
+    return replace(camera, window=camera.window.scaled(1.1, 1.1))
+
+
 @pytest.fixture
 def against(scene, tmp_path, capsys, exit_code):
     """Compare the scene with a picture; returns the exit code, the JSON and what was printed."""
@@ -80,6 +85,18 @@ def test_its_own_picture_agrees(scene, against, name):
     assert f"agree with the picture '{name}'" in text
     assert [o["name"] for o in found["scene"]["objects"]] == ["Ball", "Box"]
     assert found["scene"]["objects"][1]["triangles"] == 12
+
+
+def test_who_drew_with_light_is_told_that_surfaces_have_other_colours(scene, against):
+    """A picture with another camera, or with an object less, has a reason of its own."""
+    color = render(scene).color
+    told = "was it drawn with light"
+    lit = color.copy()
+    lit[..., :3] *= np.linspace(0.3, 0.9, 60)[:, None]
+    assert told in against(lit)[2]
+    half = scene.instances[:1]
+    for wrong in (replace(scene, instances=half), scene.seen_by(moved(scene.camera))):
+        assert told not in against(render(wrong).color)[2]
 
 
 def test_a_profile_of_the_pictures_is_named(scene, against):

@@ -6,6 +6,7 @@ import ast
 import re
 import shutil
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -27,12 +28,21 @@ def tools():
     sys.path.insert(0, TOOLS)
     try:
         import make_docs
-        from documents import derivations, figures, markers, pictures, python, records
+        from documents import (
+            derivations,
+            drawings,
+            figures,
+            markers,
+            pictures,
+            python,
+            records,
+            subjects,
+        )
 
         yield {
             **{"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures},
-            "derivations": derivations,
-            **{"python": python, "records": records},
+            **{"derivations": derivations, "drawings": drawings},
+            **{"python": python, "records": records, "subjects": subjects},
         }
     finally:
         sys.path.remove(TOOLS)
@@ -41,10 +51,10 @@ def tools():
 @pytest.fixture(scope="module")
 def values(tools):
     """Every figure, computed once for all documents."""
-    page = {"python_api": tools["python"].page()}
-    return (
-        page | tools["figures"].values() | tools["derivations"].values() | tools["records"].values()
-    )
+    out = {"python_api": tools["python"].page()}
+    for name in ("figures", "derivations", "records", "subjects"):
+        out |= tools[name].values()
+    return out
 
 
 def texts():
@@ -64,8 +74,8 @@ def test_commands_and_figures(path, tools, values):
     text = path.read_text(encoding="utf-8")
 
     def run(command):
-        if command.how == "here":
-            return "\n".join(command.body.splitlines()[2:-1])  # as it is: another machine's
+        if command.how.startswith("here"):
+            return tools["markers"].printed(command)  # as it is: another machine's
         return tools["make"].run(command)
 
     again = tools["markers"].refreshed(text, run, values)
@@ -111,6 +121,18 @@ def test_pictures(tools):
         assert (stored != fresh).any(axis=2).mean() < 0.001, name
 
 
+def test_drawings(tools):
+    """The lessons' drawings are what is derived today, to within a hundredth of their units."""
+    number = re.compile(r"-?\d+(?:\.\d+)?")
+    stored = {p.stem: p.read_text("utf-8") for p in DOCS.glob("images/lessons/*.svg")}
+    fresh = dict(tools["drawings"].drawings())
+    assert set(stored) == set(fresh)
+    for name, text in fresh.items():
+        assert number.sub("0", stored[name]) == number.sub("0", text), name
+        ours, theirs = ([float(n) for n in number.findall(t)] for t in (text, stored[name]))
+        assert ours == pytest.approx(theirs, abs=0.01), name
+
+
 def test_pictures_are_small():
     for path in (*DOCS.glob("images/lessons/*.png"), *DOCS.glob("images/tutorial/*.png")):
         most = 210_000 if path.stem == "live" else 150_000  # there, every third pixel is red
@@ -141,6 +163,15 @@ def test_the_animation_turns_and_is_small():
     assert all((a != b).any(axis=-1).mean() > 0.02 for a, b in turned)
 
 
+def test_the_clip_has_the_first_steps():
+    path = DOCS / "images" / "tutorial" / "steps.webp"
+    assert path.stat().st_size < 150_000
+    with Image.open(path) as clip:
+        frames = [np.asarray(f.convert("RGB"), int) for f in ImageSequence.Iterator(clip)]
+    changed = pairwise(frames)
+    assert len(frames) == 5 and all((a != b).any(axis=-1).mean() > 0.05 for a, b in changed)
+
+
 def test_every_fault_is_described():
     grading = (DOCS / "grading.md").read_text(encoding="utf-8")
     folder = PROJECT / "packages" / "grading"
@@ -164,9 +195,11 @@ def test_markers(tools):
     text = (
         "a <!-- one -->0<!-- / --> b\n<!-- run: reftrace x -->\nold\n<!-- /run -->\n"
         "<!-- run silently: reftrace y -->\n<!-- /run -->\n"
+        "<!-- run here folded: reftrace z -->\n<!-- /run -->\n"
     )
     found = [(c.how, c.text, c.body) for c in markers.commands(text)]
-    assert found == [("", "reftrace x", "old"), ("silently", "reftrace y", "")]
+    unfolded = [("", "reftrace x", "old"), ("silently", "reftrace y", "")]
+    assert found == [*unfolded, ("here folded", "reftrace z", "")]
     assert markers.figures(text) == ["one"]
 
     def run(command):
@@ -176,6 +209,9 @@ def test_markers(tools):
     assert "a <!-- one -->1<!-- / --> b" in once
     assert "```\n$ reftrace x\nreftrace x in … s\nend\n```" in once
     assert "```\n$ reftrace y\n```" in once
+    assert "$ reftrace z\n```\n\n<details>" in once and once.count("details>") == 2
+    printed = [markers.printed(c) for c in markers.commands(once)]
+    assert printed == ["reftrace x in … s\nend", "", "reftrace z in … s\nend"]
     assert markers.refreshed(once, run, {"one": "1"}) == once
     with pytest.raises(KeyError):
         markers.refreshed(text, run, {})

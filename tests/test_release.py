@@ -126,6 +126,30 @@ def test_its_page_needs_only_what_is_beside_it(release: Path):
         beside.discard(name)
     assert not {name for name in beside if name.endswith((".zip", ".whl"))}
     assert "{{" not in page and "${" not in page
+    assert "](docs/" not in (release / "NOTES.md").read_text(encoding="utf-8")
+
+
+def test_it_takes_the_lesson_pack_of_its_commit(script, monkeypatch, tmp_path: Path):
+    """With what is released in the place of what was there; and of no other commit."""
+    work, out, pack = (tmp_path / name for name in ("work", "out", "dist/lessons"))
+    for folder in (work, out, pack):
+        folder.mkdir(parents=True)
+    (pack / "index.html").write_text("lessons")
+    for name in ("tracer-1.0.zip", "tracer-1.0-py3-none-any.whl"):
+        (pack / name).write_text("built before")
+        (out / name).write_text("released")
+    names = script["lesson_pack"].__globals__
+    monkeypatch.setitem(names, "PROJECT", tmp_path)
+    monkeypatch.setitem(names, "git", lambda *_: b"this\n")
+    for commit in ("", "another\n"):
+        (pack / "commit.txt").write_text(commit)
+        assert script["lesson_pack"](work, out) == []
+    (pack / "commit.txt").write_bytes(b"this\n")
+    [path] = script["lesson_pack"](work, out)
+    assert path.name == "tracer-1.0-lessons.zip" and path.parent == work
+    with zipfile.ZipFile(path) as packed:
+        assert packed.read("index.html") == b"lessons"
+        assert packed.read("tracer-1.0.zip") == b"released"
 
 
 def test_an_address_takes_the_place_of_the_placeholder(script, clone: Path, tmp_path: Path):

@@ -18,7 +18,18 @@ import subprocess
 import sys
 from pathlib import Path
 
-from documents import architecture, causes, derivations, figures, pictures, python, records, story
+from documents import (
+    architecture,
+    causes,
+    derivations,
+    drawings,
+    figures,
+    pictures,
+    python,
+    records,
+    story,
+    subjects,
+)
 from documents.markers import MARKED, Command, refreshed
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -60,6 +71,7 @@ def main() -> None:
     for folder in MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     pictures.write(DOCS / "images" / "lessons")
+    drawings.write(DOCS / "images" / "lessons")
     causes.write(DOCS / "images" / "causes")
     if not options.files:  # it takes a minute
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
@@ -75,7 +87,7 @@ def main() -> None:
         from documents import window
 
         window.write(DOCS / "images" / "tutorial")
-    values = figures.values() | derivations.values() | records.values()
+    values = figures.values() | derivations.values() | records.values() | subjects.values()
     values |= {"python_api": python.page()}
     page = PROJECT / "ARCHITECTURE.md"
     page.write_text(architecture.refreshed(page.read_text(encoding="utf-8")), encoding="utf-8")

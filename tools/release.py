@@ -2,9 +2,10 @@
 
 The extension, the Python package (sdist and wheel), the notes, the checksums; index.json, which
 makes the folder's address one that Blender takes for a repository of extensions; index.html, the
-page of it all, which links only to what is beside it; and try.html, the page of a comparison, which
-says how long that took and so alone has other bytes each time. `make release ADDRESS=https://...`
-runs it, in a Python that has bpy: the project's address, where its files have a placeholder.
+page of it all, which links only to what is beside it; and two that have other bytes each time:
+try.html, the page of a comparison, which says how long that took, and the lesson pack, if
+`make lessons` has built it of this commit. `make release ADDRESS=https://...` runs it, in a Python
+that has bpy: the project's address, where its files have a placeholder.
 """
 
 import argparse
@@ -33,6 +34,10 @@ ADDRESSED = "README.md", "CITATION.cff", "blender_manifest.toml", "pyproject.tom
 TRIED = ("sample_scenes/suzanne.blend", "--eye", "4", "-7.5", "3.6", "--target", "0", "0", "1",
          "--width", "320", "--height", "180")  # fmt: skip
 ANGLES = "38", "40"
+COURSE = """<h2>In a course</h2>
+<p><a href="{0}">{0}</a> has all that four lessons need: unpack it, and open its index.html.</p>
+
+"""
 
 
 def git(*arguments: str) -> bytes:
@@ -134,14 +139,34 @@ def build(work: Path, address: str, tried: bool) -> Path:
     # From the sdist, which shows that it is whole.
     run("-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation", "-w", out, sdist)
 
+    lessons = lesson_pack(work, out)
     page = work / "page.html"
-    page.write_text(template(source, out, address), encoding="utf-8")
+    page.write_text(template(source, out, address, lessons), encoding="utf-8")
     run(blenders_tool(), "server-generate", "--repo-dir", out, "--html", "--html-template", page)
-    (out / "NOTES.md").write_bytes(newest(text_of("CHANGELOG.md"))[2].encode())
+    for path in lessons:  # not before, since it is no extension
+        shutil.move(path, out)
+    notes = newest(text_of("CHANGELOG.md"))[2]
+    notes = re.sub(r"\[([^]]+)\]\((?!https?:)[^)]+\)", r"\1", notes)  # no document is beside it
+    (out / "NOTES.md").write_bytes(notes.encode())
     (out / "SHA256SUMS").write_bytes(sums(sorted(out.iterdir())).encode())
     if tried:
         shutil.copy(compared(work, source), out / "try.html")
     return out
+
+
+def lesson_pack(work: Path, out: Path) -> list[Path]:
+    """Zip the lesson pack, with what is released in it; none if it is not of the last commit."""
+    built = PROJECT / "dist/lessons"
+    of = built / "commit.txt"
+    if not of.exists() or of.read_bytes() != git("rev-parse", "HEAD"):
+        print("release: no lesson pack of this commit: make lessons builds it", file=sys.stderr)
+        return []
+    pack = work / "lessons"
+    shutil.copytree(built, pack)
+    for path in (*out.glob("*.zip"), *out.glob("*.whl")):
+        shutil.copy(path, pack)
+    [extension] = out.glob("*.zip")
+    return [Path(shutil.make_archive(str(work / f"{extension.stem}-lessons"), "zip", pack))]
 
 
 def sums(files: list[Path]) -> str:
@@ -149,7 +174,7 @@ def sums(files: list[Path]) -> str:
     return "".join(f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p.name}\n" for p in files)
 
 
-def template(source: Path, out: Path, address: str) -> str:
+def template(source: Path, out: Path, address: str, lessons: list[Path]) -> str:
     """The page of the release, into which Blender's tool then puts its table of extensions."""
     [extension], [wheel] = out.glob("*.zip"), out.glob("*.whl")
     picture = (source / "docs/images/diagnosis.gif").read_bytes()
@@ -159,7 +184,8 @@ def template(source: Path, out: Path, address: str) -> str:
         "wheel": wheel.name,
         "version": wheel.name.split("-")[1],
         "address": address,
-        "sums": sums(sorted(out.iterdir())).rstrip(),
+        "lessons": "".join(COURSE.format(path.name) for path in lessons),
+        "sums": sums(sorted([*out.iterdir(), *lessons], key=lambda path: path.name)).rstrip(),
     }
     text = (source / "tools/release.html").read_text(encoding="utf-8")
     return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found[1]], text)

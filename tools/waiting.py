@@ -19,19 +19,28 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parents[1]
 SCENE = "sample_scenes/suzanne.blend"
 COMPARE = ["compare", SCENE]
-# What a comparison has Blender do: open the scene, draw a picture to see how its rasteriser rounds,
-# one of the colours and one of the objects.
+# What a comparison has Blender do: open the scene, draw a small picture to see how its rasteriser
+# rounds, one of the colours and one of the objects; like for like, as floats that are not packed.
 BLENDER = """
 import sys, bpy
 bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
 render = bpy.context.scene.render
-render.resolution_y = render.resolution_y * int(sys.argv[2]) // render.resolution_x
-render.resolution_x = int(sys.argv[2])
+height, width = render.resolution_y, render.resolution_x
+display = bpy.context.scene.display
+display.render_aa, display.shading.light = "OFF", "FLAT"
+display.shading.show_shadows = display.shading.show_cavity = False
 render.engine = "BLENDER_WORKBENCH"
-render.image_settings.file_format = "OPEN_EXR"
+render.film_transparent = True
+output = render.image_settings
+output.file_format, output.color_mode, output.color_depth = "OPEN_EXR", "RGBA", "32"
+output.exr_codec = "NONE"
 render.filepath = sys.argv[-1] + "/picture"
-for _ in range(3):
+for size in (48, int(sys.argv[2]), int(sys.argv[2])):
+    render.resolution_x, render.resolution_y = size, height * size // width
     bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(render.filepath + ".exr")
+    image.pixels[0]
+    bpy.data.images.remove(image)
 """
 COMMANDS: dict[str, list[str]] = {
     "Blender alone: `import bpy`": ["-c", "import bpy"],

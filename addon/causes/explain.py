@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Bools, Places
+from ..arrays import Bools, Floats, Places
+from ..pictures.bands import band_of
 from ..pictures.bounds import DECIDABLE
-from ..pictures.renderers import sample_band
 from ..rendering import steps
 from ..tracer import shading
 from ..tracer.frame import Frame
@@ -31,7 +31,7 @@ from .checks.clip import CLIP_PLANE
 from .checks.color import COLOR
 from .checks.edges import DEPTH_TIE, EDGE
 from .checks.hidden import HIDDEN
-from .checks.probe import OpenPixels, blocks, other_color
+from .checks.probe import OpenPixels, other_color
 from .checks.unmodelled import NOT_MODELLED
 from .embree import not_decidable
 
@@ -111,8 +111,8 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     out = Causes.none(frame.shape)
     out.blind = unmodelled.blind(case, frame)
     picture = unmodelled.as_known(case)
-    none = np.zeros(frame.shape)
-    pixels = OpenPixels(case, frame, picture, out, none.astype(bool), none)
+    band = band_of(case.scene, frame, picture.sampling.renderer)
+    pixels = OpenPixels(case, frame, picture, out, np.zeros(frame.shape, bool), band)
     yield from scaled(_open(pixels), 0.0, _OPENING)
     yield from scaled(unmodelled.check_in_place(pixels), _OPENING, 0.0)
     if at_most is not None:
@@ -135,22 +135,30 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
 
 
 def _open(pixels: OpenPixels) -> Work[None]:
-    """Compute the band, and open the pixels that differ and are decidable."""
+    """Open the pixels that differ and are decidable."""
     scene = pixels.case.scene
     frame = pixels.frame
     seen = frame.instance_index
-    sampling = pixels.picture.sampling
-    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape), sampling.renderer)
-    pixels.band += sampling.off_center
-    if sampling.farthest < np.inf:
-        pixels.band[not_decidable(scene, frame, sampling.farthest)] = np.inf
+    moved = yield from _moved(pixels)
     ramp = shading.interpolated(scene, seen)
     finding = other_color(pixels.picture, frame.color, ramp)
     differ = yield from scaled(finding, 1.0, 0.0)
     pixels.open[:] = differ | pixels.picture.other_object(seen)
     pixels.give(np.broadcast_to(~frame.rows_done[:, None], frame.shape), NOT_TRACED)
     # Not only where the pictures differ: a pixel that agrees by accident proves nothing.
-    pixels.give(pixels.band > DECIDABLE, NOT_DECIDABLE, pixels.band, DECIDABLE)
+    pixels.give(moved > DECIDABLE, NOT_DECIDABLE, moved, DECIDABLE)
+
+
+def _moved(pixels: OpenPixels) -> Work[Floats]:
+    """Return how far float32 may move what pixels show, (h, w) px; 0 where that is decidable."""
+    scene, frame, sampling = pixels.case.scene, pixels.frame, pixels.picture.sampling
+    out: Floats = np.zeros(frame.shape)
+    if not pixels.band.most + sampling.off_center <= DECIDABLE:
+        yield from pixels.band.find(np.ones(frame.shape, bool))
+        out = pixels.bands(slice(None))
+    if sampling.farthest < np.inf:
+        out[not_decidable(scene, frame, sampling.farthest)] = np.inf
+    return out
 
 
 def _thin(open_: Bools, most: int) -> Places:

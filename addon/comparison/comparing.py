@@ -40,6 +40,7 @@ def compared(
     told: Callable[[Comparison], object] = lambda found: None,
     kept: Callable[[Comparison], Work[None]] = _not_kept,
     shares: tuple[float, float] = (0.6, 0.6),
+    literally: bool = False,
 ) -> Work[Comparison]:
     """Diagnose the meshes, trace, compare, check the comparison, and find what is wrong.
 
@@ -57,6 +58,8 @@ def compared(
         Returns the work of keeping a comparison: once it is there, and again with its diagnosis.
     shares : (float, float)
         Of the work that are done when the comparison is there, and when it is kept.
+    literally : bool
+        Whether the literal textbook's picture is wanted, where it costs little.
 
     Raises
     ------
@@ -65,7 +68,7 @@ def compared(
     """
     there, safe = shares
     manifest = yield from with_mesh_faults(case.scene, case.manifest)
-    work = trace_and_compare(replace(case, manifest=manifest))
+    work = trace_and_compare(replace(case, manifest=manifest), literally)
     found = yield from scaled(work, 0.0, there)
     yield from scaled(kept(found), there, safe - there)
     if diagnose:
@@ -75,10 +78,11 @@ def compared(
     return found
 
 
-def trace_and_compare(case: Case) -> Work[Comparison]:
+def trace_and_compare(case: Case, literally: bool = False) -> Work[Comparison]:
     """Trace a scene and compare it with the picture, in small steps.
 
-    Yields the share of the work done; the caller stops by not asking for more.
+    Yields the share of the work done; the caller stops by not asking for more. `literally` is as
+    :func:`compared` has it.
 
     Raises
     ------
@@ -96,12 +100,12 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     rest = 1 - _CHECKING if case.self_check else 1.0
     tracing = called(steps(case.scene, case.settings, frame, case.tracer), "tracing")
     yield from scaled(tracing, 0.0, rest * _TRACING)
-    listing = list_methods(case.scene, case.settings, frame, case.tracer)
+    listing = list_methods(case.scene, case.settings, frame, case.tracer, literally)
     listing = called(listing, "tracing by the textbook")
-    rows = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
+    methods = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
     done = rest * (_TRACING + _METHODS)
     found = yield from scaled(compare(case, frame), done, 1 - done)
-    return replace(found, methods=rows)
+    return replace(found, methods=methods.rows, literal=methods.literal)
 
 
 def diagnosed(

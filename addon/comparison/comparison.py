@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Colors
 from ..causes.case import Case
-from ..causes.cause import Causes
+from ..causes.cause import UNEXPLAINED, Causes
 from ..causes.checks.background import Background
 from ..causes.checks.color import COLOR
 from ..causes.checks.hidden import HIDDEN
@@ -45,6 +45,8 @@ class Comparison:
     metrics: Metrics
     excused: Excused  # what rests on rounding
     methods: tuple[MethodRow, ...] = ()
+    # (h, w, 4) by the textbook as printed, NaN where it sees nothing; None: not traced yet.
+    literal: Colors | None = None
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
     background: Background | None = None  # where the picture's is not the scene's
@@ -178,6 +180,7 @@ class Comparison:
             *self._of_causes(),
             *self._evidence(),
             *(self.diagnosis.lines() if self.diagnosis else ()),
+            *self._of_other_colors(),
             self._measured(),
             f"traced {count_of(traced.triangles, 'triangle')} in {traced.seconds:.2f} s "
             f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
@@ -204,6 +207,14 @@ class Comparison:
                 first = self.counts.examples.get(cause.key, ())[:3]
                 at = ", ".join(f"({x}, {y})" for x, y in first)
                 yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
+
+    def _of_other_colors(self) -> Iterator[str]:
+        """Ask for the commonest reason why most surfaces differ, where no fault was found."""
+        surfaces = self.causes.cause[self.frame.object_index != NOTHING]
+        most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
+        if most and not (self.diagnosis and self.diagnosis.told):
+            yield "most surfaces have other colours: was it drawn with light, or in others?"
+            yield "           Draw each flat, in those that --colors-out writes"
 
     def _measured(self) -> str:
         m = self.metrics

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from ..arrays import Colors
 from ..derivation.derivation import Derivation, derive
 from ..methods import Method
@@ -74,6 +76,8 @@ def extras(
 
 def _literal(comparison: Comparison, left_out: list[str]) -> Work[Colors | None]:
     """Return the colours that the textbook taken literally sees, unless that takes long."""
+    if (known := comparison.literal) is not None:  # the background may be another since
+        return np.where(np.isnan(known), comparison.scene.background, known)
     row = next((r for r in comparison.methods if r.method == Method.TEXTBOOK.value), None)
     if row and row.seconds > LITERAL_SECONDS:
         left_out.append(

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
+import numpy as np
+
+from ..arrays import Colors
 from ..certainty import Certainty
 from ..certified.arithmetic import broken_assumptions
 from ..methods import Method
 from ..rendering import steps
-from ..scene import Scene
+from ..scene import Region, Scene
+from ..tracer import nearest, shading
 from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING, Hits
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Tracer
 from ..tracer.settings import Precision, Settings
@@ -37,30 +43,56 @@ class MethodRow(NamedTuple):
         return f"  {self.method} {self.precision}: {self.seconds:.2f} s{found}{open_}"
 
 
+class Methods(NamedTuple):
+    """What came of each, and what the textbook as printed sees."""
+
+    rows: tuple[MethodRow, ...]
+    literal: Colors | None  # (h, w, 4) linear RGBA; NaN where it sees nothing. None: not traced
+
+
 def list_methods(
-    scene: Scene, settings: Settings, frame: Frame, tracer: Tracer | None = None
-) -> Work[tuple[MethodRow, ...]]:
+    scene: Scene,
+    settings: Settings,
+    frame: Frame,
+    tracer: Tracer | None = None,
+    literally: bool = False,
+) -> Work[Methods]:
     """Trace a scene with the textbook and certified, too; yields the share of the work done.
 
     Returns a row for the certified tracer (where numpy keeps what the proof assumes), one for the
     textbook in float64, and one for `frame`, which was traced with `settings`, if it is neither.
+    If the textbook is traced here, the picture by its test as printed costs little more: it is
+    returned, too, where that is wanted.
     """
     own = Method(frame.statistics.method), Precision(settings.precision)
     certified = Method.CERTIFIED, Precision.FLOAT64
     ways = {} if broken_assumptions() else {certified: 1}  # the samples of each
     ways |= {(Method.TEXTBOOK, Precision.FLOAT64): 1, own: settings.samples}
     truth: Frame | None = None
+    literal: Colors | None = None
     rows = []
     for number, way in enumerate(ways):
         traced = frame
         if way != own:
             traced = Frame.empty(scene)
-            tracing = steps(scene, Settings(*way), traced, tracer)
+            by = tracer
+            if literally and tracer is None and way[0] is Method.TEXTBOOK:
+                literal = np.full_like(traced.color, np.nan)
+                by = partial(nearest.tracer, literally=partial(_shade, scene, literal))
+            tracing = steps(scene, Settings(*way), traced, by)
             yield from scaled(tracing, number / len(ways), 1 / len(ways))
         if way == certified:  # it comes first, and the others are held against it
             truth = traced
         rows.append(_row(way, ways[way], traced, truth))
-    return tuple(rows)
+    return Methods(tuple(rows), literal)
+
+
+def _shade(scene: Scene, out: Colors, band: Region, hits: Hits) -> None:
+    """Enter the colours of what a band's rays meet into a picture."""
+    first = scene.camera.region.y0
+    rows = out[band.y0 - first : band.y1 - first].reshape(-1, 4)
+    seen = np.flatnonzero(hits.instance != NOTHING)
+    rows[seen] = shading.colors(scene, hits.take(seen))
 
 
 def _row(

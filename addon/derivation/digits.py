@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from decimal import Decimal, localcontext
 from fractions import Fraction
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -102,14 +103,19 @@ def marked(value: np.floating, exact: Fraction | None) -> Parts:
         return Parts(whole)
     mantissa, mark, power = whole.partition("e")
     exponent = int(power) if mark else 0
-    error = abs(Fraction(float(value)) - exact)
+    twice = 2 * abs(Fraction(float(value)) - exact)
     point = mantissa.find(".") if "." in mantissa else len(mantissa)
     for at, sign in enumerate(mantissa):
         if sign.isdigit():
             place = point - at - 1 if at < point else point - at
-            if 2 * error > Fraction(10) ** (place + exponent):
+            if twice > _power_of_10(place + exponent):
                 return Parts(mantissa[:at], mantissa[at:], mark + power)
     return Parts(whole)
+
+
+@cache
+def _power_of_10(exponent: int) -> Fraction:
+    return Fraction(10) ** exponent
 
 
 def off_text(off: float | None) -> str:

@@ -9,6 +9,7 @@ import operator
 import re
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import cache
 from typing import Any, NamedTuple
 
 from ..projections.sine import sine
@@ -61,6 +62,7 @@ class Operation(NamedTuple):
 Tree = Letter | Negated | Sine | Operation
 
 
+@cache
 def parse(text: str) -> Tree:
     """Return the tree of a formula."""
     return _parse([*reversed(_TOKEN.findall(text))])

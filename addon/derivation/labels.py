@@ -77,17 +77,19 @@ def placed(labels: Sequence[Label], lines: Sequence[Segment], room: Box) -> list
     together = joined(labels)
     dots = [label.at for label in together if not label.inside]
     out: list[Placed] = []
+    taken: list[Box] = []
     for label in together:
         tries = _tries(label)
         best, least = tries[0], math.inf
         for place in tries:
             box = place.box
-            cost = _cost(place, box, out, dots, room)
+            cost = _cost(place, box, taken, dots, room)
             if cost < least:  # else its crossing lines, slow to count, do not matter
                 cost += _ON_LINE * sum(crosses(line, box) for line in lines)
             if cost < least:
                 best, least = place, cost
         out.append(best)
+        taken.append(best.box)
     return out
 
 
@@ -110,7 +112,7 @@ def _tries(label: Label) -> list[Placed]:
 def _cost(
     place: Placed,
     box: Box,
-    others: Sequence[Placed],
+    others: Sequence[Box],
     dots: Sequence[Place],
     room: Box,
 ) -> float:
@@ -121,7 +123,7 @@ def _cost(
     cost += 0.3 * math.dist(place.at, place.middle)
     if left < room[0] or top < room[1] or right > room[2] or bottom > room[3]:
         cost += _OUTSIDE
-    cost += _ON_LABEL * sum(overlap(box, other.box) for other in others)
+    cost += _ON_LABEL * sum(overlap(box, other) for other in others)
     near = sum(left - 5 < x < right + 5 and top - 5 < y < bottom + 5 for x, y in dots)
     return cost + _ON_DOT * near
 

@@ -10,7 +10,7 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
-from ..pictures.bounds import differing, largest_within
+from ..pictures.bounds import differing_pixels, largest_within
 from ..rendering import steps
 from ..scene import SceneError
 from ..tracer.frame import Frame
@@ -169,4 +169,4 @@ def _changed(before: Evidence, after: Evidence) -> Bools:
     """Return which pixels (h, w) are traced in other colours; all, if the picture changed."""
     if before.case.picture.color is not after.case.picture.color:
         return np.ones(before.unexplained.shape, bool)
-    return differing(before.frame.color, after.frame.color)
+    return differing_pixels(before.frame.color, after.frame.color)

@@ -13,13 +13,14 @@ import numpy as np
 
 from ..arrays import Array, Bools, Floats
 from ..images import encoded
-from ..runs import run_starts
+from ..runs import by_runs, run_starts
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
 from ..tracer.hits import Hits
 from ..tracer.progress import Work
 from ..tracer.shading import by_mesh
 from ..tracer.vector import transform_points
+from ..tracer.world import reaches
 
 U32 = 2.0**-24  # the rounding unit of float32
 # Pixels: rasterisers keep eight bits of a vertex' position below the pixel. Where the machine's was
@@ -76,6 +77,12 @@ def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
         Where they lie, in world space.
     """
     return corner_errors(scene, hits, positions, lambda own, s: (own * s).sum(axis=0))
+
+
+def most_view_error(scene: Scene) -> Floats:
+    """Return what :func:`view_error` is at most on each of the k instances, (k,) metres."""
+    eye, reach = np.abs(scene.camera.origin).sum(), reaches(scene).sum(axis=0)
+    return np.asarray(U32 * (_MODEL * reach + _VIEW * (reach + eye)), np.float64)
 
 
 def corner_errors(
@@ -174,6 +181,12 @@ def differing(
     finite = np.isfinite(first) & np.isfinite(second)
     out[out] = ~((apart <= allowed) & finite).all(axis=-1)
     return out
+
+
+def differing_pixels(first: Array, second: Array) -> Bools:
+    """Return which pixels of two pictures (h, w, c) differ, as :func:`differing`: a run at once."""
+    flat = (picture.reshape(-1, picture.shape[-1]) for picture in (first, second))
+    return by_runs(differing, *flat).reshape(first.shape[:-1])
 
 
 def difference(

@@ -106,11 +106,10 @@ def _similarity(first: Array, second: Array, data_range: float, size: int) -> Fl
     y = second.astype(np.float64)
     samples = size * size
     unbiased = samples / max(samples - 1, 1)
-    ux = _window_mean(x, size)
-    uy = _window_mean(y, size)
-    vx = unbiased * (_window_mean(x * x, size) - ux * ux)
-    vy = unbiased * (_window_mean(y * y, size) - uy * uy)
-    vxy = unbiased * (_window_mean(x * y, size) - ux * uy)
+    ux, uy, xx, yy, xy = _window_means(np.stack((x, y, x * x, y * y, x * y)), size)
+    vx = unbiased * (xx - ux * ux)
+    vy = unbiased * (yy - uy * uy)
+    vxy = unbiased * (xy - ux * uy)
     c1 = (0.01 * data_range) ** 2
     c2 = (0.03 * data_range) ** 2
     return ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
@@ -145,16 +144,17 @@ def image_metrics(traced: Colors, picture: Colors) -> Work[Metrics]:
     return Metrics(error, similarity, max(largest, key=lambda found: found.value))
 
 
-def _window_mean(picture: Floats, size: int) -> Floats:
-    """Return the mean over every window of size x size pixels."""
-    for axis in (0, 1):
-        lines = picture.swapaxes(axis, 0)
+def _window_means(pictures: Floats, size: int) -> Floats:
+    """Return the mean over every window of size x size pixels of pictures (k, h, w, c)."""
+    for axis in (1, 2):
+        lines = pictures.swapaxes(axis, 0)
         count = len(lines) - size + 1
-        total = np.zeros_like(lines[:count])
-        for first in range(size):
+        total = lines[:count].copy("K")
+        for first in range(1, size):
             total += lines[first : first + count]
-        picture = (total / size).swapaxes(axis, 0)
-    return picture
+        total /= size
+        pictures = total.swapaxes(axis, 0)
+    return pictures
 
 
 def _same_shape(first: Array, second: Array) -> None:

@@ -11,20 +11,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from ..arrays import Floats, Places
 from ..scene import Camera, Scene
 from ..tracer import shading
-from ..tracer.camera import Rays, pixel_size
-from ..tracer.frame import Frame
-from ..tracer.hits import NOTHING, Hits
-from ..tracer.progress import Work
+from ..tracer.camera import Rays
+from ..tracer.hits import Hits
 from ..tracer.vector import cross, dot, largest
 from ..tracer.world import world_corners
-from .bounds import SNAPPING, U32, corner_errors, depth_step, pixel_error, spread_error, view_error
+from .bounds import SNAPPING, U32, corner_errors, depth_step, most_view_error, view_error
 
 # The roundings of t = e2 . (s x e1) / (e1 . (d x e2)), as Moeller and Trumbore have it, in units of
 # the products' size: a difference of corners (1), the cross product (3) and the scalar product (3),
@@ -57,6 +54,8 @@ class Renderer:
     along: Callable[[Scene, Hits, Floats, Rays], Floats]  # how far its depth may
     # Metres, at depths (n,): how near two depths are taken for one, whatever made them.
     step: Callable[[Camera, Floats], Floats]
+    # What no point of each instance is moved `sideways` by more than, (k,) metres, if known.
+    most: Callable[[Scene], Floats] | None = None
 
     def resolution(self, camera: Camera, depth: Floats, along: Floats) -> Floats:
         """Return how far apart in depth two surfaces are told apart, (n,) metres.
@@ -167,6 +166,7 @@ RASTER = Renderer(
     view_error,
     _as_sideways,
     depth_step,
+    most_view_error,
 )
 RAYS = Renderer("rays", "float32 rays", 0.0, False, _of_rays, _ray_depth, _no_buffer)
 # Cycles' rays. Its edges are Pluecker's, in which neighbours agree; where a triangle reaches so far
@@ -197,42 +197,3 @@ def renderer_of(header: str, engine: str) -> tuple[Renderer, str]:
         return RASTER, f"as Blender wrote it, and its engine is {engine}"
     # What an add-on registers may trace rays, and a header does not name it.
     return RAYS, "as Blender wrote it, but nothing says that it was rasterised"
-
-
-# By frame, for as long as it is there.
-_BANDS: WeakKeyDictionary[Frame, dict[tuple[Scene, Renderer], Floats]] = WeakKeyDictionary()
-
-
-def sample_band(
-    scene: Scene, frame: Frame, all_rows: list[slice], renderer: Renderer = RASTER
-) -> Work[Floats]:
-    """Return how far from each pixel's centre a renderer's sample may lie, (h, w) pixels.
-
-    That is the largest error of the surfaces seen in the 3 x 3 pixels around, and of those farther
-    away that float32 may move as far as this pixel. `all_rows` are looked at one after the other.
-    That of a whole frame is found once: pictures with a fault are held against the same frame.
-    """
-    known = _BANDS.setdefault(frame, {}) if frame.rows_done.all() else {}
-    if (scene, renderer) not in known:
-        known[scene, renderer] = yield from _sample_band(scene, frame, all_rows, renderer)
-    return known[scene, renderer].copy()
-
-
-def _sample_band(
-    scene: Scene, frame: Frame, all_rows: list[slice], renderer: Renderer
-) -> Work[Floats]:
-    camera = scene.camera
-    w = camera.window
-    own = np.zeros(frame.shape)  # of the surface that the pixel itself shows
-    for number, rows in enumerate(all_rows):
-        hits = frame.hits(rows)
-        seen = np.flatnonzero(hits.instance != NOTHING)
-        hits = hits.take(seen)
-        view = renderer.sideways(scene, hits, frame.positions(rows)[seen])
-        row = seen // frame.shape[1] + (rows.start or 0)
-        y = w.bottom + (row + camera.region.y0 + 0.5) * pixel_size(camera)[1]
-        own[rows].reshape(-1)[seen] = pixel_error(camera, hits.t, view, y, renderer.snapping)
-        yield number / len(all_rows)
-    smallest = float(np.min(own, where=own > 0, initial=SNAPPING))
-    least = max(renderer.snapping, smallest)
-    return (yield from spread_error(own, least))

@@ -36,8 +36,12 @@ SAMPLED = (
 )
 
 REPEATS = 3  # of every row: the fewest that have a middle
-MORE_REPEATS = 7  # where one is so short that the machine's noise shows
-SHORT = 0.25  # seconds
+# Where one is so short that the machine's noise shows: four that agree on which of two is faster
+# do so by chance as seldom as six of seven.
+SHORT_REPEATS = 4
+SHORT = 0.1  # seconds
+MORE_REPEATS = 7  # where noise does show
+NOISE = 1.05  # the middle of the rounds, in the shortest of them
 
 # Samples a pixel and direction of the converged picture. With 16, a straight edge along the pixels
 # is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are
@@ -58,6 +62,13 @@ class Choice:
     peak_bytes: int = 0
     coverage_error: float = 0.0
     rounds: list[float] = field(default_factory=list)
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether more rounds would tell little: half of them are as fast as the fastest."""
+        count, middle = len(self.rounds), median(self.rounds or [0.0])
+        quiet = middle >= SHORT or (count >= SHORT_REPEATS and middle <= NOISE * min(self.rounds))
+        return count >= REPEATS and quiet
 
     @property
     def cost(self) -> float:
@@ -238,7 +249,7 @@ def _time_all(choices: list[Choice]) -> Work[None]:
     Every other round goes backwards, so that none has always the same one before it.
     """
     for number in range(MORE_REPEATS):
-        some = [c for c in choices if number < REPEATS or median(c.rounds) < SHORT]
+        some = [c for c in choices if not c.is_timed]
         total, done = MORE_REPEATS * sum(c.cost for c in some), number / MORE_REPEATS
         for choice in some if number % 2 == 0 else reversed(some):
             yield from scaled(_repeat(choice), done, choice.cost / total)

@@ -35,6 +35,7 @@ MIN_DETERMINANT = 1 / 8  # of the camera's axes, relative to the product of thei
 LENGTHS = (0.5, 2.0)  # between which those of the camera's axes are
 _TINY = 2.0**-1000  # added to an error: far above what gradual underflow may lose
 PAIRS = 1 << 15  # pairs tested together: arrays of this length stay in a core's cache
+LARGE = 1 << 13  # pixels of a box: its triangle's pairs are tested apart, with one set of corners
 KEPT = 1 << 17  # triangles of a plan, with their boxes, that are kept from pass to pass: 12 MB
 _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
 
@@ -215,8 +216,18 @@ def pairs(
     """
     x0, x1, y0, y1 = bounds
     some = np.flatnonzero((x0 < x1) & (y0 < y1))
-    if not len(some):
-        return
+    alone = np.zeros(len(some), bool)
+    if before is None:
+        alone = (x1 - x0)[some].astype(np.int64) * (y1 - y0)[some] >= LARGE
+    for together in (some[~alone], *some[alone][:, None]):
+        yield from _pairs(together, bounds, tile, limit, before)
+
+
+def _pairs(
+    some: Index, bounds: Integers, tile: Region, limit: int, before: Index | None
+) -> Iterator[tuple[Index, Index]]:
+    """List the pixels of some boxes that are not empty, as :func:`pairs` does."""
+    x0, x1, y0, y1 = bounds
     # A run is one row of one box: first find its triangle and row, then its pixels.
     triangle, row = spread(some, (y1 - y0)[some])
     row += y0[triangle]

@@ -6,7 +6,7 @@ picture, t and the barycentrics are, too.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -20,8 +20,10 @@ from .camera import camera_rays, film_positions
 from .frame_measures import FrameMeasures
 from .hits import NOTHING, Hits, Measures, Names, Statistics, Ties
 from .memory import TRACED, check_memory
+from .vector import parts
 
 _PIXELS = 1 << 15  # of which something is computed together
+FEW = 8  # one of so many pixels is few: its measures are found by themselves
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
 
 
@@ -138,7 +140,7 @@ class Frame:
     @property
     def normal(self) -> Floats:
         """Geometric unit normals in world space, (h, w, 3), as `shading.normals` has them."""
-        return self._by_rows(lambda rows: shading.normals(self.scene, self.hits(rows)))
+        return self._by_rows(self._normals)
 
     @property
     def object_index(self) -> Integers:
@@ -147,8 +149,12 @@ class Frame:
 
     def hits(self, rows: slice = slice(None)) -> Hits:
         """Return what the centre rays of some rows met, row by row: views of the frame's arrays."""
+        first, last, _ = rows.indices(self.shape[0])
+        width = self.shape[1]
 
         def find(ray: Index, _instance: Names, _triangle: Names) -> Measures:
+            if FEW * len(ray) < (last - first) * width:  # the others may never be asked for
+                return self.measures.some(ray + first * width)
             return self.measures.of(rows).reshape(4, -1)[:, ray]
 
         return Hits(
@@ -174,15 +180,31 @@ class Frame:
         film = film_positions(Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), 0.0, 0.0)
         return shading.positions(camera_rays(self.scene.camera, *film), self.hits(rows))
 
+    def _normals(self, rows: slice) -> Floats:
+        return shading.normals(self.scene, self.hits(rows))
+
+    def blocks(self, name: str) -> Iterator[Array]:
+        """Yield an output, from its lowest rows upwards: those that are large, some at a time."""
+        of = {"position": self.positions, "normal": self._normals}.get(name)
+        if of is None:
+            yield getattr(self, name)
+            return
+        for rows in self._rows():
+            yield of(rows).reshape(-1, self.shape[1], 3)
+
     def _by_rows(self, of: Callable[[slice], Floats]) -> Floats:
         """Return what a function makes of rows, (n, 3), as one array (h, w, 3)."""
         height, width = self.shape
         out = np.moveaxis(np.zeros((3, height, width)), 0, -1)  # as the tracer has vectors
-        together = max(1, _PIXELS // width)
-        for y in range(0, height, together):
-            rows = slice(y, min(y + together, height))
+        for rows in self._rows():
             out[rows] = of(rows).reshape(-1, width, 3)
         return out
+
+    def _rows(self) -> list[slice]:
+        height, width = self.shape
+        return [
+            slice(s.start, min(s.stop, height)) for s in parts(height, max(1, _PIXELS // width))
+        ]
 
     def depths(self) -> tuple[float, float]:
         """Return the depths of the nearest and the farthest hit, metres; 0 where there is none."""

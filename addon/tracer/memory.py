@@ -43,6 +43,12 @@ def check_memory(width: int, height: int, bytes_per_pixel: int, always: int = AL
         )
 
 
+def give_back() -> None:
+    """Give memory that was freed back to the system, where the C library would keep it (glibc)."""
+    if sys.platform == "linux" and hasattr(library := ctypes.CDLL(None), "malloc_trim"):
+        library.malloc_trim(0)
+
+
 def free_memory() -> int | None:
     """Return how many bytes are free without swapping; None if the system does not say."""
     if sys.platform == "win32":

@@ -18,15 +18,21 @@ from .candidates import PAIRS, Plan, candidates, cull
 from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
-from .triangle import TESTS
+from .triangle import TESTS, sum_is_1
 from .world import Pairs, batches, world_triangles
 
 # Finds the hits of a band's rays, which pass their pixels' centres at (dx, dy).
 TraceBand = Callable[[Region, float, float], Work[Hits]]
+# Takes what the rays of a band meet.
+TakeHits = Callable[[Region, Hits], None]
 
 
 def tracer(
-    scene: Scene, settings: Settings, reach: float, statistics: Statistics
+    scene: Scene,
+    settings: Settings,
+    reach: float,
+    statistics: Statistics,
+    literally: TakeHits | None = None,
 ) -> Work[TraceBand]:
     """Prepare to trace bands of a picture by an unproven method.
 
@@ -38,10 +44,12 @@ def tracer(
         How far from its pixel's centre a ray may pass, in pixels along each axis.
     statistics : Statistics
         To count in.
+    literally : callable, optional
+        If the method is the textbook, takes what its test as printed meets: some of the same pairs.
     """
     made = yield from plan(scene, settings, reach)
     statistics.refused = made.refused
-    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics)
+    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics, literally)
 
 
 def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
@@ -50,12 +58,18 @@ def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
 
 
 def trace_tile(
-    plan: Plan, tile: Region, dx: float = 0.0, dy: float = 0.0, statistics: Statistics | None = None
+    plan: Plan,
+    tile: Region,
+    dx: float = 0.0,
+    dy: float = 0.0,
+    statistics: Statistics | None = None,
+    literally: TakeHits | None = None,
 ) -> Work[Hits]:
     """Find the nearest hits of the rays of a tile, in small steps.
 
     Each ray passes its pixel's centre at (dx, dy), in pixels, at most `plan.reach`. The hits are
     those of the tile's pixels, row by row from the lowest. Pairs are counted in the statistics.
+    `literally` is as :func:`tracer` has it.
     """
     scene = plan.scene
     settings = plan.settings
@@ -63,13 +77,17 @@ def trace_tile(
     statistics = statistics or Statistics()
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
+    literal = Hits.none(len(hits)) if literally else None
     statistics.pairs_tested += len(scene.planes) * len(hits)
-    test_planes(scene, rays, hits)
+    for each in filter(None, (hits, literal)):
+        test_planes(scene, rays, each)
     for share, some in candidates(plan, tile):
         if some is not None:
             statistics.pairs_tested += len(some.pixel)
-            test_pairs(scene, settings, rays, some, hits)
+            test_pairs(scene, settings, rays, some, hits, literal=literal)
         yield share
+    if literally and literal:
+        literally(tile, literal)
     return hits
 
 
@@ -97,17 +115,27 @@ def every_pair(scene: Scene, rays: Rays, statistics: Statistics) -> Iterator[Pai
 
 
 def test_pairs(
-    scene: Scene, settings: Settings, rays: Rays, some: Pairs, hits: Hits, after: Hits | None = None
+    scene: Scene,
+    settings: Settings,
+    rays: Rays,
+    some: Pairs,
+    hits: Hits,
+    after: Hits | None = None,
+    literal: Hits | None = None,
 ) -> Places:
     """Enter into `hits` what the rays meet of these pairs, where it is the nearest so far.
 
     With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
-    Returns the places of all pairs that meet within the clip range, near or far.
+    Into `literal` what the textbook as printed meets is entered. Returns the places of all pairs
+    that meet within the clip range, near or far.
     """
-    hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.corners)
+    hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.shared_corners)
     seen = np.flatnonzero(hit & within_clip(scene.camera, t))
     found = Hits.of(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
     _keep_nearest(hits, after, some.pixel[seen], found)
+    if literal:
+        printed = np.flatnonzero(sum_is_1(found.s))
+        _keep_nearest(literal, after, some.pixel[seen[printed]], found.take(printed))
     return seen
 
 

@@ -20,7 +20,7 @@ def intersect(rays: Rays, point: Vectors, normal: Vectors) -> Floats:
     ----------
     rays : Rays
         n rays in world space.
-    point, normal : (3, 1)
+    point, normal : (3, 1), or (3, n) for a plane each
         World space; the normal need not be of unit length.
 
     Returns

@@ -149,7 +149,7 @@ class _Band:
         for number, offset in enumerate(offsets, start=1):
             own = starts[number], shares[number]
             other = yield from scaled(trace_band(self.region, *offset), *own)
-            for part in parts(len(hits), PIXELS // 8):
+            for part in parts(len(hits), PIXELS // 2):
                 color[part] += self._shaded(other.take(part), part, offset) / len(offsets)
                 yield min(sum(own), 1.0)
         yield from timed(self._write(hits, color), self.frame.statistics.stages, 1.0)
@@ -180,7 +180,7 @@ class _Band:
         frame, rows = self.frame, self.rows
         colors = frame.color[rows].reshape(-1, 4)
         if self.shade:
-            for part in parts(len(hits), PIXELS // 8):
+            for part in parts(len(hits), PIXELS // 2):
                 has_samples = len(color) > 0
                 colors[part] = color[part] if has_samples else self._shaded(hits.take(part), part)
                 yield "shade"

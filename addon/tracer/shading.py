@@ -26,12 +26,14 @@ def colors(scene: Scene, hits: Hits) -> Colors:
     interpolated between them by the barycentrics.
     """
     first, last = scene.color_rows
-    row = first[hits.instance]
-    if (first != last).any():
+    if (first == last).all():
+        out = scene.color_table.take(first, axis=0).take(hits.instance, axis=0)
+    else:
+        row = first.take(hits.instance)
         for mesh, pixels in by_mesh(scene, hits.instance):
             slots = mesh.slots.take(hits.triangle[pixels])
             row[pixels] = np.minimum(row[pixels] + slots, last[hits.instance[pixels]])
-    out = scene.color_table.take(row, axis=0)
+        out = scene.color_table.take(row, axis=0)
     if any(mesh.corner_colors is not None for mesh in scene.meshes):
         for mesh, pixels in by_mesh(scene, hits.instance):
             if mesh.corner_colors is not None:

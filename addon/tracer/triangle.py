@@ -64,8 +64,13 @@ def _textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection
 def textbook_literal(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
     """Test as printed, with a sum that equals 1 (added as s1 + s3 + s2): loses half of all hits."""
     inside, t, s = _textbook(rays, p1, p2, p3)
+    return inside & sum_is_1(s), t, s
+
+
+def sum_is_1(s: Vectors) -> Bools:
+    """Return where the barycentrics (3, n), added as printed, equal 1, (n,)."""
     with np.errstate(invalid="ignore", over="ignore"):
-        return inside & (s[0] + s[1] + s[2] == 1), t, s
+        return s[0] + s[1] + s[2] == 1
 
 
 def textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:

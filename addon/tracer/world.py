@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import Bools, Floats, Index, Integers
-from .camera import project
+from .camera import dual_axes, project
 from .vector import Arrays, Vectors, gather, transform_points
 
 if TYPE_CHECKING:
@@ -67,6 +67,12 @@ class Pairs:
     def corners(self) -> Vectors:
         """Corner, component, pair: (3, 3, p), world space."""
         return gather(self.triangles.corners, self.row)
+
+    @property
+    def shared_corners(self) -> Vectors:
+        """The corners, (3, 3, 1) if all pairs have the same triangle; else (3, 3, p)."""
+        one = self.row[:1]
+        return gather(self.triangles.corners, one) if (self.row == one).all() else self.corners
 
     @property
     def instance(self) -> Integers:
@@ -155,6 +161,29 @@ def reaches(scene: Scene) -> Floats:
     reach = np.abs([m.bounds for m in scene.meshes]).max(axis=1)[scene.instance_meshes].T
     m = scene.instance_matrices
     return (np.abs(m[:3, :3]) * reach).sum(axis=1) + np.abs(m[:3, 3])
+
+
+def depth_ranges(scene: Scene) -> Floats:
+    """Return the least and the greatest depth of each instance's box, metres, (2, instances).
+
+    No vertex lies beyond, whatever has been rounded; NaN where a number overflows.
+    """
+    m, camera = scene.instance_matrices, scene.camera
+    if not scene.instances:
+        return np.zeros((2, 0))
+    low, high = np.array([mesh.bounds for mesh in scene.meshes])[scene.instance_meshes].T.swapaxes(
+        0, 1
+    )
+    axis = dual_axes(camera)[2][:, None]
+    with np.errstate(over="ignore", invalid="ignore"):
+        row = (axis[..., None] * m[:3, :3]).sum(axis=0)  # of an axis of the object, by its length
+        middle = (row * (low + high)).sum(axis=0) / 2
+        middle += (axis * (m[:3, 3] - camera.origin[:, None])).sum(axis=0)
+        size = (np.abs(row) * (high - low)).sum(axis=0) / 2
+        size += 2.0**-40 * (np.abs(axis) * (reaches(scene) + np.abs(camera.origin)[:, None])).sum(
+            axis=0
+        )
+    return np.stack((middle - size, middle + size))
 
 
 def refused(scene: Scene) -> int:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .answers import FEW, MOST, Answers, Found
+from .answers import FEW, MOST, Answers
 from .checks import ORDINARY, Group
+from .faults import Found
 from .value_faults import FLOAT32, LOSSY, is_single
 
 RANDOM = 0.1, 0.9  # share of ordinary hits that an equality of floats loses

@@ -19,8 +19,8 @@ from reference_tracer.causes.explain import (
     UNEXPLAINED,
 )
 from reference_tracer.manifest import Unmodelled
+from reference_tracer.pictures.bands import band_of
 from reference_tracer.pictures.bounds import differing
-from reference_tracer.pictures.renderers import sample_band
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer import render as rendering
@@ -227,7 +227,9 @@ def test_a_near_surface_does_not_excuse_the_background(make):
     far = make.quad(1001, 1002, -1, 1, -8)
     scene, without = make.scene(camera, near, far), make.scene(camera, near)
     found = result_of(find_causes(without, render(without), render(scene).color))
-    band = result_of(sample_band(without, render(without), [slice(None)]))
-    assert band.max() > 2 and (found.cause == NOT_DECIDABLE).any()
+    frame = render(without)
+    band = band_of(without, frame)
+    result_of(band.find(np.ones(frame.shape, bool)))
+    assert band.values.max() > 2 and (found.cause == NOT_DECIDABLE).any()
     seen = render(scene).object_index == 1
     assert seen.sum() > 100 and (found.cause[seen] == UNEXPLAINED).all()

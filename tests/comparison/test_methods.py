@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,10 @@ import trimesh
 from reference_tracer.certainty import Certainty
 from reference_tracer.comparison import methods
 from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.comparison.extras import extras
 from reference_tracer.comparison.methods import list_methods
 from reference_tracer.rendering import render
+from reference_tracer.scene import Plane
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
@@ -30,7 +33,7 @@ def listed(scene, *settings):
     settings = Settings(*settings)
     frame = render(scene, settings)
     shares = []
-    rows = result_of(list_methods(scene, settings, frame), shares.append)
+    rows, _ = result_of(list_methods(scene, settings, frame), shares.append)
     assert shares == sorted(shares) and all(0 <= s <= 1 for s in shares)
     return {(r.method, r.precision): r for r in rows}, frame
 
@@ -69,6 +72,24 @@ def test_what_the_literal_test_loses_is_counted(scene):
     wrong = rows["textbook_literal", "float64"].wrong_pixels
     assert wrong > 0.2 * frame.t.size
     assert f"{wrong:,} wrong pixels" in rows["textbook_literal", "float64"].line()
+
+
+@pytest.mark.parametrize("background", [(0, 0, 0, 0), (1, 1, 1, 1)])
+def test_the_literal_picture_is_the_same_as_traced_alone(make, rng, background):
+    """It takes the pairs of the textbook's trace, and lies on the picture's own background."""
+    room = make.room()
+    ball, *others = room.meshes
+    ball = replace(ball, corner_colors=rng.random((len(ball.triangles), 3, 4)))
+    plane = Plane(0, np.array([0.0, 0, -2]), np.array([0.0, 0.3, 1]), np.array([0, 0, 1, 1.0]))
+    scene = replace(room, meshes=(ball, *others), planes=(plane,))
+    shown = render(replace(scene, background=np.float32(background))).color
+    case = case_of(scene, shown.astype(np.float32), curves=())
+    found = result_of(trace_and_compare(case, literally=True))
+    assert (found.background is None) == (background == (0, 0, 0, 0))
+    alone = render(found.scene, Settings("textbook_literal")).color
+    assert np.array_equal(result_of(extras(found)).literal, alone)
+    assert (alone != shown).any() and (shown[..., 3] == background[3]).any()
+    assert result_of(trace_and_compare(case)).literal is None
 
 
 def test_where_nothing_can_be_certified_no_pixel_is_called_wrong(scene, monkeypatch):

@@ -11,7 +11,6 @@ from story import (
     ended,
     noted,
     press,
-    press_compare,
     result,
     screenshot,
     show_panel,
@@ -68,20 +67,14 @@ def values_kept(owner, *names):
         setattr(owner, name, value)
 
 
-def judged(name, by_click=True):
-    """Press the button, wait for the end, and note what is said.
-
-    By a click the first time: a cursor that has not moved since is not always heard.
-    """
+def judged(name):
+    """Click on the button, wait for the end, and note what is said."""
     before = result()
 
     def another():
         return result() is not before
 
-    if by_click:
-        yield from click_on(properties(), COMPARE)
-    else:
-        press_compare()
+    yield from click_on(properties(), COMPARE)
     yield from until(another)
     yield from until(ended)
     yield 0.5  # Blender's panels slide to their new places, and hear no click meanwhile
@@ -120,10 +113,10 @@ def given_image():
     for key in ("g", "x", "0", "period", "2", "Return"):  # as the panel says
         press(key)
         yield
-    yield from judged("given_moved_too", by_click=False)
+    yield from judged("given_moved_too")
     with made_wrong(scene.camera.data, "lens", scene.camera.data.lens * 1.05):
         scene.reference_tracer.image = picture("lens")
-    yield from judged("given_lens", by_click=False)
+    yield from judged("given_lens")
     with values_kept(bpy.context.preferences.view, "render_display_type"):
         bpy.context.preferences.view.render_display_type = "AREA"  # in place of the 3D view
         yield from click_on(properties(), SHOW)
@@ -137,7 +130,7 @@ def given_image():
     yield
     noted["camera"] = scene.camera.name
     screenshot("given_made_active")
-    yield from judged("given_put_right", by_click=False)
+    yield from judged("given_put_right")
 
 
 def given_engine():
@@ -154,7 +147,7 @@ def given_engine():
         yield from at_the_panel("ENGINE", 15, engine=ToyEngine.bl_idname)
         yield from judged("given_offset")
         ToyEngine.offset = (0.0, 0.0)
-        yield from judged("given_right", by_click=False)
+        yield from judged("given_right")
     finally:
         ToyEngine.offset = (0.0, 0.0)
         bpy.utils.unregister_class(ToyEngine)
@@ -180,7 +173,7 @@ def given_render():
     yield from judged("given_rendered")
     scene.objects["Suzanne"].location.x += 0.2
     scene.reference_tracer.diagnose = False
-    yield from judged("given_rendered_before", by_click=False)
+    yield from judged("given_rendered_before")
 
 
 SCENE = "suzanne"

@@ -31,7 +31,7 @@ LADDER |= {("certified", "float64")}
 def few_rounds():
     """Time each row seldom: that takes most of the time."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(tradeoff, "MORE_REPEATS", 4)
+        patch.setattr(tradeoff, "SHORT", 0.0)
         yield
 
 
@@ -293,14 +293,23 @@ def test_rounds_are_interleaved_and_turn_around(ball, monkeypatch):
     assert order == [*choices, *reversed(choices), *choices]
 
 
-def test_short_rows_are_repeated_more(ball, monkeypatch):
+@pytest.mark.parametrize(
+    ("seconds", "rounds"),
+    [
+        ((0.2, 0.3, 0.4), 3),  # long: noise does not matter as much
+        ((0.05,) * 4, 4),
+        ((0.05, 0.09, 0.051, 0.05), 4),  # one was disturbed
+        ((0.05, 0.06, 0.06, 0.05, 0.05), 5),  # two were
+        ((0.05, 0.06) * 2 + (0.07,) * 3, 7),
+    ],
+)
+def test_rows_are_repeated_until_noise_no_longer_shows(ball, monkeypatch, seconds, rounds):
     def timed(choice):
-        precise = choice.settings.precision == Precision.FLOAT64
-        choice.rounds.append(2 * tradeoff.SHORT if precise else tradeoff.SHORT / 2)
+        choice.rounds.append(seconds[len(choice.rounds)])
         yield 1.0
 
+    monkeypatch.setattr(tradeoff, "SHORT", 0.1)
     monkeypatch.setattr(tradeoff, "_repeat", timed)
-    for row in result_of(measure(ball, 8, 1)).rows:
-        assert len(row.rounds) == (
-            tradeoff.REPEATS if row.precision == "float64" else tradeoff.MORE_REPEATS
-        )
+    choices = tradeoff.choose(ball, 8, 1)
+    result_of(tradeoff._time_all(choices))
+    assert {len(c.rounds) for c in choices} == {rounds}

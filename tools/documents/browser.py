@@ -5,14 +5,42 @@ from __future__ import annotations
 import io
 import os
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from PIL import Image
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Browser, sync_playwright
 
 NAMES = "chromium", "chromium-browser", "google-chrome"
 READY = "html[data-ready]"  # what the page's script says when it is there
 _DRAWN = "() => new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))"
+
+
+def chromium() -> str:
+    """Return the path of this machine's Chromium.
+
+    Raises
+    ------
+    RuntimeError
+        If there is none.
+    """
+    path = next(filter(None, map(shutil.which, NAMES)), None)
+    if path is None:
+        raise RuntimeError("no Chromium here: tools/browser.sh setup installs one")
+    return path
+
+
+@contextmanager
+def opened() -> Iterator[Browser]:
+    """Open a headless Chromium."""
+    with sync_playwright() as playwright:
+        options = ["--no-sandbox"] if os.geteuid() == 0 else []
+        browser = playwright.chromium.launch(executable_path=chromium(), args=options)
+        try:
+            yield browser
+        finally:
+            browser.close()
 
 
 def save(
@@ -35,13 +63,8 @@ def save(
     RuntimeError
         If there is no Chromium here, or the page's script fails.
     """
-    path = next(filter(None, map(shutil.which, NAMES)), None)
-    if path is None:
-        raise RuntimeError("no Chromium here: tools/browser.sh setup installs one")
     wrong: list[str] = []
-    with sync_playwright() as playwright:
-        options = ["--no-sandbox"] if os.geteuid() == 0 else []
-        browser = playwright.chromium.launch(executable_path=path, args=options)
+    with opened() as browser:
         size = {"width": width, "height": height}
         tab = browser.new_page(viewport=size, color_scheme="light")
         tab.on("pageerror", lambda error: wrong.append(str(error)))
@@ -52,7 +75,6 @@ def save(
             tab.mouse.move(0, 0)
         tab.evaluate(_DRAWN)
         shot = tab.screenshot()
-        browser.close()
     if wrong:
         raise RuntimeError(f"{page}: {'; '.join(wrong)}")
     colors = Image.open(io.BytesIO(shot)).convert("RGB").quantize(256, dither=Image.Dither.NONE)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -16,10 +17,11 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.command import built_in
+from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.mutations import mutations as mutated
-from reference_tracer_grading.programs import PROGRAMS
-from reference_tracer_grading.subject import PIXELS, prepare
-from reference_tracer_grading.tally import COST, WEIGHTS
+from reference_tracer_grading.options import PIXELS
+from reference_tracer_grading.subjects.triangle import TRIANGLE
+from reference_tracer_grading.tally import COST
 
 
 @cache
@@ -50,6 +52,30 @@ def ortho_width() -> str:
 def ortho_pixel() -> str:
     camera = scene("orthographic").camera
     return f"{1000 * (camera.window.right - camera.window.left) / camera.width:.4g}"
+
+
+def column_pixels() -> str:
+    """How high the scene's columns are in the orthographic picture."""
+    some = scene("orthographic")
+    heights = {
+        float(np.ptp(some.meshes[i.mesh].vertices[:, 2]))
+        for i in some.instances
+        if some.objects[i.object].startswith("Column")
+    }
+    [height] = heights
+    up = some.camera.world_from_camera[2, 1]
+    w = some.camera.window
+    return _whole(height * up / ((w.top - w.bottom) / some.camera.height))
+
+
+def half_changed() -> str:
+    """Pixels of the orthographic picture that change if rays pass the pixels' corners."""
+    camera = scene("orthographic").camera
+    w = camera.window
+    half = (w.right - w.left) / camera.width / 2
+    moved = scene("orthographic").seen_by(replace(camera, window=w.moved(-half, -half)))
+    color = render(moved, Settings()).color
+    return _whole((color != traced("orthographic").color).any(axis=2).sum())
 
 
 def constant_colors() -> str:
@@ -87,6 +113,20 @@ def misread_wide() -> str:
     return _whole(_misread(math.radians(60), scene("perspective").camera.height))
 
 
+def misread_corner() -> str:
+    """The same at the corner of the picture."""
+    camera = scene("perspective").camera
+    half = math.hypot(camera.width, camera.height) / 2
+    return f"{_misread(half_angle(), camera.height) * half / (camera.height / 2):.1f}"
+
+
+def corner_length() -> str:
+    """How long d is for a corner pixel."""
+    w, camera = scene("perspective").camera.window, scene("perspective").camera
+    x, y = w.right * (1 - 1 / camera.width), w.top * (1 - 1 / camera.height)
+    return f"{math.hypot(x, y, 1):.4f}"
+
+
 def whole_angle_factor() -> str:
     """By how much the picture shrinks if half the angle is taken for the whole one."""
     a = half_angle()
@@ -115,11 +155,22 @@ def plane_top_row() -> str:
     return str(int(np.flatnonzero(_on_plane().any(axis=1)).max()))
 
 
+def _depths() -> np.ndarray:
+    """Depths of the plane in the rows that see it, from the lowest."""
+    t = np.where(_on_plane(), traced("plane").t, np.nan)
+    return np.nanmedian(t[_on_plane().any(axis=1)], axis=1)
+
+
+def horizon_below() -> str:
+    """By how many rows the highest row's centre is below the horizon: 1 / t falls evenly."""
+    below, highest = 1 / _depths()[-2:]
+    return f"{highest / (below - highest):.2f}"
+
+
 def plane_step() -> str:
     """Metres from the highest row's depth to that of the row below."""
-    t = np.where(_on_plane(), traced("plane").t, np.nan)
-    rows = np.nanmedian(t[_on_plane().any(axis=1)], axis=1)
-    return _whole(abs(rows[-1] - rows[-2]))
+    below, highest = _depths()[-2:]
+    return _whole(highest - below)
 
 
 def _lost(name: str, method: str, precision: str) -> tuple[int, int]:
@@ -170,7 +221,7 @@ def judged_pixels() -> str:
 
 
 def mutations() -> str:
-    return _whole(sum(1 for program in PROGRAMS for _ in mutated(program)))
+    return _whole(sum(1 for program in TRIANGLE.programs for _ in mutated(program)))
 
 
 TOUR = Path(__file__).resolve().parents[2] / "docs" / "images" / "tutorial" / "comparison.json"
@@ -186,12 +237,13 @@ def of_tour() -> dict[str, str]:
     return counts | figures | {"tutorial_pixel": f"{x}, {y}", "tutorial_verdict": found["verdict"]}
 
 
-WEIGHED = {f"weight_{name}": f"{weight:g}" for name, weight in WEIGHTS.items()}
+WEIGHED = {f"weight_{name}": f"{weight:g}" for name, weight in TRIANGLE.weights.items()}
 SIZES = {f"size_{n}": n for n in ("orthographic", "perspective", "plane", "triangle")}
 _FIGURES: tuple[Callable[[], str], ...] = (
-    *(ortho_width, ortho_pixel, constant_colors),
-    *(half_angle_degrees, pixel_length, misread_edge, misread_wide, whole_angle_factor),
-    *(plane_pixels, plane_farthest, plane_clip, plane_top_row, plane_step),
+    *(ortho_width, ortho_pixel, column_pixels, half_changed, constant_colors),
+    *(half_angle_degrees, pixel_length, corner_length, whole_angle_factor),
+    *(misread_edge, misread_corner, misread_wide),
+    *(plane_pixels, plane_farthest, plane_clip, plane_top_row, plane_step, horizon_below),
     *(literal_lost, literal_seen, literal_share, literal_share_float32),
     *(textbook_lost, textbook_lost_float32, triangle_count, judged_pairs, judged_pixels, mutations),
 )

@@ -3,6 +3,7 @@
     <!-- run: reftrace trace scene.blend --out out/a.png -->      a command, and what it prints
     <!-- run here: ... -->          the same, where what it prints depends on the machine
     <!-- run silently: ... -->      the command alone: what it prints is of no interest
+    <!-- run folded: ... -->, <!-- run here folded: ... -->     and what it prints is folded away
     <!-- not run: REASON -->        a block that stays as it is, and why
     <!-- /run -->
     <!-- NAME -->123<!-- / --> a figure of `figures.py`; a part of `derivations.py`, of `records.py`
@@ -18,10 +19,13 @@ from dataclasses import dataclass
 
 MARKED = "<!-- "  # a file without this has no markers
 _RUN = re.compile(
-    r"<!-- run(?P<how>| here| silently): (?P<command>[^\n]+?) -->\n(?P<body>.*?)<!-- /run -->", re.S
+    r"<!-- run(?P<how>| here| silently| folded| here folded): (?P<command>[^\n]+?) -->\n"
+    r"(?P<body>.*?)<!-- /run -->",
+    re.S,
 )
 _FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>.*?)<!-- / -->", re.S)
 _LEFT = re.compile(r"<!-- not run: [^\n]+? -->\n.*?<!-- /run -->", re.S)
+_UNFOLDED = ("", "</details>")
 _SECONDS = re.compile(r"\b\d+\.\d+ s\b")
 _BLENDERS_OWN = re.compile(r"^(\d\d:\d\d\.\d+ |Array iterator out of range).*\n", re.M)  # its log
 
@@ -60,9 +64,17 @@ def settled(output: str) -> str:
 def block(command: Command, output: str) -> str:
     """Return a command as a block, with what it prints unless that is of no interest."""
     lines = ["```", f"$ {command.text}"]
+    if command.how.endswith("folded"):
+        lines += ["```", "", "<details><summary>What it prints</summary>", "", "```"]
     if command.how != "silently" and output:
         lines.append(output)
-    return "\n".join([*lines, "```"])
+    return "\n".join([*lines, "```", *_UNFOLDED * command.how.endswith("folded")])
+
+
+def printed(command: Command) -> str:
+    """Return what a block has of a command's output."""
+    blocks = re.findall(r"^```\n(.*?)\n```$", command.body, re.S | re.M)
+    return "\n".join(blocks).partition("\n")[2]
 
 
 def refreshed(text: str, run: Callable[[Command], str], values: Mapping[str, str]) -> str:

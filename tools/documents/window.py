@@ -23,6 +23,8 @@ OUT = PROJECT / "out" / "tutorial"
 WINDOW, WIDTH = 1600, 1000  # pixels across the whole window, and what they are made
 NAMES = "traced", "blender", "difference"
 FRAME = 120  # milliseconds
+STEPS = "empty", "panel", "compared", "traced", "inspector"  # of the clip
+STEP, CLIP = 2500, (800, 480)  # milliseconds, pixels
 AROUND, ZOOM, GAP = (8, 7), 19, 12  # pixels around the one that is enlarged, and how much
 
 
@@ -56,6 +58,7 @@ def write(folder: Path) -> None:
             picture = picture.resize((WIDTH, height), Image.Resampling.LANCZOS)
         save(picture, folder / shot.name)
     turning(sorted((OUT / "orbit").glob("*.png")), folder / "wrong_pixels.gif")
+    clip(folder)
     x, y = found["metrics"]["largest_difference"]["pixel"]
     browser.save(OUT / "page.html", folder / "page.png", 1240, 960, f"#x={x}&y={y}", "pair")
 
@@ -71,6 +74,19 @@ def turning(shots: list[Path], path: Path) -> None:
     size = whole[0].width, whole[0].width
     frames = [p.crop((0, 0, *size)).quantize(32, dither=Image.Dither.NONE) for p in whole]
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=FRAME, loop=0)
+
+
+def clip(folder: Path) -> None:
+    """Join pictures of the first steps into one that moves, for the lessons."""
+    frames = []
+    for name in STEPS:
+        frame = Image.new("RGB", CLIP, (40, 40, 40))
+        picture = Image.open(folder / f"{name}.png").convert("RGB")
+        picture.thumbnail(CLIP, Image.Resampling.LANCZOS)
+        frame.paste(picture, ((CLIP[0] - picture.width) // 2, (CLIP[1] - picture.height) // 2))
+        frames.append(frame)
+    path = folder / "steps.webp"
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=STEP, loop=0, quality=70)
 
 
 def near(folder: Path) -> Image.Image:

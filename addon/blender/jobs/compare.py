@@ -26,7 +26,7 @@ from ...pictures.renderers import EMBREE, RASTER
 from ...pictures.sampling import Sampling
 from ...report import comparison as comparison_report
 from ...scene import Scene
-from ...tracer.memory import ALWAYS, COMPARED, check_memory
+from ...tracer.memory import ALWAYS, COMPARED, check_memory, give_back
 from ...tracer.progress import Work
 from ..drawing.behind import behind
 from ..drawing.drawings import Drawing, Plan, with_identity, with_what_draws_itself
@@ -99,6 +99,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
     if plan.like_for_like:
         color_type = user.display.shading.color_type
         case = replace(case, behind=behind(drawing, case, color_type, made, chosen.identity))
+    give_back()  # what Blender's pictures took
     return case
 
 

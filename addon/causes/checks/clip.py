@@ -10,12 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...pictures.bounds import U32
-from ...pictures.renderers import Renderer
-from ...scene import Camera
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
 from ..cause import Cause
+from .plans import widened
 from .probe import LAYERS, OpenPixels, Part, near_surfaces
 
 CLIP_PLANE = Cause(
@@ -34,15 +32,11 @@ CLIP_PLANE = Cause(
 )
 
 
-# How much wider the clip range is made than what float32 may move a point right before the camera.
-WIDENED = 64
-
-
 def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels at which a surface lies on a clip plane."""
     if pixels.open.any():
         scene = pixels.case.scene
-        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.sampling.renderer))
+        wide = replace(scene, camera=widened(scene.camera, pixels.picture.sampling.renderer))
         yield from near_surfaces(pixels, wide, 0.0, _clipped)
 
 
@@ -72,14 +66,3 @@ def _clipped(part: Part) -> Work[None]:
         going &= ~seen | at_clip
         if not (going & (hits.instance != NOTHING)).any():
             return
-
-
-def _widened(camera: Camera, renderer: Renderer) -> Camera:
-    """Return the camera with its clip range widened by what a renderer's rounding may include."""
-    ends = np.array((camera.clip_start, camera.clip_end), np.float64)
-    view = U32 * WIDENED * (float(np.abs(camera.origin).sum()) + np.abs(ends))
-    before, behind = renderer.resolution(camera, ends, view)
-    start = camera.clip_start - before
-    if not camera.projection.sees_behind:
-        start = max(start, camera.clip_start / 2)
-    return replace(camera, clip_start=start, clip_end=camera.clip_end + behind)

@@ -16,7 +16,7 @@ from ...pictures.picture import Picture
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.progress import Work
+from ...tracer.progress import Work, scaled
 from ...tracer.vector import transform_points
 from ..cause import Cause
 from .coverage import coverage
@@ -75,7 +75,8 @@ OFFSETS = (
 def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels at depth ties and at edges."""
     if pixels.open.any():
-        reach = float(np.max(pixels.band[pixels.open]))
+        yield from scaled(pixels.band.find(pixels.open), 0.0, 0.0)
+        reach = float(np.max(pixels.bands(np.nonzero(pixels.open))))
         yield from near_surfaces(pixels, pixels.case.scene, reach, _look)
 
 

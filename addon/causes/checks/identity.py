@@ -35,7 +35,8 @@ def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
     for rows in blocks(pixels.shape):
         part, shown = picture.at(rows), pixels[rows]
         odd = part.other_object(frame.instance_index[rows])
-        odd &= ~part.other_color(frame.color[rows])
+        at = np.nonzero(odd)
+        odd[at] = ~part.at(at).other_color(frame.color[rows][at])
         for number in np.unique(shown[odd]):
             own = np.flatnonzero(owners.instances == number)
             if len(own) and not unclear[own].any():

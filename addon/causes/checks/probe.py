@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import Array, Bools, Floats, Index, Places
-from ...methods import Method
+from ...pictures.bands import SampleBand
 from ...pictures.picture import Picture
 from ...scene import Region, Scene
 from ...tracer.camera import Rays, camera_rays, film_positions
 from ...tracer.candidates import PAIRS, Plan, candidates
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.nearest import plan, test_pairs, test_planes
+from ...tracer.nearest import test_pairs, test_planes
 from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import interpolated, positions
@@ -29,9 +29,7 @@ from ...tracer.vector import groups, parts
 from ...tracer.world import Pairs, WorldTriangles
 from ..case import Case
 from ..cause import AGREE, Cause, Causes
-
-# How the checks trace. A method that loses hits would find whatever Blender shows at some sample.
-SOUND = Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT64)
+from .plans import SOUND, shared_plan
 
 LAYERS = 4  # surfaces behind one another that are looked at
 FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
@@ -77,7 +75,14 @@ class OpenPixels:
     picture: Picture  # (h, w): the case's, as it is seen once a transform of its colours is found
     out: Causes  # what has been found
     open: Bools  # (h, w)
-    band: Floats  # (h, w) pixels: how far from its centre Blender's sample may lie
+    band: SampleBand  # how far from its centre Blender's sample may lie, but for the picture's own
+
+    def bands(self, at: Some) -> Floats:
+        """Return how far from the centres of some pixels Blender's samples may lie, in pixels.
+
+        They were asked for by `band.find`.
+        """
+        return self.band.values[at] + self.picture.sampling.off_center
 
     def give(
         self,
@@ -89,6 +94,8 @@ class OpenPixels:
     ) -> None:
         """Give a cause to pixels without one: those of `where`, (h, w), or (n,) of those `at`."""
         new = where & (self.out.cause[at] == AGREE)
+        if not new.any():
+            return
         for values, given in (
             (self.out.cause, cause.number),
             (self.out.figure, figure),
@@ -187,7 +194,7 @@ class Part:
     @classmethod
     def of(cls, pixels: OpenPixels, at: tuple[Places, ...], probe: Probe) -> Part:
         """Return the part of the pixels in some rows and columns."""
-        return cls(pixels, at, pixels.case.scene, pixels.picture.at(at), pixels.band[at], probe)
+        return cls(pixels, at, pixels.case.scene, pixels.picture.at(at), pixels.bands(at), probe)
 
     def take(self, wanted: Bools) -> Part:
         """Return the part of some of the n pixels."""
@@ -226,6 +233,7 @@ def by_parts(
     """
     r = made.scene.camera.region
     asked = pixels.open & asked
+    yield from scaled(pixels.band.find(asked), 0.0, 0.0)
     height = len(asked)
     for y0, y1 in groups(asked.sum(axis=1), FEW):
         rows = slice(y0, y1)
@@ -251,7 +259,9 @@ def near_surfaces(
         if near.any():
             yield from look(part if near.all() else part.take(near))
 
-    made = yield from plan(scene, SOUND, reach)
+    # The scene may have the case's own clip range, or a wider one.
+    made = yield from shared_plan(pixels.case.scene, pixels.picture.sampling.renderer, reach)
+    made = replace(made, scene=scene)
     asked = yield from scaled(may_be_seen(pixels, scene), 0.0, 0.1)
     yield from scaled(by_parts(pixels, made, look_near, asked), 0.1, 0.9)
 
@@ -297,10 +307,11 @@ def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
         return pixels.open
     out = np.zeros_like(pixels.open)
     row, column = np.nonzero(pixels.open)
-    for part in parts(len(row), BLOCK):
+    for part in parts(len(row), BLOCK // len(colors)):
         at = row[part], column[part]
-        shown = picture.at(at)
-        for color in colors:
-            out[at] |= ~shown.other_color(np.broadcast_to(color, shown.color.shape))
-            yield part.start / len(row)
+        shape = len(colors), *pixels.picture.color[at].shape
+        shown = replace(picture, color=np.broadcast_to(picture.color[at], shape))
+        traced = np.broadcast_to(colors[:, None], shape)
+        out[at] = ~shown.other_color(traced).all(axis=0)
+        yield part.start / len(row)
     return out

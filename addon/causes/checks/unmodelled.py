@@ -77,6 +77,8 @@ def blind(case: Case, frame: Frame) -> Integers:
     features, picture = list(enumerate(case.manifest.unmodelled)), case.picture
     filtered = int(np.ceil(picture.sampling.filter_radius))
     out = np.full(frame.shape, NOTHING, np.int32)
+    if not features and not picture.drawn:
+        return out
     if not picture.drawn:  # nobody drew the scene without it: all that it may cover
         for number, feature in features:
             if feature.effect is Effect.DRAWN and feature.bounds is not None:
@@ -97,6 +99,9 @@ def blind(case: Case, frame: Frame) -> Integers:
 
 def check_in_place(pixels: OpenPixels) -> Work[None]:
     """Find open pixels in which a feature is drawn, or a surface has an unknown colour."""
+    yield 0.0
+    if not pixels.case.manifest.unmodelled:
+        return
     number, seen = pixels.out.blind, pixels.frame.instance_index
     effects = [*(u.effect for u in pixels.case.manifest.unmodelled), None]
     is_drawn, is_recolored = (

@@ -51,13 +51,13 @@ class Names:
 
     def of(self, triangle: Index) -> tuple[Integers, Integers]:
         """Return instance and triangle of some of the chunk's triangles, (n,) each."""
-        which = np.zeros(len(triangle), np.intp)
-        if len(self.instances) > 1:
-            which = np.searchsorted(self.starts, triangle, side="right") - 1
+        one = len(self.instances) == 1
+        which = 0 if one else np.searchsorted(self.starts, triangle, side="right") - 1
+        instance = np.broadcast_to(self.instances[which], triangle.shape)
         if self.own is not None:
-            return self.instances[which], self.own[triangle]
-        own = triangle - self.starts[which] + self.first
-        return self.instances[which], own.astype(np.int32)
+            return instance, gather(self.own, triangle)
+        own = triangle - (self.starts[which] - self.first)
+        return instance, own.astype(np.int32)
 
 
 class Numbering:

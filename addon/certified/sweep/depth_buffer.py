@@ -119,6 +119,7 @@ class DepthBuffer:
         entered again; in reverse order, as many come sorted.
         """
         fragments: list[Fragments] = []
+        pixel = pixel.astype(np.intp, copy=False)
         while len(pixel) or not fragments:
             before = gather(self.nearness, pixel)
             nearer = least > before

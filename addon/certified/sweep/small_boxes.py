@@ -57,6 +57,9 @@ _ET = 1.01 * (12 * DELTA * _L + 50 * U * _L * _L)
 _PER_T = 1.01 * 12 * (_E + _ET)
 _OWN = 1.01 * (4 + 12 * (1 + _E / _ET))
 _SIDES = ((1, 2), (2, 0), (0, 1))  # the corners of the edges bc, ca, ab
+_PLACES = np.arange(SIDE * SIDE, dtype=np.int32).reshape(SIDE, SIDE)  # numbers of a box's pixels
+
+Block = tuple[int, int, int, int]  # triangles start <= k < end, boxes at most h high and w wide
 
 
 def are_small(film: Film, expanded: Expanded, low: Index, high: Index, some: Index) -> Bools:
@@ -87,93 +90,97 @@ def small_pairs(
     """Yield the pairs of triangles that `are_small`, some thousand triangles at a time.
 
     `boxes` are those of the triangles in the whole picture. Triangles that are nearly edge-on are
-    appended to `left` instead.
+    appended to `left` instead. They are sorted by the size of their boxes, and evaluated in blocks.
     """
-    for some, h, w in _blocks(boxes):
-        culling["computed"] += h * w * len(some)
-        yield _block(film, expanded, some, (h, w), depths, left)
-
-
-def _blocks(boxes: Boxes) -> Iterator[tuple[Boxes, int, int]]:
-    """Yield boxes of about one size, which are at most h pixels high and w wide."""
     width, height = boxes.high - boxes.low
     shape = _PADDED.take(height) * np.uint16(SIDE + 1) + _PADDED.take(width)
     order = np.argsort(shape, kind="stable")
-    shape = shape.take(order)
-    boxes = boxes.take(order)
-    starts = np.flatnonzero(np.diff(shape, prepend=np.uint16(0)))
-    for start, end in pairwise([*starts.tolist(), len(shape)]):
+    for part in parts(len(order), _TRIANGLES):
+        some = order[part]
+        blocks = list(_blocks(gather(shape, some)))
+        culling["computed"] += sum(h * w * (end - start) for start, end, h, w in blocks)
+        yield _pairs(film, expanded, boxes.take(some), blocks, depths, left)
+
+
+def _blocks(shape: Index) -> Iterator[Block]:
+    """Yield the blocks of triangles whose boxes have these shapes (k,), which are sorted."""
+    starts = np.flatnonzero(shape[1:] != shape[:-1]) + 1
+    for start, end in pairwise([0, *starts.tolist(), len(shape)]):
         h, w = divmod(int(shape[start]), SIDE + 1)
-        some = boxes.take(slice(start, end))
-        for part in parts(end - start, max(1, min(_TRIANGLES, _VALUES // (h * w)))):
-            yield some.take(part), h, w
+        size = _VALUES // (h * w)
+        for first in range(start, end, size):
+            yield first, min(first + size, end), h, w
 
 
-def _block(
+def _pairs(
     film: Film,
     expanded: Expanded,
     boxes: Boxes,
-    shape: tuple[int, int],
+    blocks: list[Block],
     depths: DepthBuffer,
     left: list[Index],
 ) -> Covered:
-    """Evaluate the triangles of some boxes, in blocks of one shape (h, w)."""
+    """Evaluate the triangles of some boxes: first each triangle, then its pixels, in blocks."""
     vertices = expanded.vertices
-    count = np.int32(len(boxes))
-    corners = [corner.astype(np.intp) for corner in gather(expanded.corners, boxes.owner)]
+    corners = gather(expanded.corners, boxes.owner).astype(np.intp)
     x0, y0 = boxes.low + 0.5
-    x = [gather(vertices.x, corner) - x0 for corner in corners]
-    y = [gather(vertices.y, corner) - y0 for corner in corners]
-    of_1 = [x[a] * y[b] - y[a] * x[b] for a, b in _SIDES]
-    volume = of_1[0] + of_1[1] + of_1[2]  # T
+    x = gather(vertices.x, corners) - x0
+    y = gather(vertices.y, corners) - y0
+    edges = np.empty((3, 3, len(boxes)))
+    for edge, (i, j) in enumerate(_SIDES):
+        np.subtract(x[i] * y[j], y[i] * x[j], out=edges[0, edge])
+        np.subtract(x[j], x[i], out=edges[1, edge])
+        np.subtract(y[i], y[j], out=edges[2, edge])
+    volume = edges[0, 0] + edges[0, 1] + edges[0, 2]  # T
     amount = np.abs(volume)
     sign = np.copysign(1.0, volume)
     edge_on = np.flatnonzero(amount <= 2 * _ET)
     if len(edge_on):
         left.append(gather(boxes.owner, edge_on))
         sign[edge_on] = np.nan  # never inside
-    first, second, third = _edges(x, y, of_1, sign, shape)
-    depth = [gather(vertices.depth, corner) for corner in corners]
-    a, b, c, error = _nearness(film, depth, amount)
+    edges *= sign
+    a, b, c, error = _nearness(film, gather(vertices.depth, corners), amount)
 
-    least = np.minimum(np.minimum(first, second, out=first), third, out=first).ravel()
-    found = (least >= -_E).nonzero()[0].astype(np.int32)
-    at = found // count  # which of a box's pixels
-    row = found - at * count
-    pixel, found, row = _pixels(depths, boxes.low, shape, at, row, found)
-    nearness = gather(second.ravel(), found) * gather(b, row)
-    nearness += gather(third.ravel(), found) * gather(c, row)
+    found = zip(*(_inside(edges, block) for block in blocks), strict=True)
+    row, place, least, second, third = map(np.concatenate, found)
+    nearness = second * gather(b, row)
+    nearness += third * gather(c, row)
     nearness += gather(a, row)
     error = gather(error, row)
     most = nearness + error
     nearness -= error
-    return Covered(pixel, gather(boxes.owner, row), nearness, most, gather(least, found) > _E)
+    pixel, ours = _pixels(depths, boxes.low, row, place)
+    pairs = Covered(pixel, gather(boxes.owner, row), nearness, most, least > _E)
+    return pairs.take(ours)
 
 
-def _edges(
-    x: list[Floats], y: list[Floats], of_1: list[Floats], sign: Floats, shape: tuple[int, int]
-) -> Floats:
-    """Return the edge functions of k triangles at the pixels of their boxes, (3, h, w, k)."""
-    h, w = shape
-    up = np.arange(float(h))[:, None]
-    right = np.arange(float(w))[:, None]
-    edges = np.empty((3, h, w, len(sign)))
-    for edge, constant, (a, b) in zip(edges, of_1, _SIDES, strict=True):
-        constant *= sign
-        if h == w == 1:
-            edge[0, 0] = constant
-        else:
-            rows = constant + (x[b] - x[a]) * sign * up
-            np.add(rows[:, None], (y[a] - y[b]) * sign * right, out=edge)
-    return edges
+def _inside(edges: Floats, block: Block) -> tuple[Index, Index, Floats, Floats, Floats]:
+    """Return where the triangles of a block may be hit: which triangle, and which pixel of its box.
+
+    And the edges there: the least, ca and ab. Given are, of all triangles (k,), the `edges`
+    (3, 3, k) as functions of the pixel: the coefficients of 1, y and x, of bc, ca and ab each.
+    """
+    start, end, h, w = block
+    of_1, of_y, of_x = edges[..., start:end]
+    values = of_1[:, None, None]  # (3, h, w, end - start)
+    if h * w > 1:
+        rows = of_1[:, None] + of_y[:, None] * np.arange(float(h))[:, None]
+        columns = of_x[:, None] * np.arange(float(w))[:, None]
+        values = rows[:, :, None] + columns[:, None]
+    first, second, third = values.reshape(3, -1)
+    least = np.minimum(first, second)
+    np.minimum(least, third, out=least)
+    found = (least >= -_E).nonzero()[0].astype(np.int32)  # divided faster than 64 bits
+    at = found // np.int32(end - start)
+    row = found - at * np.int32(end - start) + np.int32(start)
+    place = gather(_PLACES[:h, :w].ravel(), at)
+    return row, place, gather(least, found), gather(second, found), gather(third, found)
 
 
-def _nearness(
-    film: Film, depth: list[Floats], amount: Floats
-) -> tuple[Floats, Floats, Floats, Floats]:
+def _nearness(film: Film, depth: Floats, amount: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Return the nearness of first corners, what a unit of the edges ca and ab adds; and the error.
 
-    Given the depths of the three corners, and |T|.
+    Given the depths of the corners, (3, k), and |T|.
     """
     a, b, c = map(film.certain_nearness, depth)
     own = film.certain_error(largest(a, b, c))
@@ -189,28 +196,21 @@ def _nearness(
 
 
 def _pixels(
-    depths: DepthBuffer, low: Index, shape: tuple[int, int], at: Index, row: Index, found: Index
-) -> tuple[Index, Index, Index]:
-    """Return the pixels at places `at` in boxes `row`; and `found` and `row`.
-
-    Of all three only what lies in the region.
-    """
-    h, w = shape
+    depths: DepthBuffer, low: Index, row: Index, place: Index
+) -> tuple[Index, Index | slice]:
+    """Return the pixels at places (n,) in boxes `row`; and which of them lie in the region."""
     region = depths.region
-    stride = np.int32(depths.stride)
-    x, y = low.astype(np.int32) - depths.corner.astype(np.int32)
-    if min(x.min(), y.min()) < 0 or x.max() > region.width - w or y.max() > region.height - h:
-        i = gather(x, row) + at % w
-        j = gather(y, row) + at // w
-        ours = (i >= 0) & (i < region.width) & (j >= 0) & (j < region.height)
-        inside = np.flatnonzero(ours)
-        at = gather(at, inside)
-        row = gather(row, inside)
-        found = gather(found, inside)
-    y *= stride
-    y += x
-    pixel = gather(y, row)
-    if h * w > 1:
-        steps = np.arange(h, dtype=np.int32)[:, None] * stride + np.arange(w, dtype=np.int32)
-        pixel += gather(steps.ravel(), at)
-    return pixel, found, row
+    x, y = low.astype(np.intp) - depths.corner
+    steps = depths.stride * np.arange(SIDE)[:, None] + np.arange(SIDE)
+    pixel = gather(y * depths.stride + x, row) + gather(steps.ravel(), place)
+    near_end = (np.minimum(x, y) < 0) | (x > region.width - SIDE) | (y > region.height - SIDE)
+    some = np.flatnonzero(gather(near_end, row))
+    up, right = np.divmod(gather(place, some), SIDE)
+    i = gather(x, gather(row, some)) + right
+    j = gather(y, gather(row, some)) + up
+    inside = (i >= 0) & (i < region.width) & (j >= 0) & (j < region.height)
+    if inside.all():
+        return pixel, slice(None)
+    ours = np.ones(len(row), bool)
+    ours[some] = inside
+    return pixel, np.flatnonzero(ours)

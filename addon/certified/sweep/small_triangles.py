@@ -118,6 +118,7 @@ class SmallTriangles:
             for part in parts(count, max(1, _VERTICES // len(some))):
                 ends[:, part] = self._ends(own[:, part], some)
                 yield None
+            found = []
             for first, (a, b, c) in zip(range(0, each, _TRIANGLES), corners, strict=True):
                 most = largest(*(gather(ends, k).view(np.uint16) for k in (a, b, c)))
                 both = most.view(np.uint32).ravel()
@@ -125,9 +126,13 @@ class SmallTriangles:
                 inside = np.flatnonzero(both & _BOTH == _BOTH)
                 copy, triangle = np.divmod(inside, len(a))
                 at = np.stack([gather(k, triangle) + copy * count for k in (a, b, c)])
-                used, at = occurring(at, ends.size)
-                counts = np.bincount(copy, minlength=len(some))
-                yield Visible(some, counts, at, used, (triangle + first).astype(np.int32))
+                found.append((at, copy, (triangle + first).astype(np.int32)))
+                yield None
+            at, copy, triangle = (np.concatenate(v, axis=-1) for v in zip(*found, strict=True))
+            # Once for all parts, as it looks at every vertex of the mesh.
+            used, at = occurring(at, ends.size)
+            counts = np.bincount(copy, minlength=len(some))
+            yield Visible(some, counts, at, used, triangle)
 
     def _ends(self, vertices: Colors, members: Index) -> NDArray[np.int64]:
         """Return the pixels that a triangle may cover at each vertex, (k, v), as 4 x 16 bits.

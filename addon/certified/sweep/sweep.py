@@ -219,7 +219,7 @@ class Sweep:
         left = [some[~small]]
         culling = self._statistics.culling
         found = small_pairs(self._film, boxed.expanded, boxes, self._depths, culling, left)
-        for pairs in Covered.together(found, _PAIRS):
+        for pairs in found:
             self._keep(self.of_pairs(pairs, boxed.first + pairs.owner))
             yield "pixels"
         rest = np.concatenate(left)

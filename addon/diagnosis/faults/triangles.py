@@ -86,9 +86,11 @@ class Triangles(Guess):
 def _largest_triangle(case: Case, frame: Frame) -> Triangles | None:
     if not seen_instances(case, frame):
         return None
-    names = np.stack((frame.instance_index, frame.triangle_index), axis=-1)
-    found, count = np.unique(names[frame.triangle_index >= 0], axis=0, return_counts=True)
-    instance, triangle = (int(n) for n in found[np.argmax(count)])
+    seen = frame.triangle_index >= 0
+    most = int(np.max(frame.triangle_index)) + 1
+    names = frame.instance_index[seen].astype(np.int64) * most + frame.triangle_index[seen]
+    found, count = np.unique(names, return_counts=True)
+    instance, triangle = divmod(int(found[np.argmax(count)]), most)
     name = case.scene.objects[case.scene.instances[instance].object]
     rank = instances_named(case.scene, name).index(instance)
     return Triangles(rank, np.array([triangle]), object=name)

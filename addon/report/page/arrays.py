@@ -14,15 +14,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array, Floats, Index, Integers
+from ...arrays import Array, Integers
 from ...runs import run_starts
 from ...scene import Scene
 from ...tracer import plane
-from ...tracer.camera import Rays, camera_rays, film_positions
+from ...tracer.camera import camera_rays, film_positions
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.shading import by_mesh
-from ...tracer.triangle import textbook
+from ...tracer.vector import Vectors, cross, gather, parts
 from ...tracer.world import world_corners
 
 _LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller
@@ -108,13 +108,15 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: SeenSurfaces) -> NDArray[np.
     stored as 0, 1, 2, 3, 4..., so that all but the lowest bytes are zero and compress.
     """
     t = frame.t.ravel()
+    number = surfaces.number.ravel()
     formula = np.zeros(len(t))
     with np.errstate(all="ignore"):
-        for first in range(0, len(t), _TOGETHER):
-            rows = slice(first, min(first + _TOGETHER, len(t)))
-            pixel = np.arange(rows.start, rows.stop)
+        points, normals = _planes_of(scene, surfaces)
+        for part in parts(len(t), _TOGETHER):
+            pixel = part.start + np.flatnonzero(number[part])
             rays = camera_rays(scene.camera, *film_positions(scene.camera.region, pixel=pixel))
-            formula[rows] = _textbook_t(scene, rays, surfaces, surfaces.number.ravel()[rows])
+            own = number[pixel] - 1
+            formula[pixel] = plane.intersect(rays, gather(points, own), gather(normals, own))
     formula[~np.isfinite(formula)] = 0.0
     with np.errstate(over="ignore"):
         offsets = t.view(np.int64) - formula.view(np.int64)
@@ -122,18 +124,14 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: SeenSurfaces) -> NDArray[np.
     return ((offsets << 1) ^ (offsets >> 63)).view(np.uint64)
 
 
-def _textbook_t(scene: Scene, rays: Rays, surfaces: SeenSurfaces, number: Index) -> Floats:
-    """Return the textbook's t of each ray (n,) with the surface of its number; 0 for none."""
-    out = np.zeros(len(number))
-    count = len(scene.instances)
-    seen_ = np.flatnonzero(number)
-    instance, triangle = (a[number[seen_] - 1] for a in (surfaces.instance, surfaces.triangle))
-    on_mesh = np.flatnonzero(instance < count)
-    corners = world_corners(scene, instance[on_mesh], triangle[on_mesh])
-    some = rays.take(seen_[on_mesh])
-    out[seen_[on_mesh]] = textbook(some, *corners)[1]
-    for index, infinite in enumerate(scene.planes, start=count):
-        which = seen_[instance == index]
-        point, normal = infinite.point[:, None], infinite.normal[:, None]
-        out[which] = plane.intersect(rays.take(which), point, normal)
-    return out
+def _planes_of(scene: Scene, surfaces: SeenSurfaces) -> tuple[Vectors, Vectors]:
+    """Return a point and the textbook's normal of each surface's plane, (3, k) each."""
+    points, normals = np.zeros((2, 3, len(surfaces.instance)))
+    on_mesh = np.flatnonzero(surfaces.instance < len(scene.instances))
+    named = surfaces.instance[on_mesh], surfaces.triangle[on_mesh]
+    p1, p2, p3 = world_corners(scene, *named)
+    points[:, on_mesh], normals[:, on_mesh] = p1, cross(p3 - p1, p2 - p1)
+    for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
+        which = surfaces.instance == index
+        points[:, which], normals[:, which] = infinite.point[:, None], infinite.normal[:, None]
+    return points, normals

@@ -12,6 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from ... import png
 from ...causes.cause import AGREE, UNEXPLAINED
 from ...causes.explain import CAUSES
 from ...certainty import Certainty
@@ -107,16 +108,17 @@ def hex_color(linear: Sequence[float]) -> str:
 def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[str, str]]:
     s, source = comparison.frame.statistics, comparison.case.picture.source
     found = [
-        ("traced", "Traced", f"by {_words(s.method).lower()}", comparison.frame.color),
-        ("blender", "Picture", source.file, comparison.picture)
+        ("traced", "Traced", f"by {_words(s.method).lower()}", comparison.frame.color, png.LEVEL),
+        ("blender", "Picture", source.file, comparison.picture, png.LEVEL)
         if source.file
-        else ("blender", "Blender", _words(source.name).lower(), comparison.picture),
+        else ("blender", "Blender", _words(source.name).lower(), comparison.picture, png.LEVEL),
     ]
     if literal is not None:
-        found.append(("literal", "Literal textbook", "s₁ + s₂ + s₃ = 1 as printed", literal))
+        note = "s₁ + s₂ + s₃ = 1 as printed"
+        found.append(("literal", "Literal textbook", note, literal, png.NOISY))
     return [
-        {"id": i, "label": label, "note": note, "png": data_uri(to_display(color))}
-        for i, label, note, color in found
+        {"id": i, "label": label, "note": note, "png": data_uri(to_display(color), level)}
+        for i, label, note, color, level in found
     ]
 
 

@@ -49,7 +49,7 @@ function headline(score) {
   ];
   if (score.unexplained)
     parts.push(
-      `Nothing explains ${count(score.unexplained)}: one of the two pictures is wrong there.`,
+      `${count(score.unexplained)} have no excuse: one of the two pictures is wrong there.`,
     );
   else if (score.differ)
     parts.push(

@@ -67,12 +67,12 @@ def _small(v: Inputs, prefix: str, width: int) -> Kept:
     places = iter(("up", "right"))
     with (
         numpy_with(small_boxes, arange=lambda _: v.one(next(places))),
-        mock.patch.object(small_boxes, "_pixels", lambda *some: (some[3], some[5], some[4])),
-        locals_of(small_boxes._block) as local,
+        mock.patch.object(small_boxes, "_pixels", lambda *some: (some[3], slice(None))),
+        locals_of(small_boxes._pairs) as local,
     ):
         low = v.vector("x0 y0")
         some = Boxes(FIRST, low, low)
-        out = small_boxes._block(film, expanded, some, (1, width), None, [])
+        out = small_boxes._pairs(film, expanded, some, [(0, 1, 1, width)], None, [])
         kept = {f"{prefix}_T": local["volume"], f"{prefix}_edge": local["least"][:1]}
     kept[f"{prefix}_inside"] = v.chosen(1)
     found = {f"{prefix}_least": out.least, f"{prefix}_most": out.most, f"{prefix}_sure": out.sure}

@@ -1,0 +1,161 @@
+"""Builds the lesson pack, dist/lessons/: with it and Blender, the four lessons can be given.
+
+    python tools/make_lessons.py [--out FOLDER] [--pyodide FOLDER]
+
+The documents as HTML, the slides also as PDF, as are plans, worksheets and solutions; notebooks,
+scenes, the extension, the Python package, and `lite`, where the notebooks run in a browser.
+`make lessons` installs what it needs: `[lessons]` of pyproject.toml, Chromium; npm fetches Marp.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import jupytext
+from build_extension import PROJECT, run, text_of
+from documents import browser, lesson_pages
+from nbformat.v4 import new_code_cell
+
+DOCS = PROJECT / "docs"
+LESSONS = DOCS / "lessons"
+MARP = "@marp-team/marp-cli@4.5.1"
+APPS = "lab", "notebooks", "tree"  # of JupyterLite
+# By where a notebook runs: a kernel that is not there has each student asked for one.
+KERNELS = {"notebooks": "python3", "lite": "python"}
+FROM_THE_PACK = "%pip install -q reference_tracer trimesh"  # in the browser
+START = (
+    ("lessons/README.html", "the four lessons: begin here"),
+    ("tutorial.html", "the first steps in Blender, with pictures"),
+    ("button.html", "how to install the extension, which is the zip in this folder"),
+    ("grading.html", "how students' own programs are judged"),
+    ("lite/tree/index.html", "the notebooks in a browser, once python -m http.server serves this"),
+    ("README.html", "all documents"),
+)
+
+
+def copy(out: Path) -> None:
+    """Copy what is used as it is: pictures, students' files, scenes, the extension."""
+    left = shutil.ignore_patterns("*.md", "notebooks", "__pycache__")
+    shutil.copytree(DOCS, out, ignore=left)
+    (out / "scenes").mkdir()
+    for path in (
+        *(PROJECT / "sample_scenes").glob("exercise_*.blend"),
+        *(PROJECT / "packages" / "grading" / "scenes").glob("*.npz"),
+    ):
+        shutil.copy(path, out / "scenes")
+    manifest = tomllib.loads(text_of("blender_manifest.toml"))
+    shutil.copy(PROJECT / "dist" / f"{manifest['id']}-{manifest['version']}.zip", out)
+
+
+def write_pages(out: Path) -> None:
+    """Write the documents as HTML, and those that are handed out as PDF."""
+    links = "".join(f'<li><a href="{name}">{name}</a>: {what}</li>\n' for name, what in START)
+    start = lesson_pages.as_page("The lesson pack", f"<h1>The lesson pack</h1>\n<ul>\n{links}</ul>")
+    (out / "index.html").write_text(start, encoding="utf-8")
+    slides = LESSONS / "slides"
+    for path in DOCS.rglob("*.md"):
+        if path.parent != slides:
+            page = (out / path.relative_to(DOCS)).with_suffix(".html")
+            page.write_text(lesson_pages.page(path, DOCS), encoding="utf-8")
+    with browser.opened() as opened:
+        tab = opened.new_page(color_scheme="light")
+        for kind in lesson_pages.PRINTED:
+            for page in (out / "lessons" / kind).glob("*.html"):
+                tab.goto(page.resolve().as_uri())
+                margin = dict.fromkeys(("top", "bottom", "left", "right"), "18mm")
+                tab.pdf(path=page.with_suffix(".pdf"), format="A4", margin=margin)
+
+
+def make_slides(out: Path) -> None:
+    """Have Marp make HTML and PDF of the slides, whose text goes along for who changes it."""
+    folder = out / "lessons" / "slides"
+    for path in (LESSONS / "slides").glob("*.md"):
+        text = lesson_pages.unmarked(path).replace(".md#", ".html#").replace(".md)", ".html)")
+        (folder / path.name).write_text(text, encoding="utf-8")
+    environment = os.environ | {"CHROME_PATH": browser.chromium()}
+    if os.geteuid() == 0:
+        environment["CHROME_NO_SANDBOX"] = "1"
+    names = sorted(path.name for path in folder.glob("*.md"))
+    for options in ([], ["--pdf", "--allow-local-files"]):
+        subprocess.run(
+            ["npx", "--yes", MARP, *options, *names],
+            **{"cwd": folder, "env": environment, "stdin": subprocess.DEVNULL, "check": True},
+        )
+
+
+def write_notebooks(folder: Path, kernel: str) -> None:
+    """Write the notebooks as .ipynb for a kernel, with what they import, and as programs."""
+    folder.mkdir(parents=True)
+    for path in (LESSONS / "notebooks").glob("*.py"):
+        shutil.copy(path, folder)
+        if path.stem == "picture":
+            continue
+        notebook = jupytext.read(path)
+        if kernel == KERNELS["lite"] and "reference_tracer" in path.read_text(encoding="utf-8"):
+            notebook.cells.insert(1, new_code_cell(FROM_THE_PACK))
+        notebook.metadata["kernelspec"] = {"name": kernel, "display_name": "Python"}
+        for number, cell in enumerate(notebook.cells):
+            cell["id"] = f"{path.stem}-{number}"  # else another one each time
+        jupytext.write(notebook, folder / f"{path.stem}.ipynb")
+
+
+def build_wheels(out: Path) -> None:
+    """Build the Python package, and fetch what it needs, and what its kernel does, in a browser."""
+    run("-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation", "-w", out, PROJECT)
+    fetched = ["--quiet", "--no-deps", "--constraint", PROJECT / "constraints.txt", "--dest", out]
+    run("-m", "pip", "download", *fetched, "comm", "trimesh")
+
+
+def build_lite(out: Path, pyodide: Path | None) -> None:
+    """Build the site where the notebooks run in a browser.
+
+    Without `pyodide`, an unpacked distribution of it, they fetch that from its public address.
+    """
+    work = out / "lite-work"
+    write_notebooks(work / "contents", KERNELS["lite"])
+    if pyodide:
+        shutil.copytree(pyodide, work / "static" / "pyodide")
+    options = ["--contents", work / "contents", "--output-dir", out / "lite"]
+    options += [f"--apps={name}" for name in APPS]
+    options += [f"--piplite-wheels={path}" for path in out.glob("*.whl")]
+    command = [sys.executable, "-m", "jupyterlite_core", "build", "--no-sourcemaps", *options]
+    subprocess.run(list(map(str, command)), cwd=work, check=True, stdout=subprocess.DEVNULL)
+    shutil.rmtree(work)
+
+
+def commit() -> str:
+    """Return the commit that this is, "" where files differ from it, or this is no clone."""
+    git = {"cwd": PROJECT, "capture_output": True, "text": True, "check": False}
+    changed = subprocess.run(["git", "status", "--porcelain"], **git).stdout
+    return "" if changed else subprocess.run(["git", "rev-parse", "HEAD"], **git).stdout
+
+
+def build(out: Path, pyodide: Path | None) -> None:
+    """Build the pack into a folder, which is made anew."""
+    shutil.rmtree(out, ignore_errors=True)
+    copy(out)
+    (out / "commit.txt").write_text(commit(), encoding="ascii")
+    write_pages(out)
+    make_slides(out)
+    write_notebooks(out / "lessons" / "notebooks", KERNELS["notebooks"])
+    build_wheels(out)
+    build_lite(out, pyodide)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", type=Path, default=PROJECT / "dist" / "lessons")
+    parser.add_argument("--pyodide", type=Path, help="Pyodide, unpacked, to go into the pack")
+    options = parser.parse_args()
+    build(options.out.resolve(), options.pyodide and options.pyodide.resolve())
+    print(f"built {options.out}: open index.html; serve the folder for lite/")
+
+
+if __name__ == "__main__":
+    main()
