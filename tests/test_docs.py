@@ -40,9 +40,15 @@ def tools():
         )
 
         yield {
-            **{"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures},
-            **{"derivations": derivations, "drawings": drawings},
-            **{"python": python, "records": records, "subjects": subjects},
+            "make": make_docs,
+            "figures": figures,
+            "markers": markers,
+            "pictures": pictures,
+            "derivations": derivations,
+            "drawings": drawings,
+            "python": python,
+            "records": records,
+            "subjects": subjects,
         }
     finally:
         sys.path.remove(TOOLS)

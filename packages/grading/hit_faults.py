@@ -148,6 +148,15 @@ def parallel(a: Answers) -> Found:
 
 
 HIT_TESTS = (
-    *(no_hits, all_hits, sign_of_t, culling, sum_equals_one, absolute_epsilon, edges_not_tested),
-    *(single_precision, tolerance, behind, parallel),
+    no_hits,
+    all_hits,
+    sign_of_t,
+    culling,
+    sum_equals_one,
+    absolute_epsilon,
+    edges_not_tested,
+    single_precision,
+    tolerance,
+    behind,
+    parallel,
 )

@@ -15,10 +15,23 @@ from .submission import Limits
 
 _LARGEST_FILE = 1 << 30  # bytes that a program may write to one
 _SANDBOX = (
-    *("bwrap", "--die-with-parent", "--unshare-all", "--ro-bind", "/", "/"),
-    *("--dev", "/dev", "--proc", "/proc"),
+    "bwrap",
+    "--die-with-parent",
+    "--unshare-all",
+    "--ro-bind",
+    "/",
+    "/",
+    "--dev",
+    "/dev",
+    "--proc",
+    "/proc",
     # Sockets of other programs lie here, which a read-only folder would not keep it from.
-    *("--tmpfs", "/run", "--tmpfs", "/tmp", "--tmpfs", "/var/tmp"),
+    "--tmpfs",
+    "/run",
+    "--tmpfs",
+    "/tmp",
+    "--tmpfs",
+    "/var/tmp",
     "--clearenv",
 )
 _KEPT_ENVIRONMENT = "PATH", "LANG", "HOME", "JAVA_HOME"
