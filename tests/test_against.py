@@ -265,10 +265,11 @@ def test_options_that_do_not_fit(scene, against, options, message):
 
 
 def test_a_filter_needs_a_picture(tmp_path, capsys):
-    """A judge that is known has its own: that is said before the file is opened."""
-    options = "--judge", "workbench", "--filter", "1", "--out", str(tmp_path)
-    assert main(["compare", str(tmp_path / "a.blend"), *options]) == 4
-    assert "--filter is for a picture of --against" in capsys.readouterr().err
+    """Or an engine that is named: that is said before the file is opened."""
+    for judge in ((), ("--judge", "workbench"), ("--judge", "auto")):
+        options = *judge, "--filter", "1", "--out", str(tmp_path)
+        assert main(["compare", str(tmp_path / "a.blend"), *options]) == 4
+        assert "--filter is for a picture of --against" in capsys.readouterr().err
 
 
 @pytest.mark.slow

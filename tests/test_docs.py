@@ -28,12 +28,27 @@ def tools():
     sys.path.insert(0, TOOLS)
     try:
         import make_docs
-        from documents import derivations, drawings, figures, markers, pictures, python, records
+        from documents import (
+            derivations,
+            drawings,
+            figures,
+            markers,
+            pictures,
+            python,
+            records,
+            subjects,
+        )
 
         yield {
-            **{"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures},
-            **{"derivations": derivations, "drawings": drawings},
-            **{"python": python, "records": records},
+            "make": make_docs,
+            "figures": figures,
+            "markers": markers,
+            "pictures": pictures,
+            "derivations": derivations,
+            "drawings": drawings,
+            "python": python,
+            "records": records,
+            "subjects": subjects,
         }
     finally:
         sys.path.remove(TOOLS)
@@ -42,10 +57,10 @@ def tools():
 @pytest.fixture(scope="module")
 def values(tools):
     """Every figure, computed once for all documents."""
-    page = {"python_api": tools["python"].page()}
-    return (
-        page | tools["figures"].values() | tools["derivations"].values() | tools["records"].values()
-    )
+    out = {"python_api": tools["python"].page()}
+    for name in ("figures", "derivations", "records", "subjects"):
+        out |= tools[name].values()
+    return out
 
 
 def texts():

@@ -56,8 +56,13 @@ def test_few_levels_a_palette_and_a_clear_color(depth, palette, clear, tmp_path)
 
 
 ADAM7 = (  # where each pass begins, and its steps: x, y, dx, dy
-    *((0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4)),
-    *((0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)),
+    (0, 0, 8, 8),
+    (4, 0, 8, 8),
+    (0, 4, 4, 8),
+    (2, 0, 4, 4),
+    (0, 2, 2, 4),
+    (1, 0, 2, 2),
+    (0, 1, 1, 2),
 )
 
 

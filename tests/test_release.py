@@ -126,6 +126,7 @@ def test_its_page_needs_only_what_is_beside_it(release: Path):
         beside.discard(name)
     assert not {name for name in beside if name.endswith((".zip", ".whl"))}
     assert "{{" not in page and "${" not in page
+    assert "](docs/" not in (release / "NOTES.md").read_text(encoding="utf-8")
 
 
 def test_it_takes_the_lesson_pack_of_its_commit(script, monkeypatch, tmp_path: Path):

@@ -166,7 +166,7 @@ def test_wrong_head_is_named(head, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("old", "meant"), [(False, "perspective"), (True, "orthographic"), *[("equirectangular",) * 2]]
+    ("old", "meant"), [(False, "perspective"), (True, "orthographic"), ("equirectangular",) * 2]
 )
 def test_a_file_of_version_1_is_read(make, old, meant, tmp_path):
     camera = make.camera(projection=PROJECTIONS[meant])

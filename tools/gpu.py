@@ -24,8 +24,15 @@ from matrix import table
 PROJECT = Path(__file__).resolve().parents[1]
 CHILD = PROJECT / "tools" / "gpu_child.py"
 HEAD = (
-    *("Blender", "backend", "device", "driver", "snapping", "pixels"),
-    *("differ", "differ drawn twice", "unexplained"),
+    "Blender",
+    "backend",
+    "device",
+    "driver",
+    "snapping",
+    "pixels",
+    "differ",
+    "differ drawn twice",
+    "unexplained",
 )
 LONGEST = 1800  # seconds
 INSTALL = "--command", "extension", "install-file", "-r", "user_default", "--enable"

@@ -28,6 +28,7 @@ from documents import (
     python,
     records,
     story,
+    subjects,
 )
 from documents.markers import MARKED, Command, refreshed
 
@@ -86,7 +87,7 @@ def main() -> None:
         from documents import window
 
         window.write(DOCS / "images" / "tutorial")
-    values = figures.values() | derivations.values() | records.values()
+    values = figures.values() | derivations.values() | records.values() | subjects.values()
     values |= {"python_api": python.page()}
     page = PROJECT / "ARCHITECTURE.md"
     page.write_text(architecture.refreshed(page.read_text(encoding="utf-8")), encoding="utf-8")

@@ -145,7 +145,9 @@ def build(work: Path, address: str, tried: bool) -> Path:
     run(blenders_tool(), "server-generate", "--repo-dir", out, "--html", "--html-template", page)
     for path in lessons:  # not before, since it is no extension
         shutil.move(path, out)
-    (out / "NOTES.md").write_bytes(newest(text_of("CHANGELOG.md"))[2].encode())
+    notes = newest(text_of("CHANGELOG.md"))[2]
+    notes = re.sub(r"\[([^]]+)\]\((?!https?:)[^)]+\)", r"\1", notes)  # no document is beside it
+    (out / "NOTES.md").write_bytes(notes.encode())
     (out / "SHA256SUMS").write_bytes(sums(sorted(out.iterdir())).encode())
     if tried:
         shutil.copy(compared(work, source), out / "try.html")

@@ -8,11 +8,22 @@ from typing import Any
 import bpy
 
 from . import engine
+from .reading import rendered
 from .ui import inspector, language, menus, panels, preferences, properties, split, study_panels
 from .ui.long_work import OPERATORS, LongWork
 from .ui.results import forget, remove_stale_images
 
-MODULES = (language, properties, preferences, engine, menus, panels, study_panels, split)
+MODULES = (
+    language,
+    properties,
+    preferences,
+    engine,
+    menus,
+    panels,
+    study_panels,
+    split,
+    rendered,
+)
 # The panels import the operators.
 _register, _unregister = bpy.utils.register_classes_factory(OPERATORS)
 
@@ -24,6 +35,7 @@ _commands: list[Any] = []  # that are registered
 def _file_closes(*_: Any) -> None:
     """Forget the results of the file that is closed; Blender ends the operators that run."""
     forget()
+    rendered.forget()
     LongWork.running = ""
     inspector.REFERENCE_TRACER_OT_inspect.running = False
 

@@ -27,7 +27,7 @@ _NOT_OF_A_FRAME = "scene", "out", "frames", "against", "colors_out", "place"
 
 # Options for a picture of unknown origin.
 _OF_GIVEN = "filter", "renderer"
-_WHY_GIVEN = "is for a picture of --against, or of an add-on's engine"
+_WHY_GIVEN = "is for a picture of --against, or of an add-on's engine that --judge names"
 
 
 @dataclass(frozen=True)
@@ -65,9 +65,8 @@ class CompareOptions:
             refuse(given, ("colors_out",), "is for one judge, not for --judge all")
         if given.as_is:
             refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
-        if given.against is None and given.judge:
-            _check_judge(given.judge, given)
         if given.against is None:
+            _check_judge(given.judge or "auto", given)
             refuse(given, ("dither",), "is for a picture of --against")
         else:
             why = "is for Blender's picture, not for one of --against"
@@ -93,19 +92,6 @@ class CompareOptions:
             extremes=given.extremes,
             place=place_from(given),
         )
-
-    def check_stored(self, judge: str) -> None:
-        """Refuse what has no effect on the judge that a .blend stores, as it is chosen there.
-
-        Raises
-        ------
-        SceneError
-            If an option has none.
-        """
-        from ..blender.drawing.judges import GIVEN
-
-        if not self.judge and judge not in GIVEN:
-            refuse(self, _OF_GIVEN, _WHY_GIVEN)
 
     def of_a_frame(self) -> dict[str, str]:
         """Return the options that a frame's comparison depends on, in words that can be stored."""
@@ -187,9 +173,9 @@ def _add_blenders_picture(parser: Parser) -> None:
     group.add_argument(
         "--judge",
         metavar="JUDGE",
-        help=f"what draws the picture to compare with: {names}; all makes a table of these (and of "
-        "the viewport, in a window); or the name of an engine that an add-on registers, such as "
-        "MY_ENGINE",
+        help=f"what draws the picture to compare with: {names}; or the name of an engine that "
+        "an add-on registers, such as MY_ENGINE; all makes a table of all these (and of the "
+        "viewport, in a window)",
     )
     group.add_argument(
         "--as-is",

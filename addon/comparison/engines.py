@@ -42,7 +42,7 @@ class EngineRow(NamedTuple):
             comparison.counts,
             tuple(_wrong(comparison)),
             None if identity is None else identity.shows().other_object,
-            not_judged=tuple(comparison.not_judged()),
+            not_judged=(*comparison.not_judged(), *comparison.case.picture.source.remarks),
             self_check=comparison.self_check,
         )
 

@@ -31,8 +31,18 @@ _PLAIN = Settings(Method.TEXTBOOK)
 _FARTHEST = 1e300  # metres: no clip range
 _CUBE = np.array(  # a box's twelve triangles, by corners numbered 4 x + 2 y + z
     [
-        *((0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4)),
-        *((2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)),
+        (0, 2, 1),
+        (1, 2, 3),
+        (4, 5, 6),
+        (5, 7, 6),
+        (0, 1, 4),
+        (1, 5, 4),
+        (2, 6, 3),
+        (3, 6, 7),
+        (0, 4, 2),
+        (2, 4, 6),
+        (1, 3, 5),
+        (3, 7, 5),
     ]
 )
 
@@ -67,7 +77,11 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
         for k, p in enumerate(scene.planes, first)
     )
     pixel = Pixel(
-        *(scene.camera, x, y, planes, scene.background),
+        scene.camera,
+        x,
+        y,
+        planes,
+        scene.background,
         first_plane=first,
         triangles=scene.triangle_count,
         refused=refused(scene),

@@ -186,13 +186,14 @@ def renderer_of(header: str, engine: str) -> tuple[Renderer, str]:
     header : str
         Which engine wrote the file's header: 'cycles', 'other' of Blender's; '' for no Blender.
     engine : str
-        Blender's name of the engine that the scene is set to; '' where that is not known.
+        Blender's name of the engine that made it, or that its scene is set to; '' where neither is
+        known.
     """
     if header == "cycles":
         return RAYS, "as Cycles made it"
     if not header:
         return RAYS, "as nothing says that it was rasterised"
     if engine.startswith(_RASTERISERS):
-        return RASTER, f"as Blender wrote it, and the scene's engine is {engine}"
+        return RASTER, f"as Blender wrote it, and its engine is {engine}"
     # What an add-on registers may trace rays, and a header does not name it.
     return RAYS, "as Blender wrote it, but nothing says that it was rasterised"

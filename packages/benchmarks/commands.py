@@ -111,11 +111,22 @@ def _work(name: str, files: dict[str, Path]) -> Callable[[], float]:
         "compare suzanne, 960 x 540": ["compare", of["suzanne"], *into],
         "compare 12 triangles, 1920 x 1080": ["compare", of["cube.blend"], *_LARGE, *into],
         "compare 385,000 pixels that one cause excuses": [
-            *("compare", of["xray.blend"], "--as-is", "--no-identity"),
-            *("--width", "1162", "--height", "654", *into),
+            "compare",
+            of["xray.blend"],
+            "--as-is",
+            "--no-identity",
+            "--width",
+            "1162",
+            "--height",
+            "654",
+            *into,
         ],
         "trace mesh.ply, 1.3 M triangles": [
-            *("trace", of["mesh.ply"], *_LARGE, "--out", f"{of['out']}.png")
+            "trace",
+            of["mesh.ply"],
+            *_LARGE,
+            "--out",
+            f"{of['out']}.png",
         ],
     }
     if name in argv:

@@ -199,9 +199,13 @@ class Timing:
         case, ours = self._case, self.runners[settings, TRACE]
         whole = self.runners[settings, RENDER]
         row = Row(
-            *(case.scene, SUBJECTS[case.scene].copies * len(self._mesh.triangles)),
-            *(case.width, case.height, case.camera),
-            *(settings.method.value, settings.precision.value),
+            case.scene,
+            SUBJECTS[case.scene].copies * len(self._mesh.triangles),
+            case.width,
+            case.height,
+            case.camera,
+            settings.method.value,
+            settings.precision.value,
             trace_s=ours.median,
             render_s=whole.median,
             peak_bytes=peaks.get(_job(case, settings, TRACE)),

@@ -88,9 +88,14 @@ def _size(row: Row) -> tuple[int, str]:
 def _cells(r: Row) -> Sequence[str]:
     sampled = "~" if r.embreex_rays is not None and r.embreex_rays < r.pixels else " "
     return (
-        *(r.scene, f"{r.triangles:,}", _seconds(r.trace_s), _ratio(r, "ratio_to_mt")),
-        *(_ratio(r, "ratio_to_embreex") + sampled, _seconds(r.embreex_build_s)),
-        *(_seconds(r.render_s), _mib(r.peak_bytes)),
+        r.scene,
+        f"{r.triangles:,}",
+        _seconds(r.trace_s),
+        _ratio(r, "ratio_to_mt"),
+        _ratio(r, "ratio_to_embreex") + sampled,
+        _seconds(r.embreex_build_s),
+        _seconds(r.render_s),
+        _mib(r.peak_bytes),
     )
 
 

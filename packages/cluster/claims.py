@@ -88,8 +88,16 @@ class Claim:
         """
         index, number = (np.int64, (None,)), (np.int32, (None,))
         names, certainty, values, *ties, told = unpacked(
-            *(data, (np.int32, (2, count)), (np.uint8, (count,)), (np.float64, (4, None))),
-            *(index, index, number, number, number, (str, ())),
+            data,
+            (np.int32, (2, count)),
+            (np.uint8, (count,)),
+            (np.float64, (4, None)),
+            index,
+            index,
+            number,
+            number,
+            number,
+            (str, ()),
         )
         known = Known(_decided(certainty), values)
         claim = cls(names, certainty, known, Ties(*ties), _statistics(str(told)))

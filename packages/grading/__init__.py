@@ -1,1 +1,1 @@
-"""Students' own ray/triangle tests, judged against exact arithmetic: `judging.py` begins."""
+"""What students wrote themselves, judged against exact arithmetic: `judging.py` begins."""

@@ -5,18 +5,17 @@ Hits, t and barycentrics are judged apart: one may be wrong where the others are
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from reference_tracer.arrays import Floats
 
 from .checks import Checks, Group
-
-Mask = NDArray[np.bool_]
-Found = Iterator[tuple[str, str, Mask]]  # a fault's name, a sentence, the answers it explains
+from .faults import Tests
+from .programs import Mask
+from .tally import Tally
+from .wrong_case import WrongCase
 
 MOST, FEW = 0.9, 0.1  # shares of pairs: "nearly all", "hardly any"
 
@@ -28,6 +27,44 @@ class Answers:
     checks: Checks
     t: Floats
     s: Floats
+
+    @property
+    def cases(self) -> Checks:
+        """The checks."""
+        return self.checks
+
+    @cached_property
+    def table(self) -> Floats:
+        """T and barycentrics side by side, (n, 4)."""
+        return np.column_stack((self.t, self.s))
+
+    @property
+    def tests(self) -> tuple[Tests, ...]:
+        """The tests for faults that are no mutation of a formula."""
+        from .hit_faults import HIT_TESTS
+        from .value_faults import S_TESTS, T_TESTS
+
+        return (
+            Tests(self.wrong_hit, HIT_TESTS, "hits"),
+            Tests(self.wrong_t, T_TESTS, "values of t"),
+            Tests(self.wrong_s, S_TESTS, "barycentrics"),
+        )
+
+    @property
+    def examples(self) -> list[WrongCase]:
+        """None: each fault is shown in the scenes."""
+        return []
+
+    @property
+    def tally(self) -> Tally:
+        """How many are right."""
+        known = self.checks.known
+        right = {
+            "surface": self.hit == known.hit,
+            "t": self.both & ~self.wrong_t,
+            "barycentrics": self.both & ~self.wrong_s,
+        }
+        return Tally.of(self.hit | known.hit, known.doubt, right, self.checks.subject.weights)
 
     @cached_property
     def hit(self) -> Mask:

@@ -9,12 +9,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from functools import cache, cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.arrays import Floats
 
 from .known import Known, known
+from .programs import Letters
+from .subjects.subject import Subject
+from .subjects.triangle import TRIANGLE, letters
+
+if TYPE_CHECKING:
+    from .answers import Answers
 
 SEED = 20240611
 EACH = 400  # pairs of a group
@@ -38,6 +46,9 @@ class Group(IntEnum):
 ORDINARY = Group.FRONT, Group.BACK, Group.WHOLE  # hits with nothing difficult about them
 
 
+Pairs = tuple[Floats, Floats, Floats]  # origins, directions, triangles
+
+
 @dataclass(frozen=True, eq=False)
 class Checks:
     """All pairs, (n, ...), with their groups and what is true of them."""
@@ -49,11 +60,43 @@ class Checks:
     twin: NDArray[np.int64]  # of SCALED: which pair it is a multiple of
     known: Known
 
+    @property
+    def subject(self) -> Subject:
+        """What is asked."""
+        return TRIANGLE
+
+    @property
+    def given(self) -> Pairs:
+        """What the student's function is given."""
+        return self.origins, self.directions, self.triangles
+
+    @cached_property
+    def letters(self) -> Letters:
+        """What the programs begin with."""
+        return letters(*self.given)
+
+    @property
+    def tells(self) -> NDArray[np.bool_]:
+        """Which pairs tell: where the plane is met, and no rounding decides, (n,)."""
+        return ~self.known.doubt & ~self.of(Group.PARALLEL, Group.EMPTY)
+
+    @property
+    def firm(self) -> NDArray[np.bool_]:
+        """Which pairs are answered alike in every call, (n,)."""
+        return ~self.known.doubt & ~self.of(Group.BESIDE)
+
+    def answers(self, table: Floats) -> Answers:
+        """Return what a function made of them, t and barycentrics (n, 4)."""
+        from .answers import Answers
+
+        return Answers(self, table[:, 0], table[:, 1:])
+
     def of(self, *groups: Group) -> NDArray[np.bool_]:
         """Return which pairs are of some groups, (n,)."""
         return np.isin(self.group, groups)
 
 
+@cache
 def make_checks(seed: int = SEED) -> Checks:
     """Return the checks; the same for the same seed."""
     rng = np.random.default_rng(seed)
@@ -79,9 +122,6 @@ def make_checks(seed: int = SEED) -> Checks:
     # d . n is exactly 0, and comes out so: there is nothing to round.
     truth = replace(truth, doubt=truth.doubt & (group != Group.PARALLEL))
     return Checks(o, d, p, group, twin, truth)
-
-
-Pairs = tuple[Floats, Floats, Floats]  # origins, directions, triangles
 
 
 def _triangles(rng: np.random.Generator) -> Floats:

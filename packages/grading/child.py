@@ -1,11 +1,11 @@
 """The process that runs a student's file: started as a script, it imports nothing but numpy.
 
-    python child.py FILE BYTES
+    python child.py FILE BYTES FORM
 
 Over its standard input come requests, over what was its standard output go answers: each a line of
-JSON, then float64 numbers as they lie in memory. The student's own printing goes to standard error.
-Whatever the student's code does wrong is an answer, too. This is no sandbox: the code may do
-whatever its user may.
+JSON, then float64 numbers as they lie in memory. FORM is a `form.Form` as JSON. The student's own
+printing goes to standard error. Whatever the student's code does wrong is an answer, too. This is
+no sandbox: the code may do whatever its user may.
 """
 
 from __future__ import annotations
@@ -27,58 +27,67 @@ import numpy as np
 
 LONGEST = 2000  # characters of a message
 
-Answer = tuple[np.ndarray, np.ndarray]
+Form = dict[str, Any]
 
 
 class Refused(Exception):  # noqa: N818  # it is what the student reads, not a name that we raise by
     """What the function returned is not what it has to return; the message says what it is."""
 
 
-def serve(path: Path, requests: BinaryIO, answers: BinaryIO) -> None:
+def serve(path: Path, form: Form, requests: BinaryIO, answers: BinaryIO) -> None:
     """Load the student's file and answer requests until there are no more."""
-    function = _guarded(path, answers, lambda: _load(path))
+    function = _guarded(path, answers, lambda: _load(path, form))
     if function is None:
         return
     _say(answers, {"ok": True})
     while line := requests.readline():
         head = json.loads(line)
         limit_time(head["seconds"])
-        rays = _received(requests, head["count"])
+        given = _received(requests, form, head["count"])
         began = time.perf_counter()
-        found = _guarded(path, answers, lambda rays=rays: checked(function(*rays), len(rays[0])))
+        found = _guarded(
+            path, answers, lambda given=given: checked(function(*given), form, len(given[0]))
+        )
         if found is None:
             return
-        _say(answers, {"ok": True, "seconds": time.perf_counter() - began}, *found)
+        _say(answers, {"ok": True, "seconds": time.perf_counter() - began}, found)
 
 
-def _load(path: Path) -> Any:
+def _load(path: Path, form: Form) -> Any:
     sys.path.insert(0, str(path.parent))
     spec = importlib.util.spec_from_file_location("student", path)
     assert spec and spec.loader, path  # it is a .py
     module = importlib.util.module_from_spec(spec)
     sys.modules["student"] = module
     spec.loader.exec_module(module)
-    function = getattr(module, "intersect", None)
+    function = getattr(module, form["function"], None)
     if not callable(function):
-        raise Refused("the file has no function 'intersect(origins, directions, triangles)'")
+        raise Refused(f"the file has no function '{form['signature']}'")
     return function
 
 
-def checked(result: Any, count: int) -> Answer:
-    """Return t (n,) and barycentrics (n, 3) as float64, or say what they are instead.
+def checked(result: Any, form: Form, count: int) -> np.ndarray:
+    """Return lines of answers (n, numbers) as float64, or say what they are instead.
 
     Raises
     ------
     Refused
         If the function returned something else.
     """
-    if not isinstance(result, tuple | list) or len(result) != 2:
+    wanted = form["answered"]
+    if len(wanted) == 1:
+        result = (result,)
+    if not isinstance(result, tuple | list) or len(result) != len(wanted):
         what = type(result).__name__
         if isinstance(result, tuple | list):
             what += f" of {len(result)}"
-        raise Refused(f"intersect must return two arrays, t and barycentrics, not {what}")
-    t, s = result
-    return _numbers("t", t, (count,)), _numbers("barycentrics", s, (count, 3))
+        names = " and ".join(name for name, _ in wanted)
+        raise Refused(f"{form['function']} must return {len(wanted)} arrays, {names}, not {what}")
+    parts = [
+        _numbers(name, value, (count, *shape)).reshape(count, -1)
+        for (name, shape), value in zip(wanted, result, strict=True)
+    ]
+    return np.concatenate(parts, axis=1)
 
 
 def _numbers(name: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
@@ -90,7 +99,7 @@ def _numbers(name: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
         raise Refused(f"{name} has the dtype {array.dtype}; it must be float64")
     if array.shape != shape:
         turned = " (transposed?)" if array.shape == shape[::-1] and len(shape) == 2 else ""
-        must = f"for n = {shape[0]} rays it must be {shape}"
+        must = f"for n = {shape[0]} it must be {shape}"
         raise Refused(f"{name} has the shape {array.shape}{turned}; {must}")
     return array.astype(np.float64)
 
@@ -119,6 +128,8 @@ def described(error: BaseException, path: Path) -> dict[str, Any]:
     except Exception:  # its own __str__ fails
         text = ""
     message = text if kind == "answer" else f"{type(error).__name__}: {text}".rstrip(": ")
+    if kind == "exception" and isinstance(error, TypeError | ValueError):  # as of code for one ray
+        message += " (what it is given are arrays, a row for each ray: reftrace judge --template)"
     trace = [
         [
             Path(f.filename).name,
@@ -136,13 +147,18 @@ def described(error: BaseException, path: Path) -> dict[str, Any]:
     return {"kind": kind, "message": message[:LONGEST], "trace": trace[-20:]}
 
 
-def _received(requests: BinaryIO, count: int) -> tuple[np.ndarray, ...]:
-    """Read origins, directions and triangles; nobody can write to them."""
-    shapes = (count, 3), (count, 3), (count, 3, 3)
-    return tuple(
-        np.frombuffer(requests.read(8 * int(np.prod(shape))), np.float64).reshape(shape)
-        for shape in shapes
+def _received(requests: BinaryIO, form: Form, count: int) -> tuple[np.ndarray, ...]:
+    """Read what the function is given, (n, ...) each; nobody can write to it."""
+    shapes = [(count, *shape) for _, shape in form["given"]]
+    sizes = [int(np.prod(shape[1:])) for shape in shapes]
+    lines = np.frombuffer(requests.read(8 * count * sum(sizes))).reshape(count, -1)
+    parts = np.split(lines, np.cumsum(sizes)[:-1], axis=1)
+    given = tuple(
+        np.ascontiguousarray(part).reshape(shape) for part, shape in zip(parts, shapes, strict=True)
     )
+    for array in given:
+        array.flags.writeable = False
+    return given
 
 
 def _say(answers: BinaryIO, head: dict[str, Any], *arrays: np.ndarray) -> None:
@@ -195,7 +211,7 @@ def main() -> None:
     warnings.simplefilter("ignore")
     random.seed(0)
     np.random.seed(0)
-    serve(Path(sys.argv[1]), requests, answers)
+    serve(Path(sys.argv[1]), json.loads(sys.argv[3]), requests, answers)
     answers.flush()
     os._exit(0)  # whatever threads the student's code has left
 

@@ -18,11 +18,13 @@ from pathlib import Path
 from reference_tracer import __version__
 from reference_tracer.report.folders import write_json, write_text
 
-from .external import Run, sandbox
+from .external import Run
 from .formats import FORMATS
 from .judging import Judgement
 from .page import class_page, page
 from .report import Student, student, to_dict
+from .sandbox import sandbox
+from .subjects.subject import Subject
 
 JSON, PAGE, STUDENTS = "judge.json", "judge.html", "students"
 _LONGEST = 60  # characters of a file's name
@@ -35,15 +37,20 @@ class ClassFolder:
     Parameters
     ----------
     directory : Path
+    subject : Subject
+        What they were asked to write.
     names : sequence of str
         What a reader calls the students.
     options : object
         All that they depend on besides the student: what differs is judged anew.
     """
 
-    def __init__(self, directory: Path, names: Sequence[str], options: object = None) -> None:
+    def __init__(
+        self, directory: Path, subject: Subject, names: Sequence[str], options: object = None
+    ) -> None:
         self._directory = directory
-        self._options = repr(options)
+        self._subject = subject
+        self._options = repr((subject.name, options))
         self._files = _file_names(names)
 
     def kept_of(self, submissions: Mapping[str, Path | Run]) -> dict[str, Student]:
@@ -77,9 +84,13 @@ class ClassFolder:
             for path, text in FORMATS[name](pages):
                 write_text(self._directory / path, text)
         alone = [self._page(s["file"]) for s in students] if len(students) == 1 else []
-        text = alone[0].read_text(encoding="utf-8") if alone else class_page(pages)
+        text = (
+            alone[0].read_text(encoding="utf-8")
+            if alone
+            else class_page(pages, self._subject.title)
+        )
         write_text(self._directory / PAGE, text)
-        write_json(self._directory / JSON, to_dict(students))
+        write_json(self._directory / JSON, to_dict(self._subject, students))
 
     def _kept(self, name: str, submission: Path | Run) -> Student | None:
         with suppress(OSError, ValueError, KeyError, TypeError):

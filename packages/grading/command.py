@@ -1,18 +1,15 @@
-"""`reftrace judge`: students' own ray/triangle tests, judged against exact arithmetic."""
+"""`reftrace judge`: what students wrote themselves, judged against exact arithmetic."""
 
 from __future__ import annotations
 
 import math
-import sys
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reference_tracer.cli.arguments import refuse, typed
-from reference_tracer.cli.camera_options import CAMERA_OPTIONS, add_camera, choice_from
+from reference_tracer.cli.camera_options import add_camera
 from reference_tracer.cli.opening import SOURCES, load
 from reference_tracer.cli.parser import (
     AGREE,
@@ -32,7 +29,11 @@ from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.progress import Work, called, result_of, scaled
 from reference_tracer.wording import count_of, say
 
-from .external import EXCHANGES, Run, sandbox
+from .exchange import EXCHANGES
+from .external import Run
+from .options import PIXELS, JudgeOptions
+from .sandbox import sandbox
+from .subjects import NAMES, subject
 
 # As `formats.FORMATS`, which needs all of judging.
 FORMATS = "csv", "gradescope", "json", "junit"
@@ -45,8 +46,9 @@ if TYPE_CHECKING:
 LEAST_MEMORY = 0.09  # GiB: Python and numpy by themselves take nearly as much
 CODES = {"right": AGREE, "boundary": WARNINGS, "wrong": DIFFERENCES, "failed": DIFFERENCES}
 _DESCRIPTION = """\
-Judge ray/triangle tests that students wrote: files with a function
-intersect(origins, directions, triangles) -> t, barycentrics. --template makes one to begin with.
+Judge what students wrote: ray/triangle tests, files with a function
+intersect(origins, directions, triangles) -> t, barycentrics, or another --subject.
+--template makes a file to begin with.
 
 It RUNS their code, in a process of its own with limits of time and memory. That is no sandbox:
 the code may read, write and send whatever you may. Read it first, or run this where that is safe.
@@ -62,62 +64,6 @@ _CODES = f"""exit codes:
 _MEMORY = number(
     float, lambda v: LEAST_MEMORY < v < math.inf, f"a finite number above {LEAST_MEMORY}"
 )
-
-
-@dataclass(frozen=True)
-class JudgeOptions:
-    """The options of `reftrace judge`."""
-
-    students: tuple[Path | Run, ...]
-    scenes: tuple[tuple[Path, Choice], ...]  # none for the exercise's own
-    camera_options: tuple[str, ...]  # those that were given, as they are typed
-    out: Path | None
-    pixels: int
-    time_limit: float  # seconds for each scene
-    memory_limit: int  # bytes
-    extremes: bool
-    again: bool  # also those who were judged before
-    formats: tuple[str, ...]  # what is written besides the pages and the JSON
-
-    @classmethod
-    def parsed(cls, given: Namespace) -> JudgeOptions:
-        """Return what was parsed.
-
-        Raises
-        ------
-        SceneError
-            If no student's file is named, one is not there, or an option has no effect.
-        """
-        files = dict.fromkeys(given.files)  # each once
-        scenes = tuple(file for file in files if file.suffix != ".py")
-        own = [file for file in files if file.suffix == ".py"]
-        for path in own:
-            if not path.is_file():
-                raise SceneError(f"there is no file '{path}'")
-        if not given.out:
-            refuse(given, ("format",), "is for a folder: add --out DIR")
-        if not given.programs:
-            refuse(given, ("exchange",), "is for --run")
-        students = (*own, *_runs(given))
-        if not students:
-            raise SceneError(
-                "name a student's file (.py), --run for a program in another language, or "
-                "--template FILE to make a file"
-            )
-        if not scenes:
-            refuse(given, CAMERA_OPTIONS, "is for scenes of your own: name one")
-        return cls(
-            students=students,
-            scenes=tuple((path, choice_from(given, path)) for path in scenes),
-            camera_options=_camera_options(given),
-            out=given.out,
-            pixels=given.pixels,
-            time_limit=given.time_limit,
-            memory_limit=int(given.memory_limit * 2**30),
-            extremes=given.extremes,
-            again=given.again,
-            formats=tuple(dict.fromkeys(given.format or ())),
-        )
 
 
 def add(parser: Parser) -> None:
@@ -149,6 +95,12 @@ def add(parser: Parser) -> None:
         help="what these files hold: csv, lines of numbers (default), or raw, float64",
     )
     parser.add_argument(
+        "--subject",
+        choices=NAMES,
+        default="triangle",
+        help="what the students' code computes (default %(default)s); --template shows the form",
+    )
+    parser.add_argument(
         "--template", type=parser.path, metavar="FILE", help="write a file to begin with"
     )
     parser.add_argument(
@@ -171,9 +123,8 @@ def add(parser: Parser) -> None:
     parser.add_argument(
         "--pixels",
         type=COUNT,
-        default=20_000,
         metavar="N",
-        help="judge about this many pixels of a scene (default %(default)s)",
+        help=f"judge about this many pixels of a scene (default {PIXELS})",
     )
     parser.add_argument(
         "--time-limit",
@@ -198,7 +149,7 @@ def add(parser: Parser) -> None:
 def run(given: Namespace) -> int:
     """Write the template, or judge."""
     if given.template:
-        return _write_template(given.template)
+        return _write_template(given.template, given.subject)
     return judge(JudgeOptions.parsed(given))
 
 
@@ -235,7 +186,7 @@ def _folder(options: JudgeOptions, submissions: Mapping[str, Path | Run]) -> Cla
         return None
     scenes = [(path.read_bytes(), choice) for path, choice in options.scenes]
     depends = scenes, options.pixels, options.time_limit, options.memory_limit, options.extremes
-    return ClassFolder(options.out, tuple(submissions), depends)
+    return ClassFolder(options.out, subject(options.subject), tuple(submissions), depends)
 
 
 Named = tuple[str, Scene, Path]
@@ -254,7 +205,8 @@ def _judged(
         printed.append(printable("\n".join(lines(j))))
         return folder.keep(submissions[j.name], j) if folder else student(j)
 
-    opened = _opened(options.scenes) or built_in()
+    own = built_in() if options.subject == "triangle" else []
+    opened = _opened(options.scenes) or own
     with progress_bar() as progress:
         found = result_of(_work(options, submissions, opened, told), progress)
     for text in printed:
@@ -268,20 +220,20 @@ def _work(
     scenes: Sequence[Named],
     told: Callable[[Judgement], Student],
 ) -> Work[dict[str, Student]]:
-    from .checks import make_checks
     from .extremes import extreme_scenes
+    from .judged_scene import prepare
     from .judging import judge_all
-    from .student import Limits
-    from .subject import prepare
+    from .submission import Limits
 
-    subjects = []
+    judged = []
     for k, (name, scene, path) in enumerate(scenes):
         work = prepare(name, scene, str(path), options.pixels, options.camera_options)
         work = called(work, f"tracing {name}")
-        subjects.append((yield from scaled(work, 0.3 * k / len(scenes), 0.3 / len(scenes))))
+        judged.append((yield from scaled(work, 0.3 * k / len(scenes), 0.3 / len(scenes))))
     hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     limits = Limits(options.time_limit, options.memory_limit)
-    judging = judge_all(submissions, make_checks(), subjects, hard, limits, told=told)
+    cases = subject(options.subject).cases()
+    judging = judge_all(submissions, cases, judged, hard, limits, told=told)
     return (yield from scaled(called(judging, "judging"), 0.6, 0.4))
 
 
@@ -301,40 +253,11 @@ def _opened(scenes: Sequence[tuple[Path, Choice]]) -> list[Named]:
     ]
 
 
-def _camera_options(given: Namespace) -> tuple[str, ...]:
-    """Return the camera's options that were given, as they are typed."""
-    out: list[str] = []
-    for name in CAMERA_OPTIONS:
-        value = getattr(given, name)
-        if value is True:
-            out.append(typed(name))
-        elif value is not None and value is not False:
-            values = value if isinstance(value, list) else [value]
-            out += [typed(name), *map(str, values)]
-    return tuple(out)
-
-
-def _runs(given: Namespace) -> list[Run]:
-    """Return the programs that are to be run.
-
-    Raises
-    ------
-    SceneError
-        If a command is none.
-    """
-    runs = []
-    for command in dict.fromkeys(given.programs or ()):
-        try:
-            runs.append(Run.parsed(command, given.exchange or "csv"))
-        except ValueError as error:
-            raise SceneError(f"--run {command!r}: {error}") from error
-    return runs
-
-
-def _write_template(path: Path) -> int:
+def _write_template(path: Path, name: str) -> int:
     if path.exists():
         raise SceneError(f"'{path}' is there already: it is not overwritten")
-    template = Path(__file__).with_name("template.py")
+    template = Path(__file__).with_name("templates") / f"{name}.py"
     folders.write_text(path, template.read_text(encoding="utf-8"))
-    print(f"{path}: fill in the function, then: reftrace judge {path}", file=sys.stdout)
+    option = "" if name == "triangle" else f" --subject {name}"
+    print(f"{path}: fill in the function, then: reftrace judge {path}{option}")
     return AGREE

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.world import world_corners
 
+from .judged_scene import arrays
 from .known import Ask, known
 from .picture import EXCUSED, FALSE_HITS, Look, Mark
-from .subject import arrays
 
 EACH = 3  # pixels of a mark
 
@@ -68,7 +68,7 @@ def find_examples(look: Look, ask: Ask) -> list[Example]:
     StudentError
         If the function, which is asked about them again, fails.
     """
-    subject, marks = look.subject, look.mark.ravel()
+    judged, marks = look.judged, look.mark.ravel()
     pixel = [
         p
         for m in Mark
@@ -78,20 +78,20 @@ def find_examples(look: Look, ask: Ask) -> list[Example]:
     if not pixel:
         return []
     shown = np.isin(marks[pixel], FALSE_HITS)
-    instance = np.where(shown, look.hits.instance[pixel], subject.instance[pixel])
-    triangle = np.where(shown, look.hits.triangle[pixel], subject.triangle[pixel])
+    instance = np.where(shown, look.hits.instance[pixel], judged.instance[pixel])
+    triangle = np.where(shown, look.hits.triangle[pixel], judged.triangle[pixel])
     keep = triangle != NOTHING  # a plane is not the student's
     pixel, instance, triangle = np.array(pixel)[keep], instance[keep], triangle[keep]
-    corners = world_corners(subject.scene, instance, triangle)
-    question = arrays(subject.rays, pixel, corners)
+    corners = world_corners(judged.scene, instance, triangle)
+    question = arrays(judged.rays, pixel, corners)
     truth = known(*question)
     t, s = ask(*question)
     origins, directions, triangles = question
     return [
         Example(
             Mark(int(marks[p])),
-            subject.position(p),
-            subject.scene.objects[subject.scene.instances[instance[k]].object],
+            judged.position(p),
+            judged.scene.objects[judged.scene.instances[instance[k]].object],
             origins[k],
             directions[k],
             triangles[k],

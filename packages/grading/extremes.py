@@ -19,9 +19,9 @@ from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
 from reference_tracer.tracer.triangle import TESTS
 
+from .judged_scene import JudgedScene, prepare
 from .known import Ask
 from .picture import EXCUSED, Mark, look
-from .subject import Subject, prepare
 
 _FINE = {m.name.lower() for m in (Mark.RIGHT, *EXCUSED)}
 YARDSTICKS = Method.TEXTBOOK, Method.MOLLER_TRUMBORE
@@ -34,7 +34,7 @@ class ExtremeScene:
 
     scenario: Scenario
     scale: float
-    subject: Subject
+    judged: JudgedScene
     yardsticks: dict[str, int]
 
 
@@ -80,9 +80,9 @@ def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[Extre
     for done, (scenario, scale) in enumerate(every):
         yield done / len(every)
         scene = scenario.build(scale, WIDTH, HEIGHT)
-        subject = result_of(prepare(scenario.name, scene, pixels=None))
-        lost = {m.value: result_of(look(subject, plain(m))).lost for m in YARDSTICKS}
-        out.append(ExtremeScene(scenario, scale, subject, lost))
+        judged = result_of(prepare(scenario.name, scene, pixels=None))
+        lost = {m.value: result_of(look(judged, plain(m))).lost for m in YARDSTICKS}
+        out.append(ExtremeScene(scenario, scale, judged, lost))
     return out
 
 
@@ -106,9 +106,9 @@ def try_extremes(
     for done, e in enumerate(scenes):
         yield done / len(scenes)
         before()
-        found = result_of(look(e.subject, ask))
+        found = result_of(look(e.judged, ask))
         pixels = {name: n for name, n in found.counts.items() if n}
-        rays = len(e.subject.t)
+        rays = len(e.judged.t)
         rows.append(ExtremeRow(e.scenario.name, e.scale, rays, found.lost, pixels, e.yardsticks))
     return rows
 

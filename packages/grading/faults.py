@@ -1,4 +1,4 @@
-"""What is wrong with a student's function, by name, from what it makes of the checks.
+"""What is wrong with a student's function, by name, from what it makes of the cases.
 
 First it is looked for among wrong programs (`matching.py`): one that gives the same answers names
 what is wrong, in one place or in two. Of other faults, as of an epsilon or of float32, each is a
@@ -9,20 +9,21 @@ be unrecognised.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
 
-from .answers import Answers, Mask
-from .checks import Checks, Group
-from .hit_faults import HIT_TESTS
 from .known import Ask
-from .matching import Match, with_one, with_two
-from .value_faults import S_TESTS, T_TESTS
+from .matching import Match, differs, with_one, with_two
+from .programs import Mask
+from .subjects.subject import Cases
 
-ALONE = 3, 1  # sizes of the calls in which some pairs are asked about again
+ALONE = 3, 1  # sizes of the calls in which some cases are asked about again
+CALLS = 4  # of each size: a program is started for each
 # Relative: libraries sum in another order when there are fewer rows, in float32, too. What mixes up
 # rows is farther off.
 ALIKE = 1e-4
@@ -30,8 +31,8 @@ ALIKE = 1e-4
 
 MOST_WAYS = 4  # in which two mistakes may give the same answers: with more, they say nothing
 OTHERS = 2  # mistakes with the same answers that are mentioned
-_UNRECOGNISED = {f"unrecognised_{what}" for what in ("hits", "t", "barycentrics")}
-_UNEXPLAINED = {"no_hits", "all_hits", *_UNRECOGNISED}
+UNRECOGNISED = "unrecognised_"
+UNEXPLAINED = {"no_hits", "all_hits"}
 
 
 @dataclass(frozen=True)
@@ -47,15 +48,47 @@ class Fault:
         return asdict(self)
 
 
+class Answers(Protocol):
+    """What a function made of cases."""
+
+    @property
+    def cases(self) -> Cases:
+        """What it was asked."""
+
+    @property
+    def table(self) -> Floats:
+        """What it answered, (n, m)."""
+
+    @property
+    def wrong(self) -> Mask:
+        """Where anything is wrong, without a doubt, (n,)."""
+
+    @property
+    def tests(self) -> Sequence[Tests]:
+        """Tests for faults that no mutation explains, by what they explain."""
+
+
+# A fault's name, a sentence, the answers that it explains.
+Found = Iterator[tuple[str, str, Mask]]
+
+
+class Tests(NamedTuple):
+    """Wrong answers of one kind, the tests for why they are, and what they are called."""
+
+    wrong: Mask
+    tests: Sequence[Callable[[Any], Found]]
+    what: str
+
+
 def find_faults(answers: Answers) -> tuple[list[Fault], Match | None]:
     """Return what is wrong with a function, and the wrong program of which that is all, if any."""
     if not answers.wrong.any():
         return [], None
-    if ways := with_one(answers):
+    if ways := with_one(answers.cases, answers.table):
         return _matched(answers, ways)
     faults = _tested(answers, answers.wrong)
-    if any(f.name in _UNEXPLAINED for f in faults):
-        ways = with_two(answers)
+    if any(f.name in UNEXPLAINED or f.name.startswith(UNRECOGNISED) for f in faults):
+        ways = with_two(answers.cases, answers.table)
         if 0 < len(ways) <= MOST_WAYS:
             return _matched(answers, ways)
     return faults, None
@@ -63,9 +96,7 @@ def find_faults(answers: Answers) -> tuple[list[Fault], Match | None]:
 
 def _matched(answers: Answers, ways: Sequence[Match]) -> tuple[list[Fault], Match | None]:
     """Return the faults of a wrong program that answers alike, and of what it does not explain."""
-    checks = answers.checks
-    rays = checks.origins, checks.directions, checks.triangles
-    theirs = Answers(checks, *ways[0].program.answers(*rays))
+    theirs = answers.cases.answers(ways[0].program.answers(answers.cases.letters))
     left = answers.wrong & ~theirs.wrong  # that program is right there
     faults = _named(answers, ways)
     return (faults + _tested(answers, left), None) if left.any() else (faults, ways[0])
@@ -85,11 +116,7 @@ def _named(answers: Answers, ways: Sequence[Match]) -> list[Fault]:
 def _tested(answers: Answers, among: Mask) -> list[Fault]:
     """Return the faults of some wrong answers that pass their tests, and what is unrecognised."""
     faults: list[Fault] = []
-    for wrong, tests, what in (
-        (answers.wrong_hit, HIT_TESTS, "hits"),
-        (answers.wrong_t, T_TESTS, "values of t"),
-        (answers.wrong_s, S_TESTS, "barycentrics"),
-    ):
+    for wrong, tests, what in answers.tests:
         left = wrong & among
         for test in tests:
             for name, sentence, explained in test(answers):
@@ -111,34 +138,49 @@ def _enter(faults: list[Fault], new: Fault) -> None:
 
 
 def _unrecognised(answers: Answers, left: Mask, what: str) -> Fault:
-    where = [g.name.lower() for g in Group if (left & answers.checks.of(g)).any()]
+    names = list(answers.cases.subject.groups)
+    where = [names[g] for g in np.unique(answers.cases.group[left])]
     text = f"some {what} are wrong for a reason that is not recognised: {', '.join(where)}"
-    return Fault(f"unrecognised_{what.split()[-1]}", text, int(left.sum()))
+    return Fault(f"{UNRECOGNISED}{what.split()[-1]}", text, int(left.sum()))
 
 
-def dependence(checks: Checks, answers: Answers, ask: Ask) -> list[Fault]:
-    """Return what is wrong if the same pairs are answered otherwise when asked again.
+def dependence(answers: Answers, ask: Ask) -> list[Fault]:
+    """Return what is wrong if the same cases are answered otherwise when asked again.
 
     Some are asked about again three at a time, where (3,) and (n, 3) are easily mixed up, and one
     at a time. Where rounding may have it either way, it may have it otherwise in each call.
     """
-    unsure = checks.known.doubt | checks.of(Group.BESIDE)
+    cases = answers.cases
     for size in ALONE:
-        some = np.concatenate([np.flatnonzero(checks.of(g))[:size] for g in Group])
-        for first in range(0, len(some), size):
+        some = np.concatenate(
+            [np.flatnonzero(cases.group == g)[:size] for g in np.unique(cases.group)]
+        )
+        for first in _spread(len(some) // size) * size:
             rows = some[first : first + size]
-            t, s = ask(checks.origins[rows], checks.directions[rows], checks.triangles[rows])
-            before = answers.hit[rows]
-            both = np.isfinite(t) & before
-            with np.errstate(all="ignore"):
-                off = np.abs(t - answers.t[rows]) > ALIKE * np.abs(t)
-                off |= (np.abs(s - answers.s[rows]) > ALIKE * np.maximum(1, np.abs(s))).any(axis=1)
-            same = np.where(both, ~off, np.isfinite(t) == before) | unsure[rows]
-            if not same.all():
+            off = differs(
+                answers.table[rows],
+                _again(cases, ask, rows),
+                cases.subject.parts,
+                ALIKE,
+                strictly=False,
+            )
+            if count := int((off & cases.firm[rows]).sum()):
                 text = (
-                    f"a pair is answered otherwise in a call of {len(rows)} than in one of "
-                    f"{len(checks.group):,}: ray k is to be tested with triangle k, whatever else "
-                    "is in the call"
+                    f"a case is answered otherwise in a call of {len(rows)} than in one of "
+                    f"{len(cases.given[0]):,}: an answer is to depend on its own case, whatever "
+                    "else is in the call"
                 )
-                return [Fault("depends_on_the_call", text, int((~same).sum()))]
+                return [Fault("depends_on_the_call", text, count)]
     return []
+
+
+def _spread(count: int) -> NDArray[np.intp]:
+    """Return the numbers of CALLS things of so many, evenly spread."""
+    return np.unique(np.arange(CALLS) * (count - 1) // max(CALLS - 1, 1))
+
+
+def _again(cases: Cases, ask: Ask, rows: NDArray[np.intp]) -> Floats:
+    """Return what is answered of some rows of the answers, (k, m); a case may have several."""
+    own, within = np.divmod(rows, len(cases.group) // len(cases.given[0]))
+    again = cases.subject.rows(*ask(*(array[own] for array in cases.given)))
+    return again[np.arange(len(rows)) * (len(again) // len(rows)) + within]

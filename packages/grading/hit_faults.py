@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .answers import FEW, MOST, Answers, Found
+from .answers import FEW, MOST, Answers
 from .checks import ORDINARY, Group
+from .faults import Found
 from .value_faults import FLOAT32, LOSSY, is_single
 
 RANDOM = 0.1, 0.9  # share of ordinary hits that an equality of floats loses
@@ -75,7 +76,8 @@ def absolute_epsilon(a: Answers) -> Found:
         text = (
             "a triangle that is hit is missed when it and the ray's origin are 2^20 times larger, "
             "or 2^20 or 2^30 times smaller, though floats scale by powers of two without any "
-            "rounding: a constant (an epsilon, a largest t) is not relative to the scene"
+            "rounding: a constant (an epsilon, a largest t) is not relative to the scene; "
+            "0 is, at every scale"
         )
         yield "absolute_epsilon", text, lost
 
@@ -146,6 +148,15 @@ def parallel(a: Answers) -> Found:
 
 
 HIT_TESTS = (
-    *(no_hits, all_hits, sign_of_t, culling, sum_equals_one, absolute_epsilon, edges_not_tested),
-    *(single_precision, tolerance, behind, parallel),
+    no_hits,
+    all_hits,
+    sign_of_t,
+    culling,
+    sum_equals_one,
+    absolute_epsilon,
+    edges_not_tested,
+    single_precision,
+    tolerance,
+    behind,
+    parallel,
 )

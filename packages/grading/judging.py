@@ -15,20 +15,23 @@ from reference_tracer.arrays import Floats
 from reference_tracer.cli.running import printable
 from reference_tracer.tracer.progress import Work, scaled
 
-from .answers import Answers
-from .checks import Checks
 from .examples import Example, find_examples
 from .external import Program, Run
 from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults
-from .matching import Match, Questions, Replies
+from .form import Form
+from .judged_scene import JudgedScene
+from .matching import Match
 from .names import distinct
 from .picture import Look, look
 from .shared_edges import SharedEdges, try_edges
-from .student import Limits, Student
+from .student import Student
 from .student_error import StudentError
-from .subject import Subject
+from .subjects.subject import Cases, Subject
+from .subjects.triangle import TRIANGLE
+from .submission import Limits, Submission
 from .tally import COST, Tally, score_of
+from .wrong_case import WrongCase
 
 T = TypeVar("T")
 
@@ -40,9 +43,11 @@ class Judgement:
     """What is said of one file."""
 
     name: str  # what a reader calls it
+    subject: Subject
     checks: Tally | None = None  # None: not finished
     faults: list[Fault] = field(default_factory=list)
     alike: Match | None = None  # the wrong program that gives the same answers, everywhere
+    wrong: list[WrongCase] = field(default_factory=list)  # some of the cases
     edges: SharedEdges | None = None  # None: it failed before
     scenes: list[str] = field(default_factory=list)  # the names of all
     looks: list[Look] = field(default_factory=list)  # of those that were finished
@@ -56,7 +61,7 @@ class Judgement:
     @property
     def tallies(self) -> list[Tally | None]:
         """Those of the checks and of every scene; None where the file has failed."""
-        of = {k.subject.name: k.tally for k in self.looks}
+        of = {k.judged.name: k.tally for k in self.looks}
         return [self.checks, *(of.get(name) for name in self.scenes)]
 
     @property
@@ -92,8 +97,8 @@ class Judgement:
 
 def judge(
     submission: Path | Run,
-    checks: Checks,
-    subjects: Sequence[Subject],
+    cases: Cases,
+    scenes: Sequence[JudgedScene] = (),
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
     name: str = "",
@@ -104,26 +109,29 @@ def judge(
     ----------
     submission : Path or Run
         A Python file, or how a program of any language is started.
-    checks : Checks
-    subjects : sequence of Subject
+    cases : Checks or Cases
+        What it is asked, of any subject.
+    scenes : sequence of JudgedScene
     extremes : sequence of ExtremeScene
-        What is lost there is reported, and does not count in the score.
+        What is lost there is reported, and does not count in the score. Scenes and extremes are of
+        ray/triangle tests alone.
     limits : Limits, optional
-        The time is that of each scene, and of the checks.
+        The time is that of each scene, and of the cases.
     name : str, optional
         What a reader calls it; by default the file's name, or the command.
     """
-    out = Judgement(name or names([submission])[0], scenes=[s.name for s in subjects])
-    with _started(submission, limits) as student:
+    subject = cases.subject
+    out = Judgement(name or names([submission])[0], subject, scenes=[s.name for s in scenes])
+    with _started(submission, subject.form, limits) as student:
         try:
-            _on_checks(out, student, checks)
+            _on_cases(out, student, cases)
         except StudentError as error:
             out.errors.append((CHECKS, error))  # it would fail again: the scenes are not tried
-            subjects, extremes = (), ()
+            scenes, extremes = (), ()
         size = 0.5 if extremes else 1.0
-        for k, subject in enumerate(subjects):
-            share = size / len(subjects)
-            yield from scaled(_on_scene(out, student, subject), k * share, share)
+        for k, scene in enumerate(scenes):
+            share = size / len(scenes)
+            yield from scaled(_on_scene(out, student, scene), k * share, share)
         if extremes:
             yield from scaled(_on_extremes(out, student, extremes), size, 1 - size)
         out.seconds = student.seconds
@@ -131,10 +139,10 @@ def judge(
     return out
 
 
-def _started(submission: Path | Run, limits: Limits | None) -> Student | Program:
+def _started(submission: Path | Run, form: Form, limits: Limits | None) -> Submission:
     if isinstance(submission, Run):
-        return Program(submission, limits)
-    return Student(submission, limits)
+        return Program(submission, form, limits)
+    return Student(submission, form, limits)
 
 
 def names(submissions: Sequence[Path | Run]) -> list[str]:
@@ -148,45 +156,35 @@ def names(submissions: Sequence[Path | Run]) -> list[str]:
     return out
 
 
-def _on_checks(out: Judgement, student: Student | Program, checks: Checks) -> None:
+def _on_cases(out: Judgement, student: Submission, cases: Cases) -> None:
     student.new_scene()
-    t, s = student.ask(checks.origins, checks.directions, checks.triangles)
-    answers = Answers(checks, t, s)
+    answers = cases.answers(cases.subject.rows(*student.ask(*cases.given)))
     out.faults, out.alike = find_faults(answers)
-    if depends := dependence(checks, answers, student.ask):
+    if depends := dependence(answers, student.ask):
         out.faults, out.alike = [*out.faults, *depends], None
-    out.edges = try_edges(student.ask)
-    wrong, known = answers.hit != checks.known.hit, checks.known
-    out.checks = Tally.of(
-        answers.hit | known.hit,
-        wrong,
-        known.doubt,
-        answers.both,
-        ~answers.wrong_t,
-        ~answers.wrong_s,
-    )
+    if cases.subject is TRIANGLE:
+        out.edges = try_edges(student.ask)
+    out.checks, out.wrong = answers.tally, answers.examples
 
 
-def _on_scene(out: Judgement, student: Student | Program, subject: Subject) -> Work[None]:
+def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[None]:
     student.new_scene()
 
-    def ask(*rays: Floats) -> tuple[Floats, Floats]:
-        t, s = student.ask(*rays)
-        if out.alike and not out.alike.agrees(Questions(*rays), Replies(t, s)):
+    def ask(*rays: Floats) -> tuple[Floats, ...]:
+        replies = student.ask(*rays)
+        if out.alike and not out.alike.agrees(TRIANGLE.letters(*rays), TRIANGLE.rows(*replies)):
             out.alike = None
-        return t, s
+        return replies
 
     try:
-        found = yield from look(subject, ask, lambda: student.seconds)
-        out.examples[subject.name] = find_examples(found, student.ask)
+        found = yield from look(scene, ask, lambda: student.seconds)
+        out.examples[scene.name] = find_examples(found, student.ask)
         out.looks.append(found)
     except StudentError as error:
-        out.errors.append((subject.name, error))
+        out.errors.append((scene.name, error))
 
 
-def _on_extremes(
-    out: Judgement, student: Student | Program, scenes: Sequence[ExtremeScene]
-) -> Work[None]:
+def _on_extremes(out: Judgement, student: Submission, scenes: Sequence[ExtremeScene]) -> Work[None]:
     try:
         out.extremes = yield from try_extremes(scenes, student.ask, student.new_scene)
     except StudentError as error:
@@ -195,8 +193,8 @@ def _on_extremes(
 
 def judge_all(
     submissions: Mapping[str, Path | Run],
-    checks: Checks,
-    subjects: Sequence[Subject],
+    cases: Cases,
+    scenes: Sequence[JudgedScene] = (),
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
     *,
@@ -209,6 +207,6 @@ def judge_all(
     out = {}
     share = 1 / max(len(submissions), 1)
     for k, (name, each) in enumerate(submissions.items()):
-        work = judge(each, checks, subjects, extremes, limits, name)
+        work = judge(each, cases, scenes, extremes, limits, name)
         out[name] = told((yield from scaled(work, k * share, share)))
     return out

@@ -36,7 +36,7 @@ ROUNDINGS = 16  # K
 LEAST = 2.0**-960  # of n . n: below it, products have lost digits at float64's lower end
 
 # A student's function: origins, directions, triangles -> t, barycentrics.
-Ask = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
+Ask = Callable[..., tuple[Floats, ...]]
 
 
 @dataclass(frozen=True, eq=False)

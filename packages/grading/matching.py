@@ -1,12 +1,15 @@
 """Finds the wrong program that answers as a student's function does: with one mutation, or two.
 
-The function's answers to the checks are held against those of every mutation of every program, then
-of every two mutations. A mutation is named only if it answers alike in all pairs, and if it is no
+The function's answers to the cases are held against those of every mutation of every program, then
+of every two mutations. A mutation is named only if it answers alike in all cases, and if it is no
 right program: some are, as a normal may point either way.
+
+Answers are (n, m), m numbers of the parts; nothing is hit where the first is not finite.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property, reduce
 from itertools import combinations
@@ -16,31 +19,15 @@ import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.arrays import Floats
 
-from .answers import Answers, Mask
-from .checks import Checks, Group
 from .mutations import Mutation, mutations
-from .programs import PROGRAMS, Program
+from .programs import Letters, Mask, Part, Program, columns
+from .subjects.subject import Cases
 
 DIGITS = 1e-9  # relative: two orders of summation of a wrong formula differ by far less
-FEW = 2e-3  # share of pairs in which rounding may decide what a wrong program answers
-NEARLY = 0.03  # share of the few pairs that are asked first
-LEAST = 30  # answers with numbers that have to agree: fewer say little
-EACH = 8  # pairs of a group with which two mutations at once are tried first
-
-
-class Questions(NamedTuple):
-    """Pairs: origins (n, 3), directions (n, 3), triangles (n, 3, 3)."""
-
-    origins: Floats
-    directions: Floats
-    triangles: Floats
-
-
-class Replies(NamedTuple):
-    """What a function makes of them: t (n,), inf for a miss, and barycentrics (n, 3)."""
-
-    t: Floats
-    s: Floats
+FEW = 2e-3  # share of cases in which rounding may decide what a wrong program answers
+NEARLY = 0.03  # share of the few cases that are asked first
+LEAST = 8  # answers with numbers that have to agree: fewer say little
+EACH = 8  # cases of a group with which two mutations at once are tried first
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,130 +42,148 @@ class Match:
         """The program with what is wrong."""
         return reduce(lambda program, mutation: mutation.of(program), self.wrong, self.right)
 
-    def agrees(self, asked: Questions, replies: Replies) -> bool:
+    def agrees(self, asked: Letters, replies: Floats) -> bool:
         """Return whether the program gives these replies, too."""
-        return alike(replies, Replies(*self.program.answers(*asked)))
+        return alike(replies, self.program.answers(asked), self.right.parts)
 
 
-def with_one(answers: Answers) -> list[Match]:
-    """Return the wrong programs with one mutation that answer as a function did."""
-    return _found(answers, _single(answers.checks))
+def with_one(cases: Cases, replies: Floats) -> list[Match]:
+    """Return the wrong programs with one mutation that answer as a function did, (n, m)."""
+    return _found(cases, replies, _single)
 
 
-def with_two(answers: Answers) -> list[Match]:
-    """Return the wrong programs with two mutations that answer as a function did."""
-    return _found(answers, _double(answers.checks))
+def with_two(cases: Cases, replies: Floats) -> list[Match]:
+    """Return the wrong programs with two mutations that answer as a function did, (n, m)."""
+    return _found(cases, replies, _double)
 
 
-def alike(own: Replies, other: Replies) -> bool:
+def alike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> bool:
     """Return whether a function answers as a program does, but for rounding.
 
-    What a function gives as barycentrics where it misses counts, too, if it gives any: of programs
-    that never hit it is all that tells them apart.
+    What a function gives beside the first part where it misses counts, too, if it gives any: of
+    programs that never hit it is all that tells them apart.
     """
-    told = _told(own).sum()
-    return bool(_unlike(own, other) <= FEW and told >= min(LEAST, len(own.t)))
+    told = _told(own, parts).sum()
+    return bool(_unlike(own, other, parts) <= FEW and told >= min(LEAST, len(own)))
 
 
-def _unlike(own: Replies, other: Replies) -> NDArray[np.float64]:
-    """Return the share of pairs that a function answers otherwise than some programs, (...).
+def differs(
+    own: Floats, other: Floats, parts: tuple[Part, ...], digits: float, strictly: bool = True
+) -> Mask:
+    """Return where a function answers otherwise than another, or than several, (..., n).
 
     Parameters
     ----------
-    own : Replies
-        t (n,) and barycentrics (n, 3).
-    other : Replies
-        t (..., n) and barycentrics (..., n, 3).
+    own : (n, m)
+    other : (..., n, m)
+    digits : float
+        How far numbers may be off, relative to the largest of their part.
+    strictly : bool, optional
+        Whether what is given where nothing is hit counts, too, and what is no number.
     """
-    hit, also = np.isfinite(own.t), np.isfinite(other.t)
+    hit, also = np.isfinite(own[..., 0]), np.isfinite(other[..., 0])
+    off = hit != also
     with np.errstate(all="ignore"):
-        size = np.maximum(1, _largest(other.s))
-        s_off = ~(_largest(own.s - other.s) <= DIGITS * size) | ~np.isfinite(size)
-        t_off = ~(np.abs(own.t - other.t) <= DIGITS * np.abs(other.t))
-    off = (hit != also) | (hit & also & t_off) | (_told(own) & s_off)
-    return off.mean(axis=-1)
+        for k, (part, numbers) in enumerate(zip(parts, columns(parts), strict=True)):
+            size = np.maximum(part.least, _largest(other[..., numbers]))
+            by = _largest(own[..., numbers] - other[..., numbers])
+            if strictly:
+                asked = _given(own[..., numbers]) | hit if k else hit & also
+                off = off | (asked & ~((by <= digits * size) & np.isfinite(size)))
+            else:
+                off = off | (hit & also & (by > digits * size))
+    return off
 
 
-def _largest(s: Floats) -> Floats:
-    """Return the largest of each three, without their signs: max(axis=-1) is slow for so few."""
-    size = np.abs(s)
-    return np.maximum(np.maximum(size[..., 0], size[..., 1]), size[..., 2])
+def _unlike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> NDArray[np.float64]:
+    """Return the share of cases that a function answers otherwise than some programs, (...)."""
+    return differs(own, other, parts, DIGITS).mean(axis=-1)
 
 
-def _told(own: Replies) -> Mask:
-    """Return where a function gives barycentrics at all: of a miss it may give anything."""
-    size = _largest(own.s)
-    given = np.isfinite(size) & (size > 0)
-    return given | np.isfinite(own.t)
+def _largest(numbers: Floats) -> Floats:
+    """Return the largest of each few, without their signs: max(axis=-1) is slow for so few."""
+    size = np.abs(numbers)
+    return reduce(np.maximum, (size[..., k] for k in range(size.shape[-1])))
 
 
-@dataclass(frozen=True, eq=False)
-class _Known:
-    """Wrong programs, and what each makes of a few pairs: t (m, few), barycentrics (m, few, 3)."""
+def _given(numbers: Floats) -> Mask:
+    """Return where a function gives numbers at all: of a miss it may give anything."""
+    size = _largest(numbers)
+    return np.isfinite(size) & (size > 0)
+
+
+def _told(own: Floats, parts: tuple[Part, ...]) -> Mask:
+    told: Mask = np.isfinite(own[:, 0])
+    for numbers in columns(parts)[1:]:
+        told = told | _given(own[:, numbers])
+    return told
+
+
+class _Known(NamedTuple):
+    """Wrong programs, and what each makes of a few cases, (p, few, m)."""
 
     matches: list[Match]
-    few: NDArray[np.intp]  # which of the pairs that tell
-    replies: Replies
+    replies: Floats
 
 
-def _found(answers: Answers, known: _Known) -> list[Match]:
-    tells = _tells(answers.checks)
-    own = Replies(answers.t[tells], answers.s[tells])
-    if _told(own).sum() < LEAST:
+def _found(cases: Cases, replies: Floats, programs: Callable[[Cases], _Known]) -> list[Match]:
+    own, parts = replies[cases.tells], cases.subject.parts
+    if _told(own, parts).sum() < LEAST:
         return []
-    near = _unlike(Replies(own.t[known.few], own.s[known.few]), known.replies) <= NEARLY
-    asked = _questions(answers.checks)
+    known = programs(cases)
+    near = _unlike(own[_few(cases)], known.replies, parts) <= NEARLY
+    asked = _questions(cases)
     return [known.matches[k] for k in np.flatnonzero(near) if known.matches[k].agrees(asked, own)]
 
 
-def _tells(checks: Checks) -> Mask:
-    """Return which pairs tell: where the plane is met, and no rounding decides."""
-    return ~checks.known.doubt & ~checks.of(Group.PARALLEL, Group.EMPTY)
+@cache
+def _questions(cases: Cases) -> Letters:
+    return cases.letters.take(np.flatnonzero(cases.tells))
 
 
 @cache
-def _questions(checks: Checks) -> Questions:
-    tells = _tells(checks)
-    return Questions(checks.origins[tells], checks.directions[tells], checks.triangles[tells])
-
-
-def _few(checks: Checks) -> NDArray[np.intp]:
-    group = checks.group[_tells(checks)]
+def _few(cases: Cases) -> NDArray[np.intp]:
+    """Return which of the cases that tell are tried first."""
+    group = cases.group[cases.tells]
     return np.concatenate([np.flatnonzero(group == g)[:EACH] for g in np.unique(group)])
 
 
-def _asked(checks: Checks, matches: list[Match]) -> _Known:
-    few = _few(checks)
-    asked = Questions(*(a[few] for a in _questions(checks)))
-    replies = [m.program.answers(*asked) for m in matches]
-    t, s = (np.stack(parts) for parts in zip(*replies, strict=True))
-    return _Known(matches, few, Replies(t, s))
+def _known(cases: Cases, matches: Iterable[Match]) -> _Known:
+    """Return wrong programs with what they make of the few; those that are right are left out."""
+    parts, asked = cases.subject.parts, _questions(cases)
+    few = asked.take(_few(cases))
+    expected = {id(p): (p.answers(few), p.answers(asked)) for p in cases.subject.programs}
+    found, replies = [], []
+    for match in matches:
+        own, (of_few, of_all) = match.program.answers(few), expected[id(match.right)]
+        unlike = differs(own, of_few, parts, DIGITS).sum()
+        if unlike > FEW * len(of_all) or not match.agrees(asked, of_all):
+            found.append(match)
+            replies.append(own)
+    return _Known(found, np.stack(replies))
 
 
 @cache
-def _single(checks: Checks) -> _Known:
+def _single(cases: Cases) -> _Known:
     """Return all wrong programs with one mutation; some mutations make no wrong one."""
-    asked = _questions(checks)
-    out = []
-    for right in PROGRAMS:
-        expected = Replies(*right.answers(*asked))
-        found = (Match(right, (m,)) for m in mutations(right))
-        out += [m for m in found if not m.agrees(asked, expected)]
-    return _asked(checks, out)
+    every = (Match(right, (m,)) for right in cases.subject.programs for m in mutations(right))
+    return _known(cases, every)
 
 
 @cache
-def _double(checks: Checks) -> _Known:
-    """Return wrong programs with two mutations; of those that few pairs tell apart one is taken."""
-    t, s = _single(checks).replies
+def _double(cases: Cases) -> _Known:
+    """Return wrong programs with two mutations; of those that few cases tell apart one is taken."""
+    known, parts = _single(cases), cases.subject.parts
     different: list[int] = []
-    for k in range(len(t)):
-        if not (_unlike(Replies(t[k], s[k]), Replies(t[different], s[different])) == 0).any():
+    for k, own in enumerate(known.replies):
+        if not (_unlike(own, known.replies[different], parts) == 0).any():
             different.append(k)
-    single = [_single(checks).matches[k] for k in different]
-    out = [
-        Match(one.right, one.wrong + two.wrong)
-        for one, two in combinations(single, 2)
-        if one.right is two.right and one.wrong[0].apart_from(two.wrong[0])
-    ]
-    return _asked(checks, out)
+    pairs = combinations([known.matches[k] for k in different], 2)
+    return _known(
+        cases,
+        (
+            Match(one.right, one.wrong + two.wrong)
+            for one, two in pairs
+            if one.right is two.right and one.wrong[0].apart_from(two.wrong[0])
+        ),
+    )

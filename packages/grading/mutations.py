@@ -20,7 +20,7 @@ from reference_tracer.derivation.expressions import (
     printed,
 )
 
-from .programs import CONSTANTS, CORNERS, Condition, Program, condition
+from .programs import CONSTANTS, Condition, Program, condition
 
 _OPPOSITE = {"≥": "<", "≤": ">", ">": "<", "<": ">"}
 _ASCII = str.maketrans("₁₂₃ₛ²", "123s2", "‖")
@@ -42,12 +42,14 @@ class Mutation:
     sentence: str
     formulas: Mapping[str, Tree]
     conditions: Mapping[Condition, tuple[Condition, ...]]
+    choice: str = ""
 
     def apart_from(self, other: Mutation) -> bool:
         """Return whether the two change different places."""
         return not (
             self.formulas.keys() & other.formulas.keys()
             or self.conditions.keys() & other.conditions.keys()
+            or (self.choice and other.choice)
         )
 
     def of(self, program: Program) -> Program:
@@ -56,29 +58,33 @@ class Mutation:
             program,
             formulas={**program.formulas, **self.formulas},
             conditions=tuple(n for c in program.conditions for n in self.conditions.get(c, (c,))),
+            choice=self.choice or program.choice,
         )
 
 
 def mutations(program: Program) -> Iterator[Mutation]:
-    """Yield all mutations of a program: its own slips, then a change at each place."""
+    """Yield all mutations of a program: its slips, its conditions, each place of its formulas.
+
+    Where several answer alike, the first gives the name.
+    """
     for slip in program.slips:
         formulas = {label: parse(right) for label, right in slip.formulas.items()}
         conditions = {
             condition(old): tuple(map(condition, new)) for old, new in slip.conditions.items()
         }
-        yield Mutation(slip.name, slip.sentence, formulas, conditions)
-    known = {"o", "d", *CORNERS}
+        yield Mutation(slip.name, slip.sentence, formulas, conditions, slip.choice)
+    for old in program.conditions:
+        name = "hits_behind" if old.left == Letter("t") else "edge_not_tested"
+        yield Mutation(name, f"{old} is not tested", {}, {old: ()})
+        turned = old._replace(comparison=_OPPOSITE[old.comparison])
+        yield Mutation("condition_opposite", f"{turned} is tested, for {old}", {}, {old: (turned,)})
+    known = set().union(*program.kinds) - program.formulas.keys()
     for label, right in program.formulas.items():
         kinds = tuple(kind & known for kind in program.kinds)
         for kind, what, tree in _edits(right, kinds):
             text = f"{what}: {label} = {printed(tree)} is computed, for {label} = {printed(right)}"
             yield Mutation(f"{label.translate(_ASCII)}_{kind}", text, {label: tree}, {})
         known.add(label)
-    for old in program.conditions:
-        name = "hits_behind" if old.left == Letter("t") else "edge_not_tested"
-        yield Mutation(name, f"{old} is not tested", {}, {old: ()})
-        turned = old._replace(comparison=_OPPOSITE[old.comparison])
-        yield Mutation("condition_opposite", f"{turned} is tested, for {old}", {}, {old: (turned,)})
 
 
 def _edits(tree: Tree, kinds: tuple[frozenset[str], ...]) -> Iterator[Edit]:

@@ -16,24 +16,26 @@ from reference_tracer.images import data_uri, to_display
 from reference_tracer.wording import count_of
 
 from .examples import Example
+from .judged_scene import JudgedScene
 from .judging import Judgement
 from .picture import Look, Mark
 from .report import Student
 from .student_error import StudentError
-from .subject import Subject
+from .subjects.subject import Subject
 from .tables import (
-    HEAD,
     MARKS,
     NO_BOUNDARY,
     VERDICTS,
     dashed,
     explain,
+    head,
     held_rows,
     put_right,
     row,
     tallies,
     wrong_names,
 )
+from .wrong_case import WrongCase
 
 _STYLE = Path(__file__).with_name("page.css")
 MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe and Ito)
@@ -60,22 +62,25 @@ def page(j: Judgement) -> str:
     return _whole(f"{j.name}, judged", [_student(j)])
 
 
-def class_page(pages: Sequence[tuple[Student, str]]) -> str:
-    """Return the teacher's page: a table of all students, with links to their pages."""
+def class_page(pages: Sequence[tuple[Student, str]], title: str) -> str:
+    """Return the teacher's page: a table of all students, with links to their pages.
+
+    `title` is what the students' work is called, as "ray/triangle tests".
+    """
     rows = []
     for s, link in pages:
         name = f'<a href="{quote(link)}">{escape(s["file"])}</a>'
         verdict = _verdict(s["verdict"])
         rows.append((name, f"{s['score']:.1f}", verdict, escape(", ".join(wrong_names(s)))))
     table = _table(("file", "score", "verdict", "what is wrong"), rows, words=(0, 2, 3))
-    return _whole("Students’ ray/triangle tests, judged", [table])
+    return _whole(f"Students’ {title}, judged", [table])
 
 
 def _whole(title: str, content: Sequence[str]) -> str:
-    head = f"<title>{escape(title)}</title>"
+    named = f"<title>{escape(title)}</title>"
     parts = [
         "<!doctype html>",
-        f'<html lang="en"><head><meta charset="utf-8">{head}',
+        f'<html lang="en"><head><meta charset="utf-8">{named}',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f"<style>{_STYLE.read_text(encoding='utf-8')}</style></head><body><main>",
         f"<h1>{escape(title)}</h1>",
@@ -91,10 +96,10 @@ def _verdict(verdict: str) -> str:
     return f'<span class="verdict {verdict}">{VERDICTS[verdict]}</span>'
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]], words: Sequence[int] = (0,)) -> str:
+def _table(names: Sequence[str], rows: Sequence[Sequence[str]], words: Sequence[int] = (0,)) -> str:
     """Return a table of cells that are HTML already; the columns of `words` are flush left."""
-    kind = [' class="words"' if k in words else "" for k in range(len(head))]
-    top = "".join(f'<th scope="col"{k}>{h}</th>' for k, h in zip(kind, head, strict=True))
+    kind = [' class="words"' if k in words else "" for k in range(len(names))]
+    top = "".join(f'<th scope="col"{k}>{h}</th>' for k, h in zip(kind, names, strict=True))
     body = "".join(
         "<tr>"
         + "".join(f"<td{k}>{cell}</td>" for k, cell in zip(kind, cells, strict=True))
@@ -120,15 +125,16 @@ def _student(j: Judgement) -> str:
         parts.append(f"<details><summary>It prints {count_of(j.printed, 'byte')}</summary>")
         parts.append(f"<pre>{escape(j.said)}</pre></details>")
     if counts := tallies(j):
-        parts.append(_table(HEAD, [tuple(map(escape, row(*named))) for named in counts]))
+        parts.append(_table(head(j.subject), [tuple(map(escape, row(*named))) for named in counts]))
         parts += [f"<p>{NO_BOUNDARY}.</p>"] * dashed(counts)
-    parts += [_scene(found, j.examples[found.subject.name]) for found in j.looks]
+    parts += [_wrong_case(j.subject, case) for case in j.wrong]
+    parts += [_scene(found, j.examples[found.judged.name]) for found in j.looks]
     if j.extremes:
         names = "student", "not by rounding", "textbook", "Möller–Trumbore"
-        head = "the first scale at which a ray is lost", *names
+        scales = "the first scale at which a ray is lost", *names
         why = "Does not count: every formula in float64 gives way somewhere. A dot: it never does."
         parts.append(f"<h3>At the extremes</h3><p>{why}</p>")
-        parts.append(_table(head, [tuple(map(escape, cells)) for cells in held_rows(j)]))
+        parts.append(_table(scales, [tuple(map(escape, cells)) for cells in held_rows(j)]))
     return "\n".join(parts)
 
 
@@ -141,15 +147,33 @@ def _error(where: str, error: StudentError) -> str:
     )
 
 
+def _wrong_case(subject: Subject, case: WrongCase) -> str:
+    arrays = [f"{name} = np.array([{value!r}])" for name, value in case.given.items()]
+    place = f"[{case.place}]" if case.place else ""
+    lines = (
+        "import numpy as np",
+        *arrays,
+        f"# certified{place}: {_listed(case.certified)}",
+        f"# answered{place}:  {_listed(case.student)}",
+        f"print({subject.form.signature})",
+    )
+    text = escape("\n".join(lines))
+    return f"<details><summary>A wrong case: {case.group}</summary><pre>{text}</pre></details>"
+
+
+def _listed(numbers: Sequence[float | None]) -> str:
+    return ", ".join("no hit" if v is None else repr(v) for v in numbers)
+
+
 def _scene(found: Look, examples: Sequence[Example]) -> str:
-    subject = found.subject
+    judged = found.judged
     pictures = (
         ("the student’s", to_display(found.color)),
-        ("certified", to_display(subject.color)),
+        ("certified", to_display(judged.color)),
         ("wrong pixels", marked(found)),
     )
     figures = "".join(
-        f'<figure><img alt="{escape(subject.name)}: {title}" src="{data_uri(picture)}">'
+        f'<figure><img alt="{escape(judged.name)}: {title}" src="{data_uri(picture)}">'
         f"<figcaption>{title}</figcaption></figure>"
         for title, picture in pictures
     )
@@ -158,18 +182,18 @@ def _scene(found: Look, examples: Sequence[Example]) -> str:
         for m, color in MARK_COLORS.items()
         if (n := found.counts[m.name.lower()])
     )
-    every = f", every {subject.stride}th pixel of a row and column" if subject.stride > 1 else ""
-    h, w = subject.shape
-    parts = [f"<h3>{escape(subject.name)}</h3>"]
+    every = f", every {judged.stride}th pixel of a row and column" if judged.stride > 1 else ""
+    h, w = judged.shape
+    parts = [f"<h3>{escape(judged.name)}</h3>"]
     parts.append(f'<div class="pictures">{figures}</div>')
     parts.append(f"<p>{w} × {h} pixels{every}. {legend or 'All are right.'}</p>")
-    parts += [_example(subject, e) for e in examples]
+    parts += [_example(judged, e) for e in examples]
     return "\n".join(parts)
 
 
 def marked(found: Look) -> NDArray[np.uint8]:
     """Return the map of marks over the dimmed certified picture, (h, w, 4) sRGB."""
-    grey = to_display(found.subject.color)[..., :3].mean(axis=2, keepdims=True)
+    grey = to_display(found.judged.color)[..., :3].mean(axis=2, keepdims=True)
     out = np.full((*found.mark.shape, 4), 255, np.uint8)
     out[..., :3] = 255 - _DIM * (255 - grey)
     for mark, color in MARK_COLORS.items():
@@ -177,7 +201,7 @@ def marked(found: Look) -> NDArray[np.uint8]:
     return out
 
 
-def _example(subject: Subject, e: Example) -> str:
+def _example(judged: JudgedScene, e: Example) -> str:
     true_t, true_s = e.true
     t, s = e.answer
     numbers = (
@@ -192,7 +216,7 @@ def _example(subject: Subject, e: Example) -> str:
     title = f"Pixel ({e.pixel[0]}, {e.pixel[1]}), {escape(e.object)}: {MARKS[e.mark]}"
     return (
         f"<details><summary>{title}</summary><pre>{escape(numbers)}</pre>"
-        f"<p>Step by step: <code>{escape(explain(subject, e))}</code></p></details>"
+        f"<p>Step by step: <code>{escape(explain(judged, e))}</code></p></details>"
     )
 
 

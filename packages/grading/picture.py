@@ -18,8 +18,9 @@ from reference_tracer.tracer.nearest import within_clip
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.world import world_corners
 
+from .judged_scene import JudgedScene, arrays
 from .known import Ask, known
-from .subject import Subject, arrays
+from .subjects.triangle import TRIANGLE
 from .tally import Tally
 
 
@@ -44,9 +45,9 @@ FALSE_HITS = Mark.FALSE_HIT_IN_FRONT, Mark.FALSE_HIT
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """A student's picture of a subject; arrays are (h, w) or flat (n,) as the subject's."""
+    """A student's picture of a scene; arrays are (h, w) or flat (n,) as the scene's."""
 
-    subject: Subject
+    judged: JudgedScene
     hits: Hits
     color: NDArray[np.float32]  # (h, w, 4)
     mark: NDArray[np.uint8]  # (h, w)
@@ -60,12 +61,12 @@ class Look:
         return {m.name.lower(): int((self.mark == m).sum()) for m in Mark}
 
 
-def look(subject: Subject, ask: Ask, clock: Callable[[], float] = float) -> Work[Look]:
-    """Trace a subject with a student's function, and judge every pixel.
+def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> Work[Look]:
+    """Trace a scene with a student's function, and judge every pixel.
 
     Parameters
     ----------
-    subject : Subject
+    judged : JudgedScene
     ask : callable
         Takes origins (p, 3), directions (p, 3), triangles (p, 3, 3); returns t (p,) and
         barycentrics (p, 3).
@@ -77,25 +78,25 @@ def look(subject: Subject, ask: Ask, clock: Callable[[], float] = float) -> Work
     StudentError
         If the function fails.
     """
-    began, count = clock(), len(subject.t)
+    began, count = clock(), len(judged.t)
     reported = np.zeros(count, bool)  # the true triangle is said to be hit
     found = []
-    for done, (some, truth, *question) in enumerate(subject.questions()):
+    for done, (some, truth, *question) in enumerate(judged.questions()):
         t, s = ask(*question)
-        hit = np.flatnonzero(np.isfinite(t) & within_clip(subject.scene.camera, t))
+        hit = np.flatnonzero(np.isfinite(t) & within_clip(judged.scene.camera, t))
         pixel, instance, triangle = some.pixel[hit], some.instance[hit], some.triangle[hit]
-        true = (instance == subject.instance[pixel]) & (triangle == subject.triangle[pixel])
+        true = (instance == judged.instance[pixel]) & (triangle == judged.triangle[pixel])
         reported[pixel[true]] = True
         found.append((pixel, t[hit], instance, triangle, s[hit], truth.hit[hit]))
-        yield done / len(subject.pairs)
-    hits, really = _nearest(subject, found)
+        yield done / len(judged.pairs)
+    hits, really = _nearest(judged, found)
     false = (hits.triangle != NOTHING) & ~really
-    return _judged(subject, hits, false, reported, clock() - began)
+    return _judged(judged, hits, false, reported, clock() - began)
 
 
-def _nearest(subject: Subject, found: list[tuple]) -> tuple[Hits, NDArray[np.bool_]]:
+def _nearest(judged: JudgedScene, found: list[tuple]) -> tuple[Hits, NDArray[np.bool_]]:
     """Return the nearest of all that is said to be hit, and whether it truly is."""
-    p = subject.planes
+    p = judged.planes
     hits = Hits.of(p.t.copy(), p.instance.copy(), p.triangle.copy(), p.s.copy())
     really = np.ones(len(hits.t), bool)
     if not found:
@@ -111,53 +112,54 @@ def _nearest(subject: Subject, found: list[tuple]) -> tuple[Hits, NDArray[np.boo
 
 
 def _judged(
-    subject: Subject,
+    judged: JudgedScene,
     hits: Hits,
     false: NDArray[np.bool_],
     reported: NDArray[np.bool_],
     seconds: float,
 ) -> Look:
-    wrong = _wrong_surface(subject, hits)
+    wrong = _wrong_surface(judged, hits)
     mark = np.full(len(wrong), Mark.RIGHT, np.uint8)
     mark[wrong] = Mark.WRONG_ORDER
-    missed = ~reported & (subject.triangle != NOTHING)
+    missed = ~reported & (judged.triangle != NOTHING)
     mark[wrong & missed] = Mark.MISSED
     # What hides nothing nearer is no reason: the pixel is wrong for what is missed in front of it.
-    false &= ~(missed & (hits.t > subject.t))
-    shows = subject.instance != NOTHING
+    false &= ~(missed & (hits.t > judged.t))
+    shows = judged.instance != NOTHING
     mark[wrong & false & shows] = Mark.FALSE_HIT_IN_FRONT
     mark[wrong & false & ~shows] = Mark.FALSE_HIT
-    edge = subject.ambiguous | subject.near_edge
+    edge = judged.ambiguous | judged.near_edge
     mark[wrong & edge] = Mark.EDGE
-    mark[wrong & subject.near_tie & ~edge] = Mark.DEPTH_TIE
-    on_triangle = (subject.triangle != NOTHING) | (hits.triangle != NOTHING)
+    mark[wrong & judged.near_tie & ~edge] = Mark.DEPTH_TIE
+    on_triangle = (judged.triangle != NOTHING) | (hits.triangle != NOTHING)
     right = ~wrong & (hits.triangle != NOTHING)
-    t_right, s_right = _values(subject, hits, np.flatnonzero(right))
-    inside = right & ~subject.boundary
+    t_right, s_right = _values(judged, hits, np.flatnonzero(right))
+    inside = right & ~judged.boundary
     mark[inside & ~s_right] = Mark.WRONG_BARYCENTRICS
     mark[inside & ~t_right] = Mark.WRONG_T
     mark[inside & ~t_right & ~s_right] = Mark.WRONG_T_AND_BARYCENTRICS
-    tally = Tally.of(on_triangle, wrong, subject.boundary, right, t_right, s_right)
-    color = shading.colors(subject.scene, hits).reshape(subject.color.shape)
-    h, w = subject.shape
-    return Look(subject, hits, color, mark.reshape(h, w), int(wrong.sum()), tally, seconds)
+    parts = {"surface": ~wrong, "t": right & t_right, "barycentrics": right & s_right}
+    tally = Tally.of(on_triangle, judged.boundary, parts, TRIANGLE.weights)
+    color = shading.colors(judged.scene, hits).reshape(judged.color.shape)
+    h, w = judged.shape
+    return Look(judged, hits, color, mark.reshape(h, w), int(wrong.sum()), tally, seconds)
 
 
-def _wrong_surface(subject: Subject, hits: Hits) -> NDArray[np.bool_]:
-    wrong = (hits.instance != subject.instance) | (hits.triangle != subject.triangle)
+def _wrong_surface(judged: JudgedScene, hits: Hits) -> NDArray[np.bool_]:
+    wrong = (hits.instance != judged.instance) | (hits.triangle != judged.triangle)
     for pixel in np.flatnonzero(wrong).tolist():
-        if may := subject.ties.get(pixel):
+        if may := judged.ties.get(pixel):
             wrong[pixel] = (int(hits.instance[pixel]), int(hits.triangle[pixel])) not in may
     return wrong
 
 
 def _values(
-    subject: Subject, hits: Hits, pixel: NDArray
+    judged: JudgedScene, hits: Hits, pixel: NDArray
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Return whether t and barycentrics are right within rounding, (n,) each, of some pixels."""
     t_right, s_right = (np.zeros(len(hits.t), bool) for _ in range(2))
-    corners = world_corners(subject.scene, hits.instance[pixel], hits.triangle[pixel])
-    truth = known(*arrays(subject.rays, pixel, corners))
+    corners = world_corners(judged.scene, hits.instance[pixel], hits.triangle[pixel])
+    truth = known(*arrays(judged.rays, pixel, corners))
     with np.errstate(invalid="ignore"):  # a student's NaN is wrong
         t_off = np.abs(hits.t[pixel] - truth.t)
         s_off = np.abs(hits.s[:, pixel].T - truth.s).max(axis=1)

@@ -1,22 +1,24 @@
-"""The programs that a ray/triangle test may be, as data: formulas in order, then conditions.
+"""What students are asked to write, as data: formulas in order, then conditions, then a choice.
 
 The textbook's formulas are those that the derivation shows (`derivation/formulas.toml`), in its
-notation. A program with one formula or condition changed is a wrong program, and answers as a
-student would who made that mistake: see `mutations.py`.
+notation; `subjects/` has the programs. One with a formula, a condition or the choice changed is a
+wrong program, and answers as a student would who made that mistake: see `mutations.py`.
 """
 
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from reference_tracer.arrays import Floats
+from numpy.typing import NDArray
+from reference_tracer.arrays import Floats, Index
 from reference_tracer.derivation.expressions import Tree, evaluate, parse, printed
-from reference_tracer.derivation.formulas import TRIANGLE
 
+Mask = NDArray[np.bool_]
 COMPARISONS: dict[str, Callable[[Any, Any], Any]] = {
     ">": operator.gt,
     "<": operator.lt,
@@ -24,8 +26,14 @@ COMPARISONS: dict[str, Callable[[Any, Any], Any]] = {
     "≤": operator.le,
 }
 CONSTANTS = {"0": 0.0, "½": 0.5, "1": 1.0, "2": 2.0}
-CORNERS = "p₁", "p₂", "p₃"
-WEIGHTS = "s₁", "s₂", "s₃"
+# Which of the objects that are hit is taken, by t (n, k) and where each is hit.
+CHOICES: dict[str, Callable[[Floats, Mask], Index]] = {
+    "nearest": lambda t, hit: np.where(hit, t, np.inf).argmin(axis=1),
+    "farthest": lambda t, hit: np.where(hit, t, -np.inf).argmax(axis=1),
+    "first": lambda t, hit: hit.argmax(axis=1),
+    "last": lambda t, hit: hit.shape[1] - 1 - hit[:, ::-1].argmax(axis=1),
+    "least": lambda t, hit: np.where(hit, np.abs(t), np.inf).argmin(axis=1),
+}
 
 
 class Condition(NamedTuple):
@@ -52,20 +60,50 @@ class Slip(NamedTuple):
     sentence: str
     formulas: Mapping[str, str] = {}
     conditions: Mapping[str, tuple[str, ...]] = {}  # by each that is replaced
+    choice: str = ""  # one of CHOICES
+
+
+class Part(NamedTuple):
+    """Numbers of an answer that are right or wrong together: the labels that give them.
+
+    Numbers below `least` are told apart as if they were as large. Of a `unit` vector only the
+    direction counts.
+    """
+
+    name: str
+    labels: tuple[str, ...]
+    size: int
+    least: float = 0.0
+    unit: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Letters:
+    """What formulas begin with, by name: numbers of a shape (n, ...), vectors (3, n, ...)."""
+
+    values: Mapping[str, Floats]
+    shape: tuple[int, ...]
+
+    def take(self, rows: Index) -> Letters:
+        """Return those of some of the n."""
+        some = {k: v.take(rows, axis=v.ndim - len(self.shape)) for k, v in self.values.items()}
+        return Letters(some, (len(rows), *self.shape[1:]))
 
 
 @dataclass(frozen=True)
 class Program:
-    """A ray/triangle test.
+    """What gives an answer: trees of formulas by their left sides, each made of those before it.
 
-    Its formulas are trees by their left sides, each made of o, d, p₁, p₂, p₃ and of those before
-    it. Among them are t, and the barycentrics s₁, s₂, s₃ of the corners.
+    Where it has conditions they are of a hit, at t; else there is an answer always. With a choice,
+    formulas are of k objects each, and one that is hit is taken.
     """
 
     formulas: Mapping[str, Tree]
     conditions: tuple[Condition, ...]
     kinds: tuple[frozenset[str], ...]  # letters that may stand in one another's place
+    parts: tuple[Part, ...]
     slips: tuple[Slip, ...] = field(default=(), repr=False)
+    choice: str = ""
 
     @classmethod
     def of(
@@ -73,122 +111,66 @@ class Program:
         formulas: Mapping[str, str],
         conditions: tuple[str, ...],
         kinds: tuple[str, ...],
+        parts: tuple[Part, ...],
         slips: tuple[Slip, ...] = (),
+        choice: str = "",
     ) -> Program:
         """Return a program from its formulas and conditions as they are printed."""
         return cls(
             {label: parse(right) for label, right in formulas.items()},
             tuple(condition(text) for text in conditions),
             tuple(frozenset(kind.split()) for kind in kinds),
+            parts,
             slips,
+            choice,
         )
 
     @np.errstate(all="ignore")
-    def answers(
-        self, origins: Floats, directions: Floats, triangles: Floats
-    ) -> tuple[Floats, Floats]:
-        """Return t (n,), inf where it says to miss, and barycentrics (n, 3).
-
-        Parameters
-        ----------
-        origins, directions : (n, 3) float64
-        triangles : (n, 3, 3) float64
-            Pair, corner, component.
-        """
-        count = len(origins)
-        names: dict[str, Any] = {**CONSTANTS, "o": origins.T, "d": directions.T}
-        names |= zip(CORNERS, triangles.transpose(1, 2, 0), strict=True)
+    def answers(self, letters: Letters) -> Floats:
+        """Return the numbers of the parts (n, m); the first is not finite where nothing is hit."""
+        names: dict[str, Any] = {**CONSTANTS, **letters.values}
         for label, right in self.formulas.items():
             names[label] = evaluate(right, names)
-        t = np.broadcast_to(names["t"], count)
-        hit = np.isfinite(t)
-        for left, comparison, bound in self.conditions:
-            hit = hit & COMPARISONS[comparison](evaluate(left, names), names[bound])
-        s = np.stack([np.broadcast_to(names[w], count) for w in WEIGHTS], axis=1)
-        return np.where(hit, t, np.inf), s
+        if self.conditions or self.choice:
+            hit = np.isfinite(np.broadcast_to(names["t"], letters.shape))
+            for left, comparison, bound in self.conditions:
+                hit = hit & COMPARISONS[comparison](evaluate(left, names), names[bound])
+            names["t"] = np.where(hit, names["t"], np.inf)
+            if self.choice:
+                names |= chosen(self.choice, names["t"], hit)
+        count = letters.shape[0]
+        numbers = [names[label] for part in self.parts for label in part.labels]
+        rows = [np.broadcast_to(v, (*v.shape[:-1], count)).reshape(-1, count) for v in numbers]
+        out = np.concatenate(rows).T
+        for part, place in zip(self.parts, columns(self.parts), strict=True):
+            if part.unit:
+                out[:, place] = unit(out[:, place])
+        return out
 
 
-def _one_side(towards: str) -> Iterator[Slip]:
-    """Yield that triangles are seen from one side only, by the sign of a formula."""
-    for name, winding, sign in (
-        ("back_faces_culled", "clockwise", ">"),
-        ("front_faces_culled", "counter-clockwise", "<"),
-    ):
-        text = (
-            f"triangles whose corners the ray sees {winding} are missed: {towards} may have "
-            "either sign, a triangle has two sides"
-        )
-        yield Slip(name, text, conditions={"t > 0": ("t > 0", f"{towards} {sign} 0")})
+def chosen(choice: str, t: Floats, hit: Mask) -> dict[str, Floats]:
+    """Return t (n,) of the object that is taken, and its number; where none is hit inf and 0.
+
+    What a picture shows is its number, and infinite where none is hit.
+    """
+    which = CHOICES[choice](t, hit)
+    found = hit.any(axis=1)
+    taken = np.take_along_axis(t, which[:, None], axis=1)[:, 0]
+    return {
+        "t": np.where(found, taken, np.inf),
+        "owner": np.where(found, which, 0).astype(float),
+        "shown": np.where(found, which, np.inf),
+    }
 
 
-TEXTBOOK = Program.of(
-    {f.label: f.right for f in (TRIANGLE[k] for k in "n t x ns1 ns2 ns3 area s1 s2 s3".split())},
-    ("s₁ ≥ 0", "s₂ ≥ 0", "s₃ ≥ 0", "t > 0"),
-    ("p₁ p₂ p₃ x o", "n nₛ₁ nₛ₂ nₛ₃ d"),
-    (
-        *_one_side("d · n"),
-        Slip(
-            "s2_s3_swapped",
-            "s₂ and s₃ are exchanged: the textbook's erratum. nₛ₂ is 0 on the edge p₁p₂, so what "
-            "it gives weighs p₃, and what nₛ₃ gives weighs p₂",
-            {"s₂": "(n · nₛ₂) / ‖n‖²", "s₃": "(n · nₛ₃) / ‖n‖²"},
-        ),
-        Slip(
-            "inside_not_tested",
-            "the whole plane of the triangle is hit: the barycentrics are not tested",
-            conditions={"s₁ ≥ 0": (), "s₂ ≥ 0": (), "s₃ ≥ 0": ()},
-        ),
-        Slip(
-            "only_upper_bounds",
-            "sᵢ ≤ 1 is tested, where sᵢ ≥ 0 says what is inside",
-            conditions={f"{w} ≥ 0": (f"{w} ≤ 1",) for w in WEIGHTS},
-        ),
-        Slip(
-            "barycentrics_scale",
-            "n · nₛᵢ is not divided by ‖n‖²: the barycentrics do not sum to 1",
-            {"‖n‖²": "1"},
-        ),
-        Slip("area_doubled", "‖n‖² is taken twice as large as n · n", {"‖n‖²": "2 (n · n)"}),
-        Slip("area_halved", "‖n‖² is taken half as large as n · n", {"‖n‖²": "½ (n · n)"}),
-    ),
-)
+@np.errstate(all="ignore")
+def unit(vectors: Floats) -> Floats:
+    """Return vectors (n, 3) with a length of 1."""
+    out: Floats = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    return out
 
-MOLLER_TRUMBORE = Program.of(
-    {
-        "e₁": "p₂ − p₁",
-        "e₂": "p₃ − p₁",
-        "h": "d × e₂",
-        "a": "e₁ · h",
-        "q": "o − p₁",
-        "u": "(q · h) / a",
-        "r": "q × e₁",
-        "v": "(d · r) / a",
-        "t": "(e₂ · r) / a",
-        "s₁": "1 − u − v",
-        "s₂": "u",
-        "s₃": "v",
-    },
-    ("u ≥ 0", "v ≥ 0", "u + v ≤ 1", "t > 0"),
-    ("p₁ p₂ p₃ o", "e₁ e₂ h q r d", "u v"),
-    (
-        *_one_side("a"),
-        Slip(
-            "parallelogram",
-            "u ≤ 1 and v ≤ 1 are tested, where u + v ≤ 1 says what is before the edge p₂p₃: a "
-            "parallelogram is hit",
-            conditions={"u + v ≤ 1": ("u ≤ 1", "v ≤ 1")},
-        ),
-        Slip(
-            "barycentrics_order",
-            "the barycentrics are given as u, v, 1 − u − v: u weighs p₂, v weighs p₃, the rest p₁",
-            {"s₁": "u", "s₂": "v", "s₃": "1 − u − v"},
-        ),
-        Slip(
-            "inside_not_tested",
-            "the whole plane of the triangle is hit: u and v are not tested",
-            conditions={"u ≥ 0": (), "v ≥ 0": (), "u + v ≤ 1": ()},
-        ),
-    ),
-)
 
-PROGRAMS = TEXTBOOK, MOLLER_TRUMBORE
+def columns(parts: tuple[Part, ...]) -> list[slice]:
+    """Return where each part's numbers stand in an answer."""
+    ends = np.cumsum([0, *(part.size for part in parts)]).tolist()
+    return [slice(*pair) for pair in pairwise(ends)]

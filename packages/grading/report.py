@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .checks import Group
 from .extremes import held
 from .judging import Judgement
 from .picture import Look
 from .student_error import StudentError
+from .subjects.subject import Subject
 from .tables import explain
-from .tally import WEIGHTS, Tally
+from .tally import Tally
 
 SCHEMA = "reference_tracer.judge/1"
 
@@ -21,10 +21,8 @@ _UNITS = {
     "score": "0 to 100: score_as_is, or what the file would get with its mistakes put right, less "
     "20 for each, where they explain all of its answers",
     "score_as_is": "the mean over the checks and all scenes of the weighted shares",
-    "total": "of the interior: pixels (checks: pairs) where a triangle is, or is said to be, seen",
-    "surface": "of those, with the right triangle",
-    "t": "of those, with the right t, within the rounding of float64",
-    "barycentrics": "of those with the right triangle, with the right barycentrics",
+    "total": "of the interior: pixels (checks: cases) where something is, or is said to be, hit",
+    "shares": "of the total the first, as of the right surface; of what has that right the others",
     "boundary": "pixels where float64 may see another surface: counted apart, not in the score",
     "leaking": "edges that two triangles share, a ray through which misses both: not in the score",
     "stride": "every so many pixels were judged, in both directions",
@@ -35,28 +33,16 @@ _UNITS = {
 }
 
 
-def to_dict(students: Sequence[Student]) -> dict[str, Any]:
+def to_dict(subject: Subject, students: Sequence[Student]) -> dict[str, Any]:
     """Return what `judge.json` holds of some students."""
     return {
         "schema": SCHEMA,
         "units": _UNITS,
-        "weights": WEIGHTS,
-        "checks": {g.name.lower(): _GROUPS[g] for g in Group},
+        "subject": subject.name,
+        "weights": subject.weights,
+        "checks": subject.groups,
         "students": list(students),
     }
-
-
-_GROUPS = {
-    Group.FRONT: "ordinary hits, the corners counter-clockwise as the ray sees them",
-    Group.BACK: "the same from the other side",
-    Group.WHOLE: "hits in integers: nothing is rounded",
-    Group.SCALED: "the first ones, 2^-30, 2^-20 and 2^20 times as large",
-    Group.OUTSIDE: "rays that clearly pass beyond an edge",
-    Group.BESIDE: "rays that pass 1e-9 to 1e-4 of the triangle's height inside or outside an edge",
-    Group.BEHIND: "triangles behind the ray's origin",
-    Group.PARALLEL: "rays parallel to the triangle's plane",
-    Group.EMPTY: "triangles without an area: what is said of them does not count",
-}
 
 
 def student(j: Judgement) -> Student:
@@ -73,6 +59,7 @@ def student(j: Judgement) -> Student:
         "faults": [fault.to_dict() for fault in j.faults],
         "shared_edges": j.edges.to_dict() if j.edges else None,
         "checks": _tally(j.checks),
+        "wrong_cases": [case.to_dict() for case in j.wrong],
         "scenes": [_scene(j, found) for found in j.looks],
         "extremes": {
             "rows": [row.to_dict() for row in j.extremes],
@@ -92,19 +79,19 @@ def _tally(tally: Tally | None) -> dict[str, Any] | None:
 
 
 def _scene(j: Judgement, found: Look) -> dict[str, Any]:
-    subject = found.subject
-    height, width = subject.shape
+    judged = found.judged
+    height, width = judged.shape
     return {
-        "name": subject.name,
-        "source": subject.source,
+        "name": judged.name,
+        "source": judged.source,
         "width": width,
         "height": height,
-        "stride": subject.stride,
-        "first": subject.first,
+        "stride": judged.stride,
+        "first": judged.first,
         "seconds": round(found.seconds, 6),
         "pixels": found.counts,
         "tally": found.tally.to_dict(),
         "examples": [
-            e.to_dict() | {"explain": explain(subject, e)} for e in j.examples[subject.name]
+            e.to_dict() | {"explain": explain(judged, e)} for e in j.examples[judged.name]
         ],
     }

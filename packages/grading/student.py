@@ -1,8 +1,8 @@
 """A student's file as a function: run in a process of its own, with limits.
 
-In go rays and triangles; out come the answers, or a `StudentError` which says what the student's
-code did wrong. Nothing that it does ends or stops this process. That is no sandbox: the code may
-read and write whatever its user may.
+In goes what its function is given; out come the answers, or a `StudentError` which says what the
+student's code did wrong. Nothing that it does ends or stops this process. That is no sandbox: the
+code may read and write whatever its user may.
 """
 
 from __future__ import annotations
@@ -16,96 +16,54 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.cli.running import printable
+from reference_tracer.arrays import Floats
 
+from .form import Form
 from .student_error import StudentError, parsed
+from .submission import KEPT, Limits, Submission, kill
 
-SECONDS = 60.0  # of a scene, by default
-MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
-KEPT = 4000  # bytes of what it prints
 _LONGEST = 1 << 20  # bytes of a line that answers
 
 _CHILD = Path(__file__).with_name("child.py")
 _ADVICE = {  # what numpy says of it -> what a student needs to know
-    "read-only": "the arrays that intersect is given must not be changed: write a = a - b, "
+    "read-only": "the arrays that the function is given must not be changed: write a = a - b, "
     "not a -= b, or copy them first",
 }
 
 
-@dataclass
-class Limits:
-    """What the student's code may take: seconds a scene, bytes."""
+class Student(Submission):
+    """A student's file, running."""
 
-    seconds: float = SECONDS
-    memory: int = MEMORY
-
-
-class Student:
-    """A student's file, running; to be used in a `with` block."""
-
-    def __init__(self, path: Path, limits: Limits | None = None) -> None:
-        self.path, self.limits = Path(path).resolve(), limits or Limits()
-        self.seconds = 0.0  # that intersect itself has taken
-        self.printed = 0  # bytes
-        self._said = b""
-        self._left = self.limits.seconds
+    def __init__(self, path: Path, form: Form, limits: Limits | None = None) -> None:
+        super().__init__(form, limits)
+        self.path = Path(path).resolve()
         self._process: subprocess.Popen[bytes] | None = None
 
-    def __enter__(self) -> Student:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.end()
-
-    @property
-    def said(self) -> str:
-        """The first of what the student's code has printed; what steers a terminal is spelt out."""
-        return printable(self._said.decode("utf-8", "replace"))
-
-    def new_scene(self) -> None:
-        """Let the time limit begin anew."""
-        self._left = self.limits.seconds
-
-    def ask(
-        self, origins: NDArray, directions: NDArray, triangles: NDArray
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return what the student's function makes of n pairs: t (n,), barycentrics (n, 3).
-
-        Raises
-        ------
-        StudentError
-            If it fails, takes too long, or answers something else.
-        """
-        count = len(origins)
-        if not count:
-            return np.zeros(0), np.zeros((0, 3))
+    def _answered(self, question: Floats) -> Floats:
         if self._process is None:
             self._start()
-        arrays = [np.ascontiguousarray(a, np.float64) for a in (origins, directions, triangles)]
+        count = len(question)
         with self._watched() as (to, back):
             head = {"count": count, "seconds": self._left}
             to.write(json.dumps(head).encode() + b"\n")
-            for array in arrays:
-                to.write(memoryview(array).cast("B"))
+            to.write(memoryview(np.ascontiguousarray(question)).cast("B"))
             to.flush()
             seconds = self._answer(back)
-            t = np.frombuffer(_read(back, 8 * count))
-            s = np.frombuffer(_read(back, 24 * count)).reshape(count, 3)
+            numbers = self.form.numbers
+            found = np.frombuffer(_read(back, 8 * count * numbers)).reshape(count, numbers)
         self.seconds += seconds
-        return t, s
+        return found
 
     def end(self) -> None:
         """End the process, and what it has started, but for what has a session of its own."""
         process, self._process = self._process, None
         if process is None:
             return
-        _kill(process)
+        kill(process)
         process.wait()
         assert process.stdin and process.stdout and process.stderr
         for stream in (process.stdin, process.stdout):
@@ -119,8 +77,9 @@ class Student:
     def _start(self) -> None:
         own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
         own |= {"PYTHONHASHSEED": "0", "PYTHONIOENCODING": "utf-8", "PYTHONDONTWRITEBYTECODE": "1"}
+        memory = str(self.limits.memory)
         self._process = subprocess.Popen(
-            [sys.executable, "-P", str(_CHILD), str(self.path), str(self.limits.memory)],
+            [sys.executable, "-P", str(_CHILD), str(self.path), memory, self.form.to_json()],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -149,7 +108,7 @@ class Student:
 
         def stop() -> None:
             late.set()
-            _kill(process)
+            kill(process)
 
         watch = threading.Timer(min(max(self._left, 0.0), threading.TIMEOUT_MAX), stop)
         watch.daemon = True
@@ -200,14 +159,6 @@ def _read(stream: IO[bytes], size: int) -> bytes:
     if len(data) < size:
         raise EOFError
     return data
-
-
-def _kill(process: subprocess.Popen[bytes]) -> None:
-    with suppress(OSError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
 
 
 def _how(code: int) -> str:

@@ -16,9 +16,10 @@ from reference_tracer.wording import count_of
 
 from .examples import Example
 from .extremes import held
+from .judged_scene import JudgedScene
 from .judging import CHECKS, Judgement
 from .picture import EXCUSED, Mark
-from .subject import Subject
+from .subjects.subject import Subject
 from .tally import COST, Tally
 
 VERDICTS = {
@@ -42,17 +43,16 @@ MARKS = {
 NO_BOUNDARY = (
     "boundary -: no ray that counts there passes an edge, or two surfaces, within rounding"
 )
-HEAD = "", "counted", "surface", "t", "barycentrics", "boundary", "score"
 
 
-def explain(subject: Subject, example: Example) -> str:
+def explain(judged: JudgedScene, example: Example) -> str:
     """Return the command that derives an example's pixel, step by step."""
-    source = Path(subject.source)
+    source = Path(judged.source)
     if source.exists() and source.resolve().is_relative_to(Path.cwd()):
         source = Path(os.path.relpath(source))
     joined = subprocess.list2cmdline if os.name == "nt" else shlex.join
     pixel = map(str, example.pixel)
-    return joined(["reftrace", "explain", str(source), "--pixel", *pixel, *subject.camera_options])
+    return joined(["reftrace", "explain", str(source), "--pixel", *pixel, *judged.camera_options])
 
 
 def lines(j: Judgement) -> list[str]:
@@ -71,7 +71,7 @@ def lines(j: Judgement) -> list[str]:
         first = j.said.strip().splitlines()[:1]
         out.append(f"  it prints ({count_of(j.printed, 'byte')}): {' '.join(first)[:120]}")
     if found := tallies(j):
-        out += ["", *columns([HEAD, *(row(*named) for named in found)])]
+        out += ["", *columns([head(j.subject), *(row(*named) for named in found)])]
         out += [NO_BOUNDARY] * dashed(found)
     out += _wrong_pixels(j)
     if j.extremes:
@@ -105,7 +105,7 @@ def held_rows(j: Judgement) -> list[tuple[str, ...]]:
 def tallies(j: Judgement) -> list[tuple[str, Tally]]:
     """Return the counts of what was finished, by name."""
     named = [(CHECKS, j.checks)] if j.checks else []
-    return named + [(k.subject.name, k.tally) for k in j.looks]
+    return named + [(k.judged.name, k.tally) for k in j.looks]
 
 
 def dashed(found: Sequence[tuple[str, Tally]]) -> bool:
@@ -113,11 +113,16 @@ def dashed(found: Sequence[tuple[str, Tally]]) -> bool:
     return not all(tally.boundary for _, tally in found)
 
 
+def head(subject: Subject) -> tuple[str, ...]:
+    """Return the names of the columns of a table of counts."""
+    return "", "counted", *subject.weights, "boundary", "score"
+
+
 def row(name: str, tally: Tally) -> tuple[str, ...]:
-    """Return the cells of one row below HEAD."""
+    """Return the cells of one row below the head."""
     border = f"{tally.boundary_right:,} of {tally.boundary:,}" if tally.boundary else "-"
     if not tally.total:
-        return name, "0", "-", "-", "-", border, "-"
+        return name, "0", *("-" for _ in tally.shares), border, "-"
     shares = (f"{percent(v)} %" for v in tally.shares.values())
     return name, f"{tally.total:,}", *shares, border, f"{tally.score:.1f}"
 
@@ -131,11 +136,11 @@ def _wrong_pixels(j: Judgement) -> list[str]:
             if m != Mark.RIGHT and (n := found.counts[m.name.lower()])
         ]
         if counts:
-            out += ["", f"{found.subject.name}: {'; '.join(counts)}"]
+            out += ["", f"{found.judged.name}: {'; '.join(counts)}"]
             out += [
                 f"  ({e.pixel[0]}, {e.pixel[1]}) {e.object}, {MARKS[e.mark]}: "
-                f"{explain(found.subject, e)}"
-                for e in _one_each(j.examples[found.subject.name])
+                f"{explain(found.judged, e)}"
+                for e in _one_each(j.examples[found.judged.name])
             ]
     return out
 

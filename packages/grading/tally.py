@@ -1,61 +1,56 @@
-"""How much of a picture, or of the checks, is right: counts, and a score from 0 to 100."""
+"""How much of a picture, or of the cases, is right: counts, and a score from 0 to 100."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-# What a right surface, t and barycentrics count for in the score of a scene.
-WEIGHTS = {"surface": 0.6, "t": 0.2, "barycentrics": 0.2}
+from .programs import Mask
 
 # What each mistake costs, of 100, where they are all that is wrong with a file.
 COST = 20.0
 
-Mask = NDArray[np.bool_]
-
 
 @dataclass(frozen=True)
 class Tally:
-    """Counts of pixels (of pairs, in the checks) in which a triangle is, or is said to be, seen.
+    """Counts of cases (of pixels, in a scene) in which something is, or is said to be, hit.
 
-    Values of t and barycentrics are counted where the triangle is the right one. What lies on the
-    boundary, where float64 may have it otherwise, is counted apart and not in the score.
+    Parts after the first are counted where the first is right: t and barycentrics, where the
+    triangle is. What lies on the boundary, where float64 may have it otherwise, is counted apart
+    and not in the score.
     """
 
     total: int  # of the interior
-    surface: int  # of those, with the right triangle
-    t: int  # of those, with the right t
-    barycentrics: int
+    right: Mapping[str, int]  # how many of those have a part right, by its name
     boundary: int
     boundary_right: int
+    weights: Mapping[str, float] = field(repr=False)  # of the parts' shares; they sum to 1
 
     @classmethod
-    def of(cls, counted: Mask, wrong: Mask, boundary: Mask, right: Mask, t: Mask, s: Mask) -> Tally:
-        """Count: of those `counted`, which are `wrong`; of those `right`, whose t and s are."""
+    def of(
+        cls, counted: Mask, boundary: Mask, right: Mapping[str, Mask], weights: Mapping[str, float]
+    ) -> Tally:
+        """Count: of those `counted`, which have each part right."""
+        first, *_ = right.values()
         inside, border = counted & ~boundary, counted & boundary
         return cls(
             int(inside.sum()),
-            int((inside & ~wrong).sum()),
-            int((inside & right & t).sum()),
-            int((inside & right & s).sum()),
+            {name: int((inside & first & mask).sum()) for name, mask in right.items()},
             int(border.sum()),
-            int((border & ~wrong).sum()),
+            int((border & first).sum()),
+            weights,
         )
 
     @property
     def shares(self) -> dict[str, float]:
-        """The right share of surfaces, and of t and barycentrics where the surface is right."""
+        """The right share of the first part, and of the others where that is right."""
+        first, *others = self.right
+        most = dict.fromkeys(others, self.right[first]) | {first: self.total}
         return {
-            "surface": self.surface / self.total if self.total else 1.0,
-            "t": self.t / self.surface if self.surface else float(not self.total),
-            "barycentrics": self.barycentrics / self.surface
-            if self.surface
-            else float(not self.total),
+            name: count / most[name] if most[name] else float(not self.total)
+            for name, count in self.right.items()
         }
 
     @property
@@ -66,11 +61,18 @@ class Tally:
     @property
     def all_right(self) -> bool:
         """Whether nothing of the interior is wrong."""
-        return self.total == self.surface == self.t == self.barycentrics
+        return set(self.right.values()) == {self.total}
 
     def to_dict(self) -> dict[str, Any]:
         """Return the counts, the shares and the score as JSON can hold them."""
-        return asdict(self) | {"shares": self.shares, "score": self.score}
+        return {
+            "total": self.total,
+            **self.right,
+            "boundary": self.boundary,
+            "boundary_right": self.boundary_right,
+            "shares": self.shares,
+            "score": self.score,
+        }
 
 
 def score_of(tallies: Sequence[Tally | None]) -> float:
@@ -81,7 +83,7 @@ def score_of(tallies: Sequence[Tally | None]) -> float:
     tallies = [t for t in tallies if t is None or t.total] or tallies
     if not any(tallies):
         return 0.0
-    each = [sum(w * t.shares[name] for name, w in WEIGHTS.items()) if t else 0.0 for t in tallies]
+    each = [sum(w * t.shares[name] for name, w in t.weights.items()) if t else 0.0 for t in tallies]
     if all(t and t.all_right for t in tallies):
         return 100.0
     return min(math.floor(1000 * sum(each) / len(each)) / 10, 99.9)

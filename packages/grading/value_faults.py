@@ -10,8 +10,10 @@ from itertools import permutations
 import numpy as np
 from reference_tracer.arrays import Floats
 
-from .answers import MOST, Answers, Found, Mask
+from .answers import MOST, Answers
 from .checks import ORDINARY
+from .faults import Found
+from .programs import Mask
 
 FLOAT32 = 2.0**-24  # its rounding unit
 LOSSY = 300  # of those: as far as ordinary pairs may be off that were computed in float32

@@ -220,8 +220,24 @@ def turned(rng: Rng, angle: float) -> np.ndarray:
 
 ROUND = ("Floor", "Ball", "Wall")  # to turn these changes nothing, or everything
 OF_PICTURES: tuple[Damage, ...] = (
-    *(noise, salt, speckle, smeared, shuffled, blobs, lines, blur, radial, waves, keystone),
-    *(shutter, rows_shifted, recolored, vignette, dead_rows, interlaced, banded),
+    noise,
+    salt,
+    speckle,
+    smeared,
+    shuffled,
+    blobs,
+    lines,
+    blur,
+    radial,
+    waves,
+    keystone,
+    shutter,
+    rows_shifted,
+    recolored,
+    vignette,
+    dead_rows,
+    interlaced,
+    banded,
 )
 OF_SCENES = (jittered, crumpled)
 # These draw over the picture, so that this name is no wrong one.

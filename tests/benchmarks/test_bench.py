@@ -25,9 +25,25 @@ from reference_tracer_benchmarks.window import WINDOW
 WIDTH, HEIGHT = 48, 27
 FILES = "suzanne", "out", "cube.blend", "xray.blend", "mesh.ply"
 REQUIRED = {
-    *("scene", "triangles", "width", "height", "camera", "method", "precision", "trace_s"),
-    *("render_s", "embreex_trace_s", "embreex_build_s", "rtree_s", "bvhtree_s", "cycles_s"),
-    *("workbench_s", "peak_bytes", "ratio_to_mt", "ratio_to_mt_least", "ratio_to_mt_most"),
+    "scene",
+    "triangles",
+    "width",
+    "height",
+    "camera",
+    "method",
+    "precision",
+    "trace_s",
+    "render_s",
+    "embreex_trace_s",
+    "embreex_build_s",
+    "rtree_s",
+    "bvhtree_s",
+    "cycles_s",
+    "workbench_s",
+    "peak_bytes",
+    "ratio_to_mt",
+    "ratio_to_mt_least",
+    "ratio_to_mt_most",
 }
 
 
@@ -250,7 +266,8 @@ def test_what_is_measured_in_the_window_has_what_a_user_waits_for(monkeypatch):
 def bench(tmp_path_factory):
     found = Bench(machine(True), quick=True)
     wanted = tiny(
-        *("cube", "icosphere_5k"),
+        "cube",
+        "icosphere_5k",
         cameras=scenes.CAMERAS,
         sizes=((WIDTH, HEIGHT), (24, 13)),
         peers={"rtree"},
@@ -337,7 +354,13 @@ def test_the_exponent_of_a_power_law(k):
 def test_scaling_over_triangles_and_pixels():
     rows = [
         Row(
-            *(name, scenes.SUBJECTS[name].triangles, w, h, "perspective", "certified", "float64"),
+            name,
+            scenes.SUBJECTS[name].triangles,
+            w,
+            h,
+            "perspective",
+            "certified",
+            "float64",
             trace_s=1e-9 * scenes.SUBJECTS[name].triangles ** 0.5 * (w * h) ** 0.75,
         )
         for name in ("icosphere_5k", "icosphere_82k", "icosphere_1m")

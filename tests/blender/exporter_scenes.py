@@ -262,9 +262,26 @@ def names(build: Build, rng: Random) -> None:
 SCENES: dict[str, Callable[[Build, Random], None]] = {
     make.__name__: make
     for make in (
-        *(posed_rig, shape_keys, collection_instances, linked_duplicates, node_instances),
-        *(concave, not_planar, holes, scales, sheared, mirrored, modifiers, curves, metaballs),
-        *(tiny, huge, far_away, materials_and_loose, hidden_and_empty, names),
+        posed_rig,
+        shape_keys,
+        collection_instances,
+        linked_duplicates,
+        node_instances,
+        concave,
+        not_planar,
+        holes,
+        scales,
+        sheared,
+        mirrored,
+        modifiers,
+        curves,
+        metaballs,
+        tiny,
+        huge,
+        far_away,
+        materials_and_loose,
+        hidden_and_empty,
+        names,
     )
 }
 

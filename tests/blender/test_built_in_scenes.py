@@ -12,8 +12,8 @@ from reference_tracer.methods import Method
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading.command import built_in
 from reference_tracer_grading.extremes import plain
+from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.picture import look
-from reference_tracer_grading.subject import prepare
 
 PROJECT = Path(__file__).parents[2]
 SCENES = sorted((PROJECT / "sample_scenes").glob("*.blend"))

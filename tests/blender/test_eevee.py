@@ -22,8 +22,14 @@ from reference_tracer.tracer.progress import result_of
 
 from . import hard_cases as hard
 
-# Meshes that are drawn as they are edited, which EEVEE gives one material.
-REFUSED = "edited", "edited_without_its_modifier", "edited_and_changed"
+# Meshes that are drawn as they are edited, which EEVEE gives one material; and others.
+_EDITED = "in Edit Mode, in one material"
+REFUSED = {
+    "edited": _EDITED,
+    "edited_without_its_modifier": _EDITED,
+    "edited_and_changed": _EDITED,
+    "no_active_color": "shows a mesh black that lacks the colour attribute of another",
+}
 
 SAMPLES = sorted(p.stem for p in (Path(__file__).parents[2] / "sample_scenes").glob("*.blend"))
 WIDTH = 128
@@ -105,11 +111,21 @@ def said(compare) -> str:
 
 
 def test_what_is_not_drawn_needs_no_colour_attribute(attributes, build, compare):
-    build.cube("Hidden", 1.0).hide_render = True
+    hidden = build.cube("Hidden", 1.0)
+    hidden.hide_render = True
     picture = build.empty("Picture")
     picture.empty_display_type = "IMAGE"
     picture.data = bpy.data.images.new("Reference", 4, 4)
     assert said(compare) == "it would draw"
+    build.color_attribute(hidden, "POINT").name = "Other"
+    assert said(compare) == "it would draw"
+    hidden.hide_render = False
+    assert "shows a mesh black" in said(compare)
+
+
+def test_what_stands_for_a_plane_has_no_colour_attribute(attributes, build, compare):
+    build.square("Plane", 1.0).reference_tracer.infinite_plane = True
+    assert "shows a mesh black" in said(compare)
 
 
 def test_what_is_only_instanced_needs_a_colour_attribute(attributes, build, compare):
@@ -120,6 +136,9 @@ def test_what_is_only_instanced_needs_a_colour_attribute(attributes, build, comp
     assert "shows a mesh black" in said(compare)
     build.color_attribute(child, "POINT")
     assert said(compare) == "it would draw"
+    elsewhere = build.cube("Elsewhere", 0.5, link=False)
+    build.color_attribute(elsewhere, "POINT").name = "Other"
+    assert "shows a mesh black" in said(compare)  # it may be instanced
 
 
 @pytest.mark.torture
@@ -137,7 +156,7 @@ def test_a_hard_scene(make, build, compare):
     """What it draws otherwise than the solid viewport is explained, or said."""
     make(build)
     if make.__name__ in REFUSED:
-        with pytest.raises(SceneError, match="in Edit Mode, in one material"):
+        with pytest.raises(SceneError, match=REFUSED[make.__name__]):
             compare(judge="EEVEE")
     else:
         assert compare(judge="EEVEE").counts.unexplained == 0

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.drawing.engines import others
 from reference_tracer.blender.drawing.judges import judge_named
+from reference_tracer.blender.jobs import engines
+from reference_tracer.blender.reading import rendered
 from reference_tracer.blender.ui import properties, results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.blender.versions import set_format
 from reference_tracer.cli import in_blender
+from reference_tracer.comparison.engines import EngineRow
 from reference_tracer.pictures.palette import By
 from reference_tracer.scene import SceneError
+from reference_tracer.tracer.progress import result_of
 
 from .toy_engine import ToyEngine
 
@@ -99,6 +105,20 @@ def test_only_what_is_registered_is_a_judge(toy, solids, compare):
         bpy.utils.register_class(toy)
 
 
+def test_all_engines_are_those_of_add_ons_too(toy, solids, monkeypatch):
+    monkeypatch.setattr(engines, "JUDGES", {"workbench": engines.JUDGES["workbench"]})
+    for render, said in (
+        (toy.render, ""),
+        (begins, "Toy Tracer made no picture: see the console."),
+    ):
+        monkeypatch.setattr(toy, "render", render)
+        OPS.compare_all()
+        found = results.content(Kind.ENGINES, solids)
+        assert [row.engine for row in found] == ["workbench", "toy_tracer"]
+        assert [row.error for row in found] == ["", said]
+        assert [row.verdict for row in found] == ["agree", "failed" if said else "agree"]
+
+
 @pytest.mark.parametrize("own", [False, True])
 def test_an_engine_that_does_not_show_the_colors_is_told(own, toy, solids, monkeypatch, compare):
     """It has a light of its own, or only one wrong colour: that is a fault, not another palette."""
@@ -114,6 +134,7 @@ def test_an_engine_that_does_not_show_the_colors_is_told(own, toy, solids, monke
     assert found.verdict == "differences"
     told = [note for note in found.manifest.notes if "none of the colours" in note]
     assert len(told) == own
+    assert [line for line in EngineRow.of(found).not_judged if "none of" in line] == told
 
 
 def test_random_colors_of_instances_are_refused(toy, build, compare):
@@ -173,8 +194,8 @@ def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("stored", "options", "said"),
     [
-        ("ENGINE", ["--filter", "1.5"], ""),
-        ("AUTO", ["--filter", "1.5"], "--filter is for a picture of --against, or of an add-on's"),
+        ("ENGINE", [], ""),
+        ("AUTO", ["--judge", "Toy_tracer", "--filter", "1.5"], ""),
         ("ENGINE", ["--judge", "Cycles", "--renderer", "raster"], "--renderer is for a picture of"),
         ("AUTO", ["--judge", "image"], "--judge image names no engine"),
         ("AUTO", ["--judge", "Render_Result"], "--judge Render_Result names no engine"),
@@ -252,10 +273,28 @@ def test_a_wrong_image_is_put_right_on_a_copy(rendered_png, solids):
     camera.data.lens = 40.0
     found = compared_with(bpy.data.images.load(str(path)))
     assert found.verdict == "differences" and told() == ["focal_length"]
+    assert OPS.show_put_right(number=0) == {"FINISHED"}
+    right = found.diagnosis.told[0].frame.color
+    shown = np.array(results.ours(results.PUT_RIGHT).pixels[:]).reshape(right.shape)
+    assert np.array_equal(shown, right) and not np.array_equal(shown, found.frame.color)
     assert OPS.copy_camera(number=0) == {"FINISHED"}
-    solids.camera = bpy.context.view_layer.objects.active
+    bpy.ops.wm.context_set_id(data_path="scene.camera", value="Camera as in the picture")
     assert solids.camera != camera and camera.data.lens == 40
     assert compared_with(solids.reference_tracer.image).verdict == "agree"
+    assert results.ours(results.PUT_RIGHT) is None and not OPS.show_put_right.poll()
+
+
+def test_what_changes_no_picture_is_not_shown_put_right(rendered_png, solids):
+    """Such as a tolerance."""
+    solids.camera.data.lens = 44.0
+    path = rendered_png()
+    solids.camera.data.lens = 40.0
+    found = compared_with(bpy.data.images.load(str(path)))
+    same = replace(found.diagnosis.told[0], frame=found.frame)
+    found = replace(found, diagnosis=replace(found.diagnosis, told=(same,)))
+    assert result_of(results.keep_comparison(found)).put_right == {}
+    with pytest.raises(RuntimeError, match="No picture shows it put right: the focal length is"):
+        OPS.show_put_right(number=0)
 
 
 def non_color(path):
@@ -292,6 +331,7 @@ def test_an_image_that_cannot_be_compared(make, said, rendered_png):
 def test_the_render_result(rendered_png, solids):
     rendered_png()
     solids.reference_tracer.judge = "RENDER_RESULT"
+    solids.render.engine = "CYCLES"  # since
     settings = solids.render.image_settings
     before = settings.file_format, settings.color_mode, settings.color_depth
     OPS.compare()
@@ -333,6 +373,28 @@ def test_a_result_of_rays_has_no_excuse_of_a_rasteriser(build):
     found = results.content(Kind.COMPARISON, scene)
     assert found.case.picture.sampling.renderer.name == "rays"
     assert found.verdict == "differences" and found.counts.unexplained > 1000
+
+
+def test_a_result_has_no_excuse_of_a_rasteriser_that_did_not_render_it(
+    toy, rendered_png, solids, compare
+):
+    """An add-on's engine, or one that is not known, as it was rendered before the add-on heard."""
+
+    def renderer():
+        found = compare(judge="RENDER_RESULT", diagnose=False)
+        assert found.verdict == "agree"
+        return found.case.picture.sampling.renderer.name, found.case.picture.source.known
+
+    unknown = "rays", "as Blender wrote it, but nothing says that it was rasterised"
+    rendered_png()
+    assert renderer() == ("raster", "as Blender wrote it, and its engine is BLENDER_WORKBENCH")
+    rendered.forget()
+    assert renderer() == unknown
+    solids.render.engine = "TOY_TRACER"
+    bpy.ops.render.render()
+    solids.render.engine = "BLENDER_WORKBENCH"
+    compare(judge="WORKBENCH")  # which renders a copy of the scene
+    assert renderer() == unknown
 
 
 @pytest.mark.parametrize("kind", ["PNG", "OPEN_EXR"])

@@ -14,8 +14,15 @@ import pytest
 
 CHILD = Path(__file__).with_name("handlers_child.py")
 HANDLERS = (
-    *("render_init", "render_pre", "render_post", "render_write", "render_complete"),
-    *("frame_change_pre", "frame_change_post", "depsgraph_update_pre", "depsgraph_update_post"),
+    "render_init",
+    "render_pre",
+    "render_post",
+    "render_write",
+    "render_complete",
+    "frame_change_pre",
+    "frame_change_post",
+    "depsgraph_update_pre",
+    "depsgraph_update_post",
 )
 KINDS = "objects", "collections", "meshes", "materials", "images", "scenes"
 

@@ -20,8 +20,18 @@ from ..tracer.pictures import mess
 pytestmark = pytest.mark.filterwarnings("error")
 CORNERS = np.array(list(product((-2, 2), repeat=3)))  # of a cube
 TRIANGLES = [
-    *((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1)),
-    *((2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)),
+    (0, 1, 3),
+    (0, 3, 2),
+    (4, 6, 7),
+    (4, 7, 5),
+    (0, 4, 5),
+    (0, 5, 1),
+    (2, 3, 7),
+    (2, 7, 6),
+    (0, 2, 6),
+    (0, 6, 4),
+    (1, 5, 7),
+    (1, 7, 3),
 ]
 SEEDS = 75  # in a part
 PARTS = [

@@ -161,9 +161,12 @@ def test_slurm(farm):
     said = run(whole, "run", "bash", script, input="\n".join(arrays) + "\n", timeout=300)
     ended = re.findall(r"ArrayJobId=(\d) ArrayTaskId=(\d+).* ExitCode=(\d+):0", said)
     assert sorted(ended) == [
-        *(("1", "0", "1"), ("1", "1", "0")),
-        *(("2", "0", "0"), ("2", "1", "0")),
-        *(("3", "0", "0"), ("3", "1", "0")),
+        ("1", "0", "1"),
+        ("1", "1", "0"),
+        ("2", "0", "0"),
+        ("2", "1", "0"),
+        ("3", "0", "0"),
+        ("3", "1", "0"),
     ], said
     assert "frame 2: " in said
     rows = ["rows_00000.png", "rows_00010.png"]
@@ -195,7 +198,9 @@ def test_flamenco(farm):
         for command in task["commands"]:
             p = command["parameters"]
             assert (command["name"], p["exe"], p["exeArgs"], p["argsBefore"]) == (
-                *("blender-render", "{blender}", "{blenderArgs}"),
+                "blender-render",
+                "{blender}",
+                "{blenderArgs}",
                 [],
             )
             run("blender", "-b", "-y", p["blendfile"], *p["args"])

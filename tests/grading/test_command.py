@@ -205,7 +205,7 @@ def test_ctrl_c_ends_the_student_too(tmp_path):
     path.write_text(
         "import os, pathlib\n"
         f"pathlib.Path({str(tmp_path / 'pid')!r}).write_text(str(os.getpid()))\n"
-        "while True:\n    pass\n"
+        "import time\nwhile True:\n    time.sleep(9)\n"
     )
     command = [sys.executable, "-m", "reference_tracer.cli.main", "judge", str(path), *SMALL]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)

@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.tracer.progress import result_of
-from reference_tracer_grading.external import Program, Run, sandbox
+from reference_tracer_grading.external import Program, Run
 from reference_tracer_grading.judging import judge, names
-from reference_tracer_grading.student import KEPT, Limits
+from reference_tracer_grading.sandbox import sandbox
 from reference_tracer_grading.student_error import StudentError
+from reference_tracer_grading.subjects.triangle import FORM
+from reference_tracer_grading.submission import KEPT, Limits
 
 RAYS = np.zeros((5, 3)), np.ones((5, 3)), np.arange(45.0).reshape(5, 3, 3)
 PYTHON = shlex.quote(sys.executable)
@@ -22,7 +24,7 @@ PYTHON = shlex.quote(sys.executable)
 def program(written, text, arguments="{rays} {answers}", exchange="csv", limits=None):
     path = written("import sys\n" + text, "program.py")
     command = f"{PYTHON} {shlex.quote(str(path))} {arguments}"
-    return Program(Run.parsed(command, exchange), limits)
+    return Program(Run.parsed(command, exchange), FORM, limits)
 
 
 ECHO = """
@@ -67,8 +69,8 @@ HOSTILE = {
     "a word": ("open(sys.argv[2], 'w').write('1,2,3,4\\nhello\\n')", "answer", "line 2"),
     "three numbers": ("open(sys.argv[2], 'w').write('1,2,3\\n' * 5)", "answer", "t,s1,s2,s3"),
     "a number alone": ("open(sys.argv[2], 'w').write('1\\n' * 5)", "answer", "line 1"),
-    "too few": ("open(sys.argv[2], 'w').write('inf\\n' * 4)", "answer", "4 rays of 5"),
-    "too many": ("open(sys.argv[2], 'w').write('inf\\n' * 6)", "answer", "6 rays of 5"),
+    "too few": ("open(sys.argv[2], 'w').write('inf\\n' * 4)", "answer", "4 lines of 5"),
+    "too many": ("open(sys.argv[2], 'w').write('inf\\n' * 6)", "answer", "6 lines of 5"),
     "no file": ("pass", "answer", "wrote no answers"),
     "bytes": ("open(sys.argv[2], 'wb').write(bytes(range(128, 200)))", "answer", "line 1"),
     "raises": ("1 / 0", "ended", "exit code 1: ZeroDivisionError"),
@@ -98,7 +100,7 @@ def test_what_it_does_wrong_is_its_own_error(name, written):
 
 def test_one_that_is_not_there(tmp_path):
     with pytest.raises(StudentError):
-        Program(Run.parsed(str(tmp_path / "nothing"))).ask(*RAYS)
+        Program(Run.parsed(str(tmp_path / "nothing")), FORM).ask(*RAYS)
 
 
 def test_one_that_never_ends_is_ended_with_all_that_it_started(written):

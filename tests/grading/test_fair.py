@@ -21,7 +21,7 @@ def blamed(scenes):
         (method, e.scenario.name, e.scale, found.counts)
         for e in scenes
         for method in SOUND
-        for found in [result_of(look(e.subject, plain(method)))]
+        for found in [result_of(look(e.judged, plain(method)))]
         if not set(np.unique(found.mark)) <= {Mark.RIGHT, *EXCUSED}
     ]
 
@@ -47,9 +47,9 @@ def test_the_literal_textbook_is_blamed(scenes):
     for e in first:
         if e.scenario.name in met:  # made of rays that meet edges and corners
             continue
-        assert e.subject.boundary.mean() < 0.2, e.scenario.name
-        tally = result_of(look(e.subject, literal)).tally
-        assert tally.surface < 0.95 * tally.total, e.scenario.name
+        assert e.judged.boundary.mean() < 0.2, e.scenario.name
+        tally = result_of(look(e.judged, literal)).tally
+        assert tally.right["surface"] < 0.95 * tally.total, e.scenario.name
     assert len(first) > 15
 
 

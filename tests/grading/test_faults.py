@@ -25,7 +25,7 @@ def function(text):
 def faults(text, checks):
     ask = function(text)
     answers = Answers(checks, *ask(checks.origins, checks.directions, checks.triangles))
-    return find_faults(answers)[0] + dependence(checks, answers, ask)
+    return find_faults(answers)[0] + dependence(answers, ask)
 
 
 @pytest.mark.parametrize("name", ["textbook", "moller_trumbore", "loop"])

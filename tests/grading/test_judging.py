@@ -14,11 +14,12 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.examples import find_examples
 from reference_tracer_grading.extremes import extreme_scenes, held, plain, try_extremes
+from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.judging import judge
 from reference_tracer_grading.picture import Mark, look
-from reference_tracer_grading.student import Limits
 from reference_tracer_grading.student_error import StudentError
-from reference_tracer_grading.subject import prepare
+from reference_tracer_grading.subjects.triangle import TRIANGLE
+from reference_tracer_grading.submission import Limits
 from reference_tracer_grading.tally import Tally, score_of
 
 TEXTBOOK = plain(Method.TEXTBOOK)
@@ -87,7 +88,7 @@ def test_missed_false_and_order(two):
     false = result_of(look(two, everything))
     assert set(np.unique(false.mark)) == {Mark.RIGHT, Mark.FALSE_HIT_IN_FRONT}  # all is covered
     # Every candidate of the front square counts as hit, also beside the diagonal.
-    assert false.tally.surface < false.tally.total and false.lost > 0
+    assert false.tally.right["surface"] < false.tally.total and false.lost > 0
 
 
 def test_false_hits_in_front_and_on_nothing(make, right):
@@ -134,7 +135,7 @@ def test_both_values_wrong(two):
     found = result_of(look(two, ask))
     on = two.triangle != -1
     assert (found.mark.ravel()[on] == Mark.WRONG_T_AND_BARYCENTRICS).mean() > 0.98
-    assert found.tally.t == 0
+    assert found.tally.right["t"] == 0
 
 
 def test_wrong_values(two):
@@ -228,17 +229,22 @@ def test_examples(two):
         assert e.to_dict()["student"] == {"t": None, "barycentrics": None}
 
 
+def tally(total, surface, t, barycentrics, boundary, boundary_right):
+    right = {"surface": surface, "t": t, "barycentrics": barycentrics}
+    return Tally(total, right, boundary, boundary_right, TRIANGLE.weights)
+
+
 def test_scores():
-    right = Tally(10, 10, 10, 10, 3, 1)
+    right = tally(10, 10, 10, 10, 3, 1)
     assert right.score == 100 and right.all_right
-    nearly = Tally(10**6, 10**6 - 1, 10**6 - 1, 10**6 - 1, 0, 0)
+    nearly = tally(10**6, 10**6 - 1, 10**6 - 1, 10**6 - 1, 0, 0)
     assert nearly.score == 99.9 and not nearly.all_right
-    assert Tally(10, 0, 0, 0, 0, 0).score == 0 and Tally(10, 10, 10, 0, 0, 0).score == 80
+    assert tally(10, 0, 0, 0, 0, 0).score == 0 and tally(10, 10, 10, 0, 0, 0).score == 80
     assert score_of([right, None]) == 50 and score_of([None]) == 0 and score_of([]) == 0
-    empty = Tally(0, 0, 0, 0, 4, 4)
+    empty = tally(0, 0, 0, 0, 4, 4)
     assert empty.score == 100
     # Where nothing is counted, nothing is given for it.
-    assert score_of([Tally(10, 0, 0, 0, 0, 0), empty]) == 0 and score_of([empty, None]) == 0
+    assert score_of([tally(10, 0, 0, 0, 0, 0), empty]) == 0 and score_of([empty, None]) == 0
 
 
 def test_judge(two, checks, right, wrong_text, written):
@@ -273,7 +279,7 @@ def test_failing_in_a_scene_only(two, tied, checks, right, written):
     )  # fmt: skip
     found = result_of(judge(written(slow), checks, [tied, two], limits=Limits(seconds=1.5)))
     assert [(where, e.kind) for where, e in found.errors] == [("tied", "time")]
-    assert [k.subject.name for k in found.looks] == ["two"]
+    assert [k.judged.name for k in found.looks] == ["two"]
     assert found.score == pytest.approx(66.6)
 
 

@@ -23,12 +23,13 @@ from reference_tracer_grading.class_folder import ClassFolder
 from reference_tracer_grading.external import Run
 from reference_tracer_grading.extremes import extreme_scenes
 from reference_tracer_grading.formats import FORMATS
+from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.judging import judge_all
 from reference_tracer_grading.page import MARK_COLORS, marked
 from reference_tracer_grading.picture import Mark
 from reference_tracer_grading.report import student
-from reference_tracer_grading.student import Limits
-from reference_tracer_grading.subject import prepare
+from reference_tracer_grading.subjects.triangle import TRIANGLE
+from reference_tracer_grading.submission import Limits
 from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, class_table, lines
 
 TEXT = """
@@ -52,7 +53,7 @@ FILES = {
     "blind.py": TEXT.replace("(t > 0)", "False") + "\nprint('<script>alert(1)</script>')\n",
     "one_sided.py": TEXT.replace("(t > 0)", "(t > 0) & (dot(d, n) > 0)"),
     "broken.py": "def intersect(o, d, p):\n    return '<b>' + 1\n",
-    "endless <i>.py": "while True:\n    pass\n",
+    "endless <i>.py": "import time\nwhile True:\n    time.sleep(9)\n",
 }
 
 
@@ -74,7 +75,7 @@ def judged(make, tmp_path_factory):
 @pytest.fixture(scope="module")
 def written(judged, tmp_path_factory):
     folder = tmp_path_factory.mktemp("judged")
-    kept = ClassFolder(folder, list(judged))
+    kept = ClassFolder(folder, TRIANGLE, list(judged))
     kept.write([kept.keep(folder / name, j) for name, j in judged.items()], FORMATS)
     return folder
 
@@ -208,7 +209,7 @@ def test_the_page_says_the_same_in_the_same_words(written, judged):
     assert right == "all right" and f">{right}</span>" in text
     assert f">{right}</span>" in (written / "judge.html").read_text(encoding="utf-8")
     # No pixel of this scene lies on a boundary, and both say what the dash there means.
-    assert not judged["right.py"].looks[0].subject.boundary.any()
+    assert not judged["right.py"].looks[0].judged.boundary.any()
     assert NO_BOUNDARY in text and NO_BOUNDARY in lines(judged["right.py"])
 
 
@@ -233,9 +234,9 @@ def test_an_example_of_every_mark(judged):
     """The terminal shows one pixel of each kind, not only of the first."""
     j = judged["swapped.py"]
     [found] = j.looks
-    first = j.examples[found.subject.name][0]
+    first = j.examples[found.judged.name][0]
     other = replace(first, mark=Mark.MISSED)
-    several = replace(j, examples={found.subject.name: [first, first, other]})
+    several = replace(j, examples={found.judged.name: [first, first, other]})
     pixels = [line for line in lines(several) if "reftrace explain" in line]
     assert len(pixels) == 2
     assert MARKS[first.mark] in pixels[0] and MARKS[Mark.MISSED] in pixels[1]
@@ -243,7 +244,7 @@ def test_an_example_of_every_mark(judged):
 
 def test_it_needs_no_library_for_pictures(judged, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "PIL", None)
-    kept = ClassFolder(tmp_path, ["swapped.py"])
+    kept = ClassFolder(tmp_path, TRIANGLE, ["swapped.py"])
     kept.write([kept.keep(tmp_path / "swapped.py", judged["swapped.py"])])
     assert sorted(p.name for p in tmp_path.iterdir()) == ["judge.html", "judge.json", "students"]
     # Who is judged alone has no table of a class.
@@ -274,11 +275,12 @@ def test_who_has_not_changed_is_not_judged_again(judged, tmp_path):
     files = {name: tmp_path / name for name in ("right.py", "swapped.py")}
     for name, path in files.items():
         path.write_text(FILES[name], encoding="utf-8")
-    kept = ClassFolder(tmp_path / "out", list(files), "options")
+    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(files), "options")
     for name, path in files.items():
         kept.keep(path, judged[name])
-    assert set(ClassFolder(tmp_path / "out", list(files), "options").kept_of(files)) == set(files)
-    assert not ClassFolder(tmp_path / "out", list(files), "others").kept_of(files)
+    again = ClassFolder(tmp_path / "out", TRIANGLE, list(files), "options")
+    assert set(again.kept_of(files)) == set(files)
+    assert not ClassFolder(tmp_path / "out", TRIANGLE, list(files), "others").kept_of(files)
     files["right.py"].write_text(FILES["right.py"] + "#", encoding="utf-8")
     assert set(kept.kept_of(files)) == {"swapped.py"}
     (tmp_path / "out" / "students" / "swapped.py.json").write_text("{")
@@ -290,7 +292,7 @@ def test_who_imports_a_file_that_has_changed_is_judged_again(judged, tmp_path):
     (tmp_path / "helper.py").write_text("import deeper\n")
     (tmp_path / "deeper.py").write_text("x = 1\n")
     files = {"own.py": tmp_path / "own.py"}
-    kept = ClassFolder(tmp_path / "out", list(files))
+    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(files))
     kept.keep(files["own.py"], replace(judged["right.py"], name="own.py"))
     assert kept.kept_of(files)
     (tmp_path / "deeper.py").write_text("x = 2\n")
@@ -301,7 +303,7 @@ def test_an_error_is_not_kept(judged, tmp_path):
     """It may have been the machine's: a compiler that was missing, a memory that was full."""
     path = tmp_path / "broken.py"
     path.write_text(FILES["broken.py"])
-    kept = ClassFolder(tmp_path / "out", ["broken.py"])
+    kept = ClassFolder(tmp_path / "out", TRIANGLE, ["broken.py"])
     kept.keep(path, judged["broken.py"])
     assert not kept.kept_of({"broken.py": path})
 
@@ -315,7 +317,7 @@ def test_a_name_is_no_formula(judged):
 def test_a_program_that_is_compiled_anew_is_judged_again(judged, tmp_path):
     (tmp_path / "Own.class").write_bytes(b"1")
     runs = {"own": Run.parsed(f"java -cp {tmp_path} Own")}
-    kept = ClassFolder(tmp_path / "out", list(runs))
+    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(runs))
     kept.keep(runs["own"], replace(judged["right.py"], name="own"))
     assert kept.kept_of(runs)
     (tmp_path / "Own.class").write_bytes(b"2")
@@ -324,6 +326,6 @@ def test_a_program_that_is_compiled_anew_is_judged_again(judged, tmp_path):
 
 def test_files_of_students_have_names_of_their_own(tmp_path):
     names = ["a/b.py", "a_b.py", "A_B.py", "../../x.py", "<i>", "", "é" * 100]
-    files = ClassFolder(tmp_path, names)._files
+    files = ClassFolder(tmp_path, TRIANGLE, names)._files
     assert len({f.casefold() for f in files.values()}) == len(names)
     assert all("/" not in f and not f.startswith(".") and len(f) < 70 for f in files.values())

@@ -8,8 +8,10 @@ import time
 
 import numpy as np
 import pytest
-from reference_tracer_grading.student import KEPT, Limits, Student
+from reference_tracer_grading.student import Student
 from reference_tracer_grading.student_error import StudentError
+from reference_tracer_grading.subjects.triangle import FORM
+from reference_tracer_grading.submission import KEPT, Limits
 
 HEAD = "import os, sys\nimport numpy as np\n\ndef intersect(o, d, p):\n    "
 NOTHING = "return np.full(len(o), np.inf), np.zeros((len(o), 3))"
@@ -42,6 +44,7 @@ HOSTILE = {
     "writes": (HEAD + "o -= 1\n    " + NOTHING, "exception", "must not be changed"),
     "sorts": (HEAD + "p.sort()\n    " + NOTHING, "exception", "must not be changed"),
     "reads input": (HEAD + "input()", "exception", "EOFError"),
+    "of one ray": (HEAD + "ox, oy, oz = o\n    " + NOTHING, "exception", "a row for each ray"),
     "changes json": ("import json\njson.dumps = lambda *_: '{}'", "ended", "no answer"),
     "forges an error": (
         "import json, os\nfor fd in range(3, 9):\n    try: os.write(fd, json.dumps("
@@ -88,7 +91,7 @@ HOSTILE = {
 
 
 def failure(path, limits=None):
-    with Student(path, limits) as student, pytest.raises(StudentError) as raised:
+    with Student(path, FORM, limits) as student, pytest.raises(StudentError) as raised:
         student.ask(*RAYS)
     return raised.value
 
@@ -130,7 +133,7 @@ def test_time_limit(where, written):
 
 def test_the_time_limit_is_of_a_scene(written):
     path = written(HEAD.replace("import os", "import time, os") + "time.sleep(0.7)\n    " + NOTHING)
-    with Student(path, Limits(seconds=1.7)) as student:
+    with Student(path, FORM, Limits(seconds=1.7)) as student:
         student.ask(*RAYS)
         student.new_scene()
         student.ask(*RAYS)
@@ -149,7 +152,7 @@ def test_memory_limit(written):
 
 def test_what_it_prints(written):
     text = HEAD + "print('x' * 100, flush=True)\n    " * 3 + "os.write(2, b'y' * 10**6)\n    "
-    with Student(written(text + NOTHING)) as student:
+    with Student(written(text + NOTHING), FORM) as student:
         t, s = student.ask(*RAYS)
     assert np.isinf(t).all() and not s.any()
     assert student.printed == 303 + 10**6
@@ -162,7 +165,7 @@ def test_nothing_of_it_is_left(written, tmp_path):
         "import subprocess\nchild = subprocess.Popen(['sleep', '60'])\n"
         f"open({str(tmp_path / 'pid')!r}, 'w').write(str(child.pid))\n" + HEAD + NOTHING
     )
-    with Student(written(text)) as student:
+    with Student(written(text), FORM) as student:
         student.ask(*RAYS)
         pid = int((tmp_path / "pid").read_text())
         os.kill(pid, 0)
@@ -193,9 +196,9 @@ def test_nobody_waits_for_what_lives_on(kind, written, tmp_path):
     own = f"open({str(tmp_path / 'pid')!r}, 'w').write(str(os.getpid()))\n"
     text = f"import subprocess, time, os\n{own}{LIVING_ON[kind]}{HEAD}{NOTHING}"
     began = time.monotonic()
-    with Student(written(text)) as student:
+    with Student(written(text), FORM) as student:
         assert np.isinf(student.ask(*RAYS)[0]).all()
-    with Student(written(text.replace("import sub", "print('x')\nimport sub")), None) as student:
+    with Student(written(text.replace("import sub", "print('x')\nimport sub")), FORM) as student:
         assert np.isinf(student.ask(*RAYS)[0]).all()
         student._process.kill()
         with pytest.raises(StudentError, match=r"SIGKILL|before it had answered"):
@@ -207,19 +210,19 @@ def test_two_processes_give_one_answer(written):
     """A file that forks has a second process, which goes on as if it had been asked."""
     text = "import os\nos.fork()\n" + HEAD + "return o[:, 0], p[:, 0]"
     rays = np.arange(15.0).reshape(5, 3), np.ones((5, 3)), np.ones((5, 3, 3))
-    with Student(written(text)) as student:
+    with Student(written(text), FORM) as student:
         for _ in range(3):
             assert student.ask(*rays)[0].tolist() == [0, 3, 6, 9, 12]
 
 
 @pytest.mark.parametrize("limits", [Limits(seconds=1e12), Limits(memory=1 << 100)])
 def test_limits_that_no_system_has(limits, written):
-    with Student(written(HEAD + NOTHING), limits) as student:
+    with Student(written(HEAD + NOTHING), FORM, limits) as student:
         assert np.isinf(student.ask(*RAYS)[0]).all()
 
 
 def test_what_it_prints_does_not_steer_the_terminal(written):
-    with Student(written("print('\x1b[2J<b>', flush=True)\n" + HEAD + NOTHING)) as student:
+    with Student(written("print('\x1b[2J<b>', flush=True)\n" + HEAD + NOTHING), FORM) as student:
         student.ask(*RAYS)
     assert student.said == "\\x1b[2J<b>\n"
 
@@ -228,7 +231,7 @@ def test_it_is_given_what_it_is_asked(written, rng):
     """The very numbers, and other forms of answer than arrays."""
     text = HEAD + "return list(o[:, 0]), [list(s) for s in p[:, 1]]"
     rays = rng.normal(size=(7, 3)), rng.normal(size=(7, 3)), rng.normal(size=(7, 3, 3))
-    with Student(written(text)) as student:
+    with Student(written(text), FORM) as student:
         for some in (slice(7), slice(0), slice(2, 3)):
             t, s = student.ask(*(r[some] for r in rays))
             assert (t == rays[0][some, 0]).all() and (s == rays[2][some, 1]).all()
@@ -238,7 +241,7 @@ def test_it_is_given_what_it_is_asked(written, rng):
 def test_it_may_import_what_lies_beside_it(written):
     written("answer = 42.0\n", "helper_beside.py")
     text = "from helper_beside import answer\n" + HEAD + "return np.full(5, answer), p[:, 0]"
-    with Student(written(text)) as student:
+    with Student(written(text), FORM) as student:
         assert (student.ask(*RAYS)[0] == 42).all()
     assert "helper_beside" not in sys.modules
 
@@ -247,6 +250,6 @@ def test_random_numbers_are_the_same_every_time(written):
     text = HEAD + "return np.random.rand(5), np.random.rand(5, 3)"
     answers = []
     for _ in range(2):
-        with Student(written(text)) as student:
+        with Student(written(text), FORM) as student:
             answers.append(student.ask(*RAYS))
     assert (answers[0][0] == answers[1][0]).all()

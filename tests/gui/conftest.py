@@ -32,6 +32,8 @@ class Blender:
             "run",
             "env",
             "BLENDER_USER_RESOURCES=/project/out/gui/user",
+            "python3",
+            "/project/tests/gui/with_window_manager.py",
             "blender",
             *map(str, arguments),
         ]
@@ -42,11 +44,12 @@ class Blender:
 
         The others are then played by another Blender. What is missing is found by `noted`.
         """
-        waiting = list(stories)
+        waiting = sorted(stories, key=lambda name: name == "closed")  # which ends Blender: last
         for name in waiting:
             (OUT / f"{name}.json").unlink(missing_ok=True)
         while waiting:
             done = self.run("--python", "/project/tests/gui/play.py", "--", *waiting, timeout=1800)
+            self.ended = done.returncode
             played = [name for name in waiting if (OUT / f"{name}.json").exists()]
             log = done.stdout + done.stderr
             for name in waiting[: len(played) + 1]:

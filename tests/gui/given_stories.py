@@ -23,6 +23,7 @@ sys.path.insert(0, "/project/tests/blender")
 from toy_engine import ToyEngine
 
 SELECT, APPLY = "reference_tracer.select_finding(", "reference_tracer.copy_camera("
+SHOW, MAKE_ACTIVE = "reference_tracer.show_put_right(", "wm.context_set_id("
 
 
 def at_the_panel(judge, percentage=25, **chosen):
@@ -74,8 +75,8 @@ def judged(name):
         return result() is not before
 
     yield from click_on(properties(), COMPARE)
-    yield from until(another, 120)
-    yield from until(ended, 120)
+    yield from until(another)
+    yield from until(ended)
     yield 0.5  # Blender's panels slide to their new places, and hear no click meanwhile
     screenshot(name)
     found = result().content
@@ -88,6 +89,12 @@ def judged(name):
 
 def selected():
     return [o.name for o in window().view_layer.objects if o.select_get()]
+
+
+def shown_images():
+    """The names of the images that are open."""
+    spaces = [a.spaces.active for a in window().screen.areas if a.type == "IMAGE_EDITOR"]
+    return [space.image.name for space in spaces if space.image]
 
 
 def given_image():
@@ -110,12 +117,19 @@ def given_image():
     with made_wrong(scene.camera.data, "lens", scene.camera.data.lens * 1.05):
         scene.reference_tracer.image = picture("lens")
     yield from judged("given_lens")
+    with values_kept(bpy.context.preferences.view, "render_display_type"):
+        bpy.context.preferences.view.render_display_type = "AREA"  # in place of the 3D view
+        yield from click_on(properties(), SHOW)
+        yield from until(shown_images, 20)
+    bpy.context.preferences.is_dirty = False
+    noted["shown"] = shown_images()
+    screenshot("given_shown_put_right")
     yield from click_on(properties(), APPLY)
     noted["copied"] = [selected(), scene.camera.name]
-    press("ctrl+KP_0")  # the active object is the scene's camera
+    yield from click_on(properties(), MAKE_ACTIVE)
     yield
     noted["camera"] = scene.camera.name
-    screenshot("given_seen_through")
+    screenshot("given_made_active")
     yield from judged("given_put_right")
 
 

@@ -1,5 +1,6 @@
 """A user's hands: the pointer, its button, and a button of Blender's that is looked for."""
 
+import ctypes
 import subprocess
 
 import bpy
@@ -55,3 +56,27 @@ def click_on(area, command, **options):
     where = yield from found(area, command, **options)
     yield from click(*where)
     return where
+
+
+def windows():
+    """Return the numbers that the screen gives to Blender's windows, the first one first."""
+    command = ["xdotool", "search", "--onlyvisible", "--class", "Blender"]
+    return sorted(map(int, subprocess.run(command, capture_output=True, text=True).stdout.split()))
+
+
+def close(number):
+    """Have a window hear what it hears if a hand clicks on the cross in its frame.
+
+    The screen of the tests has no window manager, which draws frames: this is its event.
+    """
+    x = ctypes.CDLL("libX11.so.6")
+    x.XOpenDisplay.restype = ctypes.c_void_p
+    x.XInternAtom.restype = ctypes.c_long
+    screen = ctypes.c_void_p(x.XOpenDisplay(None))
+    protocols, delete = (
+        x.XInternAtom(screen, name, 0) for name in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW")
+    )
+    message, size = 33, 32  # a ClientMessage, of numbers of so many bits
+    event = (ctypes.c_long * 24)(message, 0, 0, 0, number, protocols, size, delete)
+    x.XSendEvent(screen, ctypes.c_ulong(number), 0, ctypes.c_long(0), event)
+    x.XCloseDisplay(screen)

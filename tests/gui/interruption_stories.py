@@ -1,12 +1,15 @@
 """What a user, or a script, does while a comparison runs: nothing is lost, and nothing is left."""
 
+import json
 import subprocess
 from pathlib import Path
 
 import addon_utils
 import bpy
+from hands import close, windows
 from story import (
     MODULE,
+    OUT,
     compared,
     ended,
     module,
@@ -60,7 +63,7 @@ def state():
         if p.type == "COLLECTION" and p.identifier not in UNSTEADY
     }
     handlers = {
-        name: [getattr(h, "__qualname__", str(h)) for h in found]
+        name: sorted(getattr(h, "__qualname__", str(h)) for h in found)
         for name in dir(bpy.app.handlers)
         if isinstance(found := getattr(bpy.app.handlers, name), list)
     }
@@ -191,8 +194,13 @@ def closed_window(found):
     with bpy.context.temp_override(window=second):
         bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
     yield
-    with bpy.context.temp_override(window=second):
-        bpy.ops.wm.window_close()
+    _, of_comparison = windows()
+    close(of_comparison)
+
+    def one_is_left():
+        return len(bpy.context.window_manager.windows) == 1
+
+    yield from until(one_is_left, 20)
     yield
     found["stopped"] = not still_running()
 
@@ -252,6 +260,14 @@ def handled(found):
         bpy.data.images.remove(image)
 
 
+def closed():
+    """The last window is closed, which ends Blender: what is to be noted is written before."""
+    yield from started_large()
+    (OUT / "closed.json").write_text(json.dumps({"dirty": bpy.data.is_dirty}))
+    close(windows()[-1])
+    yield from until(lambda: False, 60)
+
+
 INTERRUPTIONS = (
     undone,
     saved,
@@ -265,4 +281,4 @@ INTERRUPTIONS = (
     handled,
 )
 SCENE = "suzanne"
-STORIES = (interruptions,)
+STORIES = (interruptions, closed)

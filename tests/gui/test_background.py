@@ -119,8 +119,15 @@ def test_command_for_the_trade(blender, folder):
     path, inside = folder
     done = blender.run(
         SCENE,
-        *("--command", "reference_tracer", "trade", "--out", inside),
-        *("--width", "16", "--samples", "1"),
+        "--command",
+        "reference_tracer",
+        "trade",
+        "--out",
+        inside,
+        "--width",
+        "16",
+        "--samples",
+        "1",
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "certified" in done.stdout
@@ -131,8 +138,14 @@ def test_command_for_a_pixel(blender, folder):
     path, inside = folder
     done = blender.run(
         SCENE,
-        *("--command", "reference_tracer", "explain"),
-        *("--pixel", "480", "270", "--out", f"{inside}/pixel.html"),
+        "--command",
+        "reference_tracer",
+        "explain",
+        "--pixel",
+        "480",
+        "270",
+        "--out",
+        f"{inside}/pixel.html",
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "The pixel sees Cone, triangle 9" in done.stdout

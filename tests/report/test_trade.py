@@ -27,9 +27,21 @@ from ..drawn import Plot, scale
 pytestmark = pytest.mark.slow
 
 KEYS = {
-    *("method", "precision", "samples", "width", "height", "seconds", "wrong_pixels"),
-    *("largest_t_error", "peak_bytes", "coverage_error", "fastest", "slowest"),
-    *("best", "best_pixels", "best_coverage"),
+    "method",
+    "precision",
+    "samples",
+    "width",
+    "height",
+    "seconds",
+    "wrong_pixels",
+    "largest_t_error",
+    "peak_bytes",
+    "coverage_error",
+    "fastest",
+    "slowest",
+    "best",
+    "best_pixels",
+    "best_coverage",
 }
 
 
@@ -45,8 +57,17 @@ def made(wrong=(3742, 3052, 41, 0, 2, 0, 0, 0, 0), coverage=0.03, samples=(1, 2,
             error = coverage / k * (1 + 4 * (method == "textbook_literal"))
             rows.append(
                 TradeRow(
-                    *(method, precision, k, 160, 90, seconds, count, 1e-5, 11 << 20),
-                    *(error, rounds),
+                    method,
+                    precision,
+                    k,
+                    160,
+                    90,
+                    seconds,
+                    count,
+                    1e-5,
+                    11 << 20,
+                    error,
+                    rounds,
                 )
             )
             if k == 1:

@@ -17,10 +17,11 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.command import built_in
+from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.mutations import mutations as mutated
-from reference_tracer_grading.programs import PROGRAMS
-from reference_tracer_grading.subject import PIXELS, prepare
-from reference_tracer_grading.tally import COST, WEIGHTS
+from reference_tracer_grading.options import PIXELS
+from reference_tracer_grading.subjects.triangle import TRIANGLE
+from reference_tracer_grading.tally import COST
 
 
 @cache
@@ -220,7 +221,7 @@ def judged_pixels() -> str:
 
 
 def mutations() -> str:
-    return _whole(sum(1 for program in PROGRAMS for _ in mutated(program)))
+    return _whole(sum(1 for program in TRIANGLE.programs for _ in mutated(program)))
 
 
 TOUR = Path(__file__).resolve().parents[2] / "docs" / "images" / "tutorial" / "comparison.json"
@@ -236,15 +237,37 @@ def of_tour() -> dict[str, str]:
     return counts | figures | {"tutorial_pixel": f"{x}, {y}", "tutorial_verdict": found["verdict"]}
 
 
-WEIGHED = {f"weight_{name}": f"{weight:g}" for name, weight in WEIGHTS.items()}
+WEIGHED = {f"weight_{name}": f"{weight:g}" for name, weight in TRIANGLE.weights.items()}
 SIZES = {f"size_{n}": n for n in ("orthographic", "perspective", "plane", "triangle")}
 _FIGURES: tuple[Callable[[], str], ...] = (
-    *(ortho_width, ortho_pixel, column_pixels, half_changed, constant_colors),
-    *(half_angle_degrees, pixel_length, corner_length, whole_angle_factor),
-    *(misread_edge, misread_corner, misread_wide),
-    *(plane_pixels, plane_farthest, plane_clip, plane_top_row, plane_step, horizon_below),
-    *(literal_lost, literal_seen, literal_share, literal_share_float32),
-    *(textbook_lost, textbook_lost_float32, triangle_count, judged_pairs, judged_pixels, mutations),
+    ortho_width,
+    ortho_pixel,
+    column_pixels,
+    half_changed,
+    constant_colors,
+    half_angle_degrees,
+    pixel_length,
+    corner_length,
+    whole_angle_factor,
+    misread_edge,
+    misread_corner,
+    misread_wide,
+    plane_pixels,
+    plane_farthest,
+    plane_clip,
+    plane_top_row,
+    plane_step,
+    horizon_below,
+    literal_lost,
+    literal_seen,
+    literal_share,
+    literal_share_float32,
+    textbook_lost,
+    textbook_lost_float32,
+    triangle_count,
+    judged_pairs,
+    judged_pixels,
+    mutations,
 )
 
 

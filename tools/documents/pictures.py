@@ -20,10 +20,11 @@ from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
+from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.page import marked
 from reference_tracer_grading.picture import look
 from reference_tracer_grading.student import Student
-from reference_tracer_grading.subject import prepare
+from reference_tracer_grading.subjects.triangle import TRIANGLE
 
 from .figures import scene, traced
 
@@ -103,7 +104,7 @@ def weights() -> Picture:
 def judged() -> Picture:
     """What a student's file makes of a scene, the certified picture, and the wrong pixels."""
     subject = result_of(prepare("triangle", scene("triangle"), pixels=60_000))
-    with Student(STUDENTS / "as_printed.py") as student:
+    with Student(STUDENTS / "as_printed.py", TRIANGLE.form) as student:
         found = result_of(look(subject, student.ask))
     pictures = to_display(found.color), to_display(subject.color), marked(found)
     return beside(*pictures)

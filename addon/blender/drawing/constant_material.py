@@ -8,7 +8,7 @@ colours are set as the objects' own. The temporary scene has no world: one may h
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from typing import Any, NamedTuple
@@ -24,6 +24,7 @@ from ..versions import WITHOUT_ATTRIBUTE
 
 Color = tuple[float, ...]
 SLOTS = 32  # material slots that are told apart: each is some nodes
+_BORROWING = "BOOLEAN", "DATA_TRANSFER", "NODES"  # modifiers that take attributes of other meshes
 _OF_MESH = "data.materials[{}].diffuse_color"  # what geometry nodes gave to it
 _OF_OBJECT = "material_slots[{}].material.diffuse_color"
 
@@ -74,7 +75,8 @@ def _emission(material: Any, scene: Any, layer: str) -> None:
     if shading.color_type == "SINGLE":
         color.default_value = (*shading.single_color, 1.0)
     else:
-        make: dict[str, Callable[..., Any]] = {"OBJECT": _object_color, "VERTEX": _vertex_color}
+        of_vertices = partial(_vertex_color, scene.view_layers[layer].objects)
+        make: dict[str, Callable[..., Any]] = {"OBJECT": _object_color, "VERTEX": of_vertices}
         own: Callable[..., Any] = make.get(shading.color_type, _material_color)
         tree.links.new(own(tree, partial(_slots_of, scene, layer)), color)
 
@@ -83,17 +85,31 @@ def _object_color(tree: Any, _: object = None) -> Any:
     return _attribute(tree, "OBJECT", "color").outputs["Color"]
 
 
-def attribute_names() -> set[str]:
-    """Return the active colour attributes of the file's meshes: these the material asks for."""
-    return {m.color_attributes.active_color_name or "" for m in bpy.data.meshes} - {""}
+def attribute_names(objects: Collection[Any]) -> set[str]:
+    """Return the active colour attributes of what is rendered: these the material asks for.
+
+    Of a view layer's objects. Where some of them instance, or take geometry from elsewhere, these
+    are the attributes of all meshes of the file.
+    """
+    if any(_takes_from_elsewhere(o) for o in objects):
+        meshes = set(bpy.data.meshes)
+    else:
+        rendered = (o for o in objects if not o.hide_render or is_animated(o, "hide_render"))
+        meshes = {o.data for o in rendered if o.type == "MESH"}
+    return {m.color_attributes.active_color_name or "" for m in meshes} - {""}
 
 
-def _vertex_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:
+def _takes_from_elsewhere(obj: Any) -> bool:
+    borrows = any(m.type in _BORROWING for m in obj.modifiers)
+    return borrows or obj.instance_type != "NONE" or len(obj.particle_systems) > 0
+
+
+def _vertex_color(objects: Collection[Any], tree: Any, slots_of: Callable[[], _Slots]) -> Any:
     """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
     without = _material_color if WITHOUT_ATTRIBUTE == "MATERIAL" else _object_color
     found = without(tree, slots_of)
     # By name: Cycles itself would take the one that is active for renders.
-    for name in sorted(attribute_names()):
+    for name in sorted(attribute_names(objects)):
         node = tree.nodes.new("ShaderNodeVertexColor")  # alpha 0 where a mesh has none of this name
         node.layer_name = name
         found = _where_found(tree, node, found)

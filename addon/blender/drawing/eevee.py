@@ -8,7 +8,7 @@ first says so.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -28,10 +28,10 @@ def _one_sample_a_pixel(scene: Any, layer: str) -> Iterator[None]:
         yield
 
 
-def _check_colors(scene: Scene, color_type: str) -> None:
+def _check_colors(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
     """Refuse meshes that EEVEE shows in other colours than the solid viewport."""
     if color_type == "VERTEX":
-        _check_attributes(scene)
+        _check_attributes(scene, objects)
     elif color_type == "MATERIAL":
         _check_edited(scene)
 
@@ -53,20 +53,25 @@ def _check_edited(scene: Scene) -> None:
             )
 
 
-def _check_attributes(scene: Scene) -> None:
-    """Refuse meshes that lack a colour attribute of the file's: EEVEE shows them black."""
+def _check_attributes(scene: Scene, objects: Collection[Any]) -> None:
+    """Refuse meshes that lack a colour attribute that is asked for: EEVEE shows them black.
+
+    So it does what stands for infinite planes.
+    """
     import bpy
 
     from ...scene import SceneError
     from .constant_material import attribute_names
 
-    asked = attribute_names()
+    asked = attribute_names(objects)
     data = {o.name_full: o.data for o in bpy.data.objects}
+    found: list[set[str]] = [set() for _ in scene.planes]
     for instance in scene.instances:
         mesh: Any = data.get(scene.objects[instance.object])
         has_one = scene.meshes[instance.mesh].corner_colors is not None
         attributes = getattr(mesh, "color_attributes", None) if has_one else None
-        own = {attributes.active_color_name} if attributes else set()
+        found.append({attributes.active_color_name} if attributes else set())
+    for own in found:
         if asked - own:
             raise SceneError(
                 "EEVEE shows a mesh black that lacks the colour attribute of another: set Colors "

@@ -6,7 +6,7 @@ Nothing here imports bpy or numpy: the command line reads the records where ther
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -19,7 +19,7 @@ def _as_it_is(scene: Any, layer: str) -> AbstractContextManager[None]:
     return nullcontext()
 
 
-def _any(scene: Scene, color_type: str) -> None:
+def _any(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
     pass
 
 
@@ -55,8 +55,9 @@ class Judge:
     solid: bool = True  # drawn by the scene's solid shading; others have materials and light
     known: bool = True  # how it samples and rounds: else its picture is compared as anybody's
     random_instances: bool = True  # where colours are random, each instance has its own
-    # Refuses meshes whose colours of a type it cannot draw; raises SceneError.
-    check_colors: Callable[[Scene, str], None] = _any
+    # Refuses meshes whose colours of a type it cannot draw, given the view layer's objects; raises
+    # SceneError.
+    check_colors: Callable[[Scene, str, Collection[Any]], None] = _any
 
     def __post_init__(self) -> None:
         problem = ""

@@ -22,9 +22,18 @@ from .against import exported_in
 
 # What is kept of a scene's `render`: the picture's size, and its engine.
 _KEPT = (
-    *("engine", "resolution_x", "resolution_y", "resolution_percentage"),
-    *("pixel_aspect_x", "pixel_aspect_y", "use_border", "use_crop_to_border"),
-    *("border_min_x", "border_max_x", "border_min_y", "border_max_y"),
+    "engine",
+    "resolution_x",
+    "resolution_y",
+    "resolution_percentage",
+    "pixel_aspect_x",
+    "pixel_aspect_y",
+    "use_border",
+    "use_crop_to_border",
+    "border_min_x",
+    "border_max_x",
+    "border_min_y",
+    "border_max_y",
 )
 
 

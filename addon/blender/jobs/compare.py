@@ -133,7 +133,8 @@ def _exported(
             if plan.like_for_like and used["color_type"] == "RANDOM":
                 plan.judge.check_random(scene, manifest.owners)
             if plan.like_for_like:
-                plan.judge.check_colors(scene, used["color_type"])
+                objects = tmp.view_layers[plan.layer].objects
+                plan.judge.check_colors(scene, used["color_type"], objects)
             if not plan.like_for_like:
                 of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
                 name = f"scene '{plan.scene.name}'"

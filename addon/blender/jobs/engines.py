@@ -1,4 +1,7 @@
-"""Compare All Engines: has each engine of Blender's draw the scene, and compares each picture."""
+"""Compare All Engines: has each engine of this Blender draw the scene, and compares each picture.
+
+These are Blender's own, and those that add-ons register.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +15,12 @@ from ...comparison.comparing import compared
 from ...comparison.engines import EngineRow
 from ...comparison.verdict import Verdict
 from ...errors import words
+from ...pictures.picture import SizeError
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...scene import SceneError
 from ...tracer.progress import Work, scaled
+from ..drawing.engines import others
 from ..drawing.judges import JUDGES
 from ..paths import made_folder
 from .compare import gather_case
@@ -36,12 +41,17 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
         If the folder cannot be written.
     """
     folder = made_folder(directory) if directory else None
-    here = [j.name for j in JUDGES.values() if not (j.needs_window and bpy.app.background)]
+    known = (*JUDGES.values(), *others().values())
+    here = [j.name for j in known if not (j.needs_window and bpy.app.background)]
     drawn: list[tuple[str, Case | str]] = []  # or why there is no picture
     for name in here:
         try:
             drawn.append((name, gather_case(context, judge=name.upper(), **choices)))
-        except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
+        except (
+            SceneError,
+            SizeError,
+            RuntimeError,
+        ) as error:  # one engine cannot draw what others can
             drawn.append((name, words(error)))
     if all(isinstance(d, str) for _, d in drawn):
         raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")

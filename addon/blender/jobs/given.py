@@ -23,6 +23,7 @@ from ..drawing.judge import Judge
 from ..drawing.judges import RENDER_RESULT
 from ..reading.camera import export_camera
 from ..reading.pictures import image_file, render_result
+from ..reading.rendered import engine_of_result
 from ..versions import DITHER
 from .against import gather_against
 from .open_file import Choices
@@ -50,17 +51,18 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
     SceneError, OSError, SizeError
         If the scene cannot be traced, or there is no such picture of it.
     """
-    engine = context.scene.render.engine if judge is None else ""
-    making = Making(chosen.renderer, chosen.filter, engine=engine)
+    making = Making(chosen.renderer, chosen.filter)
     if judge:
         shown: Any = partial(_rendered, judge=judge, like_for_like=not chosen.as_is, making=making)
     elif chosen.judge == RENDER_RESULT:
+        making = replace(making, engine=engine_of_result(context.scene))
         with render_result(context.scene, context.view_layer.name) as file:
             shown = picture_of_file(file, export_camera(context.scene), making)
     else:
         dither = DITHER * context.scene.render.dither_intensity
         file = image_file(context.scene.reference_tracer.image)
-        making = replace(making, default_dither=dither)
+        engine = context.scene.render.engine
+        making = replace(making, default_dither=dither, engine=engine)
         shown = picture_of_file(file, export_camera(context.scene), making)
     colors = chosen.colors
     if colors == By.AUTOMATIC and (chosen.as_is or not judge):

@@ -1,12 +1,13 @@
-"""What the diagnosis found, in the panel: a line each, and a button that leads to it.
+"""What the diagnosis found, in the panel: a line each, and buttons that lead to it.
 
 A fault of an object has a button that selects the object; one of the camera a button that adds a
-copy of the camera that sees what the picture shows.
+copy of the camera that sees what the picture shows, and then one that makes the copy the scene's
+camera. Where a fault changes a picture, a button shows that picture put right.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -16,8 +17,12 @@ from . import results
 from .layout import wrapped
 from .long_work import Answer, named
 from .results import Kind
+from .shown import open_as_render, show_where_shown
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ...arrays import Colors
     from ...comparison.comparison import Comparison
     from ...diagnosis.diagnosis import Told
     from ...scene import Camera
@@ -25,6 +30,8 @@ if TYPE_CHECKING:
 
 class _OfFinding:
     """Mixed into an operator that is about a fault that was told."""
+
+    in_object_mode: ClassVar[bool] = True  # it needs that
 
     number: IntProperty(
         name="Number",
@@ -35,13 +42,13 @@ class _OfFinding:
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        """Allow it in Object Mode, where something was found."""
+        """Allow it where something was found, in Object Mode if it needs that."""
         own: Any = cls
         comparison = results.content(Kind.COMPARISON, context.scene)
         if not (comparison and comparison.diagnosis and comparison.diagnosis.told):
             own.poll_message_set(rpt_("There is no comparison whose diagnosis has found something"))
             return False
-        if context.mode != "OBJECT":
+        if cls.in_object_mode and context.mode != "OBJECT":
             own.poll_message_set(rpt_("Leave the mode that the active object is in: Tab"))
             return False
         return True
@@ -100,7 +107,7 @@ class REFERENCE_TRACER_OT_copy_camera(_OfFinding, bpy.types.Operator):
     bl_label = "Apply to a Copy"
     bl_description = (
         "Add a copy of the camera that sees what the picture shows, with this and what was found "
-        "before it put right, and select it. Your camera, and the scene's active one, stay"
+        "before it put right, and select it. Your camera stays, and is still the active one"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -122,6 +129,34 @@ class REFERENCE_TRACER_OT_copy_camera(_OfFinding, bpy.types.Operator):
         return {"FINISHED"}
 
 
+@named
+class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
+    bl_label = "Show as Put Right"
+    bl_description = (
+        "Show the picture that this is wrong in, the traced one or the other, as it is with this "
+        "and what was found before it put right"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    in_object_mode = False
+
+    def execute(self, context: Any) -> Answer:
+        from ...scene import SceneError
+
+        said = self.told(context).sentence
+        color = _put_right(context).get(self.number)
+        if color is None:
+            raise SceneError(f"No picture shows it put right: {said}.")
+        show = show_where_shown if bpy.app.background else open_as_render
+        show(context, results.show(results.PUT_RIGHT, color))
+        return {"FINISHED"}
+
+
+def _put_right(context: Any) -> Mapping[int, Colors]:
+    """Return the pictures that are put right, by the number of what is told."""
+    found = results.latest(Kind.COMPARISON, context.scene)
+    return found.put_right if found else {}
+
+
 def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
     """Draw what accounts for the unexplained pixels: a line each, with its button."""
     diagnosis = comparison.diagnosis
@@ -137,10 +172,22 @@ def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
         wrapped(box, context, said[0].upper() + said[1:], "INFO")
         if _differ(before, told.frame.scene.camera):
             box.operator(REFERENCE_TRACER_OT_copy_camera.bl_idname).number = number
+            _draw_make_active(box, context)
         elif told.guess.object in here:
             box.operator(REFERENCE_TRACER_OT_select_finding.bl_idname).number = number
+        if number in _put_right(context):
+            box.operator(REFERENCE_TRACER_OT_show_put_right.bl_idname).number = number
         if not told.alternative:
             before = told.frame.scene.camera
+
+
+def _draw_make_active(layout: Any, context: Any) -> None:
+    """Draw a button that makes the camera that is the active object the scene's, if it is not."""
+    active = context.view_layer.objects.active  # `context.object` is None in the Render properties
+    if active and active.type == "CAMERA" and active != context.scene.camera:
+        button = layout.operator("wm.context_set_id", text="Make It the Active Camera")
+        button.data_path = "scene.camera"
+        button.value = active.name
 
 
 def _differ(first: Camera, second: Camera) -> bool:

@@ -76,8 +76,8 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
     bl_label = "Compare All Engines"
     bl_description = (
-        "Trace the scene, and compare it with the picture of each of Blender's engines: which "
-        "of them shows a wrong object, where, and why"
+        "Trace the scene, and compare it with the picture of each engine, Blender's own and those "
+        "of add-ons: which of them shows a wrong object, where, and why"
     )
     needs_camera = True
     announced = "Blender draws the scene"

@@ -93,7 +93,10 @@ def _draw_settings(layout: Any, stored: Any) -> None:
 def _draw_more(layout: Any, context: Any) -> None:
     layout.operator(operators.REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
     for row in results.content(Kind.ENGINES, context.scene) or ():
-        draw_facts(layout.box(), _of_engine(row))
+        box = layout.box()
+        draw_facts(box, _of_engine(row))
+        for line in filter(None, (row.error, *row.not_judged)):
+            wrapped(box, context, line, "ERROR")
     button = operators.REFERENCE_TRACER_OT_compare_animation.bl_idname
     layout.operator(button, icon="RENDER_ANIMATION")
     if found := results.content(Kind.FRAMES, context.scene):
@@ -101,7 +104,10 @@ def _draw_more(layout: Any, context: Any) -> None:
 
 
 def _of_engine(row: EngineRow) -> Iterator[tuple[str, str]]:
-    yield JUDGES[row.engine].label, str(row.verdict).capitalize()
+    from ..drawing.engines import others
+
+    judge = JUDGES.get(row.engine) or others().get(row.engine)
+    yield judge.label if judge else row.engine, str(row.verdict).capitalize()
     if row.counts:
         yield "Differ", f"{row.counts.differ:,} px"
         yield "Unexplained", f"{row.counts.unexplained:,} px"

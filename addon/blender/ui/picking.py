@@ -10,8 +10,7 @@ from ...scene import Camera, SceneError
 from ..live.camera import camera_of, frame_in_view
 from ..reading.camera import export_camera
 from . import results
-
-_OURS = {results.TRACED, results.BLENDER, results.DIFFERENCE, results.CAUSES}
+from .shown import IMAGES
 
 
 class Pick(NamedTuple):
@@ -70,7 +69,7 @@ def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
             f"The image '{image.name}' has {width} x {height} pixels, the picture {own.width} x "
             f"{own.height}: it is of something else, or the resolution has changed since"
         )
-    source = "COMPARISON" if image.get(results.MARK) in _OURS else "SCENE"
+    source = "COMPARISON" if image.get(results.MARK) in IMAGES.values() else "SCENE"
     return Pick(int(u * width), int(v * height), source)
 
 

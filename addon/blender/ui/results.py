@@ -6,8 +6,8 @@ What the panels show is not stored in the .blend: it is about one moment.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cache
 from pathlib import Path
@@ -31,6 +31,7 @@ TRACED = "Reference Tracer Traced"
 BLENDER = "Reference Tracer Blender"
 DIFFERENCE = "Reference Tracer Difference"
 CAUSES = "Reference Tracer Causes"
+PUT_RIGHT = "Reference Tracer Put Right"
 MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
 
 
@@ -44,6 +45,8 @@ class Result:
     scene: str | None = None  # None: of no scene
     page: str = ""  # the address of its plots
     regions: tuple[Region, ...] = ()  # where it differs, the largest first
+    # By the number of a fault that is told: the picture that it changes, put right.
+    put_right: Mapping[int, Colors] = field(default_factory=dict)
 
 
 _latest: dict[Kind, Result] = {}
@@ -53,6 +56,7 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
     from ...causes.cause import AGREE
     from ...causes.maps import cause_map, difference_map, ringed
+    from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
 
     traced = comparison.frame.color
@@ -71,9 +75,15 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     show(CAUSES, causes)
     yield 0.9
     regions = tuple(differing_regions(comparison))
-    yield 1.0
+    yield 0.95
+    right = {}
+    for number, _, color in pictures_put_right(comparison):
+        right[number] = color
+        yield 1.0
+    if stale := ours(PUT_RIGHT):
+        bpy.data.images.remove(stale)
     found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
-    _latest[Kind.COMPARISON] = replace(found, regions=regions)
+    _latest[Kind.COMPARISON] = replace(found, regions=regions, put_right=right)
     return _latest[Kind.COMPARISON]
 
 

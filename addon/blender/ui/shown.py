@@ -24,6 +24,7 @@ IMAGES = {
     "TRACED": results.TRACED,
     "OTHER": results.BLENDER,
     "BOTH": results.TRACED,
+    "PUT_RIGHT": results.PUT_RIGHT,
 }
 _CHOICES = (
     ("DIFFERENCE", "Difference", "How far apart the colours are; black where they are the same"),
@@ -31,6 +32,7 @@ _CHOICES = (
     ("TRACED", "Traced", "What the tracer sees"),
     ("OTHER", "Other", "The picture that it is compared with"),
     ("BOTH", "Both", "The traced picture on the left of a line, the other one on its right"),
+    ("PUT_RIGHT", "Put Right", "The picture as it is with a fault of the diagnosis put right"),
 )
 
 
@@ -127,7 +129,8 @@ def _spaces(context: Any) -> Iterator[Any]:
 def draw_switch(layout: Any, space: Any) -> None:
     """Draw the switch of a space that shows an image of a comparison."""
     now = chosen(space)
-    for key, label, _ in _CHOICES if now else ():
+    there = (choice for choice in _CHOICES if now and results.ours(IMAGES[choice[0]]))
+    for key, label, _ in there:
         button = layout.operator(
             REFERENCE_TRACER_OT_show_image.bl_idname, text=label, depress=key == now
         )

@@ -83,9 +83,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         from ...blender.jobs.compare import compare_open_file
         from ...blender.jobs.engines import compare_all
 
-        own = blender.context.scene.reference_tracer
-        options.check_stored(own.judge)
-        stored = own.settings()
+        stored = blender.context.scene.reference_tracer.settings()
         judge = options.judge.upper() if options.judge else None
         out = str(options.out)
         chosen: dict[str, Any] = {

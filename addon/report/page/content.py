@@ -18,6 +18,7 @@ from ...causes.explain import CAUSES
 from ...certainty import Certainty
 from ...comparison.comparison import Comparison
 from ...comparison.extras import Extras
+from ...comparison.put_right import pictures_put_right
 from ...derivation import html
 from ...derivation.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...diagnosis.regions import Region, regions, sides
@@ -122,27 +123,16 @@ def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[s
 
 
 def _put_right(comparison: Comparison) -> Iterator[dict[str, str]]:
-    """Yield the picture that each told fault changes, put right: none where it changes no colour.
-
-    A tolerance, as of a filter, is in how colours are compared, not in a picture.
-    """
+    """Yield the picture that each told fault changes, put right."""
     told = comparison.diagnosis.told if comparison.diagnosis else ()
-    before = then = {"traced": comparison.frame.color, "blender": comparison.picture}
-    for number, one in enumerate(told):
-        if not one.alternative:  # it was found with those before it put right
-            before = then
-        after = {"traced": one.frame.color, "blender": one.picture}
-        side = next((s for s in after if not np.array_equal(after[s], before[s], True)), None)
-        if not one.alternative:
-            then = after
-        if side:
-            yield {
-                "id": f"put_right_{number}",
-                "of": side,
-                "label": "Put right" if len(told) == 1 else f"Put right, {number + 1}",
-                "note": one.sentence,
-                "png": data_uri(to_display(after[side])),
-            }
+    for number, side, color in pictures_put_right(comparison):
+        yield {
+            "id": f"put_right_{number}",
+            "of": side,
+            "label": "Put right" if len(told) == 1 else f"Put right, {number + 1}",
+            "note": told[number].sentence,
+            "png": data_uri(to_display(color)),
+        }
 
 
 def _unexplained(comparison: Comparison) -> list[Region]:

@@ -171,7 +171,9 @@ def _pairs() -> Iterator[Record]:
                     f"film_certain_error_{name}": f.certain_error(v.one("nearness"))
                 },
                 of,
-                *("place", "ray_error", "depth_error"),
+                "place",
+                "ray_error",
+                "depth_error",
             ),
             {f"film_certain_error_{name}": BY_HAND},
             of.name,

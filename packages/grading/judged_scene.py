@@ -1,7 +1,7 @@
 """Prepares a scene to judge students on: some pixels, the pairs that their rays need, the truth.
 
-Any number of students' functions can be held against a `Subject`. Where float64 may see either of
-two surfaces, by its rounding, the pixel is on the *boundary*; all others are the *interior*, and
+Any number of students' functions can be held against a `JudgedScene`. Where float64 may see either
+of two surfaces, by its rounding, the pixel is on the *boundary*; all others are the *interior*, and
 there a sound function has no excuse.
 """
 
@@ -28,13 +28,13 @@ from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.world import Pairs
 
 from .known import Known, known
+from .options import PIXELS
 
-PIXELS = 20_000  # of a scene, by default: a function that loops over the rays takes some seconds
 _ALIKE = 64 * U  # relative: planes' own depths, which the tracer computes, are better than this
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
+class JudgedScene:
     """What students' functions are held against.
 
     Arrays of pixels are those of the chosen ones, (h, w): every `stride`-th of the camera's region,
@@ -89,7 +89,7 @@ def prepare(
     source: str = "",
     pixels: int | None = PIXELS,
     camera_options: tuple[str, ...] = (),
-) -> Work[Subject]:
+) -> Work[JudgedScene]:
     """Trace a scene, certified, and find the truth of some of its pixels.
 
     Parameters
@@ -124,7 +124,8 @@ def prepare(
     rays = camera_rays(scene.camera, *film_positions(region, pixel=chosen))
     planes = Hits.none(len(chosen))
     test_planes(scene, rays, planes)
-    subject = Subject(
+    tied = set(frame.ties)
+    judged = JudgedScene(
         name,
         source or name,
         scene,
@@ -138,18 +139,18 @@ def prepare(
         frame.t.ravel()[chosen],
         frame.instance_index.ravel()[chosen],
         frame.triangle_index.ravel()[chosen],
-        {k: frame.ties[p] for k, p in enumerate(chosen.tolist()) if p in frame.ties},
+        {k: frame.ties[p] for k, p in enumerate(chosen.tolist()) if p in tied},
         frame.certainty.ravel()[chosen] == Certainty.AMBIGUOUS,
         np.zeros(len(chosen), bool),
         _near_planes(scene, rays, frame.t.ravel()[chosen], planes),
         camera_options,
     )
-    yield from _find_pairs(subject, chosen)
-    return subject
+    yield from _find_pairs(judged, chosen)
+    return judged
 
 
-def _find_pairs(subject: Subject, chosen: NDArray) -> Work[None]:
-    scene = subject.scene
+def _find_pairs(judged: JudgedScene, chosen: NDArray) -> Work[None]:
+    scene = judged.scene
     region = scene.camera.region
     wanted = np.zeros(region.width * region.height, bool)
     wanted[chosen] = True
@@ -157,23 +158,23 @@ def _find_pairs(subject: Subject, chosen: NDArray) -> Work[None]:
     for share, own in candidates(made, region, wanted):
         if own is not None and len(own.pixel):
             clip = scene.camera.clip_start, scene.camera.clip_end
-            truth = known(*arrays(subject.rays, own.pixel, own.corners), *clip)
-            subject.pairs.append((own, truth))
-            _mark_boundary(subject, own, truth)
+            truth = known(*arrays(judged.rays, own.pixel, own.corners), *clip)
+            judged.pairs.append((own, truth))
+            _mark_boundary(judged, own, truth)
         yield 0.5 + 0.5 * share
 
 
-def _mark_boundary(subject: Subject, some: Pairs, truth: Known) -> None:
+def _mark_boundary(judged: JudgedScene, some: Pairs, truth: Known) -> None:
     """Enter which pixels are near an edge or a tie, by these pairs."""
-    seen = subject.t[some.pixel]
+    seen = judged.t[some.pixel]
     with np.errstate(invalid="ignore"):
         hidden = truth.t - truth.t_allowed > seen
         near = np.abs(truth.t - seen) <= 2 * truth.t_allowed
-    subject.near_edge[some.pixel[truth.doubt & ~hidden]] = True
-    other = (some.instance != subject.instance[some.pixel]) | (
-        some.triangle != subject.triangle[some.pixel]
+    judged.near_edge[some.pixel[truth.doubt & ~hidden]] = True
+    other = (some.instance != judged.instance[some.pixel]) | (
+        some.triangle != judged.triangle[some.pixel]
     )
-    subject.near_tie[some.pixel[truth.hit & near & other]] = True
+    judged.near_tie[some.pixel[truth.hit & near & other]] = True
 
 
 def _near_planes(scene: Scene, rays: Rays, seen: NDArray, planes: Hits) -> NDArray[np.bool_]:

@@ -1,0 +1,145 @@
+"""Cases of a subject with what is true of them, and what a student's code made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from reference_tracer.arrays import Floats
+
+from .faults import Tests
+from .group_faults import BROKEN, BY_GROUP
+from .programs import Letters, Mask, columns
+from .subjects.subject import Subject
+from .tally import Tally
+from .truth import truth
+from .wrong_case import WrongCase
+
+HIT = "hit"  # the share of those that are hit, or missed, as they should be
+SHOWN = 6  # wrong cases, of as many groups
+
+
+@dataclass(frozen=True, eq=False)
+class TableCases:
+    """What is asked, (k, ...) each, and what is true of the n rows of its answers, (n, m)."""
+
+    subject: Subject
+    given: tuple[Floats, ...]
+    group: NDArray[np.int64]
+    letters: Letters
+    right: Floats
+    allowed: Floats  # how far an answer may be off
+    doubt: Mask  # sound float64 may have it otherwise
+
+    @classmethod
+    def of(
+        cls,
+        subject: Subject,
+        groups: Mapping[str, tuple[Floats, ...]],
+        whole: Collection[str] = (),
+    ) -> TableCases:
+        """Return cases with what is true of them.
+
+        Parameters
+        ----------
+        subject : Subject
+        groups : mapping of str to tuple of arrays
+            What is given, by the names of the subject's groups.
+        whole : collection of str, optional
+            The groups in which float64 rounds nothing.
+        """
+        names = list(subject.groups)
+        given = tuple(np.concatenate(arrays) for arrays in zip(*groups.values(), strict=True))
+        letters = subject.letters(*given)
+        each = letters.shape[0] // len(given[0])
+        counts = [len(arrays[0]) * each for arrays in groups.values()]
+        group = np.repeat([names.index(name) for name in groups], counts)
+        is_whole = np.repeat([name in whole for name in groups], counts)
+        found = truth(subject.programs[0], letters, is_whole)
+        return cls(subject, given, group, letters, *found)
+
+    @property
+    def tells(self) -> Mask:
+        """Where no rounding decides, (n,)."""
+        return ~self.doubt
+
+    firm = tells
+
+    def answers(self, table: Floats) -> TableAnswers:
+        """Return what a student's code made of them, (n, m)."""
+        return TableAnswers(self, table)
+
+
+@dataclass(frozen=True, eq=False)
+class TableAnswers:
+    """What a student's code made of cases, rows (n, m); nothing is hit where the first is inf."""
+
+    cases: TableCases
+    table: Floats
+
+    @cached_property
+    def hit(self) -> Mask:
+        """Where it says to hit."""
+        return np.isfinite(self.table[:, 0])
+
+    @cached_property
+    def to_hit(self) -> Mask:
+        """Where it should."""
+        return np.isfinite(self.cases.right[:, 0])
+
+    @cached_property
+    def right(self) -> dict[str, Mask]:
+        """Where each share of a score is right, by its name."""
+        same = self.hit == self.to_hit
+        with np.errstate(all="ignore"):
+            near = np.abs(self.table - self.cases.right) <= self.cases.allowed
+        parts = self.cases.subject.parts
+        found = {
+            part.name: same & (near[:, numbers].all(axis=1) | ~self.to_hit)
+            for part, numbers in zip(parts, columns(parts), strict=True)
+        }
+        return {name: found.get(name, same) for name in self.cases.subject.weights}
+
+    @cached_property
+    def wrong(self) -> Mask:
+        """Where anything is wrong, without a doubt."""
+        right = np.stack(list(self.right.values())).all(axis=0)
+        return ~right & ~self.cases.doubt
+
+    @property
+    def tests(self) -> tuple[Tests, ...]:
+        """The tests for faults that are no mutation of a formula."""
+        unlike = self.hit != self.to_hit
+        return (
+            Tests(self.wrong & unlike, BY_GROUP, "hits"),
+            Tests(self.wrong & ~unlike, BROKEN, "answers"),
+        )
+
+    @property
+    def tally(self) -> Tally:
+        """How many are right."""
+        counted = self.hit | self.to_hit
+        return Tally.of(counted, self.cases.doubt, self.right, self.cases.subject.weights)
+
+    @property
+    def examples(self) -> list[WrongCase]:
+        """A wrong case of each of some groups."""
+        cases = self.cases
+        _, first = np.unique(cases.group[self.wrong], return_index=True)
+        rows = np.flatnonzero(self.wrong)[first][:SHOWN]
+        each = len(cases.group) // len(cases.given[0])
+        names = list(cases.subject.groups)
+        return [
+            WrongCase.of(
+                cases.subject.form,
+                names[cases.group[row]],
+                tuple(array[row // each] for array in cases.given),
+                cases.right[row],
+                self.table[row],
+                row % each,
+            )
+            for row in rows.tolist()
+        ]

@@ -1,0 +1,1 @@
+"""Files to begin with, one for each subject: `reftrace judge --template` copies one."""

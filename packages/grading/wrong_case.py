@@ -1,0 +1,46 @@
+"""Some cases that were answered wrongly, with all numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from reference_tracer.arrays import Floats
+
+from .form import Form
+
+
+@dataclass(frozen=True)
+class WrongCase:
+    """One case: what was given, what is true, and what was answered; what is not finite is null."""
+
+    group: str
+    given: Mapping[str, Any]  # by the names of the form
+    certified: tuple[float | None, ...]  # the numbers of the parts
+    student: tuple[float | None, ...]
+    place: int  # which of the numbers of its answer these are, if there are several; else 0
+
+    @classmethod
+    def of(
+        cls,
+        form: Form,
+        group: str,
+        given: tuple[Floats, ...],
+        true: Floats,
+        own: Floats,
+        place: int,
+    ) -> WrongCase:
+        """Return a case of arrays."""
+        names = (field.name for field in form.given)
+        numbers = dict(zip(names, (array.tolist() for array in given), strict=True))
+        return cls(group, numbers, _finite(true), _finite(own), place)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the case as JSON can hold it."""
+        return asdict(self)
+
+
+def _finite(numbers: Floats) -> tuple[float | None, ...]:
+    return tuple(float(v) if np.isfinite(v) else None for v in numbers)
