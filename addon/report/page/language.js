@@ -20,12 +20,12 @@ function translated(text) {
 
 /** Sentence by sentence; a sentence as a pattern has it, else its parts about colons. */
 function inParts(text) {
-  for (const gap of [/^([:–] )/, /(:)$/, /( {2}·? *)/, /(?<=\.)( )/]) {
+  for (const gap of [/^([:–] )/, /(:)$/, /( {2}·? *)/, /(?<=\S\.)( )/]) {
     if (gap.test(text)) return text.split(gap).map(translated).join("");
   }
   for (const [pattern, said] of patterns) {
     const [, ...held] = pattern.exec(text) ?? [];
-    if (held.length) return said.replace(/\{(\d)\}/g, (_, k) => translated(held[k]));
+    if (held.length) return said.replace(/\{(\d)[^}]*\}/g, (_, k) => translated(held[k]));
   }
   return text.includes(": ") ? text.split(/(: )/).map(translated).join("") : text;
 }
@@ -41,7 +41,7 @@ function show(node, key, read, write) {
 }
 
 function showAll(root) {
-  const ours = (node) => !(node.parentElement ?? node).closest("script, style, [translate=no]");
+  const ours = (node) => !(node.parentElement ?? node).closest("script, style, svg, [translate=no]");
   const walker = document.createTreeWalker(root, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
   for (let node = root; node; node = walker.nextNode()) {
     if (!ours(node)) continue;
@@ -75,10 +75,13 @@ function speak(code) {
   redraw();
 }
 
-/** What matches an English text with anything in place of {0}, {1}... */
+/** What matches an English text with anything in place of {0}, and a number in that of {1:,}. */
 function patternOf(english) {
-  const plain = english.split(/\{[^}]*\}/).map((s) => s.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
-  return new RegExp(`^${plain.join("(.+?)")}$`, "u");
+  const parts = english.split(/(\{[^}]*\})/).map((part) => {
+    if (part.startsWith("{")) return part.includes(":") ? "([-−+\\d.,e∞]+)" : "(.+?)";
+    return part.replace(/[.*+?^$()|[\]\\]/g, "\\$&");
+  });
+  return new RegExp(`^${parts.join("")}$`, "u");
 }
 
 /** Let the reader choose, and begin with the browser's language. */
