@@ -29,7 +29,7 @@ import seen_stories
 import stories
 import study_stories
 import viewport_stories
-from story import OUT, noted, window
+from story import OUT, by_rounds, noted, window
 
 STORIES = {
     story.__name__: (module.SCENE, story)
@@ -68,10 +68,6 @@ def played(names):
         (OUT / f"{name}.json").write_text(json.dumps(noted, indent=1))
 
 
-# Blender's timers come before the events that it has just received, and the drawing after those.
-ROUNDS = 3
-
-
 def prepared():
     """Have little drawn: no graphics card helps here, and most of the time went into 3D views."""
     preferences = bpy.context.preferences
@@ -99,22 +95,20 @@ def opened(scene):
 
 
 bpy.app.handlers.load_post.append(without_overlays)
-going = played(sys.argv[sys.argv.index("--") + 1 :])
 
 
-def by_rounds():
-    """Yield the seconds until the story goes on: none, for each round of Blender's main loop."""
-    for seconds in going:
-        yield from [0] * ROUNDS if seconds is None else [seconds]
+def all_played():
+    """Play what is named, and end Blender."""
+    yield from by_rounds(played(sys.argv[sys.argv.index("--") + 1 :]))
     bpy.ops.wm.quit_blender()
 
 
-rounds = by_rounds()
+going = all_played()
 
 
 def go():
     """Go on with the story, and say when to come again."""
-    return next(rounds, None)
+    return next(going, None)
 
 
 bpy.app.timers.register(go, first_interval=2, persistent=True)

@@ -13,6 +13,8 @@ OUT = Path("/project/out/gui")
 OPENED = OUT / "opened"  # what the browser was asked to open
 MODULE = "bl_ext.user_default.reference_tracer"
 SIDEBAR_TAB = "Reference Tracer"
+# Blender's timers come before the events that it has just received, and the drawing after those.
+ROUNDS = 3
 KEYS = {"F12": "96"}  # by its number: by its name, newer tools press Alt with it
 noted = {}  # what the story that is played has found; see play.py
 
@@ -86,6 +88,12 @@ def render_result():
     path.unlink(missing_ok=True)
     image.save_render(str(path), scene=window().scene)
     return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def by_rounds(going):
+    """Yield the seconds until a story goes on: none, for each round of Blender's main loop."""
+    for seconds in going:
+        yield from [0] * ROUNDS if seconds is None else [seconds]
 
 
 def until(condition, seconds=300):

@@ -15,7 +15,17 @@ import numpy as np
 
 sys.path.insert(0, "/project/tests/gui")  # what the tests in the window share
 
-from story import compared, data_blocks, invoke, open_tab, press_compare, result, until, window
+from story import (
+    by_rounds,
+    compared,
+    data_blocks,
+    invoke,
+    open_tab,
+    press_compare,
+    result,
+    until,
+    window,
+)
 from viewport import all_noted, settled
 
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
@@ -220,4 +230,4 @@ def play(steps):
     bpy.app.timers.register(go, first_interval=2, persistent=True)
 
 
-play(tour())
+play(by_rounds(tour()))
