@@ -1,7 +1,8 @@
 """The interface's words in other languages: a JSON file each, such as `de.json`.
 
 `blender` and `page` are the two that are translated, each English text with its translation. What a
-text says of a scene stands in braces: `{}` as for Python's format, in the page a name or a number.
+text says of a scene stands in braces: in Blender as for Python's format; in the page `{0}` is
+anything, a name or a text that is translated itself, and `{0:,}` a number alone.
 """
 
 from __future__ import annotations
