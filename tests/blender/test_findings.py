@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -10,12 +11,15 @@ import pytest
 from reference_tracer.blender.drawing.camera_object import copy_camera
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.reading.camera import export_camera
-from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui import findings, results
 from reference_tracer.blender.ui.results import Kind
+from reference_tracer.diagnosis.diagnosis import Diagnosis, Told
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import Numbers, Option
+from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.progress import result_of
 
 OPS = bpy.ops.reference_tracer
 BY_NAME = {fault.name: fault for fault in FAULTS}
@@ -119,6 +123,63 @@ def test_without_a_finding_there_is_no_button(seen):
     OPS.compare()
     assert found() is None
     assert not OPS.select_finding.poll() and not OPS.copy_camera.poll()
+
+
+class Drawn(list):
+    """A layout that notes the sentences and the buttons that are drawn in it."""
+
+    def box(self):
+        return self
+
+    def operator(self, name):
+        self.append(name.partition(".")[2])
+        return bpy.context.window_manager.operator_properties_last(name)
+
+
+def after_each_sentence(monkeypatch):
+    """Return the buttons that are drawn below each finding."""
+    drawn = Drawn()
+    with monkeypatch.context() as patched:
+        patched.setattr(findings, "wrapped", lambda box, *_: box.append(None))
+        comparison = results.content(Kind.COMPARISON, bpy.context.scene)
+        findings.draw_findings(drawn, bpy.context, comparison)
+    own = []
+    for name in drawn:
+        if name is None:
+            own.append([])
+        else:
+            own[-1].append(name)
+    return own
+
+
+def test_a_copy_is_offered_below_its_own_finding_alone(seen, compare, monkeypatch):
+    """And no other camera of the user's is."""
+    scene, camera = seen
+    comparison = compare()
+    case, told = comparison.case, []
+    for name, guess in ("focal_length", Numbers((5.0,))), ("roll", Numbers((3.0,))):
+        case = BY_NAME[name].assume(case, guess)
+        frame = render(case.scene)
+        told.append(Told(BY_NAME[name], guess, 9, 4, 9, 0, frame, comparison.picture))
+    result_of(results.keep_comparison(replace(comparison, diagnosis=Diagnosis(tuple(told)))))
+    apply, show = "copy_camera", "show_put_right"
+    other = camera.copy()
+    scene.collection.objects.link(other)
+    bpy.context.view_layer.objects.active = other
+    assert after_each_sentence(monkeypatch) == [[apply, show]] * 2
+    assert not OPS.activate_copy.poll()
+    for number in 0, 1:
+        OPS.copy_camera(number=number)
+        copy = bpy.context.view_layer.objects.active
+        wanted = [[apply, show], [apply, show]]
+        wanted[number].insert(1, "activate_copy")
+        assert after_each_sentence(monkeypatch) == wanted
+    bpy.context.view_layer.objects.active = other
+    assert not OPS.activate_copy.poll()
+    bpy.context.view_layer.objects.active = copy
+    assert OPS.activate_copy() == {"FINISHED"} and scene.camera == copy
+    assert after_each_sentence(monkeypatch) == [[apply, show]] * 2
+    assert not OPS.activate_copy.poll()
 
 
 @pytest.mark.parametrize(

@@ -278,7 +278,7 @@ def test_a_wrong_image_is_put_right_on_a_copy(rendered_png, solids):
     shown = np.array(results.ours(results.PUT_RIGHT).pixels[:]).reshape(right.shape)
     assert np.array_equal(shown, right) and not np.array_equal(shown, found.frame.color)
     assert OPS.copy_camera(number=0) == {"FINISHED"}
-    bpy.ops.wm.context_set_id(data_path="scene.camera", value="Camera as in the picture")
+    assert OPS.activate_copy() == {"FINISHED"}
     assert solids.camera != camera and camera.data.lens == 40
     assert compared_with(solids.reference_tracer.image).verdict == "agree"
     assert results.ours(results.PUT_RIGHT) is None and not OPS.show_put_right.poll()

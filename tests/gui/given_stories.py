@@ -23,7 +23,7 @@ sys.path.insert(0, "/project/tests/blender")
 from toy_engine import ToyEngine
 
 SELECT, APPLY = "reference_tracer.select_finding(", "reference_tracer.copy_camera("
-SHOW, MAKE_ACTIVE = "reference_tracer.show_put_right(", "wm.context_set_id("
+SHOW, MAKE_ACTIVE = "reference_tracer.show_put_right(", "reference_tracer.activate_copy("
 
 
 def at_the_panel(judge, percentage=25, **chosen):

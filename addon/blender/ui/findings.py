@@ -124,8 +124,32 @@ class REFERENCE_TRACER_OT_copy_camera(_OfFinding, bpy.types.Operator):
             other.select_set(False)
         obj.select_set(True)
         context.view_layer.objects.active = obj
+        kept: Any = results.latest(Kind.COMPARISON, context.scene)
+        kept.copies[obj.session_uid] = self.number
         said = rpt_("'{}' sees what the picture shows; your own camera is still the active one")
         self.report({"INFO"}, said.format(obj.name))
+        return {"FINISHED"}
+
+
+@named
+class REFERENCE_TRACER_OT_activate_copy(bpy.types.Operator):
+    bl_label = "Make It the Active Camera"
+    bl_description = "Have the scene seen through the copy of its camera that is the active object"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it for a copy that was added for the latest comparison."""
+        own: Any = cls
+        if _copied_for(context) is None:
+            own.poll_message_set(
+                rpt_("The active object is no copy that 'Apply to a Copy' added for this result")
+            )
+            return False
+        return True
+
+    def execute(self, context: Any) -> Answer:
+        context.scene.camera = context.view_layer.objects.active
         return {"FINISHED"}
 
 
@@ -172,7 +196,8 @@ def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
         wrapped(box, context, said[0].upper() + said[1:], "INFO")
         if _differ(before, told.frame.scene.camera):
             box.operator(REFERENCE_TRACER_OT_copy_camera.bl_idname).number = number
-            _draw_make_active(box, context)
+            if number == _copied_for(context):
+                box.operator(REFERENCE_TRACER_OT_activate_copy.bl_idname)
         elif told.guess.object in here:
             box.operator(REFERENCE_TRACER_OT_select_finding.bl_idname).number = number
         if number in _put_right(context):
@@ -181,13 +206,16 @@ def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
             before = told.frame.scene.camera
 
 
-def _draw_make_active(layout: Any, context: Any) -> None:
-    """Draw a button that makes the camera that is the active object the scene's, if it is not."""
+def _copied_for(context: Any) -> int | None:
+    """Return the number of what the active object was added for, if it is a copy.
+
+    None if it is the scene's camera already.
+    """
     active = context.view_layer.objects.active  # `context.object` is None in the Render properties
-    if active and active.type == "CAMERA" and active != context.scene.camera:
-        button = layout.operator("wm.context_set_id", text="Make It the Active Camera")
-        button.data_path = "scene.camera"
-        button.value = active.name
+    found = results.latest(Kind.COMPARISON, context.scene)
+    if not (found and active) or active == context.scene.camera:
+        return None
+    return found.copies.get(active.session_uid)
 
 
 def _differ(first: Camera, second: Camera) -> bool:

@@ -47,6 +47,8 @@ class Result:
     regions: tuple[Region, ...] = ()  # where it differs, the largest first
     # By the number of a fault that is told: the picture that it changes, put right.
     put_right: Mapping[int, Colors] = field(default_factory=dict)
+    # The numbers of the faults that a copy of the camera was added for, by its `session_uid`.
+    copies: dict[int, int] = field(default_factory=dict)
 
 
 _latest: dict[Kind, Result] = {}
