@@ -397,6 +397,15 @@ def test_a_result_has_no_excuse_of_a_rasteriser_that_did_not_render_it(
     assert renderer() == unknown
 
 
+def test_the_engine_of_a_result_goes_with_its_scene(rendered_png, solids):
+    """Not with its name, which another scene may have by the time that it is compared."""
+    rendered_png()
+    name, solids.name = solids.name, "Renamed"
+    other = bpy.data.scenes.new(name)
+    assert rendered.engine_of_result(solids) == "BLENDER_WORKBENCH"
+    assert rendered.engine_of_result(other) == ""
+
+
 @pytest.mark.parametrize("kind", ["PNG", "OPEN_EXR"])
 def test_the_render_result_leaves_the_output_settings(kind, rendered_png, solids):
     """A scene may save by another color management than it shows."""

@@ -11,18 +11,19 @@ import bpy
 
 from ..temporary import is_temporary
 
-_engines: dict[str, str] = {}  # Blender's names of them, by scene: so Blender keeps the results
+# Blender's names of them, by the scene's `session_uid`: its name may become another scene's.
+_engines: dict[int, str] = {}
 
 
 @bpy.app.handlers.persistent
 def _begins(scene: Any, *_: Any) -> None:
     if not is_temporary(scene):
-        _engines[scene.name_full] = scene.render.engine
+        _engines[scene.session_uid] = scene.render.engine
 
 
 def engine_of_result(scene: Any) -> str:
     """Return Blender's name of the engine that rendered a scene last; '' if that is not known."""
-    return _engines.get(scene.name_full, "")
+    return _engines.get(scene.session_uid, "")
 
 
 def forget() -> None:
