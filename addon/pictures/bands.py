@@ -41,7 +41,10 @@ def band_of(scene: Scene, frame: Frame, renderer: Renderer = RASTER) -> SampleBa
     if not frame.rows_done.all():
         return SampleBand(scene, frame, renderer)
     known = _BANDS.setdefault(frame, {})
-    return known.setdefault((scene, renderer), SampleBand(scene, frame, renderer))
+    key = scene, renderer
+    if key not in known:
+        known[key] = SampleBand(scene, frame, renderer)
+    return known[key]
 
 
 class SampleBand:
