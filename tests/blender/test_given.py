@@ -380,16 +380,19 @@ def test_a_result_has_no_excuse_of_a_rasteriser_that_did_not_render_it(
 ):
     """An add-on's engine, or one that is not known, as it was rendered before the add-on heard."""
 
-    def renderer():
+    def renderer(says_what_to_do=False):
         found = compare(judge="RENDER_RESULT", diagnose=False)
         assert found.verdict == "agree"
+        assert ("render again with F12" in str(found.manifest.notes)) == says_what_to_do
         return found.case.picture.sampling.renderer.name, found.case.picture.source.known
 
     unknown = "rays", "as Blender wrote it, but nothing says that it was rasterised"
     rendered_png()
     assert renderer() == ("raster", "as Blender wrote it, and its engine is BLENDER_WORKBENCH")
     rendered.forget()
-    assert renderer() == unknown
+    assert renderer(says_what_to_do=True) == unknown
+    made_by = compare(judge="RENDER_RESULT", diagnose=False, renderer="raster")
+    assert not made_by.manifest.notes
     solids.render.engine = "TOY_TRACER"
     bpy.ops.render.render()
     solids.render.engine = "BLENDER_WORKBENCH"

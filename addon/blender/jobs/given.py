@@ -29,6 +29,10 @@ from .against import gather_against
 from .open_file import Choices
 
 _MOST = 256  # colours of a picture that are looked at
+_UNSEEN = (
+    "which engine rendered it is not known, so only the rounding of rays excuses it: render again "
+    "with F12 while the add-on is enabled, or choose Made By"
+)
 _OTHER_COLORS = (
     "most that {} drew has none of the colours that it was given: by an emission that overrides "
     "all materials, the objects' colours, and the materials' viewport colours"
@@ -56,8 +60,10 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
         shown: Any = partial(_rendered, judge=judge, like_for_like=not chosen.as_is, making=making)
     elif chosen.judge == RENDER_RESULT:
         making = replace(making, engine=engine_of_result(context.scene))
-        with render_result(context.scene, context.view_layer.name) as file:
-            shown = picture_of_file(file, export_camera(context.scene), making)
+        with render_result(context.scene, context.view_layer.name) as held:
+            if not (making.renderer or making.engine or held.engine == "cycles"):
+                held = replace(held, remarks=(*held.remarks, _UNSEEN))
+            shown = picture_of_file(held, export_camera(context.scene), making)
     else:
         dither = DITHER * context.scene.render.dither_intensity
         file = image_file(context.scene.reference_tracer.image)

@@ -26,7 +26,7 @@ _SETTINGS = "media_type", "file_format", "color_mode", "color_depth", "exr_codec
 
 
 @dataclass(frozen=True)
-class _Held(PictureFile):
+class Held(PictureFile):
     """The pixels that Blender holds of an image."""
 
     image: Any
@@ -77,11 +77,11 @@ def image_file(image: Any) -> PictureFile:
             f"{name} has 8 bits a channel in the colour space '{space}': what it shows is known of "
             "sRGB. Save it as a float image, or set its Color Space to sRGB if it is that."
         )
-    return _Held(Path(image.name), width, height, image)
+    return Held(Path(image.name), width, height, image)
 
 
 @contextmanager
-def render_result(scene: Any, layer: str) -> Iterator[PictureFile]:
+def render_result(scene: Any, layer: str) -> Iterator[Held]:
     """Give a scene's Render Result as a file, for a while: its pixels cannot be read otherwise.
 
     It says so where it may show more, or less, than the view layer that is compared.
@@ -115,7 +115,7 @@ def render_result(scene: Any, layer: str) -> Iterator[PictureFile]:
             engine = engine_of(exr.notes(path))  # the scene may have another one set by now
         try:
             remarks = tuple(_remarks(scene, layer))
-            yield _Held(Path(image.name), width, height, loaded, engine, remarks)
+            yield Held(Path(image.name), width, height, loaded, engine, remarks)
         finally:
             bpy.data.images.remove(loaded)
 
