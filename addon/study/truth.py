@@ -69,7 +69,7 @@ def plain_of(scene: Scene, precision: Precision) -> Work[dict[Method, Truth]]:
         if some is None:
             continue
         for method, settings in found.items():
-            crossed = some.pixel[test_pairs(scene, settings, rays, some, hits[method])]
+            crossed = some.pixel[test_pairs(scene, settings, rays, some, hits[method])[0]]
             count[method] += np.bincount(crossed, minlength=rays.count)
     out = {}
     for method in found:

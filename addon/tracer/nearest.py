@@ -6,6 +6,7 @@ t, the lower (instance, triangle) is seen; infinite planes come after the instan
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -46,6 +47,7 @@ def tracer(
         To count in.
     literally : callable, optional
         If the method is the textbook, takes what its test as printed meets: some of the same pairs.
+        What that takes does not count as time.
     """
     made = yield from plan(scene, settings, reach)
     statistics.refused = made.refused
@@ -77,17 +79,23 @@ def trace_tile(
     statistics = statistics or Statistics()
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
-    literal = Hits.none(len(hits)) if literally else None
     statistics.pairs_tested += len(scene.planes) * len(hits)
-    for each in filter(None, (hits, literal)):
-        test_planes(scene, rays, each)
+    test_planes(scene, rays, hits)
+    printed = hits.take(np.arange(len(hits) if literally else 0))
     for share, some in candidates(plan, tile):
         if some is not None:
             statistics.pairs_tested += len(some.pixel)
-            test_pairs(scene, settings, rays, some, hits, literal=literal)
+            seen, found = test_pairs(scene, settings, rays, some, hits)
+            if literally:
+                began = time.perf_counter()
+                own = np.flatnonzero(sum_is_1(found.s))
+                _keep_nearest(printed, None, some.pixel[seen[own]], found.take(own))
+                statistics.seconds -= time.perf_counter() - began
         yield share
-    if literally and literal:
-        literally(tile, literal)
+    if literally:
+        began = time.perf_counter()
+        literally(tile, printed)
+        statistics.seconds -= time.perf_counter() - began
     return hits
 
 
@@ -121,22 +129,17 @@ def test_pairs(
     some: Pairs,
     hits: Hits,
     after: Hits | None = None,
-    literal: Hits | None = None,
-) -> Places:
+) -> tuple[Places, Hits]:
     """Enter into `hits` what the rays meet of these pairs, where it is the nearest so far.
 
     With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
-    Into `literal` what the textbook as printed meets is entered. Returns the places of all pairs
-    that meet within the clip range, near or far.
+    Returns the places of all pairs that meet within the clip range, near or far, and their hits.
     """
     hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.shared_corners)
     seen = np.flatnonzero(hit & within_clip(scene.camera, t))
     found = Hits.of(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
     _keep_nearest(hits, after, some.pixel[seen], found)
-    if literal:
-        printed = np.flatnonzero(sum_is_1(found.s))
-        _keep_nearest(literal, after, some.pixel[seen[printed]], found.take(printed))
-    return seen
+    return seen, found
 
 
 def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None) -> None:

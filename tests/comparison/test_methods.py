@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,8 @@ from reference_tracer.comparison.extras import extras
 from reference_tracer.comparison.methods import list_methods
 from reference_tracer.rendering import render
 from reference_tracer.scene import Plane
+from reference_tracer.tracer import nearest
+from reference_tracer.tracer import render as loop
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
@@ -90,6 +93,27 @@ def test_the_literal_picture_is_the_same_as_traced_alone(make, rng, background):
     assert np.array_equal(result_of(extras(found)).literal, alone)
     assert (alone != shown).any() and (shown[..., 3] == background[3]).any()
     assert result_of(trace_and_compare(case)).literal is None
+
+
+def test_the_literal_picture_is_not_in_the_textbooks_seconds(scene, monkeypatch):
+    """By a clock that only its own work moves on."""
+    clock = SimpleNamespace(now=0.0)
+
+    def slow(work):
+        def run(*args):
+            clock.now += 1
+            return work(*args)
+
+        return run
+
+    monkeypatch.setattr(nearest, "sum_is_1", slow(nearest.sum_is_1))
+    monkeypatch.setattr(methods, "_shade", slow(methods._shade))
+    for module in nearest, loop:
+        monkeypatch.setattr(module, "time", SimpleNamespace(perf_counter=lambda: clock.now))
+    frame = render(scene)
+    found = result_of(list_methods(scene, Settings(), frame, literally=True))
+    assert clock.now >= 2 and found.literal is not None
+    assert [row.seconds for row in found.rows] == [0, 0]
 
 
 def test_where_nothing_can_be_certified_no_pixel_is_called_wrong(scene, monkeypatch):
