@@ -7,6 +7,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from documents.markers import commands, printed, refreshed
 
 LESSONS = Path(__file__).parent.parent / "docs" / "lessons"
 EDITIONS = [path for path in sorted(LESSONS.glob("[a-z][a-z]")) if path.is_dir()]
@@ -19,19 +20,20 @@ PARTS = {
     "slides": r"^---$",
     "questions": r"^\d+\. ",
     "rows": r"^\|",
-    "figures": r"<!-- (?:[a-z][a-z0-9_]*|/|run\b[^\n]*?) -->",
+    "figures": r"<!-- [a-z][a-z0-9_]* -->.*?<!-- / -->",
+    "commands": r"<!-- run.*?<!-- /run -->",
     "numbers": r"(?<![\w.])[\d]+(?:[.,]\d+)*",
     "code": r"`[^`\n]+`|^    [^\n]+$",
-    "printed": r"^```\n.*?^```$",
     "formulas": r"\$\$.+?\$\$|\$[^$\n]+\$",
     "keys": r"<kbd>.+?</kbd>",
 }
-_WORDS = re.compile(r"\\text\{[^}]*\}")  # of a formula
+# In a formula, and at what is folded: these are translated.
+WORDS = re.compile(r"\\text\{[^}]*\}| {3}[^\W\d]+ {3}|<summary>.+?</summary>")
 
 
 def parts(text: str) -> dict[str, Counter]:
     """What a translation shares with its original, but for links."""
-    text = _WORDS.sub("", LINK.sub("]", text))
+    text = WORDS.sub("", LINK.sub("]", text))
     return {name: Counter(re.findall(p, text, re.M | re.S)) for name, p in PARTS.items()}
 
 
@@ -56,6 +58,16 @@ def test_a_translation_has_all_that_the_original_has(page):
     ours, theirs = (parts(path.read_text("utf-8")) for path in (page, original(page)))
     for name in PARTS:
         assert ours[name] == theirs[name], name
+
+
+def test_make_docs_fills_in_what_it_does_in_the_original_and_leaves_the_language():
+    page = LESSONS / "de" / "triangle.md"
+    text, theirs = (path.read_text("utf-8") for path in (page, original(page)))
+    output = {command.text: printed(command) for command in commands(theirs)}
+    figures = dict(re.findall(r"<!-- (\w+) -->(.*?)<!-- / -->", theirs, re.S))
+    again = refreshed(text.replace(">40<", "><"), lambda command: output[command.text], figures)
+    assert again == text
+    assert "<summary>Ausgabe</summary>" in text
 
 
 @pytest.mark.parametrize("page", PAGES, ids=by_language)
@@ -85,6 +97,7 @@ def test_its_index_names_all_that_is_translated_and_the_english_one_names_it(fol
         ("figures", "<!-- plane_step -->", "<!-- plane_clip -->"),
         ("numbers", "9 m", "90 m"),
         ("questions", "\n6. ", "\n"),
+        ("figures", ">729<", ">730<"),
         ("links", "../../../glossary.md", "../../README.md"),
     ],
 )
