@@ -1,4 +1,4 @@
-"""Shows a derivation as shapes in space: the ray, what it was tested with, the hit, the weights.
+"""Shows a derivation as shapes in space: film, ray, what it was tested with, hit, weights.
 
 Blender draws these meshes. They are in float64, world space and metres: pictures of the numbers,
 not the numbers.
@@ -12,7 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import Floats
+from ..tracer.camera import pixel_size
 from .derivation import Derivation, Test
+from .pixel import Pixel
 from .textbook import Arithmetic
 
 Rgba = tuple[float, float, float, float]
@@ -23,6 +25,7 @@ WEIGHTS: tuple[Rgba, ...] = ((0.9, 0.1, 0.1, 1.0), (0.1, 0.7, 0.15, 1.0), (0.1, 
 ACCEPTED: Rgba = (0.05, 0.75, 0.85, 1.0)
 GLASS: Rgba = (0.05, 0.75, 0.85, 0.25)
 REJECTED: Rgba = (0.6, 0.6, 0.6, 1.0)
+FILM: Rgba = (0.95, 0.85, 0.3, 1.0)
 
 # Radii as seen from the eye, in lengths at depth 1: a ray is a cone that begins there, so that it
 # is equally thin wherever it goes, some pixels wide. And at most so much of the triangle that is
@@ -33,6 +36,7 @@ _LIFT = 5e-4  # how far the weights lie before their triangle, for both to be se
 _MARGIN = 0.15  # of a pane, around what it has to hold, in shares of its size
 _SIDES = 8  # of the ray's cone
 _OUTLINE = [(0, 1), (1, 2), (2, 0)]  # of a triangle
+_FRAME = [(0, 1), (1, 2), (2, 3), (3, 0)]  # of a rectangle
 _LENGTH = 20.0  # metres at most, of a ray that meets nothing
 
 
@@ -55,7 +59,7 @@ def shapes(derivation: Derivation) -> list[Shape]:
     extent = np.max(np.ptp(seen.points, axis=0)) if seen and not seen.is_plane else np.inf
     largest = _OF_TRIANGLE * float(extent)
     radius = min(_THIN * size, largest / 2)
-    out = [_cone(pixel.origin, pixel.direction, end, radius)]
+    out = [_cone(pixel.origin, pixel.direction, end, radius), *_film(pixel)]
     for number, test in enumerate(derivation.tests, 1):
         name, candidate, color = f"2.{number}", test.candidate, _color(test)
         if not candidate.is_plane:
@@ -73,7 +77,31 @@ def shapes(derivation: Derivation) -> list[Shape]:
             out.append(Shape(title, lifted, [], [(0, 1, 2, 3)], GLASS))
         else:
             out.append(_dot(f"{name} x", x, _SMALL_DOT * abs(t), color))
-            out.append(Shape(title, pane, [(0, 1), (1, 2), (2, 3), (3, 0)], [], color))
+            out.append(Shape(title, pane, _FRAME, [], color))
+    return out
+
+
+def _film(pixel: Pixel) -> list[Shape]:
+    """Return the film, one unit before the eye or where parallel rays begin, and the pixel on it.
+
+    A panorama's film is no plane, and is not drawn.
+    """
+    camera = pixel.camera
+    if not camera.projection.is_linear:
+        return []
+    depth = 0.0 if camera.projection.shares_direction else 1.0
+    middle = camera.origin + depth * camera.forward
+    w, (width, height) = camera.window, pixel_size(camera)
+    x, y = w.left + pixel.column * width, w.bottom + pixel.row * height
+    corners = {
+        "Film": ((w.left, w.bottom), (w.right, w.top)),
+        "Pixel": ((x, y), (x + width, y + height)),
+    }
+    out = []
+    for name, ((left, bottom), (right, top)) in corners.items():
+        at = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
+        points = middle + at @ np.stack((camera.right, camera.up))
+        out.append(Shape(name, points, _FRAME, [], FILM, name == "Pixel"))
     return out
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from reference_tracer.derivation.derivation import derive
 from reference_tracer.derivation.figure import shapes
+from reference_tracer.projections import PROJECTIONS
 
 
 def area(points):
@@ -62,9 +63,28 @@ def test_seen_behind_the_rays_origin(make, z):
     assert drawn["Hit"].mean(axis=0)[2] == pytest.approx(z)
 
 
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_the_ray_passes_the_film_in_the_pixels_middle(make, orthographic):
+    camera = make.camera(6, 4, orthographic=orthographic, eye=(1, 2, 3), target=(0, 0, 0))
+    found = derive(make.scene(camera, make.quad(-1, 1, -1, 1, 0)), 4, 1)
+    drawn = {s.name: s.vertices for s in shapes(found)}
+    on_film = found.pixel.origin + (0 if orthographic else 1) * found.pixel.direction
+    np.testing.assert_allclose(drawn["Pixel"].mean(axis=0), on_film, atol=1e-12)
+    axes = np.stack((camera.right, camera.up), axis=1)
+    film, pixel = drawn["Film"] @ axes, drawn["Pixel"] @ axes
+    np.testing.assert_allclose((pixel[0] - film[0]) / (film[2] - film[0]), (4 / 6, 1 / 4))
+
+
+def test_a_panoramas_film_is_no_plane(make):
+    camera = make.camera(6, 4, projection=PROJECTIONS["equirectangular"])
+    drawn = {s.name for s in shapes(derive(make.scene(camera), 2, 1))}
+    assert not drawn & {"Film", "Pixel"}
+
+
 def test_nothing_met_is_a_ray_alone(one_triangle):
     scene = one_triangle([(0, 0, -4), (1, 0, -4), (-1, 0, -4)])  # degenerate
     names = [s.name for s in shapes(derive(scene, 1, 1))]
-    assert names == ["Ray", "2.1 Thing 0"]
-    [ray] = shapes(derive(one_triangle(), 1, 1))
+    assert names == ["Ray", "Film", "Pixel", "2.1 Thing 0"]
+    ray, *film = shapes(derive(one_triangle(), 1, 1))
+    assert [s.name for s in film] == ["Film", "Pixel"]
     assert ray.vertices[-1] == pytest.approx((0, 0, -20))

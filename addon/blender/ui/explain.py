@@ -98,9 +98,9 @@ class _OfLatest:
 class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
     bl_label = "Draw the Ray"
     bl_description = (
-        "Draw the pixel's ray, the planes it was tested with, the hit and the three triangles "
-        "that weigh the corners, as objects in a collection of their own. No picture shows "
-        "them"
+        "Draw the pixel's ray, the film, the planes it was tested with, the hit and the three "
+        "triangles that weigh the corners, as objects in a collection of their own. No picture "
+        "shows them"
     )
     bl_options = {"UNDO"}
 
