@@ -220,6 +220,8 @@ def group_to(group, value):
     [
         ("plane", lambda table, of: np.float64(np.float32(table)), ["float32"]),
         ("camera", lambda table, of: np.float64(np.float32(table)), ["float32"]),
+        ("nearest", lambda table, of: np.float64(np.float32(table)), ["float32"]),
+        ("nearest", lambda table, of: table * [1.001, 1], ["unrecognised_answers"]),
         ("plane", group_to("tiny", np.inf), ["misses_tiny"]),
         ("plane", group_to("inside", 0.5), ["hits_inside"]),
         ("plane", group_to("parallel", 1.0), ["hits_parallel"]),
