@@ -21,6 +21,7 @@ from reference_tracer.scene import Camera, Mesh, ViewWindow
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.cases import TableCases
+from reference_tracer_grading.child import checked
 from reference_tracer_grading.faults import dependence, find_faults
 from reference_tracer_grading.judging import judge
 from reference_tracer_grading.matching import alike
@@ -289,6 +290,17 @@ def test_at_an_edge_with_something_behind_it_rounding_decides():
         table = program.answers(replace(cases.letters, values=skipped))
         assert (cases.answers(table).wrong == ~at_edge).all()
     assert (cases.doubt == at_edge).all()
+
+
+@pytest.mark.parametrize("dtype", ["int64", "uint8", "bool", "float32", "float64"])
+def test_masked_answers_are_read_as_arrays(dtype):
+    """What is masked is infinite, so it says that nothing is hit, in whole numbers, too."""
+    form = json.loads(subject("nearest").form.to_json())
+    t, objects = np.array([1.5, 2.5, 3.5]), np.array([0, 1, 0], dtype)
+    plain = checked((t, objects), form, 3)
+    assert (checked((t, np.ma.array(objects)), form, 3) == plain).all()
+    hidden = [np.ma.array(a, mask=[False, False, True]) for a in (t, objects)]
+    assert (checked(tuple(hidden), form, 3) == [[1.5, 0], [2.5, 1], [np.inf, np.inf]]).all()
 
 
 def test_the_length_of_a_direction_does_not_count():
