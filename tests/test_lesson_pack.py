@@ -79,9 +79,13 @@ def test_it_has_what_a_lecturer_needs(pack):
     lessons = pack / "lessons"
     for kind in ("slides", "plans", "worksheets", "solutions"):
         for name in NAMES:
-            assert (lessons / kind / f"{name}.html").stat().st_size > 1500
-            printed = (lessons / kind / f"{name}.pdf").read_bytes()
-            assert printed.startswith(b"%PDF") and len(printed) > 10_000
+            for folder in (lessons, lessons / "de"):
+                assert (folder / kind / f"{name}.html").stat().st_size > 1500
+                printed = (folder / kind / f"{name}.pdf").read_bytes()
+                assert printed.startswith(b"%PDF") and len(printed) > 10_000
+    assert 'href="lessons/de/README.html"' in (pack / "index.html").read_text("utf-8")
+    german = (lessons / "de" / "worksheets" / "plane.html").read_text("utf-8")
+    assert '<html lang="de">' in german and '<a href="../README.html">Lektionen</a>' in german
     slides = (lessons / "slides" / "triangle.html").read_text("utf-8")
     assert slides.count("<section") >= 6 and "literal_share" not in slides
     assert {p.name for p in (pack / "scenes").iterdir()} == {

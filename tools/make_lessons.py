@@ -3,7 +3,8 @@
     python tools/make_lessons.py [--out FOLDER] [--pyodide FOLDER]
 
 The documents as HTML, the slides also as PDF, as are plans, worksheets and solutions; notebooks,
-scenes, the extension, the Python package, and `lite`, where the notebooks run in a browser.
+scenes, the extension, the Python package, and `lite`, where the notebooks run in a browser. A
+folder of two letters in docs/lessons has the lessons in that language.
 `make lessons` installs what it needs: `[lessons]` of pyproject.toml, Chromium; npm fetches Marp.
 """
 
@@ -55,18 +56,21 @@ def copy(out: Path) -> None:
 
 def write_pages(out: Path) -> None:
     """Write the documents as HTML, and those that are handed out as PDF."""
-    links = "".join(f'<li><a href="{name}">{name}</a>: {what}</li>\n' for name, what in START)
+    starts = list(START)
+    for folder in lesson_pages.translations(LESSONS):
+        name = lesson_pages.title((folder / "README.md").read_text(encoding="utf-8"))
+        starts.insert(1, (f"lessons/{folder.name}/README.html", f"{name} ({folder.name})"))
+    links = "".join(f'<li><a href="{name}">{name}</a>: {what}</li>\n' for name, what in starts)
     start = lesson_pages.as_page("The lesson pack", f"<h1>The lesson pack</h1>\n<ul>\n{links}</ul>")
     (out / "index.html").write_text(start, encoding="utf-8")
-    slides = LESSONS / "slides"
     for path in DOCS.rglob("*.md"):
-        if path.parent != slides:
+        if path.parent.name != "slides":
             page = (out / path.relative_to(DOCS)).with_suffix(".html")
             page.write_text(lesson_pages.page(path, DOCS), encoding="utf-8")
     with browser.opened() as opened:
         tab = opened.new_page(color_scheme="light")
-        for kind in lesson_pages.PRINTED:
-            for page in (out / "lessons" / kind).glob("*.html"):
+        for page in (out / "lessons").rglob("*.html"):
+            if page.parent.name in lesson_pages.PRINTED:
                 tab.goto(page.resolve().as_uri())
                 margin = dict.fromkeys(("top", "bottom", "left", "right"), "18mm")
                 tab.pdf(path=page.with_suffix(".pdf"), format="A4", margin=margin)
@@ -74,19 +78,20 @@ def write_pages(out: Path) -> None:
 
 def make_slides(out: Path) -> None:
     """Have Marp make HTML and PDF of the slides, whose text goes along for who changes it."""
-    folder = out / "lessons" / "slides"
-    for path in (LESSONS / "slides").glob("*.md"):
-        text = lesson_pages.unmarked(path).replace(".md#", ".html#").replace(".md)", ".html)")
-        (folder / path.name).write_text(text, encoding="utf-8")
     environment = os.environ | {"CHROME_PATH": browser.chromium()}
     if os.geteuid() == 0:
         environment["CHROME_NO_SANDBOX"] = "1"
-    names = sorted(path.name for path in folder.glob("*.md"))
-    for options in ([], ["--pdf", "--allow-local-files"]):
-        subprocess.run(
-            ["npx", "--yes", MARP, *options, *names],
-            **{"cwd": folder, "env": environment, "stdin": subprocess.DEVNULL, "check": True},
-        )
+    for slides in LESSONS.rglob("slides"):  # of each language
+        folder = out / "lessons" / slides.relative_to(LESSONS)
+        for path in slides.glob("*.md"):
+            text = lesson_pages.unmarked(path).replace(".md#", ".html#").replace(".md)", ".html)")
+            (folder / path.name).write_text(text, encoding="utf-8")
+        names = sorted(path.name for path in folder.glob("*.md"))
+        for options in ([], ["--pdf", "--allow-local-files"]):
+            subprocess.run(
+                ["npx", "--yes", MARP, *options, *names],
+                **{"cwd": folder, "env": environment, "stdin": subprocess.DEVNULL, "check": True},
+            )
 
 
 def write_notebooks(folder: Path, kernel: str) -> None:

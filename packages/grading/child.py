@@ -91,6 +91,8 @@ def checked(result: Any, form: Form, count: int) -> np.ndarray:
 
 
 def _numbers(name: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    if np.ma.isMaskedArray(value) and value.dtype.kind in "iub":
+        value = value.astype(np.float64)  # whole numbers hold no infinity
     try:
         array = np.asarray(np.ma.filled(value, np.inf))
     except Exception as error:

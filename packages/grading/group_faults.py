@@ -90,7 +90,8 @@ def _off(a: TableAnswers) -> Floats:
     off = np.zeros(len(right))
     for numbers in columns(a.cases.subject.parts):
         by = np.abs(a.table[:, numbers] - right[:, numbers]).max(axis=1)
-        off = np.maximum(off, by / np.abs(right[:, numbers]).max(axis=1))
+        by[by > 0] /= np.abs(right[by > 0, numbers]).max(axis=1)  # object 0 is no 0 / 0
+        off = np.maximum(off, by)
     return off
 
 

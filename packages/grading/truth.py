@@ -38,9 +38,10 @@ def truth(program: Program, letters: Letters, whole: Mask) -> Truth:
     names = _bounded(program, letters)
     if program.conditions:
         hit, doubt = _hits(program, letters, names, whole)
-        names["t"] = Bounded(np.where(hit, names["t"].value, np.inf), names["t"].error)
         if program.choice:
             doubt = _take(program.choice, names, hit, doubt, whole)
+        else:
+            names["t"] = Bounded(np.where(hit, names["t"].value, np.inf), names["t"].error)
     else:
         doubt = np.zeros(letters.shape, bool)
     count = letters.shape[0]
@@ -103,7 +104,10 @@ def _hits(
 
 
 def _take(choice: str, names: dict[str, Any], hit: Mask, doubt: Mask, whole: Mask) -> Mask:
-    """Take one of the objects that are hit, and return where that is in doubt, (n,)."""
+    """Take one of the objects that are hit, and return where that is in doubt, (n,).
+
+    An object that is missed by a rounding is a rival, too, by the t at which it would be hit.
+    """
     t = names["t"].value
     allowed = np.where(whole[:, None], 0, ROUNDINGS * U * names["t"].error)
     taken = chosen(choice, t, hit)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from importlib.resources import files
@@ -19,6 +20,8 @@ from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Mesh, ViewWindow
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
+from reference_tracer_grading.cases import TableCases
+from reference_tracer_grading.child import checked
 from reference_tracer_grading.faults import dependence, find_faults
 from reference_tracer_grading.judging import judge
 from reference_tracer_grading.matching import alike
@@ -26,6 +29,7 @@ from reference_tracer_grading.mutations import mutations
 from reference_tracer_grading.programs import columns
 from reference_tracer_grading.subjects import NAMES, subject
 from reference_tracer_grading.subjects.picture import LONGER, OBJECTS, PIXELS
+from reference_tracer_grading.subjects.triangle import MOLLER_TRUMBORE
 from reference_tracer_grading.tally import COST
 from reference_tracer_grading.truth import exact_hit, exactly
 
@@ -217,6 +221,8 @@ def group_to(group, value):
     [
         ("plane", lambda table, of: np.float64(np.float32(table)), ["float32"]),
         ("camera", lambda table, of: np.float64(np.float32(table)), ["float32"]),
+        ("nearest", lambda table, of: np.float64(np.float32(table)), ["float32"]),
+        ("nearest", lambda table, of: table * [1.001, 1], ["unrecognised_answers"]),
         ("plane", group_to("tiny", np.inf), ["misses_tiny"]),
         ("plane", group_to("inside", 0.5), ["hits_inside"]),
         ("plane", group_to("parallel", 1.0), ["hits_parallel"]),
@@ -246,6 +252,55 @@ def test_ties_are_fair():
     answers = cases.answers(table)
     assert find_faults(answers) == ([], None) and answers.tally.score == 100
     assert answers.tally.boundary == cases.doubt.sum() > 30
+
+
+def near_and_far(rng, near, far):
+    """Two triangles (n, 2, 3, 3) that rays meet at weights (n, 3), scaled and moved."""
+    n = len(near)
+    origin, direction = rng.normal(size=(2, n, 3))
+    t = np.stack((rng.uniform(2, 3, n), rng.uniform(4, 5, n)), axis=1)
+    corners = rng.normal(size=(n, 2, 3, 3))
+    point = origin[:, None] + t[..., None] * direction[:, None]
+    point -= (np.stack((near, far), axis=1)[..., None] * corners).sum(axis=2)
+    scale, position = rng.uniform(0.5, 2, (n, 2)), rng.normal(size=(n, 2, 3))
+    own = (corners + (point - position)[:, :, None]) / scale[..., None, None]
+    return origin, direction, own, scale, position
+
+
+def test_at_an_edge_with_something_behind_it_rounding_decides():
+    """Where the near one is missed exactly, too; at an edge behind what is hit, nothing does."""
+    rng = np.random.default_rng(7)
+    inside = rng.dirichlet((3, 3, 3), 300) * 0.7 + 0.1
+    edge = rng.permuted(np.insert(rng.dirichlet((3, 3), 300) * 0.8 + 0.1, 2, 0, axis=1), axis=1)
+    groups = {"several": near_and_far(rng, edge, inside), "one": near_and_far(rng, inside, edge)}
+    cases = TableCases.of(subject("nearest"), groups)
+    at_edge = np.repeat((True, False), 300)
+    [textbook] = subject("nearest").programs
+    first = {label: textbook.formulas[label] for label in ("o", "d")}
+    other = replace(
+        textbook,
+        formulas=first | MOLLER_TRUMBORE.formulas,
+        conditions=MOLLER_TRUMBORE.conditions,
+    )
+    skipped = cases.letters.values | {"k": cases.letters.values["k"] * (np.nan, 1)}
+    for program in (textbook, other):
+        table = program.answers(cases.letters)
+        assert len(np.unique(table[at_edge, 1])) == 2  # it does decide
+        assert not cases.answers(table).wrong.any()
+        table = program.answers(replace(cases.letters, values=skipped))
+        assert (cases.answers(table).wrong == ~at_edge).all()
+    assert (cases.doubt == at_edge).all()
+
+
+@pytest.mark.parametrize("dtype", ["int64", "uint8", "bool", "float32", "float64"])
+def test_masked_answers_are_read_as_arrays(dtype):
+    """What is masked is infinite, so it says that nothing is hit, in whole numbers, too."""
+    form = json.loads(subject("nearest").form.to_json())
+    t, objects = np.array([1.5, 2.5, 3.5]), np.array([0, 1, 0], dtype)
+    plain = checked((t, objects), form, 3)
+    assert (checked((t, np.ma.array(objects)), form, 3) == plain).all()
+    hidden = [np.ma.array(a, mask=[False, False, True]) for a in (t, objects)]
+    assert (checked(tuple(hidden), form, 3) == [[1.5, 0], [2.5, 1], [np.inf, np.inf]]).all()
 
 
 def test_the_length_of_a_direction_does_not_count():

@@ -281,4 +281,4 @@ def test_what_rays_of_float32_may_round_is_bounded_and_reached(sine, cosine, mak
 def test_a_picture_is_rasterised_only_if_that_is_known(header, engine, renderer):
     found, known = renderer_of(header, engine)
     assert found is renderer
-    assert ("scene's engine" in known) == (renderer is RASTER)
+    assert ("its engine is" in known) == (renderer is RASTER)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from html import escape
@@ -32,6 +33,16 @@ def unmarked(path: Path) -> str:
     return _FIGURE.sub("", path.read_text(encoding="utf-8"))
 
 
+def title(text: str) -> str:
+    """Return a document's title: its first heading."""
+    return _TITLE.findall(text)[0]
+
+
+def translations(lessons: Path) -> list[Path]:
+    """Return the folders of the lessons in other languages: `de` and so on."""
+    return [path for path in sorted(lessons.glob("[a-z][a-z]")) if path.is_dir()]
+
+
 def anchor(heading: str) -> str:
     """Return a heading's name in links, as code forges make it."""
     return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
@@ -47,18 +58,22 @@ def page(path: Path, docs: Path) -> str:
         if token.children:
             token.children = list(_linked(token.children, path.parent, docs))
     body = markdown.renderer.render(tokens, markdown.options, {})
-    up = "../" * (len(path.relative_to(docs).parts) - 1)
-    links = {"Lessons": f"{up}lessons/README.html"}
+    lessons = docs / "lessons"
+    own = [folder for folder in translations(lessons) if path.is_relative_to(folder)]
+    index = [lessons, *own][-1] / "README.md"
+    to_index = os.path.relpath(index.with_suffix(".html"), path.parent)
+    links = {title(index.read_text(encoding="utf-8")): to_index}
     if path.parent.name in PRINTED:
-        links["to print"] = f"{path.stem}.pdf"
+        links["PDF"] = f"{path.stem}.pdf"
     nav = " · ".join(f'<a href="{to}">{name}</a>' for name, to in links.items())
-    return as_page(_TITLE.findall(text)[0], f"<nav>{nav}</nav>\n{body}")
+    language = own[0].name if own else "en"
+    return as_page(title(text), f"<nav>{nav}</nav>\n{body}", language)
 
 
-def as_page(title: str, body: str) -> str:
+def as_page(title: str, body: str, language: str = "en") -> str:
     """Return a page around a body of HTML."""
     return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8">'
         f"<title>{escape(title)}</title><style>{_STYLE}</style></head>\n<body>\n{body}</body></html>\n"
     )
 

@@ -26,6 +26,7 @@ _RUN = re.compile(
 _FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>.*?)<!-- / -->", re.S)
 _LEFT = re.compile(r"<!-- not run: [^\n]+? -->\n.*?<!-- /run -->", re.S)
 _UNFOLDED = ("", "</details>")
+_SUMMARY = re.compile(r"<summary>(.+?)</summary>")
 _SECONDS = re.compile(r"\b\d+\.\d+ s\b")
 _BLENDERS_OWN = re.compile(r"^(\d\d:\d\d\.\d+ |Array iterator out of range).*\n", re.M)  # its log
 
@@ -65,7 +66,9 @@ def block(command: Command, output: str) -> str:
     """Return a command as a block, with what it prints unless that is of no interest."""
     lines = ["```", f"$ {command.text}"]
     if command.how.endswith("folded"):
-        lines += ["```", "", "<details><summary>What it prints</summary>", "", "```"]
+        own = _SUMMARY.search(command.body)  # in the document's language
+        summary = own[1] if own else "What it prints"
+        lines += ["```", "", f"<details><summary>{summary}</summary>", "", "```"]
     if command.how != "silently" and output:
         lines.append(output)
     return "\n".join([*lines, "```", *_UNFOLDED * command.how.endswith("folded")])

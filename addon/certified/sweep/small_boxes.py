@@ -38,7 +38,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...arrays import Bools, Floats, Index
-from ...tracer.vector import gather, largest, parts
+from ...tracer.vector import gather, groups, largest
 from ..bounds import U
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
@@ -48,7 +48,8 @@ from .rasterise import Boxes, Covered
 SIDE = 16  # pixels along the side of a box, at most
 # Boxes are evaluated in blocks of few sizes: the side of the block, by that of the box minus 1.
 _PADDED = np.array([1, 2, 3, 4, 6, 6, 8, 8, 10, 10, 12, 12, 14, 14, 16, 16], np.uint16)
-_TRIANGLES = 1 << 13  # triangles evaluated together
+_TRIANGLES = 1 << 13  # evaluated together, at most
+_PIXELS = 1 << 16  # of their boxes, at most: in a step of work, and in its arrays
 _VALUES = 1 << 15  # pixels evaluated together
 _L = SIDE + 1
 _E = 1.01 * (4 * DELTA * (SIDE + _L) + 8 * U * (4 * SIDE * _L + 2 * _L * _L))
@@ -95,8 +96,9 @@ def small_pairs(
     width, height = boxes.high - boxes.low
     shape = _PADDED.take(height) * np.uint16(SIDE + 1) + _PADDED.take(width)
     order = np.argsort(shape, kind="stable")
-    for part in parts(len(order), _TRIANGLES):
-        some = order[part]
+    area = (_PADDED.take(height) * _PADDED.take(width)).take(order).astype(np.intp)
+    for start, end in groups(np.maximum(area, _PIXELS // _TRIANGLES), _PIXELS):
+        some = order[start:end]
         blocks = list(_blocks(gather(shape, some)))
         culling["computed"] += sum(h * w * (end - start) for start, end, h, w in blocks)
         yield _pairs(film, expanded, boxes.take(some), blocks, depths, left)
