@@ -14,6 +14,8 @@ from typing import Any
 from .submission import Limits
 
 _LARGEST_FILE = 1 << 30  # bytes that a program may write to one
+# Sockets of other programs lie here, which a read-only folder would not keep it from.
+_HIDDEN = Path("/run"), Path("/tmp"), Path("/var/tmp")
 _SANDBOX = (
     "bwrap",
     "--die-with-parent",
@@ -25,13 +27,7 @@ _SANDBOX = (
     "/dev",
     "--proc",
     "/proc",
-    # Sockets of other programs lie here, which a read-only folder would not keep it from.
-    "--tmpfs",
-    "/run",
-    "--tmpfs",
-    "/tmp",
-    "--tmpfs",
-    "/var/tmp",
+    *(word for folder in _HIDDEN for word in ("--tmpfs", str(folder))),
     "--clearenv",
 )
 _KEPT_ENVIRONMENT = "PATH", "LANG", "HOME", "JAVA_HOME"
@@ -65,10 +61,11 @@ def kept_in(words: list[str], folder: Path, environment: dict[str, str]) -> list
 
 def _seen(words: list[str], folder: Path, environment: dict[str, str]) -> Iterator[str]:
     """Yield the sandbox's options for what a program may see and write, and its environment."""
-    named = [Path(word).resolve() for word in words if Path(word).is_absolute()]
-    folders = [path if path.is_dir() else path.parent for path in named if path.exists()]
-    for path in dict.fromkeys((*folders, Path.cwd())):
-        yield from ("--ro-bind", str(path), str(path))
+    named = [Path(word).resolve() for word in words if os.path.exists(word)]
+    folders = [path if path.is_dir() else path.parent for path in named]
+    for path in dict.fromkeys((*named, *folders, Path.cwd())):
+        if not any(hidden.is_relative_to(path) for hidden in _HIDDEN):
+            yield from ("--ro-bind", str(path), str(path))
     yield from ("--bind", str(folder), str(folder), "--chdir", str(Path.cwd()))
     for name, value in environment.items():
         yield from ("--setenv", name, value)

@@ -213,6 +213,27 @@ open(sys.argv[2], "w").write(f"{{told:d}},{{reached:d}},0,0\\n" * 5)
     assert t[0] == s[0, 0] == (not kept_in)
 
 
+@pytest.mark.parametrize("where", ["/tmp", "/"])
+def test_where_it_is_started_shows_no_hidden_folder(where, monkeypatch):
+    """Its own file is seen there, and what lies beside it is not."""
+    import tempfile
+
+    text = """
+import os, sys
+seen = os.path.exists(sys.argv[0]), os.path.exists(sys.argv[3])
+open(sys.argv[2], "w").write("%d,%d,0,0\\n" % seen * 5)
+"""
+    with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir="/tmp", suffix=".py") as own:
+        own.write(text)
+        own.flush()
+        with tempfile.NamedTemporaryFile(dir="/tmp") as secret:
+            monkeypatch.chdir(where)
+            hidden = f"$(echo {secret.name})"  # a word that names no file: else it would be shown
+            command = f"sh -c '{PYTHON} {own.name} {{rays}} {{answers}} {hidden}' {own.name}"
+            t, s = Program(Run.parsed(command, "csv"), FORM).ask(*RAYS)
+    assert t[0] == 1 and s[0, 0] == (not sandbox())
+
+
 def test_two_of_one_name_are_two(written):
     path = written("pass", "same.py")
     assert names([path, Run.parsed("same.py"), Run.parsed("same.py")]) == [
