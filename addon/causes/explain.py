@@ -151,13 +151,14 @@ def _open(pixels: OpenPixels) -> Work[None]:
 
 def _moved(pixels: OpenPixels) -> Work[Floats]:
     """Return how far float32 may move what pixels show, (h, w) px; 0 where that is decidable."""
-    scene, frame, sampling = pixels.case.scene, pixels.frame, pixels.picture.sampling
+    frame = pixels.frame
+    sampling = pixels.picture.sampling
     out: Floats = np.zeros(frame.shape)
     if not pixels.band.most + sampling.off_center <= DECIDABLE:
         yield from pixels.band.find(np.ones(frame.shape, bool))
         out = pixels.bands(slice(None))
     if sampling.farthest < np.inf:
-        out[not_decidable(scene, frame, sampling.farthest)] = np.inf
+        out[not_decidable(pixels.case.scene, frame, sampling.farthest)] = np.inf
     return out
 
 

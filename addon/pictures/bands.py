@@ -110,16 +110,16 @@ class SampleBand:
 
     def _own(self, pixel: Index) -> Floats:
         """Return the errors of the surfaces that n pixels show, (n,) pixels; 0 for none."""
-        scene, every, renderer = self._scene, self._frame.hits(), self._renderer
+        every = self._frame.hits()
         out = np.zeros(len(pixel))
         seen = np.flatnonzero(every.instance[pixel] != NOTHING)
         pixel, hits = pixel[seen], every.take(pixel[seen])
-        camera = scene.camera
+        camera = self._scene.camera
         rays = camera_rays(camera, *film_positions(camera.region, pixel=pixel))
-        view = renderer.sideways(scene, hits, positions(rays, hits))
+        view = self._renderer.sideways(self._scene, hits, positions(rays, hits))
         row = pixel // camera.region.width + camera.region.y0
         y = camera.window.bottom + (row + 0.5) * pixel_size(camera)[1]
-        out[seen] = pixel_error(camera, hits.t, view, y, renderer.snapping)
+        out[seen] = pixel_error(camera, hits.t, view, y, self._renderer.snapping)
         return out
 
 

@@ -94,7 +94,7 @@ class Owners:
         return Identity(self.names, self.instances[instance], self.pixels)
 
     def in_scene(self, scene: Scene, own: Scene) -> Owners:
-        """Return the owners for another scene, whose objects are matched by name.
+        """Return these owners as they are in another scene, matching objects by name.
 
         No pixel is known to show an object that has several owners in its own scene: which of them
         an instance of the other has is not known.

@@ -143,8 +143,8 @@ def _pairs(
     edges *= sign
     a, b, c, error = _nearness(film, gather(vertices.depth, corners), amount)
 
-    found = zip(*(_inside(edges, block) for block in blocks), strict=True)
-    row, place, least, second, third = map(np.concatenate, found)
+    found = [_inside(edges, block) for block in blocks]
+    row, place, least, second, third = map(np.concatenate, zip(*found, strict=True))
     nearness = second * gather(b, row)
     nearness += third * gather(c, row)
     nearness += gather(a, row)
