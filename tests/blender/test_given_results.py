@@ -1,0 +1,176 @@
+"""The Render Result is judged by what is known of the engine that rendered it."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.reading import rendered
+from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.results import Kind
+from reference_tracer.blender.versions import set_format
+from reference_tracer.scene import SceneError
+
+from .given import rendered_png, solids, toy
+
+__all__ = ["rendered_png", "solids", "toy"]  # fixtures
+OPS = bpy.ops.reference_tracer
+
+
+def test_the_render_result(rendered_png, solids):
+    rendered_png()
+    solids.reference_tracer.judge = "RENDER_RESULT"
+    solids.render.engine = "CYCLES"  # since
+    settings = solids.render.image_settings
+    before = settings.file_format, settings.color_mode, settings.color_depth
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, solids)
+    assert found.verdict == "agree" and found.counts.unexplained == 0
+    assert found.case.picture.storage.levels == 0  # its own floats, not what a view transform makes
+    assert (settings.file_format, settings.color_mode, settings.color_depth) == before
+    assert found.case.picture.source.file == "Render Result"
+    assert found.case.picture.sampling.renderer.name == "raster"  # as Workbench made it
+    bpy.data.objects["Green"].location.x += 0.2
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, solids)
+    assert found.verdict == "differences" and found.counts.unexplained > 20
+
+
+def test_a_result_of_rays_has_no_excuse_of_a_rasteriser(build):
+    """Cycles' render shows the wall behind, and then the scene is set to a rasteriser."""
+    scene = build.scene(96, 54)
+    for name, y, rgba in ("Near", 1000.0, (1, 0, 0, 1)), ("Far", 1000.1, (0, 1, 0, 1)):
+        corners = [(-500, y, -500), (500, y, -500), (500, y, 500), (-500, y, 500)]
+        material = build.material(name, *rgba)
+        material.use_nodes = True
+        emission = material.node_tree.nodes.new("ShaderNodeEmission")
+        emission.inputs["Color"].default_value = rgba
+        surface = material.node_tree.nodes["Material Output"].inputs["Surface"]
+        material.node_tree.links.new(emission.outputs[0], surface)
+        build.mesh(name, corners, [(0, 1, 2, 3)]).data.materials.append(material)
+    build.camera((0, 0, 0), (np.pi / 2, 0, 0), clip_end=10_000)
+    scene.render.engine, scene.render.film_transparent = "CYCLES", True
+    scene.cycles.samples, scene.cycles.filter_width = 1, 0.01
+    near = bpy.data.objects["Near"]
+    near.location.y = 0.2
+    bpy.ops.render.render()
+    near.location.y = 0
+    scene.render.engine = "BLENDER_WORKBENCH"
+    scene.reference_tracer.judge = "RENDER_RESULT"
+    scene.reference_tracer.diagnose = False
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, scene)
+    assert found.case.picture.sampling.renderer.name == "rays"
+    assert found.verdict == "differences" and found.counts.unexplained > 1000
+
+
+def test_a_result_has_no_excuse_of_a_rasteriser_that_did_not_render_it(
+    toy, rendered_png, solids, compare
+):
+    """An add-on's engine, or one that is not known, as it was rendered before the add-on heard."""
+
+    def renderer(says_what_to_do=False):
+        found = compare(judge="RENDER_RESULT", diagnose=False)
+        assert found.verdict == "agree"
+        assert ("render again with F12" in str(found.manifest.notes)) == says_what_to_do
+        return found.case.picture.sampling.renderer.name, found.case.picture.source.known
+
+    unknown = "rays", "as Blender wrote it, but nothing says that it was rasterised"
+    rendered_png()
+    assert renderer() == ("raster", "as Blender wrote it, and its engine is BLENDER_WORKBENCH")
+    rendered.forget()
+    assert renderer(says_what_to_do=True) == unknown
+    made_by = compare(judge="RENDER_RESULT", diagnose=False, renderer="raster")
+    assert not made_by.manifest.notes
+    solids.render.engine = "TOY_TRACER"
+    bpy.ops.render.render()
+    solids.render.engine = "BLENDER_WORKBENCH"
+    compare(judge="WORKBENCH")  # which renders a copy of the scene
+    assert renderer() == unknown
+
+
+def test_the_engine_of_a_result_goes_with_its_scene(rendered_png, solids):
+    """Not with its name, which another scene may have by the time that it is compared."""
+    rendered_png()
+    name, solids.name = solids.name, "Renamed"
+    other = bpy.data.scenes.new(name)
+    assert rendered.engine_of_result(solids) == "BLENDER_WORKBENCH"
+    assert rendered.engine_of_result(other) == ""
+
+
+@pytest.mark.parametrize("kind", ["PNG", "OPEN_EXR"])
+def test_the_render_result_leaves_the_output_settings(kind, rendered_png, solids):
+    """A scene may save by another color management than it shows."""
+    rendered_png()
+    set_format(solids.render, kind, "RGB", "16")
+    solids.reference_tracer.judge = "RENDER_RESULT"
+    settings = solids.render.image_settings
+    settings.color_management = "OVERRIDE"
+    settings.linear_colorspace_settings.name = "ACEScg"
+    view = settings.view_settings
+    view.view_transform, view.exposure, view.use_curve_mapping = "Filmic", 2.0, True
+    view.curve_mapping.curves[0].points.new(0.25, 0.75)
+
+    def set_now():
+        points = [tuple(p.location) for curve in view.curve_mapping.curves for p in curve.points]
+        own = settings.color_management, settings.linear_colorspace_settings.name
+        form = settings.file_format, settings.color_mode, settings.color_depth
+        return form, own, view.view_transform, view.exposure, view.use_curve_mapping, points
+
+    before = set_now()
+    OPS.compare()
+    assert results.content(Kind.COMPARISON, solids).verdict == "agree"
+    assert set_now() == before
+
+
+def test_a_result_of_another_view_layer_is_told(rendered_png, solids, compare):
+    """Of several view layers it shows the first; the one that is active is traced."""
+    first = solids.view_layers[0]
+    other = solids.view_layers.new("Other")
+    solids.collection.objects.unlink(solids.objects["Green"])
+    solids.collection.children.link(own := bpy.data.collections.new("Own"))
+    own.objects.link(bpy.data.objects["Green"])
+    other.layer_collection.children["Own"].exclude = True
+    rendered_png()
+    solids.reference_tracer.judge = "RENDER_RESULT"
+
+    def told(layer):
+        with bpy.context.temp_override(scene=solids, view_layer=layer):
+            found = compare(diagnose=False)
+        return found.verdict, [n for n in found.manifest.notes if "the picture" in n]
+
+    assert told(first) == ("agree", [])
+    verdict, [note] = told(other)
+    assert verdict == "differences"
+    assert note == f"of the picture: it shows the view layer '{first.name}', and 'Other' was traced"
+    first.use = False
+    rendered_png()
+    assert told(other) == ("agree", [])
+
+
+def test_metadata_that_is_burned_in_is_told(rendered_png, solids, compare):
+    solids.render.use_stamp = True
+    rendered_png()
+    found = compare(judge="RENDER_RESULT", diagnose=False)
+    assert found.verdict == "differences"
+    assert "of the picture: metadata is burned into it" in found.manifest.notes
+
+
+def test_a_stereo_result_is_refused(rendered_png, solids, compare):
+    solids.render.use_multiview = True
+    rendered_png()
+    settings = solids.render.image_settings
+    settings.views_format = "STEREO_3D"
+    for is_on in (True, False):
+        solids.render.use_multiview = is_on
+        with pytest.raises(SceneError, match="stereo Render Result: switch off Stereoscopy"):
+            compare(judge="RENDER_RESULT")
+    assert settings.views_format == "STEREO_3D"
+    rendered_png()
+    assert compare(judge="RENDER_RESULT").verdict == "agree"
+
+
+def test_without_a_render_there_is_no_result(solids):
+    solids.reference_tracer.judge = "RENDER_RESULT"
+    with pytest.raises(RuntimeError, match="no Render Result: render it first"):
+        OPS.compare()
