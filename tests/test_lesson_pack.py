@@ -15,7 +15,7 @@ import pytest
 pytestmark = [pytest.mark.torture, pytest.mark.browser]
 
 PROJECT = Path(__file__).parent.parent
-NOTEBOOKS = PROJECT / "docs" / "lessons" / "notebooks"
+LESSONS = PROJECT / "docs" / "lessons"
 NAMES = "constant_shading", "perspective_camera", "plane", "triangle"
 
 
@@ -106,13 +106,14 @@ def tried(pack):
         server.shutdown()
 
 
-@pytest.mark.parametrize("name", ["camera", "floating_point", "plane", "triangle"])
+@pytest.mark.parametrize("name", ["camera", "floating_point", "plane", "triangle", "de/plane"])
 def test_a_notebook_prints_there_what_it_prints_here_and_needs_no_network(
     tried, name, monkeypatch, tmp_path, capsys
 ):
-    monkeypatch.syspath_prepend(NOTEBOOKS)
+    monkeypatch.syspath_prepend(LESSONS / "notebooks")
     monkeypatch.chdir(tmp_path)
-    runpy.run_path(str(NOTEBOOKS / f"{name}.py"))
+    language, _, stem = name.rpartition("/")
+    runpy.run_path(str(LESSONS / language / "notebooks" / f"{stem}.py"))
     here = capsys.readouterr().out
     printed, elsewhere = tried(name)
     assert not elsewhere

@@ -105,10 +105,10 @@ def make_slides(out: Path) -> None:
             )
 
 
-def write_notebooks(folder: Path, kernel: str) -> None:
-    """Write the notebooks as .ipynb for a kernel, with what they import, and as programs."""
+def write_notebooks(source: Path, folder: Path, kernel: str) -> None:
+    """Write a folder's notebooks as .ipynb for a kernel, and as programs, with what they import."""
     folder.mkdir(parents=True)
-    for path in (LESSONS / "notebooks").glob("*.py"):
+    for path in (*source.glob("*.py"), LESSONS / "notebooks" / "picture.py"):
         shutil.copy(path, folder)
         if path.stem == "picture":
             continue
@@ -166,7 +166,10 @@ def build_lite(out: Path, pyodide: Path | None) -> None:
     `pyodide` is an unpacked distribution of it; without, what the notebooks need is fetched.
     """
     work = out / "lite-work"
-    write_notebooks(work / "contents", KERNELS["lite"])
+    write_notebooks(LESSONS / "notebooks", work / "contents", KERNELS["lite"])
+    for language in lesson_pages.translations(LESSONS):
+        source = language / "notebooks"
+        write_notebooks(source, work / "contents" / language.name, KERNELS["lite"])
     inside = work / "static" / "pyodide"
     if pyodide:
         shutil.copytree(pyodide, inside)
@@ -194,7 +197,8 @@ def build(out: Path, pyodide: Path | None) -> None:
     (out / "commit.txt").write_text(commit(), encoding="ascii")
     write_pages(out)
     make_slides(out)
-    write_notebooks(out / "lessons" / "notebooks", KERNELS["notebooks"])
+    for source in LESSONS.rglob("notebooks"):
+        write_notebooks(source, out / source.relative_to(DOCS), KERNELS["notebooks"])
     build_wheels(out)
     build_lite(out, pyodide)
 
