@@ -23,29 +23,44 @@ def click(region, x, y):
         yield
 
 
-def found(area, command, across=0.6, step=16):
+def command_under(area, region, x, y):
+    """Move the pointer to a place; return the command of the button there, or ""."""
+    xdotool("mousemove", *on_screen(region, x, y))
+    yield
+    with bpy.context.temp_override(window=window(), area=area, region=region):
+        if not bpy.ops.ui.copy_python_command_button.poll():  # what Ctrl+C does on a button
+            return ""
+        bpy.ops.ui.copy_python_command_button()
+    return bpy.context.window_manager.clipboard
+
+
+def along(area, command, step=16):
+    """Go along an editor's header until the pointer is on a command's button; return where."""
+    region = next(r for r in area.regions if r.type == "HEADER")
+    for x in range(step, region.width, step):
+        if command in (yield from command_under(area, region, x, region.height // 2)):
+            return region, x, region.height // 2
+    raise LookupError(f"there is no button {command}")
+
+
+def found(area, command, across=0.6, step=16, kind="WINDOW"):
     """Go down an editor, scrolled if need be, until the pointer is on a command's button.
 
-    So far across it, as a share of its width. Returns where that is.
+    So far across a region of it, as a share of its width. Returns where that is.
 
     Raises
     ------
     LookupError
         If there is none.
     """
-    region = next(r for r in area.regions if r.type == "WINDOW")
+    region = next(r for r in area.regions if r.type == kind)
     x = across * region.width
     xdotool("mousemove", 0, 0)  # what was under the pointer is it no more
     yield 0.3
     for _ in range(3):
         for y in range(region.height - step, 0, -step):
-            xdotool("mousemove", *on_screen(region, x, y))
-            yield
-            with bpy.context.temp_override(window=window(), area=area, region=region):
-                if bpy.ops.ui.copy_python_command_button.poll():  # what Ctrl+C does on a button
-                    bpy.ops.ui.copy_python_command_button()
-                    if command in bpy.context.window_manager.clipboard:
-                        return region, x, y
+            if command in (yield from command_under(area, region, x, y)):
+                return region, x, y
         xdotool("click", "--repeat", 8, 5)  # the wheel
         yield
     raise LookupError(f"there is no button {command}")

@@ -24,6 +24,7 @@ import house_stories
 import inspector_stories
 import installation_stories
 import interruption_stories
+import lesson_stories
 import page_stories
 import seen_stories
 import stories
@@ -43,6 +44,7 @@ STORIES = {
         inspector_stories,
         installation_stories,
         interruption_stories,
+        lesson_stories,
         page_stories,
         seen_stories,
         study_stories,
