@@ -135,8 +135,11 @@ def lesson_1():
     yield from inspected(5, (67, 190), (67, 300))
     noted["text"] = bpy.data.texts[0].name
     if RECORDED:
+        shot(6)
         area("IMAGE_EDITOR").type = "TEXT_EDITOR"
+        bpy.data.texts[0].cursor_set(0)
         area("TEXT_EDITOR").spaces.active.text = bpy.data.texts[0]
+        area("TEXT_EDITOR").spaces.active.top = 0
         yield 0.5
         shot(6)
         return
@@ -158,6 +161,7 @@ def lesson_2():
     camera = window().scene.camera
     window().view_layer.objects.active = camera
     yield 0.3
+    shot(2)
     area("PROPERTIES").spaces.active.context = "DATA"
     yield 0.5
     shot(2)
@@ -189,11 +193,13 @@ def lesson_4():
     region, x, y = yield from found(area("PROPERTIES"), COMPARE)
     yield from clicked(3, region, x, y - SETTINGS)
     scene.reference_tracer.method = "textbook_literal"
-    yield 0.3
+    scene.reference_tracer.diagnose = False  # of so many holes: it takes its time
+    yield 1
     yield from traced(3)
     yield from chosen(3, "TRACED")
     yield from inspected(4, result().content.metrics.largest_difference.pixel)
     scene.reference_tracer.method = "textbook"
+    yield 1
     yield from traced(4)
     yield from chosen(4, "TRACED")
     shown = area("IMAGE_EDITOR")
