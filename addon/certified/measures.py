@@ -19,7 +19,7 @@ from ..tracer.frame_measures import PIXELS
 from ..tracer.hits import NOTHING, Hits, Measures, Names
 from ..tracer.vector import Arrays, Vectors, cross, gather, largest, parts
 from ..tracer.world import WorldTriangles, world_corners
-from .arithmetic import check_assumptions
+from .arithmetic import sound
 from .quotient import Quotients
 from .surfaces import Surfaces
 
@@ -165,6 +165,7 @@ class Measured:
     dx: float = 0.0
     dy: float = 0.0
 
+    @sound
     def __call__(self, ray: Index, instance: Names, triangle: Names) -> Measures:
         """Return t, the nearest float64, and the barycentrics of k rays, (4, k).
 
@@ -180,7 +181,6 @@ class Measured:
         AssumptionError
             If this process's arithmetic no longer is as the proof needs it.
         """
-        check_assumptions()
         hits = Hits.none(len(ray))
         place = np.searchsorted(self.known.ray, ray)
         given = np.append(self.known.ray, NOTHING)[place] == ray
