@@ -18,7 +18,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import record_trees
-from recorder.records import FILES
+from recorder.records import NAMES
 
 PROOFS = Path(__file__).resolve().parents[1] / "proofs"
 # What Coq's library of real numbers, and Flocq on it, take for granted: classical logic, and that
@@ -44,7 +44,7 @@ def files() -> list[Path]:
 
 def recorded() -> list[Path]:
     """Return the Coq files that are recorded from the code, be they there or not."""
-    return [record_trees.RECORDED / f"{name}.v" for name in FILES]
+    return [record_trees.RECORDED / f"{name}.v" for name in NAMES]
 
 
 def listed() -> list[Path]:
