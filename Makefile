@@ -38,7 +38,7 @@ set-up-tests: extension
 		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
 	done
 
-prove: .venv/.stamp ## have Coq read the proofs: 3.5 minutes on two cores; root installs Coq if it is missing
+prove: .venv/.stamp ## have Coq read the proofs: 6 minutes on two cores; root installs Coq if it is missing
 	tools/coq.sh setup
 	$(PYTHON_IN_VENV) tools/prove.py
 

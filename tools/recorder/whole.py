@@ -84,7 +84,8 @@ class Whole:
     __neg__, __abs__ = map(_made, ("(- {})", "(Z.abs {})"))
     __lshift__, __truediv__ = map(_made, ("(Z.shiftl {} {})", "(division {} {})"))
     bit_length = _made("(bit_length {})")
-    __lt__, __gt__, __ge__ = map(_asked, ("({} <? {})", "({1} <? {0})", "({1} <=? {0})"))
+    __lt__, __le__ = map(_asked, ("({} <? {})", "({} <=? {})"))
+    __gt__, __ge__ = map(_asked, ("({1} <? {0})", "({1} <=? {0})"))
     __eq__ = _asked("({} =? {})")  # type: ignore[assignment]
 
     def __bool__(self) -> bool:
