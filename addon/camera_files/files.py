@@ -9,14 +9,21 @@ from pathlib import Path
 from ..file_kinds import check_is_file
 from ..scene import Camera, SceneError
 from ..wording import count_of
+from .bop import BOP
 from .colmap import COLMAP
 from .convention import HALF, Convention, Files, Source, View
+from .gltf import GLTF
+from .mitsuba import MITSUBA
 from .nerf import NERF
+from .open3d import OPEN3D
 from .opencv import OPENCV
 from .opengl import OPENGL
+from .pytorch3d import PYTORCH3D
 
 # The first that a file is of reads it.
-CONVENTIONS: dict[str, Convention] = {own.name: own for own in (OPENCV, OPENGL, COLMAP, NERF)}
+CONVENTIONS: dict[str, Convention] = {
+    own.name: own for own in (OPENCV, OPENGL, COLMAP, NERF, GLTF, MITSUBA, PYTORCH3D, OPEN3D, BOP)
+}
 
 
 def texts(views: Sequence[View], convention: Convention, centers: str = HALF) -> Files:

@@ -135,3 +135,11 @@ def part(camera: Camera) -> Camera:
     )
     whole = Region(0, 0, region.width, region.height)
     return replace(camera, window=window, width=region.width, height=region.height, region=whole)
+
+
+def centred(camera: Camera) -> Camera:
+    """Return an orthographic camera whose shift is in its place: it has the same rays."""
+    x, y = camera.window.centre
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, 3] += x * camera.right + y * camera.up
+    return replace(camera, world_from_camera=matrix, window=camera.window.moved(-x, -y))

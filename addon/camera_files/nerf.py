@@ -8,7 +8,8 @@ The files do not say where a pixel's centre is. instant-ngp and nerfstudio trace
 (i + 0.5, j + 0.5), so this is read and written; the code of the first NeRF traced it at (i, j),
 half a pixel beside what its own pictures show.
 
-Focal lengths in pixels come before angles, as in instant-ngp; what says neither cx nor cy has them
+`x_fov` (degrees) comes before `fl_x` (pixels), and that before `camera_angle_x` (radians), as in
+instant-ngp; what says neither cx nor cy has them
 in the picture's middle.
 """
 
@@ -37,7 +38,7 @@ from .convention import (
 from .features import ASPECT, SHIFT
 
 _LENSES = "fl_x", "fl_y", "cx", "cy"
-_DISTORTIONS = "k1", "k2", "k3", "k4", "p1", "p2"
+_DISTORTIONS = *("k1 k2 k3 k4 p1 p2".split()), "is_fisheye", "ftheta_p0", "latlong"
 _MODELS = "OPENCV", "PINHOLE", "SIMPLE_PINHOLE"
 
 
@@ -86,6 +87,8 @@ def _read(source: Source) -> list[View]:
     notes = []
     if "applied_transform" in content:
         notes.append("applied_transform is not undone: the world is the file's own")
+    if content.get("rolling_shutter"):
+        notes.append("rolling_shutter is not applied: a camera does not move within a picture")
     return [
         _view(content | body, where, source, tuple(notes))
         for body, where in objects(content, "frames")
@@ -96,7 +99,7 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     size = source.whole_size(body, ("w", "h"), where)
     model = body.get("camera_model", _MODELS[0])
     bent = [key for key in _DISTORTIONS if body.get(key)]
-    if model not in _MODELS or bent or body.get("is_fisheye"):
+    if model not in _MODELS or bent:
         what = f"{bent[0]} = {body[bent[0]]}" if bent else f"camera_model = {model!r}"
         raise SceneError(
             f"{where} has lens distortion or another projection ({what}), which is not modelled: "
@@ -124,7 +127,10 @@ def _focal_lengths(body: Content, where: str, size: tuple[int, int]) -> tuple[fl
     """Return both focal lengths in pixels; one that is not said is the other."""
     found = []
     for axis, n in zip("xy", size, strict=True):
-        if f"fl_{axis}" in body:
+        if f"{axis}_fov" in body:
+            angle = np.radians(float(numbers(body, f"{axis}_fov", where, ())))
+            found.append(n / 2 / float(np.tan(angle / 2)))
+        elif f"fl_{axis}" in body:
             found.append(float(numbers(body, f"fl_{axis}", where, ())))
         elif f"camera_angle_{axis}" in body:
             angle = float(numbers(body, f"camera_angle_{axis}", where, ()))
