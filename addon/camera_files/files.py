@@ -88,10 +88,15 @@ def read(
 
 
 def _seen_to_be(source: Source) -> Convention:
-    for own in CONVENTIONS.values():
-        if own.is_of(source):
-            return own
+    found = next((own for own in CONVENTIONS.values() if own.is_of(source)), None)
+    if found:
+        return found
     raise SceneError(f"it is of none of {', '.join(CONVENTIONS)}; --camera-convention names one")
+
+
+def is_seen_to_be(path: Path) -> bool:
+    """Return whether a file or a folder looks like one of the conventions."""
+    return any(own.is_of(Source(path)) for own in CONVENTIONS.values())
 
 
 def chosen(views: Sequence[View], which: str | None) -> View:
@@ -108,7 +113,8 @@ def chosen(views: Sequence[View], which: str | None) -> View:
     if which is None:
         if len(views) == 1:
             return views[0]
-        raise SceneError(f"it has {len(views)} cameras: --camera-view names one of {_names(views)}")
+        many = f"it has {len(views)} cameras"
+        raise SceneError(f"{many}: --camera-view names one of {_names(views)}")
     named = [view for view in views if which in (view.name, Path(view.name).stem)]
     if not named and which.lstrip("-").isdigit():
         number = int(which)
