@@ -221,3 +221,22 @@ def test_the_camera_that_blender_writes_into_a_glb_is_its_own(kind, build, tmp_p
     x, y, _ = film_of(view.camera, own.points)
     assert np.abs(np.stack((x, y)) - own.film).max() < 10 * BLENDERS
     assert view.camera.clip_end == pytest.approx(own.view.camera.clip_end)
+
+
+@pytest.mark.parametrize(("name", "written"), [("opencv", "a.json"), ("colmap", "a")])
+def test_the_button_writes_what_the_command_does(name, written, scene, tmp_path, reftrace):
+    ours, theirs = tmp_path / "ours" / written, tmp_path / "theirs" / written
+    button = bpy.ops.reference_tracer.export_camera
+    assert button(filepath=str(ours), convention=name, animation=True) == {"FINISHED"}
+    done = reftrace("camera", scene, "--frames", "all", "--convention", name, "--out", theirs)
+    assert done.returncode == 0
+    for file in sorted(ours.iterdir()) if ours.is_dir() else [ours]:
+        other = theirs / file.name if ours.is_dir() else theirs
+        assert file.read_bytes() == other.read_bytes()
+    assert bpy.context.scene.frame_current == 1
+
+
+def test_the_button_says_what_cannot_be_said(scene, tmp_path):
+    with pytest.raises(RuntimeError, match=r"a lens shift and a pixel aspect .* glTF cannot say"):
+        bpy.ops.reference_tracer.export_camera(filepath=str(tmp_path / "a.gltf"), convention="gltf")
+    assert not (tmp_path / "a.gltf").exists()
