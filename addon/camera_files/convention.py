@@ -109,7 +109,7 @@ def first_center(content: Mapping[str, Any], default: str = HALF) -> float:
         If it names neither.
     """
     named = content.get(CENTERS_KEY, default)
-    if named not in _FIRST:
+    if named not in CENTERS:
         raise SceneError(f"{CENTERS_KEY} is {named!r}; it must be {' or '.join(CENTERS)}")
     return _FIRST[named]
 

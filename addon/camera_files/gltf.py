@@ -131,10 +131,9 @@ def _view(own: Thing, name: str, world: Floats, source: Source) -> View:
 
 
 def _number(lens: Thing, key: str) -> float:
-    found = lens.numbers(key) if isinstance(lens.content.get(key), list) else None
     value = lens.content.get(key)
-    if found is not None or not isinstance(value, int | float) or not np.isfinite(value):
-        raise SceneError(f"{lens.label} needs '{key}', a finite number")
+    if not isinstance(value, int | float) or not 0 < value < np.inf:
+        raise SceneError(f"{lens.label} needs '{key}', a finite number above 0")
     return float(value)
 
 

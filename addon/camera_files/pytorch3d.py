@@ -49,7 +49,7 @@ def _write(views: Sequence[View], centers: str) -> Files:
 
 def _is_of(source: Source) -> bool:
     content = source.json
-    return isinstance(content, dict) and content.get("class") in _CLASSES
+    return isinstance(content, dict) and content.get("class") in tuple(_CLASSES)
 
 
 def _read(source: Source) -> list[View]:
