@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import codecs
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +20,8 @@ HALF, INTEGER = "half", "integer"  # where a file has the centre of the first pi
 _FIRST = {HALF: 0.5, INTEGER: 0.0}
 CENTERS = tuple(_FIRST)
 CENTERS_KEY = "pixel_centers"  # in a JSON file
+
+_HEAD = 1024  # bytes, in which a file of text begins
 
 Files = dict[str, str]  # what is written, by name; of the single file the name is empty
 
@@ -41,16 +45,20 @@ class Source:
     path: Path
     size: tuple[int | None, int | None] = (None, None)  # of the picture, where the file lacks it
 
-    @property
+    @cached_property
     def text(self) -> str:
-        """What the file holds."""
-        return self.path.read_bytes().decode("utf-8-sig", errors="replace")
+        """What the file holds; "" of a folder, and of what begins as neither JSON nor XML."""
+        if self.path.is_dir():
+            return ""
+        with self.path.open("rb") as file:
+            if not file.read(_HEAD).lstrip(codecs.BOM_UTF8 + b" \t\r\n").startswith((b"{", b"<")):
+                return ""
+            file.seek(0)
+            return file.read().decode("utf-8-sig", errors="replace")
 
-    @property
+    @cached_property
     def json(self) -> Any:
         """What the file holds as JSON; None if it is none."""
-        if self.path.is_dir():
-            return None
         try:
             return json.loads(self.text)
         except (ValueError, RecursionError):

@@ -76,7 +76,7 @@ def _sensor(view: View) -> list[str]:
 
 
 def _is_of(source: Source) -> bool:
-    return not source.path.is_dir() and "<sensor" in source.text
+    return "<sensor" in source.text
 
 
 def _read(source: Source) -> list[View]:
