@@ -51,7 +51,7 @@ def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -
             choices=["y", "z"],
             help="which axis of a mesh is up (default y of glTF, z of others); it is turned to Z",
         )
-    _add_which(group.add_mutually_exclusive_group())
+    _add_which(group.add_mutually_exclusive_group(), parser)
     group.add_argument(
         "--camera-convention",
         choices=CONVENTIONS,
@@ -85,10 +85,15 @@ def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -
     _add_parts_of_blend(parser)
 
 
-def _add_which(group: _ActionsContainer) -> None:
+def _add_which(group: _ActionsContainer, parser: Parser) -> None:
     """Add the three ways to choose a camera."""
+
+    def name_or_path(text: str) -> str:
+        return str(parser.path(text)) if text.startswith("//") else text  # as Blender writes it
+
     group.add_argument(
         "--camera",
+        type=name_or_path,
         metavar="NAME",
         help="use this camera of a .blend or a .glb; or a file's, as another program wrote it: "
         "K, R and t in JSON, transforms.json, a folder of COLMAP's, and so on",

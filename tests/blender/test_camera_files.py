@@ -38,7 +38,7 @@ from .test_camera import (
 )
 
 BLENDERS = 1e-3  # pixels: Blender's matrix is float32
-EVERY = 13  # of the combinations one is tried: no number of settings is a multiple of it
+EVERY = 29  # of the combinations one is tried: no number of settings is a multiple of it
 
 
 @pytest.mark.parametrize("place", [plain, parented, scaled, mirrored, sheared])
@@ -119,6 +119,11 @@ def test_frames_are_written_and_checked(name, scene, tmp_path, reftrace):
     done = reftrace("camera", scene, "--check", out)
     assert done.returncode == 0, done.stdout
     assert done.stdout.count("agree") == 3
+
+
+def test_one_view_is_checked_at_another_frame(scene, tmp_path, reftrace):
+    out = tmp_path / "sparse"
+    reftrace("camera", scene, "--out", out, "--convention", "colmap", "--frames", "1-5:2")
     one = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "3")
     assert one.returncode == 0 and one.stdout.count("agree") == 1
     other = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "5")
