@@ -21,6 +21,7 @@ from documents.markers import refreshed  # noqa: E402
 
 sys.path.pop(0)
 PAGES = {
+    "camera_conventions": "cameras.md",
     "causes": "causes.md",
     "checks": "causes.md",
     "faults": "faults.md",
