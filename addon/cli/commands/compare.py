@@ -213,7 +213,7 @@ def _blend(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Wo
         shown: Picture | Callable[[Any], Picture]
         if isinstance(picture, GivenData):
             data = picture  # which is read once the scene is there
-            shown = lambda drawing: picture_of_data(data, drawing.scene, making)  # noqa: E731
+            shown = lambda drawing: picture_of_data(data, drawing.exported, making)  # noqa: E731
         else:
             shown = picture_of_file(picture, export_camera(context.scene), making)
         settings = options.settings.over(context.scene.reference_tracer.settings())

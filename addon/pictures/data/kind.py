@@ -138,7 +138,9 @@ class Data:
         renderer, camera = sampling.renderer, seen.scene.camera
         far = renderer.along(seen.scene, seen.hits, seen.positions, seen.rays)
         far = far + renderer.step(camera, seen.t)
-        out += np.max([np.abs(self.made(seen.along(s * far)) - made) for s in (-1, 1)], axis=0)
+        # A position may be made of barycentrics: these err as t does, along the surface.
+        ends = np.array([self.made(seen.along(sign * far)) - made for sign in (-1, 1)])
+        out += np.sqrt((ends * ends).sum(axis=2)).max(axis=0)[:, None]
         if aside := renderer.snapping + sampling.sample_radius:
             for x, y in ((aside, 0.0), (0.0, aside)):
                 sides = [self.made(seen.aside(s * x, s * y)) for s in (-1, 1)]
