@@ -122,7 +122,7 @@ def _ids(stored: StoredData, scene: Scene, hits: Hits) -> Data:
     numbers = ids.numbers_of(stored.values)
     own, blank = ids.owners_of(scene, hits, numbers.reshape(-1))
     values, empty = numbers[..., None], blank.reshape(numbers.shape)
-    return Data(ids.kind_of(own), values, empty, _film(scene), Step("float64"))
+    return Data(ids.kind_of(own), values, empty, _film(scene), scene.camera, Step("float64"))
 
 
 def _data(given: GivenData, stored: StoredData, scene: Scene, kind: Kind) -> Data:
@@ -142,7 +142,7 @@ def _data(given: GivenData, stored: StoredData, scene: Scene, kind: Kind) -> Dat
     if not step.type:
         step, full = Step("", unit), stored.top * unit
     blank = _blank(raw if kind.unit else values, stored, kind, step)
-    return Data(kind, values, blank, _film(scene), step, full)
+    return Data(kind, values, blank, _film(scene), scene.camera, step, full)
 
 
 def _blank(values: Array, stored: StoredData, kind: Kind, step: Step) -> Bools:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...arrays import Array, Bools, Colors, Floats, Where
-from ...scene import Scene
+from ...scene import Camera, Scene
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING, Hits
 from ..bounds import U32
@@ -61,6 +61,9 @@ class Data:
     values: Floats  # (..., c) as the file has them, integers times their unit
     blank: Bools  # (...) the file says that nothing is there
     film: Floats  # (..., 2) the pixels' centres, in pixels of the whole picture
+    # With the clip range of the scene itself: a depth buffer's steps grow with it, and a guess of
+    # another one would else excuse any depth.
+    camera: Camera
     step: Step
     full: float = 1.0  # the largest value that the file can hold; 1 of floats
     turn: Turn | None = None
@@ -135,9 +138,9 @@ class Data:
         out = np.repeat(self.kind.loose(seen)[:, None], made.shape[1], axis=1)
         if not self.kind.follows_t:
             return out
-        renderer, camera = sampling.renderer, seen.scene.camera
+        renderer = sampling.renderer
         far = renderer.along(seen.scene, seen.hits, seen.positions, seen.rays)
-        far = far + renderer.step(camera, seen.t)
+        far = far + renderer.step(self.camera, seen.t)
         # A position may be made of barycentrics: these err as t does, along the surface.
         ends = np.array([self.made(seen.along(sign * far)) - made for sign in (-1, 1)])
         out += np.sqrt((ends * ends).sum(axis=2)).max(axis=0)[:, None]

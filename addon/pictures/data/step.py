@@ -22,6 +22,7 @@ class Step:
 
     type: str  # a key of _TYPES, or '' for integers
     unit: float = 0.0  # of integers: what 1 is
+    cut: bool = False  # digits are cut off, not rounded
 
     @property
     def words(self) -> str:
@@ -37,7 +38,7 @@ class Step:
             return np.full(np.shape(values), (0.5 + LEVEL_SLACK) * self.unit)
         of = _TYPES[self.type]
         size = np.minimum(np.nan_to_num(np.abs(values), posinf=0.0), float(np.finfo(of).max))
-        return np.spacing(size.astype(of)).astype(np.float64) / 2
+        return np.spacing(size.astype(of)).astype(np.float64) / (1 if self.cut else 2)
 
     def holds(self, values: Floats) -> bool:
         """Return whether all finite values lie on such steps, but for float32's own rounding."""

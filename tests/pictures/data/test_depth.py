@@ -11,7 +11,7 @@ from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import camera_rays, film_positions
 
-from .conftest import SOME
+from .conftest import CLIP, SOME
 
 
 @pytest.fixture(scope="session")
@@ -102,11 +102,16 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("fault, of", [(name, of) for name in WRONG for of in WRONG[name]])
-def test_a_fault_has_its_name_alone(told, solids, traced, lengths, fault, of):
-    made = of(traced.t, solids.camera.clip_start, solids.camera.clip_end, lengths)
+EVERY = [("depth", name, of) for name in WRONG for of in WRONG[name]]
+EVERY += [("distance", name, WRONG[name][0]) for name in list(WRONG)[1:]]
+
+
+@pytest.mark.parametrize("kind, fault, of", EVERY, ids=lambda v: v if type(v) is str else "")
+def test_a_fault_has_its_name_alone(told, solids, traced, lengths, kind, fault, of):
+    right = traced.t if kind == "depth" or fault == "depth_buffer" else traced.t * lengths
+    made = of(right, solids.camera.clip_start, solids.camera.clip_end, lengths)
     made = np.where(np.isfinite(traced.t), made, np.nan).astype(np.float32)
-    assert told("depth", made, faults=SOME) == [fault]
+    assert told(kind, made, faults=SOME) == [fault]
 
 
 @pytest.mark.torture
@@ -131,12 +136,22 @@ def test_no_name_for_what_is_none_of_these(told, traced, rng):
     assert told("depth", values + 0.01, faults=SOME) == []
 
 
-def test_half_floats_and_cut_off_integers(told, traced):
+@pytest.mark.parametrize("kind", ["depth", "distance"])
+def test_half_floats_and_cut_off_integers(told, traced, lengths, kind):
     values = np.where(np.isfinite(traced.t), traced.t, 0)
+    values = values * (lengths if kind == "distance" else 1)
     half = values.astype(np.float16).astype(np.float32)
-    assert told("depth", half, faults=SOME) == ["data_rounded"]
+    assert told(kind, half, faults=SOME) == ["data_rounded"]
+    away = np.where(half > values, np.nextafter(values.astype(np.float16), np.float16(0)), half)
+    assert told(kind, away.astype(np.float32), faults=SOME) == ["data_rounded"]
     cut = (1000 * values).astype(np.uint16)
-    assert told("depth", cut, scale=0.001, faults=SOME) == ["data_cut_off"]
+    assert told(kind, cut, scale=0.001, faults=SOME) == ["data_cut_off"]
+
+
+def test_a_depth_buffers_steps_are_those_of_the_scenes_own_clip_range(told, solids, traced):
+    """A guess that nothing is clipped makes the steps of a buffer so large that all depths fit."""
+    half = np.where(np.isfinite(traced.t), traced.t, 0).astype(np.float16).astype(np.float32)
+    assert told("depth", half, faults=CLIP, renderer="raster") == []
 
 
 def test_a_moved_object_is_named_by_its_depths(told, solids, traced):

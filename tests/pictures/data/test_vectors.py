@@ -114,6 +114,16 @@ def test_opencvs_axes_are_named_in_camera_space(told, placed, seen):
     assert told("normals", made, placed, faults=SOME) == ["normal_transform"]
 
 
+def test_vectors_that_are_rounded_or_cut_off(told, placed, seen):
+    for kind in ("normals", "positions"):
+        half = seen[kind]["world"].astype(np.float16).astype(np.float32)
+        assert told(kind, half, placed, faults=SOME) == ["data_rounded"]
+    cut = (255 * (seen["normals"]["world"] / 2 + 0.5)).astype(np.uint8)
+    assert told("normals", cut, placed, faults=SOME) == ["data_cut_off"]
+    cut = np.floor(1000 * seen["positions"]["world"]).astype(np.int32)
+    assert told("positions", cut, placed, scale=0.001, faults=SOME) == ["data_cut_off"]
+
+
 def test_no_name_for_what_is_none_of_these(told, placed, seen, rng):
     noise = rng.normal(0, 0.05, seen["normals"]["world"].shape)
     for kind in ("normals", "positions"):

@@ -15,6 +15,7 @@ from .turned import Turned, data_fault
 
 _STEPS = (
     (Step("float16"), "half floats, of 11 bits"),
+    (Step("float16", cut=True), "half floats, of 11 bits, by cutting off the others"),
     (Step("", 0.001), "steps of a millimetre"),
     (Step("", 0.01), "steps of a centimetre"),
 )
