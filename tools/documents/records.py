@@ -75,7 +75,7 @@ def checks() -> str:
 def causes() -> str:
     """Return a section for each cause of a pixel that differs, in the order of the legend."""
     sys.path.insert(0, str(PROJECT))
-    attacks = import_module("tests.attacks").withstood()
+    attacks = import_module("tests.attacks.table").withstood()
     sys.path.remove(str(PROJECT))
     parts = (_cause(c, attacks.get(c, ())) for c in CAUSES if c.why)
     return "\n\n".join(line for part in parts for line in part)
