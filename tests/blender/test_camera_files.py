@@ -143,6 +143,21 @@ def test_a_file_that_is_off_is_told_how_far_and_why(scene, tmp_path, reftrace):
     assert "the camera's shift is left out" in done.stdout and "add shift X and Y" in done.stdout
 
 
+def test_what_else_a_file_has_is_told_in_lines(scene, tmp_path, reftrace):
+    out = tmp_path / "camera.json"
+    reftrace("camera", scene, "--out", out)
+    file = json.loads(out.read_text(encoding="utf-8"))
+    file["K"] = [[2 * v for v in row] for row in file["K"][:2]] + [[0, 0, 1]]
+    file |= {"width": 192, "height": 108, "clip_start": 0.5}
+    out.write_text(json.dumps(file), encoding="utf-8")
+    done = reftrace("camera", scene, "--check", out)
+    lines = (line for line in done.stdout.splitlines() if line.startswith("0001.png"))
+    first, *rest = lines
+    assert done.returncode == 0 and "agree" in first
+    assert rest[0].startswith("0001.png: its picture has 192 x 108 pixels, the scene's 96 x 54")
+    assert rest[1].startswith("0001.png: its clip range is 0.5 to ")
+
+
 @pytest.mark.parametrize(
     ("options", "said"),
     [
