@@ -28,8 +28,9 @@ from ..mesh_files.gltf.notes import Notes
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Files, Source, View, dumped
+from .convention import Convention, Files, Source, View
 from .features import PARALLEL
+from .json_files import dumped
 
 # Takes glTF's world to Blender's.
 _Z_UP = np.array(((1.0, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))

@@ -22,8 +22,9 @@ from ..checked_json import Content, numbers, part
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError
 from . import frame
-from .convention import Convention, Files, Source, View, dumped
+from .convention import Convention, Files, Source, View
 from .features import ASPECT, PARALLEL, SHIFT
+from .json_files import dumped
 
 _CLASSES = {"PerspectiveCameras": PERSPECTIVE, "OrthographicCameras": ORTHOGRAPHIC}
 
