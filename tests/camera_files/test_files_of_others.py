@@ -35,7 +35,7 @@ def mitsuba(tmp_path, values="", places="", film="", kind="perspective", height=
 
 
 def test_mitsubas_look_at(tmp_path):
-    place = '<look_at origin="1, 1, 1" target="1, 2, 1" up="0, 0, 1"/>'
+    place = '<lookat origin="1, 1, 1" target="1, 2, 1" up="0, 0, 1"/>'
     camera = mitsuba(tmp_path, '<float name="fov" value="90"/>', place)
     assert np.allclose(camera.origin, 1) and np.allclose(camera.forward, (0, 1, 0))
     assert np.allclose(camera.up, (0, 0, 1)) and np.allclose(camera.right, (1, 0, 0))
