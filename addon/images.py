@@ -79,12 +79,9 @@ def save_png(path: str | Path, picture: Bytes) -> None:
     Path(path).write_bytes(png.encode(picture))
 
 
-def data_uri(picture: Bytes, level: int = png.LEVEL) -> str:
-    """Return an (h, w, 4) uint8 picture, row 0 at the bottom, as an image's address in a page.
-
-    `level` is zlib's.
-    """
-    return f"data:image/png;base64,{base64.b64encode(png.encode(picture, level)).decode('ascii')}"
+def data_uri(content: bytes) -> str:
+    """Return the content of a PNG file as an image's address in a page."""
+    return f"data:image/png;base64,{base64.b64encode(content).decode('ascii')}"
 
 
 @dataclass(frozen=True, eq=False)

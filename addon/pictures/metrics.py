@@ -125,15 +125,12 @@ def largest_difference(first: Array, second: Array) -> Largest:
 
 def image_metrics(traced: Colors, picture: Colors) -> Work[Metrics]:
     """Measure how far two pictures (h, w, 4) of linear RGBA differ; NaN counts as 0."""
-    a = np.empty_like(traced)
-    b = np.empty_like(picture)
+    a, b = (p if np.isfinite(p).all() else np.nan_to_num(p) for p in (traced, picture))
     height = len(a)
     squares = 0.0
     largest = []  # of each block of rows
     for start in range(0, height, _ROWS):
         rows = slice(start, start + _ROWS)
-        a[rows] = np.nan_to_num(traced[rows])
-        b[rows] = np.nan_to_num(picture[rows])
         squares += rmse(a[rows], b[rows]) ** 2 * len(a[rows])
         found = largest_difference(a[rows], b[rows])
         x, y = found.pixel
