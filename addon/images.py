@@ -22,6 +22,7 @@ from .png.samples import PngError
 from .runs import by_runs
 
 EIGHT_BITS = 255  # levels above 0
+_TOGETHER = 1 << 16  # pixels
 
 
 def to_display(color: Floats) -> Bytes:
@@ -35,7 +36,12 @@ def to_display(color: Floats) -> Bytes:
         color = np.nan_to_num(color.astype(np.float64), posinf=1.0, neginf=0.0)
         return np.rint(EIGHT_BITS * encoded(color)).astype(np.uint8)
 
-    return by_runs(shown, np.reshape(color, (-1, 4))).reshape(np.shape(color))
+    flat = np.reshape(color, (-1, 4))
+    out = np.empty(flat.shape, np.uint8)
+    for start in range(0, len(flat), _TOGETHER):  # temporaries of whole pictures take longer
+        some = slice(start, start + _TOGETHER)
+        out[some] = by_runs(shown, flat[some])
+    return out.reshape(np.shape(color))
 
 
 def encoded(color: Floats) -> Floats:
