@@ -5,21 +5,19 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from reference_tracer.cli.parser import AGREE, COUNT, DIFFERENCES, INPUT_ERROR, Parser
+from reference_tracer.cli.parser import AGREE, COUNT, DIFFERENCES, Parser
 from reference_tracer.cli.running import meanwhile
-from reference_tracer.scene import SceneError
 
 _CODES = f"""exit codes:
   {AGREE}  every pixel that was checked sees what the file says
-  {DIFFERENCES}  one does not, or the file has what the checker does not know: not covered
-  {INPUT_ERROR}  the file cannot be read
+  {DIFFERENCES}  one does not; the file has what the checker does not know; or it cannot be read
   130  interrupted by Ctrl-C"""
 
 
 def add(parser: Parser) -> None:
     """Add the command's options."""
     parser.runs(
-        lambda given: verify(given),
+        verify,
         "reftrace trace scene.blend --certificate scene.npz\n  reftrace verify scene.npz",
         _CODES,
     )
@@ -34,13 +32,11 @@ def add(parser: Parser) -> None:
 
 def verify(given: Namespace) -> int:
     """Check, and say what was checked or what is wrong."""
-    from .verify import RefusedError, UnreadableError, verified
+    from .verify import RefusedError, verified
 
     try:
         with meanwhile("checking"):
             print(f"{given.file}: {verified(given.file, given.sample)}")
-    except UnreadableError as error:
-        raise SceneError(str(error)) from error
     except RefusedError as error:
         print(f"{given.file}: refused: {error}")
         return DIFFERENCES

@@ -45,6 +45,8 @@ ARRAYS = {
     "instance": ("instances", "world_from_object colors"),
     "plane": ("planes", "point normal color"),
 }
+KINDS = "perspective", "orthographic", "equirectangular"
+WINDOW = "left right bottom top"
 NOWHERE: Name = (-1, -1)
 AXES: Sequence[Vector] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 # How much is in memory together: pixels with their rays; surfaces; pairs of a square and a surface.
@@ -52,67 +54,62 @@ PIXELS, SURFACES, PAIRS = 1 << 18, 1 << 16, 1 << 15
 
 
 class RefusedError(Exception):
-    """The certificate is wrong, or holds what this program does not know: the message says what."""
-
-
-class UnreadableError(Exception):
-    """The file is no certificate, or damaged."""
+    """The certificate is wrong, or has what this program does not know: the message says what."""
 
 
 def only(what: str, found: Any, known: Any) -> None:
     """Refuse what is not known."""
-    if unknown := sorted(set(found) - set(known)):
-        raise RefusedError(f"not covered: {what} {', '.join(map(str, unknown))}")
+    if unknown := [str(each) for each in found if each not in known]:
+        raise RefusedError(f"not covered: {what} {', '.join(unknown)}")
 
 
 class Certificate:
     """A file's scene in world space, and its answers."""
 
     def __init__(self, path: str) -> None:
-        try:
-            with np.load(path, allow_pickle=False) as file:
-                self.read(file, json.loads(str(file["scene"])))
-        except RefusedError:
-            raise
-        except Exception as error:  # zip, zlib, numpy, JSON: each has its own ways to say no
-            say = f"'{path}' is no certificate, or damaged ({error})"
-            raise UnreadableError(f"{say}: write it by reftrace trace --certificate") from error
-
-    def read(self, file: Any, scene: Any) -> None:
-        """Read all arrays, and refuse others."""
-        only("schema", [str(file["certificate"]), scene["schema"]], SCHEMAS)
-        camera = self.camera = scene["camera"]
-        known = {"scene", "certificate", *ANSWERS.split()}
-        for kind, (kinds, parts) in ARRAYS.items():
-            known |= {f"{kind}{k}_{p}" for k in range(len(scene[kinds])) for p in parts.split()}
-        only("array", file.files, known)
-        only("part of the scene", scene, SCENE.split())
-        only("part of the camera", camera, CAMERA.split())
-        self.window = {side: float(value) for side, value in camera["window"].items()}
+        with np.load(path, allow_pickle=False) as file:
+            scene = json.loads(str(file["scene"]))
+            self.camera = camera = scene["camera"]
+            known = ["scene", "certificate", *ANSWERS.split()]
+            for kind, (kinds, parts) in ARRAYS.items():
+                known += [f"{kind}{k}_{p}" for k in range(len(scene[kinds])) for p in parts.split()]
+            only("schema", [str(file["certificate"]), scene["schema"]], SCHEMAS)
+            only("array", file.files, set(known))
+            only("part of the scene", scene, SCENE.split())
+            only("part of the camera", camera, CAMERA.split())
+            only("camera", [camera["projection"]], KINDS)
+            self.read_surfaces(file, scene)
+            self.instance, self.triangle, self.t, *ties = (file[name] for name in ANSWERS.split())
         self.clip = float(camera["clip_start"]), float(camera["clip_end"])
         matrix = np.array(camera["world_from_camera"], np.float64)
         self.right, self.up, self.back, self.eye = matrix[:3].T[..., None]
-        self.read_surfaces(file, scene)
-        self.instance, self.triangle, self.t, *ties = (file[name] for name in ANSWERS.split())
-        region = camera["region"]
-        self.shape = region["y1"] - region["y0"], region["x1"] - region["x0"]
-        if {self.instance.shape, self.triangle.shape, self.t.shape} != {self.shape}:
-            raise RefusedError(f"the answers are not those of {self.shape[1]} x {self.shape[0]}")
+        left, right, low, top = (float(camera["window"][k]) for k in WINDOW.split())
+        x0, y0, x1, y1 = (int(camera["region"][k]) for k in ("x0", "y0", "x1", "y1"))
+        self.shape = y1 - y0, x1 - x0
+        self.x = left + (np.arange(x0, x1) + 0.5) * ((right - left) / camera["width"])
+        self.y = low + (np.arange(y0, y1) + 0.5) * ((top - low) / camera["height"])
         self.ties: dict[int, set[Name]] = {}
         for pixel, instance, triangle in zip(*(v.tolist() for v in ties), strict=True):
             self.ties.setdefault(pixel, set()).add((instance, triangle))
         only("tie of pixel", self.ties, range(self.t.size))
+        if {self.instance.shape, self.triangle.shape, self.t.shape} != {self.shape}:
+            raise RefusedError(f"the answers are not those of {self.shape[1]} x {self.shape[0]}")
+        if not (self.clip[0] < self.clip[1] and np.isfinite(self.corners).all()):
+            raise RefusedError("the clip range is empty, or a plane is not finite")
 
     def read_surfaces(self, file: Any, scene: Any) -> None:
         """Set names, corners (3 corners, 3 components, n), and the normals of the last, planes."""
-        names, corners, first_plane = [], [np.empty((3, 0, 3))], len(scene["instances"])
+        meshes = []
+        for number in range(len(scene["meshes"])):
+            vertices, triangles = (file[f"mesh{number}_{k}"] for k in ("vertices", "triangles"))
+            only("vertex", np.unique(triangles).tolist(), range(len(vertices)))
+            meshes.append((vertices.T.astype(np.float64), triangles))
+        names, corners, count = [], [np.empty((3, 0, 3))], len(scene["instances"])
         for number, instance in enumerate(scene["instances"]):
-            only("mesh", [instance["mesh"]], range(len(scene["meshes"])))
-            x, y, z = file[f"mesh{instance['mesh']}_vertices"].T.astype(np.float64)
-            triangles = file[f"mesh{instance['mesh']}_triangles"]
-            only("vertex", triangles.ravel().tolist(), range(len(x)))
+            only("mesh", [instance["mesh"]], range(len(meshes)))
+            (x, y, z), triangles = meshes[instance["mesh"]]
+            m = file[f"instance{number}_world_from_object"]
             with np.errstate(all="ignore"):
-                m = file[f"instance{number}_world_from_object"]
                 world = [m[k, 0] * x + m[k, 1] * y + m[k, 2] * z + m[k, 3] for k in range(3)]
             corners.append(np.stack(world)[:, triangles])
             names += [(number, k) for k in range(len(triangles))]
@@ -123,23 +120,20 @@ class Certificate:
             np.array([file[f"plane{k}_{part}"] for k in planes], np.float64).reshape(-1, 3).T
             for part in ("point", "normal")
         )
-        self.names = [
-            *map(names.__getitem__, finite.tolist()),
-            *((first_plane + k, -1) for k in planes),
-        ]
+        self.names = [names[k] for k in finite] + [(count + k, -1) for k in planes]
         self.corners = np.concatenate((every[..., finite], np.stack([points] * 3)), axis=2)
         self.triangles = len(finite)
 
     def rays(self, rows: Any) -> tuple[Floats, Floats]:
         """Return origins and directions of the pixels of some rows, (3, n) or (3, 1) each."""
-        window, region = self.window, self.camera["region"]
-        width = (window["right"] - window["left"]) / self.camera["width"]
-        height = (window["top"] - window["bottom"]) / self.camera["height"]
-        x = window["left"] + (np.arange(region["x0"], region["x1"]) + 0.5) * width
-        y = window["bottom"] + (rows + region["y0"] + 0.5) * height
-        x, y = np.tile(x, len(y)), np.repeat(y, len(x))
-        right, up, ahead, eye = self.right, self.up, -self.back, self.eye
-        only("camera", [kind := self.camera["projection"]], KINDS)
+        x, y = np.tile(self.x, len(rows)), np.repeat(self.y[rows], len(self.x))
+        kind, right, up, ahead, eye = (
+            self.camera["projection"],
+            self.right,
+            self.up,
+            -self.back,
+            self.eye,
+        )
         if kind == "orthographic":
             rays = eye + (x * right + y * up), ahead
         elif kind == "perspective":
@@ -147,12 +141,9 @@ class Certificate:
         else:
             level = sine(y, 1)
             rays = eye, level * sine(x) * right + sine(y) * up + level * sine(x, 1) * ahead
-        if not all(np.isfinite(v).all() for v in (*rays, self.corners, self.normals)):
-            raise RefusedError("a ray or a plane is not finite")
+        if not all(np.isfinite(v).all() for v in rays):
+            raise RefusedError("a ray is not finite")
         return rays
-
-
-KINDS = "perspective", "orthographic", "equirectangular"
 
 
 def sine(angle: Floats, quarters: int = 0) -> Floats:
@@ -228,7 +219,7 @@ class Forms:
         self.constant[k] = dot(point, vector)
         self.slope[k] = [times * each for each in vector]
         reach = most(point) + abs(times) * self.largest
-        self.error[k] = 2.0**-44 * reach * size + 2.0**-1040 * (1 + reach)
+        self.error[k] = 2.0**-44 * (reach * size) + 2.0**-1040 * (1 + reach)
 
 
 def most(v: Any) -> Any:
@@ -236,82 +227,55 @@ def most(v: Any) -> Any:
     return np.abs(v).max(axis=0)
 
 
-class Level(NamedTuple):
-    """The picture in squares of 2^k x 2^k pixels."""
+def levels(r: Floats, far: Floats) -> list[Any]:
+    """Return squares of 2^k x 2^k pixels, from pixels to one square, of rays r (3, h, w).
 
-    shape: tuple[int, int]
-    middle: Floats  # (3, squares), of the box around its rays
-    half: Floats  # (3, squares): no ray is farther from the middle
-    far: Floats  # (squares,) the farthest t
-
-
-def levels(r: Floats, far: Floats) -> list[Level]:
-    """Return the levels of rays r (3, h, w), from pixels to one square."""
+    Of each level: its shape; middles (3, squares) of the boxes around their rays; halves, which no
+    ray is farther from there; and the farthest t, (squares,), of `far` (h, w).
+    """
     low = high = r
-    out = []
-    while True:
+    out: list[Any] = []
+    while not out or len(out[-1][3]) > 1:
         middle = low + (high - low) / 2
         half = np.maximum(high - middle, middle - low) * (1 + 2.0**-50)
-        out.append(Level(far.shape, middle.reshape(3, -1), half.reshape(3, -1), far.ravel()))
-        if far.size == 1:
-            return out
+        out.append((far.shape, middle.reshape(3, -1), half.reshape(3, -1), far.ravel()))
         for axis in (-1, -2):
             pairs = np.arange(0, far.shape[axis], 2)
             low = np.minimum.reduceat(low, pairs, axis)
             high, far = (np.maximum.reduceat(v, pairs, axis) for v in (high, far))
+    return out
 
 
-def beside(value: Floats, reach: Floats, t: Floats) -> Any:
-    """Return which functions, known but for `reach`, all have one sign."""
-    return (value - reach > 0).all(axis=0) | (value + reach < 0).all(axis=0)
-
-
-def outside(value: Floats, reach: Floats, t: Floats) -> Any:
-    """Return which functions have two signs."""
-    return (value - reach > 0).any(axis=0) & (value + reach < 0).any(axis=0)
-
-
-def between(value: Floats, reach: Floats, t: Floats) -> Any:
-    """Return where T - t D has one sign from the first t to the second: no hit is between."""
-    return beside(value[0] - t * value[1], reach[0] + np.abs(t) * reach[1], t)
-
-
-RULES = (
-    (slice(0, 3), beside),
-    (slice(3, 6), beside),
-    (slice(6, 9), outside),
-    (slice(9, 11), between),
-)
-
-
-def candidates(forms: Forms, squares: Sequence[Level], start: float) -> Iterator[Any]:
+def candidates(forms: Forms, squares: Sequence[Any], start: float) -> Iterator[Any]:
     """Yield pixels and surfaces, (n,) each, of which floats do not show that they do not meet."""
     count = forms.error.shape[1]
     work = [(len(squares) - 1, np.zeros(count, np.intp), np.arange(count))]
     while work:
         k, square, surface = work.pop()
         shape, middle, half, far = squares[k]
-        for rows, drops in RULES:
+        for rows in (slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 11)):
             slope = forms.slope[rows].take(surface, axis=2).swapaxes(0, 1)
             value = forms.constant[rows].take(surface, axis=1) + dot(slope, middle.take(square, 1))
             reach = forms.error[rows].take(surface, axis=1)
             if k:
                 reach += dot(np.abs(slope), half.take(square, 1))
-            t = np.stack(np.broadcast_arrays(start, far.take(square)))
-            left = np.flatnonzero(~drops(value, reach, t))
-            square, surface = square.take(left), surface.take(left)
+            if rows.start == 9:  # T - t D: linear in t, so of one sign from t to t if at both
+                t = np.stack(np.broadcast_arrays(start, far.take(square)))
+                value, reach = value[0] - t * value[1], reach[0] + np.abs(t) * reach[1]
+            above, below = value - reach > 0, value + reach < 0
+            gone = above.all(axis=0) | below.all(axis=0)
+            if rows.start == 6:
+                gone = above.any(axis=0) & below.any(axis=0)
+            square, surface = square[~gone], surface[~gone]
         if not k:
             yield square, surface
             continue
-        (height, width), (y, x) = squares[k - 1].shape, np.divmod(square, shape[1])
-        y = 2 * y[:, None] + np.array([0, 0, 1, 1])
-        x = 2 * x[:, None] + np.array([0, 1, 0, 1])
+        (height, width), (y, x) = squares[k - 1][0], np.divmod(square, shape[1])
+        y, x = 2 * y + [[0], [0], [1], [1]], 2 * x + [[0], [1], [0], [1]]
         inside = (y < height) & (x < width)
-        square, surface = (y * width + x)[inside], np.repeat(surface, inside.sum(axis=1))
-        work += [
-            (k - 1, square[at : at + PAIRS], surface[at : at + PAIRS])
-            for at in range(0, len(square), PAIRS)
-        ]
+        square, surface = (y * width + x)[inside], np.tile(surface, (4, 1))[inside]
+        for part in np.split(np.arange(len(square)), range(PAIRS, len(square), PAIRS)):
+            work.append((k - 1, square[part], surface[part]))
 
 
 class Hit(NamedTuple):
@@ -482,8 +446,8 @@ def ways(hits: Sequence[Hit]) -> Iterator[Vector]:
 def check(of: Certificate, rows: Sequence[int]) -> None:
     """Check rows of the picture; raise a RefusedError that names the first pixel that is wrong."""
     together = max(1, PIXELS // of.shape[1])
-    for k in range(0, len(rows), together):
-        check_together(of, np.array(rows[k : k + together]))
+    for at in range(0, len(rows), together):
+        check_together(of, np.array(rows[at : at + together]))
 
 
 def check_together(of: Certificate, rows: Any) -> None:
@@ -532,19 +496,23 @@ def check_arithmetic() -> None:
         raise RefusedError("this process does not compute as IEEE 754 prescribes")
 
 
-def verified(path: str, sample: int | None = None) -> str:
+def verified(file: str, sample: int | None = None) -> str:
     """Check a certificate, or so many rows, drawn at random; return what was checked, in words.
 
     Raises
     ------
     RefusedError
-        If a pixel is wrong, or something is not covered.
-    UnreadableError
-        If the file cannot be read.
+        If a pixel is wrong, something is not covered, or the file cannot be read.
     """
     began = time.process_time()
     check_arithmetic()
-    of = Certificate(path)
+    try:
+        of = Certificate(file)
+    except RefusedError:
+        raise
+    except Exception as error:  # zip, zlib, numpy, JSON: each has its own ways to say no
+        say = "no certificate, or damaged: write it anew by reftrace trace --certificate"
+        raise RefusedError(f"'{file}' is {say} ({type(error).__name__}: {error})") from error
     height, width = of.shape
     rows = sorted(random.SystemRandom().sample(range(height), min(sample or height, height)))
     check(of, rows)
@@ -554,16 +522,15 @@ def verified(path: str, sample: int | None = None) -> str:
 
 
 def main() -> int:
-    """Run `python verify.py FILE`: 0 is yes, 2 is no, 4 that the file cannot be read."""
+    """Run `python verify.py FILE [--sample ROWS]`: 0 is yes, 2 is no."""
     parser = argparse.ArgumentParser(description="Check a certificate of `reftrace trace`.")
     parser.add_argument("file")
     parser.add_argument("--sample", type=int, metavar="ROWS", help="check so many, at random")
-    given = parser.parse_args()
     try:
-        print(verified(given.file, given.sample))
-    except (RefusedError, UnreadableError) as error:
-        print(error)
-        return 2 if isinstance(error, RefusedError) else 4
+        print(verified(**vars(parser.parse_args())))
+    except RefusedError as error:
+        print(f"refused: {error}")
+        return 2
     return 0
 
 
