@@ -185,7 +185,7 @@ class Forms:
     of the largest components, at most. With u = 2^-53, A and sides are off by u, a component of a
     cross product by 5 u of its terms, a constant by 9 u, and r by u. The value in the middle of a
     square's box is off by 5 u more; its range over the box, at most twice as large, by 8 u; the
-    range's ends by 3 u; what `between` does with T and D by 11 u. These are 37 u of the terms, 222
+    range's ends by 3 u; what becomes of T and D by 11 u. These are 37 u of the terms, 222
     u of `size`; `error` is 512 u. Each of some fifty products may lose 2^-1075 to underflow, times
     1 + |r| + |A|; `error` has 2^-1040 of that. Overflow makes it infinite or NaN, and comparisons
     false, so that nothing is dropped.
@@ -207,10 +207,11 @@ class Forms:
                 p, q, point = (ahead, p, q) if k < 6 else (q, ahead, p)
                 self.put(k, point, -1, cross(p, q), most(p) * most(q))
         normal, size = np.array(cross(sides[0], -sides[2])), most(sides[0]) * most(sides[2])
-        if planes := max(0, min(count, part.start + count - of.triangles)):
-            normal[:, -planes:] = of.normals[:, -planes:]
-            size[-planes:] = most(normal[:, -planes:])
-            self.error[:9, -planes:] = np.inf  # a plane has no edges
+        planes = np.arange(part.start, part.start + count) - of.triangles
+        own = planes >= 0
+        normal[:, own] = of.normals[:, planes[own]]
+        size[own] = most(normal[:, own])
+        self.error[:9, own] = np.inf  # a plane has no edges
         self.put(9, a[0], 0 if ahead is None else -1, normal, size)
         self.put(10, none if ahead is None else ahead, int(ahead is None), normal, size)
 

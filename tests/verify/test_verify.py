@@ -54,6 +54,13 @@ def test_the_tracers_pictures_are_true(make, tmp_path):
     assert rays > 1500 and ambiguous > 50
 
 
+def test_in_small_parts(make, tmp_path, monkeypatch):
+    """However few pixels, surfaces or pairs are looked at together."""
+    for name, size in {"PIXELS": 30, "SURFACES": 3, "PAIRS": 5}.items():
+        monkeypatch.setattr(checker, name, size)
+    held(make, range(0, 12, 3), tmp_path / "c.npz")
+
+
 @pytest.mark.torture
 def test_many_of_the_tracers_pictures_are_true(make, tmp_path):
     rays, ambiguous = held(make, range(24, 6000), tmp_path / "c.npz")
