@@ -42,7 +42,8 @@ def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -
         group.add_argument(
             "--up",
             choices=["y", "z"],
-            help="which axis of a mesh is up (default y of glTF, z of others); it is turned to Z",
+            help="which axis of a mesh is up (default y of glTF and of Blender's own .obj, z of "
+            "others); it is turned to Z",
         )
     _add_which(group.add_mutually_exclusive_group())
     group.add_argument(

@@ -46,7 +46,7 @@ class Format:
     name: str
     suffix: str
     write: Callable[[str], object]
-    up: str | None  # that the default options give it; None: its specification's
+    up: str | None  # that the default options give it; None: as it is read by default
     has_objects: bool
     roundings: int = ROUNDINGS
     digits: float = 0.0  # metres
@@ -57,17 +57,17 @@ def _gltf(kind: str) -> Callable[[str], object]:
 
 
 FORMATS = (
-    Format("obj", "obj", lambda p: bpy.ops.wm.obj_export(filepath=p), "y", True, digits=DIGITS),
-    Format("ply", "ply", lambda p: bpy.ops.wm.ply_export(filepath=p), "z", False),
+    Format("obj", "obj", lambda p: bpy.ops.wm.obj_export(filepath=p), None, True, digits=DIGITS),
+    Format("ply", "ply", lambda p: bpy.ops.wm.ply_export(filepath=p), None, False),
     Format(
         "ply, ascii",
         "ply",
         lambda p: bpy.ops.wm.ply_export(filepath=p, ascii_format=True),
-        "z",
+        None,
         False,
         digits=DIGITS,
     ),
-    Format("stl", "stl", lambda p: bpy.ops.wm.stl_export(filepath=p), "z", False),
+    Format("stl", "stl", lambda p: bpy.ops.wm.stl_export(filepath=p), None, False),
     Format("glb", "glb", _gltf("GLB"), None, True, OF_NODES),
     Format("gltf", "gltf", _gltf("GLTF_SEPARATE"), None, True, OF_NODES),
 )
