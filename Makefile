@@ -81,7 +81,7 @@ docs: extension demo ## refresh the documents: run their commands, compute their
 		$(PYTHON_IN_VENV) tools/make_docs.py; \
 	fi
 
-# PYODIDE=folder: Pyodide's full distribution, unpacked, to go into the pack, so that it needs no network.
+# PYODIDE=folder: another distribution of Pyodide, unpacked, than the one that is fetched.
 lessons: extension lesson-tools ## build the lesson pack, dist/lessons: needs npm, and Chromium, which root installs
 	$(PYTHON_IN_VENV) tools/make_lessons.py $(if $(PYODIDE),--pyodide "$(PYODIDE)")
 
