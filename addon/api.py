@@ -40,7 +40,7 @@ from .tracer.settings import Settings
 
 
 def load_scene(path: str | Path) -> Scene:
-    r"""Read a scene from a .npz, or from a mesh (.obj, .ply, .stl, .off, .glb, .gltf).
+    r"""Read a scene from a .npz, or from a mesh (.obj, .ply, .stl, .off, .glb, .gltf, .usd).
 
     A mesh has no camera: it is framed, at 960 x 540 pixels. A .blend is exported before, by
     ``reftrace export scene.blend --out scene.npz``.

@@ -99,9 +99,7 @@ def _add_parts_of_blend(parser: Parser) -> None:
 
 
 # What Blender imports and `reftrace` does not read.
-_OF_OTHERS = frozenset(
-    ".3ds .abc .bvh .collada .dae .dxf .fbx .svg .usd .usda .usdc .usdz .vrml .wrl .x3d".split()
-)
+_OF_OTHERS = frozenset(".3ds .abc .bvh .collada .dae .dxf .fbx .svg .vrml .wrl .x3d".split())
 
 
 def check_kind(path: Path) -> None:

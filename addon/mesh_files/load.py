@@ -20,6 +20,7 @@ from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
 from .stl import read_stl
+from .usd import read_usd
 
 READERS: dict[str, Callable[[Path], Contents]] = {
     ".obj": read_obj,
@@ -28,6 +29,10 @@ READERS: dict[str, Callable[[Path], Contents]] = {
     ".stl": read_stl,
     ".glb": read_gltf,
     ".gltf": read_gltf,
+    ".usd": read_usd,
+    ".usda": read_usd,
+    ".usdc": read_usd,
+    ".usdz": read_usd,
 }
 _BLENDERS_OBJ = "it is taken to have Y up, as Blender writes it unless told otherwise: then --up z"
 _Y_UP = frozenset((".glb", ".gltf"))  # as their specification says; the others do not say
@@ -69,7 +74,8 @@ def load_meshes(path: str | Path, up: str | None = None) -> Contents:
     is_blenders = suffix == ".obj" and path.read_bytes()[:9] == b"# Blender"
     if up is None and is_blenders:
         found = replace(found, notes=(*found.notes, _BLENDERS_OBJ))
-    if (up or ("y" if is_blenders or suffix in _Y_UP else "z")) == "y":
+    default = found.up or ("y" if is_blenders or suffix in _Y_UP else "z")
+    if (up or default) == "y":
         found = _turned(found)
     return found
 
