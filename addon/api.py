@@ -8,9 +8,10 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from .causes.case import Case
+from .causes.case import Case, without_colors
 from .comparison.comparing import compared
 from .comparison.comparison import Comparison
 from .comparison.verdict import Verdict as Verdict
@@ -19,6 +20,7 @@ from .derivation.derivation import derive
 from .derivation.document import document_markdown
 from .images import open_picture
 from .opened import file_manifest, open_scene
+from .pictures.data.given import GivenData, picture_of_data
 from .pictures.given import Making, picture_of_array, picture_of_file
 from .rendering import render as render
 from .rendering import trace as trace
@@ -87,6 +89,8 @@ def compare(
     renderer: str = "",
     filter_radius: float = 0.0,
     dither: float | None = None,
+    kind: str = "",
+    scale: float | None = None,
     self_check: bool = False,
     diagnose: bool = True,
 ) -> Comparison:
@@ -109,6 +113,12 @@ def compare(
         How far the picture's filter reaches, in pixels; 0 for one sample at each pixel's centre.
     dither : float, optional
         Noise that was added on purpose, in levels of 8 bits.
+    kind : {'', 'depth', 'distance', 'normals', 'positions', 'ids'}
+        What the picture holds in place of colours, in world or camera space, as most pixels agree:
+        see ``docs/data.md``. Its file may be a .npy or .npz, too, with the lowest row first; its
+        array is (h, w) or (h, w, c).
+    scale : float, optional
+        Of depths, distances and positions: how many metres 1 is.
     self_check : bool
         Whether known faults are made on purpose, to see that they are found.
     diagnose : bool
@@ -141,11 +151,15 @@ def compare(
         manifest = file_manifest(Path("scene"), scene, Account())
     else:
         scene, manifest = open_scene(Path(scene))
-    if isinstance(picture, (str, Path)):
+    if kind:
+        source = Path(picture) if isinstance(picture, (str, Path)) else np.asarray(picture)
+        shown = picture_of_data(GivenData(kind, source, scale=scale), scene, making)
+    elif isinstance(picture, (str, Path)):
         shown = picture_of_file(open_picture(picture), scene.camera, making)
     else:
         shown = picture_of_array(picture, scene.camera, making)
     case = Case(scene, manifest, settings or Settings(), shown, curves=(), self_check=self_check)
+    case = without_colors(case) if kind else case
     return result_of(compared(case, diagnose))
 
 
