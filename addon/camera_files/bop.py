@@ -18,18 +18,9 @@ import numpy as np
 from ..checked_json import Content
 from ..scene import SceneError
 from . import frame
-from .convention import (
-    CENTERS_KEY,
-    Convention,
-    Files,
-    Source,
-    View,
-    dumped,
-    first_center,
-    flat,
-    offset_of,
-)
+from .convention import Convention, Files, Source, View
 from .features import ASPECT, SHIFT
+from .json_files import CENTERS_KEY, dumped, first_center, flat, offset_of
 
 SCENE, CAMERA = "scene_camera.json", "camera.json"
 _MILLIMETRES = 1000.0  # in a metre

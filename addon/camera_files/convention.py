@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+import codecs
 import json
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..arrays import Floats
-from ..checked_json import Content, numbers, part, whole
+from ..checked_json import Content, whole
 from ..scene import Camera, SceneError
 from .features import FEATURES, Feature
 
 HALF, INTEGER = "half", "integer"  # where a file has the centre of the first pixel: 0.5, or 0
-_FIRST = {HALF: 0.5, INTEGER: 0.0}
-CENTERS = tuple(_FIRST)
-CENTERS_KEY = "pixel_centers"  # in a JSON file
+FIRST = {HALF: 0.5, INTEGER: 0.0}
+CENTERS = tuple(FIRST)
+
+_HEAD = 1024  # bytes, in which a file of text begins
 
 Files = dict[str, str]  # what is written, by name; of the single file the name is empty
 
@@ -41,16 +42,20 @@ class Source:
     path: Path
     size: tuple[int | None, int | None] = (None, None)  # of the picture, where the file lacks it
 
-    @property
+    @cached_property
     def text(self) -> str:
-        """What the file holds."""
-        return self.path.read_bytes().decode("utf-8-sig", errors="replace")
+        """What the file holds; "" of a folder, and of what begins as neither JSON nor XML."""
+        if self.path.is_dir():
+            return ""
+        with self.path.open("rb") as file:
+            if not file.read(_HEAD).lstrip(codecs.BOM_UTF8 + b" \t\r\n").startswith((b"{", b"<")):
+                return ""
+            file.seek(0)
+            return file.read().decode("utf-8-sig", errors="replace")
 
-    @property
+    @cached_property
     def json(self) -> Any:
         """What the file holds as JSON; None if it is none."""
-        if self.path.is_dir():
-            return None
         try:
             return json.loads(self.text)
         except (ValueError, RecursionError):
@@ -98,60 +103,3 @@ class Convention:
     def lacks(self, camera: Camera) -> list[str]:
         """Return what of a camera its files cannot say."""
         return [f.name for f in FEATURES if f not in self.says and f.is_of(camera)]
-
-
-def first_center(content: Mapping[str, Any], default: str = HALF) -> float:
-    """Return where a JSON file has the first pixel's centre, 0.5 or 0.
-
-    Raises
-    ------
-    SceneError
-        If it names neither.
-    """
-    named = content.get(CENTERS_KEY, default)
-    if named not in _FIRST:
-        raise SceneError(f"{CENTERS_KEY} is {named!r}; it must be {' or '.join(CENTERS)}")
-    return _FIRST[named]
-
-
-def offset_of(centers: str) -> float:
-    """Return what is added to a principal point with pixel centres at + 0.5 to have it so."""
-    return _FIRST[centers] - 0.5
-
-
-def clip_of(content: Content, where: str, names: Sequence[str]) -> tuple[float, float] | None:
-    """Return the clip range that an object says; None if it says none."""
-    if not any(name in content for name in names):
-        return None
-    start, end = names
-    far = float("inf") if content.get(end) in (None, "inf") else numbers(content, end, where, ())
-    return float(numbers(content, start, where, ())), float(far)
-
-
-def clip_end(camera: Camera) -> float | str:
-    """Return a clip end as JSON can hold it."""
-    return "inf" if camera.clip_end == float("inf") else camera.clip_end
-
-
-def objects(content: Content, key: str) -> list[tuple[Content, str]]:
-    """Return the objects of a list, each with its place as messages have it."""
-    items: list[Any] = part(content, key, "", list)
-    for number, item in enumerate(items):
-        if not isinstance(item, dict):
-            raise SceneError(f"{key}[{number}] must be an object in braces")
-    return [(item, f"{key}[{number}].") for number, item in enumerate(items)]
-
-
-def flat(content: Content, key: str, where: str, count: int) -> Floats:
-    """Return so many finite numbers of a list, or of lists in it, (count,), row by row."""
-    values = numbers(content, key, where, None).reshape(-1)
-    if len(values) != count:
-        raise SceneError(f"{where}{key} must be {count} finite numbers, not {len(values)}")
-    return values
-
-
-def dumped(content: Any) -> str:
-    """Return JSON whose lists of numbers have a line each."""
-    text = json.dumps(content, indent=2, allow_nan=False)
-    flat = re.sub(r"\[\s+([^][{}]*?)\s+\]", lambda m: f"[{' '.join(m[1].split())}]", text)
-    return flat + "\n"

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..projections import EQUIRECTANGULAR, ORTHOGRAPHIC
+from ..projections import ORTHOGRAPHIC
 from ..scene import Camera
 from ..tracer.camera import pixel_size
 
@@ -58,13 +58,13 @@ def _is_parallel(camera: Camera) -> bool:
 
 
 def _is_panorama(camera: Camera) -> bool:
-    return camera.projection is EQUIRECTANGULAR
+    return not camera.projection.is_linear
 
 
 SHIFT = Feature("a lens shift", "shift", _is_shifted)
 ASPECT = Feature("a pixel aspect other than 1", "pixel aspect", _has_oblong_pixels)
 PARALLEL = Feature("an orthographic projection", "orthographic", _is_parallel)
-PANORAMA = Feature("an equirectangular projection", "equirectangular", _is_panorama)
+PANORAMA = Feature("a panoramic projection", "panorama", _is_panorama)
 MIRRORED = Feature("mirrored axes", "mirrored", _is_mirrored)
 SHEARED = Feature("axes that are not at right angles (a parent's scale)", "sheared", _is_sheared)
 

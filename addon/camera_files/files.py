@@ -6,6 +6,8 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from ..file_kinds import check_is_file
 from ..scene import Camera, SceneError
 from ..wording import count_of
@@ -78,20 +80,28 @@ def read(
     if not path.is_dir():
         check_is_file(path)
     try:
-        own = CONVENTIONS[convention] if convention else _seen_to_be(source)
-        views = own.read(source)
+        with np.errstate(all="ignore"):  # a camera refuses what is not finite
+            views = _seen_to_be(source, convention).read(source)
         if not views:
             raise SceneError("it has no camera")
-    except SceneError as error:
+    except (ValueError, ArithmeticError) as error:  # of numbers of which no camera can be made
         raise SceneError(f"'{path}' cannot be read as a camera: {error}") from error
     return views
 
 
-def _seen_to_be(source: Source) -> Convention:
-    for own in CONVENTIONS.values():
-        if own.is_of(source):
+def _seen_to_be(source: Source, named: str | None) -> Convention:
+    """Return the convention of a source; the one that is named, if it is of that."""
+    for name, own in CONVENTIONS.items():
+        if named in (None, name) and own.is_of(source):
             return own
-    raise SceneError(f"it is of none of {', '.join(CONVENTIONS)}; --camera-convention names one")
+    if named:
+        raise SceneError(f"its content is not that of {CONVENTIONS[named].title}")
+    raise SceneError(f"it is of none of {', '.join(CONVENTIONS)}")
+
+
+def is_seen_to_be(path: Path) -> bool:
+    """Return whether a file or a folder looks like one of the conventions."""
+    return any(own.is_of(Source(path)) for own in CONVENTIONS.values())
 
 
 def chosen(views: Sequence[View], which: str | None) -> View:
@@ -108,7 +118,8 @@ def chosen(views: Sequence[View], which: str | None) -> View:
     if which is None:
         if len(views) == 1:
             return views[0]
-        raise SceneError(f"it has {len(views)} cameras: --camera-view names one of {_names(views)}")
+        many = f"it has {len(views)} cameras"
+        raise SceneError(f"{many}: --camera-view names one of {_names(views)}")
     named = [view for view in views if which in (view.name, Path(view.name).stem)]
     if not named and which.lstrip("-").isdigit():
         number = int(which)

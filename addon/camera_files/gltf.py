@@ -6,10 +6,10 @@ ignored"; `yfov` is the whole vertical angle, `aspectRatio` that of the field of
 `ymag` are half the orthographic width and height. The world has Y up: (x, y, z) is Blender's
 (x, -z, y).
 
-There is no shift, no size of the picture, and where `aspectRatio` is not the picture's, a client
-"should not crop or perform non-uniform scaling": so pixels are squares. The size that is written
-stands in the camera's `extras`. Of an orthographic camera the shift is written as its place, which
-is the same picture.
+There is no shift, and no size of the picture: what is written stands in the camera's `extras`, and
+a file without has a picture 960 pixels wide unless another is asked for. Where `aspectRatio` is not
+the picture's, a client "should not crop or perform non-uniform scaling": so pixels are squares. Of
+an orthographic camera the shift is written as its place, which is the same picture.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..checked_json import Content
+from ..framing import SIZE
 from ..mesh_files.gltf.container import open_container
 from ..mesh_files.gltf.document import Thing
 from ..mesh_files.gltf.nodes import read_tree
@@ -27,8 +28,9 @@ from ..mesh_files.gltf.notes import Notes
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Files, Source, View, dumped
+from .convention import Convention, Files, Source, View
 from .features import PARALLEL
+from .json_files import dumped
 
 # Takes glTF's world to Blender's.
 _Z_UP = np.array(((1.0, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
@@ -130,10 +132,9 @@ def _view(own: Thing, name: str, world: Floats, source: Source) -> View:
 
 
 def _number(lens: Thing, key: str) -> float:
-    found = lens.numbers(key) if isinstance(lens.content.get(key), list) else None
     value = lens.content.get(key)
-    if found is not None or not isinstance(value, int | float) or not np.isfinite(value):
-        raise SceneError(f"{lens.label} needs '{key}', a finite number")
+    if not isinstance(value, int | float) or not 0 < value < np.inf:
+        raise SceneError(f"{lens.label} needs '{key}', a finite number above 0")
     return float(value)
 
 
@@ -141,11 +142,12 @@ def _size(own: Thing, aspect: float | None, source: Source) -> tuple[int, int]:
     """Return the picture's size: that of the extras, or as asked for, with the aspect ratio."""
     extras = own.content.get("extras")
     width, height = source.size
-    if aspect is not None and (width is None) != (height is None):
-        width = width or max(1, round(height * aspect))  # type: ignore[operator]  # one is given
-        height = height or max(1, round(width / aspect))
+    ratio = aspect or SIZE[0] / SIZE[1]  # without one it is the picture's, whatever that is
+    if width is None:
+        width = SIZE[0] if height is None else max(1, round(height * ratio))
+    height = height or max(1, round(width / ratio))
     asked = Source(source.path, (width, height))
-    size: tuple[int, int] = asked.whole_size(extras if isinstance(extras, dict) else {}, _SIZE)
+    size: tuple[int, int] = asked.whole_size(extras if isinstance(extras, dict) else {}, _KEYS)
     if aspect is not None and abs(size[0] / size[1] / aspect - 1) > 1 / min(size):
         raise SceneError(
             f"{own.label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
@@ -154,7 +156,7 @@ def _size(own: Thing, aspect: float | None, source: Source) -> tuple[int, int]:
     return size
 
 
-_SIZE = "width", "height"
+_KEYS = "width", "height"
 
 GLTF = Convention(
     "gltf",

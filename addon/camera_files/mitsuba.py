@@ -76,7 +76,7 @@ def _sensor(view: View) -> list[str]:
 
 
 def _is_of(source: Source) -> bool:
-    return not source.path.is_dir() and "<sensor" in source.text
+    return "<sensor" in source.text
 
 
 def _read(source: Source) -> list[View]:
@@ -160,7 +160,10 @@ def _half_tangent(own: _Values, width: float, height: float) -> float:
     aspect = width / height
     if own.text("fov", ""):
         axis = own.text("fov_axis", "x")
-        half = float(np.tan(np.radians(own.number("fov")) / 2))
+        fov = own.number("fov")
+        if not 0 < fov < 180:
+            raise SceneError(f"its fov is {fov}, which must be between 0 and 180 degrees")
+        half = float(np.tan(np.radians(fov) / 2))
     else:  # of a film of 36 x 24 mm, along its diagonal
         axis = "diagonal"
         length = own.text("focal_length", "50mm").removesuffix("mm")

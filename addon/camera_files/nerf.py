@@ -16,26 +16,15 @@ in the picture's middle.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from ..checked_json import Content, numbers
 from ..scene import SceneError
 from . import frame
-from .convention import (
-    CENTERS_KEY,
-    HALF,
-    Convention,
-    Files,
-    Source,
-    View,
-    dumped,
-    first_center,
-    objects,
-    offset_of,
-)
+from .convention import HALF, Convention, Files, Source, View
 from .features import ASPECT, SHIFT
+from .json_files import CENTERS_KEY, dumped, first_center, has, objects, offset_of
 
 _LENSES = "fl_x", "fl_y", "cx", "cy"
 _DISTORTIONS = *("k1 k2 k3 k4 p1 p2".split()), "is_fisheye", "ftheta_p0", "latlong"
@@ -74,12 +63,7 @@ def _lens(view: View, offset: float) -> Content:
 
 
 def _is_of(source: Source) -> bool:
-    content = source.json
-    if not isinstance(content, dict):
-        return False
-    frames = content.get("frames")
-    first: Any = frames[0] if isinstance(frames, list) and frames else None
-    return isinstance(first, dict) and "transform_matrix" in first
+    return has(source, "transform_matrix")
 
 
 def _read(source: Source) -> list[View]:

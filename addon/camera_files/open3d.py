@@ -18,19 +18,9 @@ import numpy as np
 
 from ..checked_json import Content, part
 from . import frame
-from .convention import (
-    CENTERS_KEY,
-    Convention,
-    Files,
-    Source,
-    View,
-    dumped,
-    first_center,
-    flat,
-    objects,
-    offset_of,
-)
+from .convention import Convention, Files, Source, View
 from .features import ASPECT, SHIFT
+from .json_files import CENTERS_KEY, dumped, first_center, flat, objects, offset_of
 
 _ONE, _MANY = "PinholeCameraParameters", "PinholeCameraTrajectory"
 _VERSION = {"version_major": 1, "version_minor": 0}

@@ -18,21 +18,20 @@ import numpy as np
 from ..arrays import Floats
 from ..checked_json import Content, numbers
 from . import frame
-from .convention import (
+from .convention import Convention, Files, Source, View
+from .features import ASPECT, MIRRORED, SHIFT
+from .json_files import (
     CENTERS_KEY,
-    Convention,
-    Files,
-    Source,
-    View,
+    bodies,
     clip_end,
     clip_of,
-    dumped,
     first_center,
     flat,
-    objects,
+    has,
     offset_of,
+    view_of,
+    written,
 )
-from .features import ASPECT, MIRRORED, SHIFT
 
 _FORMULA = (
     "x = K (R X + t); (x0 / x2, x1 / x2) is in pixels from the picture's upper left, rows downwards"
@@ -41,14 +40,8 @@ _CLIP = "clip_start", "clip_end"
 
 
 def _write(views: Sequence[View], centers: str) -> Files:
-    head = {
-        "convention": "opencv",
-        "formula": _FORMULA,
-        "world": "Blender's: metres, Z up",
-        CENTERS_KEY: centers,
-    }
-    bodies = [_body(view, offset_of(centers)) for view in views]
-    return {"": dumped(head | (bodies[0] if len(bodies) == 1 else {"frames": bodies}))}
+    head = {"convention": "opencv", "formula": _FORMULA, CENTERS_KEY: centers}
+    return written(head, views, lambda view: _body(view, offset_of(centers)))
 
 
 def _body(view: View, offset: float) -> Content:
@@ -59,35 +52,23 @@ def _body(view: View, offset: float) -> Content:
     if np.linalg.det(matrix[:3, :3]) < 0:  # mirrored: R stays a rotation, and u counts backwards
         k[0, 0] *= -1
         matrix[0] *= -1
-    own = {} if view.frame is None else {"frame": view.frame}
     return {
-        **own,
-        "name": view.name,
-        "width": camera.width,
-        "height": camera.height,
         "K": k.tolist(),
         "R": matrix[:3, :3].tolist(),
         "t": matrix[:3, 3].tolist(),
         "clip_start": camera.clip_start,
         "clip_end": clip_end(camera),
-        **view.extras,
     }
 
 
 def _is_of(source: Source) -> bool:
-    content = source.json
-    if not isinstance(content, dict):
-        return False
-    many = content.get("frames")
-    first = many[0] if isinstance(many, list) and many else content
-    return isinstance(first, dict) and {"K", "R", "t"} <= first.keys()
+    return has(source, "K", "R", "t")
 
 
 def _read(source: Source) -> list[View]:
     content: Content = source.json
     center = first_center(content)
-    every = objects(content, "frames") if "frames" in content else [(content, "")]
-    return [_view(body, where, center, source) for body, where in every]
+    return [_view(body, where, center, source) for body, where in bodies(content)]
 
 
 def _view(body: Content, where: str, center: float, source: Source) -> View:
@@ -98,14 +79,8 @@ def _view(body: Content, where: str, center: float, source: Source) -> View:
     k[:2, 2] += 0.5 - center
     clip = clip_of(body, where, _CLIP)
     size = source.whole_size(body, ("width", "height"), where)
-    name = str(body.get("name", ""))
-    number = body.get("frame")
-    return View(
-        frame.pinhole(k, matrix, size, clip, name),
-        name,
-        number if isinstance(number, int) else None,
-        is_clipped=clip is not None,
-    )
+    camera = frame.pinhole(k, matrix, size, clip, str(body.get("name", "")))
+    return view_of(body, camera, is_clipped=clip is not None)
 
 
 OPENCV = Convention(

@@ -18,8 +18,9 @@ from ..checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import Camera, SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Files, Source, View, dumped, objects
+from .convention import Convention, Files, Source, View
 from .features import ASPECT, MIRRORED, PARALLEL, SHEARED, SHIFT
+from .json_files import bodies, has, view_of, written
 
 _FORMULA = (
     "clip = projection view (X, 1); (clip0 / clip3, clip1 / clip3) is from -1 to 1 in the picture, "
@@ -28,20 +29,14 @@ _FORMULA = (
 
 
 def _write(views: Sequence[View], centers: str) -> Files:
-    head = {"convention": "opengl", "formula": _FORMULA, "world": "Blender's: metres, Z up"}
-    bodies = [_body(view) for view in views]
-    return {"": dumped(head | (bodies[0] if len(bodies) == 1 else {"frames": bodies}))}
+    return written({"convention": "opengl", "formula": _FORMULA}, views, _body)
 
 
 def _body(view: View) -> Content:
     camera = view.camera
-    return ({} if view.frame is None else {"frame": view.frame}) | {
-        "name": view.name,
-        "width": camera.width,
-        "height": camera.height,
+    return {
         "projection": projection(camera).tolist(),
         "view": frame.inverse(camera.world_from_camera).tolist(),
-        **view.extras,
     }
 
 
@@ -70,24 +65,16 @@ def projection(camera: Camera) -> Floats:
 
 
 def _is_of(source: Source) -> bool:
-    content = source.json
-    if not isinstance(content, dict):
-        return False
-    many = content.get("frames")
-    first = many[0] if isinstance(many, list) and many else content
-    return isinstance(first, dict) and {"projection", "view"} <= first.keys()
+    return has(source, "projection", "view")
 
 
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
-    every = objects(content, "frames") if "frames" in content else [(content, "")]
-    return [_view(body, where, source) for body, where in every]
+    return [_view(body, where, source) for body, where in bodies(source.json)]
 
 
 def _view(body: Content, where: str, source: Source) -> View:
     p = numbers(body, "projection", where, (4, 4))
     world = frame.inverse(numbers(body, "view", where, (4, 4)))
-    name = str(body.get("name", ""))
     parallel = bool(np.array_equal(p[3], (0, 0, 0, 1)))
     other = 2 if parallel else 3  # the column that has to be 0
     if not parallel and not np.array_equal(p[3], (0, 0, -1, 0)):
@@ -102,19 +89,15 @@ def _view(body: Content, where: str, source: Source) -> View:
     plain = np.diag((*signed, 1.0, 1.0))
     plain[0, 1] = p[0, 1] / a[0]
     size = source.whole_size(body, ("width", "height"), where)
-    number = body.get("frame")
-    return View(
-        frame.seen_from(
-            world @ np.linalg.inv(plain),
-            ViewWindow(low[0], high[0], low[1], high[1]),
-            size,
-            _clip(p, parallel, where),
-            name,
-            ORTHOGRAPHIC if parallel else PERSPECTIVE,
-        ),
-        name,
-        number if isinstance(number, int) else None,
+    camera = frame.seen_from(
+        world @ np.linalg.inv(plain),
+        ViewWindow(low[0], high[0], low[1], high[1]),
+        size,
+        _clip(p, parallel, where),
+        str(body.get("name", "")),
+        ORTHOGRAPHIC if parallel else PERSPECTIVE,
     )
+    return view_of(body, camera)
 
 
 def _clip(p: Floats, parallel: bool, where: str) -> tuple[float, float]:

@@ -22,8 +22,9 @@ from ..checked_json import Content, numbers, part
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError
 from . import frame
-from .convention import Convention, Files, Source, View, dumped
+from .convention import Convention, Files, Source, View
 from .features import ASPECT, PARALLEL, SHIFT
+from .json_files import dumped
 
 _CLASSES = {"PerspectiveCameras": PERSPECTIVE, "OrthographicCameras": ORTHOGRAPHIC}
 
@@ -49,7 +50,7 @@ def _write(views: Sequence[View], centers: str) -> Files:
 
 def _is_of(source: Source) -> bool:
     content = source.json
-    return isinstance(content, dict) and content.get("class") in _CLASSES
+    return isinstance(content, dict) and content.get("class") in tuple(_CLASSES)
 
 
 def _read(source: Source) -> list[View]:

@@ -33,6 +33,7 @@ from .faults.stand import MOVED, TURNED
 # Pixels: what float32 moves in a large picture, and a file's digits may; less is no difference.
 CLOSE = 1e-3
 _FEW = 40  # points: the view volume's corners, and some between, tell two cameras apart
+_IN_LINE = 1e-6  # of the distance from the origin
 _DIGITS = 6  # of an offset in pixels, so that half a pixel is one
 _NEGLIGIBLE = 1e-9  # of a number of the last resort: metres, degrees, percent, pixels
 _NO_MANIFEST = Manifest("", "", "", 0, "FILE", "")
@@ -60,6 +61,7 @@ class CameraDifference:
     depth: float  # of that point, metres
     allowed: float  # pixels
     steps: tuple[Step, ...] = ()  # the faults, the second of the camera with the first
+    unit: float | None = None  # the factor between both places, if they are in one line with 0
 
     @property
     def agrees(self) -> bool:
@@ -76,6 +78,8 @@ class CameraDifference:
         out = [f"differ: points lie {far} ({where}), half of them {self.median:.4g} px or more"]
         for fault, guess, _ in self.steps:
             out += [fault.sentence_of(guess), f"  {fault.advice_of(guess)}"]
+        if self.unit is not None:
+            out.append(f"  its place is the scene's times {self.unit:.6g}: another unit of length?")
         if not self.steps:
             out.append("no known fault, and no two of them, make the file's camera of the scene's")
         return out
@@ -103,7 +107,18 @@ def difference(own: Camera, other: Camera) -> CameraDifference:
     )
     if found.agrees:
         return found
-    return replace(found, steps=tuple(_explained(own, other, allowed)))
+    steps = tuple(_explained(own, other, allowed))
+    is_moved = any(step.fault.name == "camera_moved" for step in steps)
+    return replace(found, steps=steps, unit=_unit(own, other) if is_moved else None)
+
+
+def _unit(own: Camera, other: Camera) -> float | None:
+    """Return the factor between the places of two cameras, if it is one, and not 1."""
+    square = float(own.origin @ own.origin)
+    factor = float(own.origin @ other.origin) / square if square else 1.0
+    off = np.abs(other.origin - factor * own.origin).max()
+    is_one = off <= _IN_LINE * np.abs(other.origin).max() and abs(factor - 1) > _IN_LINE
+    return factor if is_one and factor > 0 else None
 
 
 def _apart(first: Film, second: Film) -> Floats:

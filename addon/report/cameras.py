@@ -32,7 +32,7 @@ class SceneCamera(NamedTuple):
         """Return one of which the tracer alone knows."""
         points = known_points(camera)
         film = np.stack(film_of(camera, points)[:2])
-        return cls(View(camera, name), points, film, "the tracer's rays")
+        return cls(View(camera, name), points, film, "the tracer's camera")
 
 
 def write_cameras(

@@ -7,13 +7,24 @@ The judge is `Object.calc_matrix_camera`, float32, read by each convention's pub
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from itertools import islice
 
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.jobs.cameras import cameras
-from reference_tracer.camera_files.files import CONVENTIONS, texts
+from reference_tracer.blender.jobs.choice import chosen
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.camera_files.convention import View
+from reference_tracer.camera_files.files import CONVENTIONS, read, texts
+from reference_tracer.camera_files.files import chosen as named
+from reference_tracer.comparison.comparing import compared
+from reference_tracer.framing import Choice
+from reference_tracer.pictures.certificate import known_points
+from reference_tracer.scene import Region, SceneError
+from reference_tracer.tracer.camera import film_of
+from reference_tracer.tracer.progress import result_of
 
 from ..camera_files.formulas import FORMULAS
 from .test_camera import (
@@ -27,7 +38,7 @@ from .test_camera import (
 )
 
 BLENDERS = 1e-3  # pixels: Blender's matrix is float32
-EVERY = 13  # of the combinations one is tried: no number of settings is a multiple of it
+EVERY = 29  # of the combinations one is tried: no number of settings is a multiple of it
 
 
 @pytest.mark.parametrize("place", [plain, parented, scaled, mirrored, sheared])
@@ -108,6 +119,11 @@ def test_frames_are_written_and_checked(name, scene, tmp_path, reftrace):
     done = reftrace("camera", scene, "--check", out)
     assert done.returncode == 0, done.stdout
     assert done.stdout.count("agree") == 3
+
+
+def test_one_view_is_checked_at_another_frame(scene, tmp_path, reftrace):
+    out = tmp_path / "sparse"
+    reftrace("camera", scene, "--out", out, "--convention", "colmap", "--frames", "1-5:2")
     one = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "3")
     assert one.returncode == 0 and one.stdout.count("agree") == 1
     other = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "5")
@@ -127,6 +143,21 @@ def test_a_file_that_is_off_is_told_how_far_and_why(scene, tmp_path, reftrace):
     assert "the camera's shift is left out" in done.stdout and "add shift X and Y" in done.stdout
 
 
+def test_what_else_a_file_has_is_told_in_lines(scene, tmp_path, reftrace):
+    out = tmp_path / "camera.json"
+    reftrace("camera", scene, "--out", out)
+    file = json.loads(out.read_text(encoding="utf-8"))
+    file["K"] = [[2 * v for v in row] for row in file["K"][:2]] + [[0, 0, 1]]
+    file |= {"width": 192, "height": 108, "clip_start": 0.5}
+    out.write_text(json.dumps(file), encoding="utf-8")
+    done = reftrace("camera", scene, "--check", out)
+    lines = (line for line in done.stdout.splitlines() if line.startswith("0001.png"))
+    first, *rest = lines
+    assert done.returncode == 0 and "agree" in first
+    assert rest[0].startswith("0001.png: its picture has 192 x 108 pixels, the scene's 96 x 54")
+    assert rest[1].startswith("0001.png: its clip range is 0.5 to ")
+
+
 @pytest.mark.parametrize(
     ("options", "said"),
     [
@@ -142,3 +173,90 @@ def test_a_file_that_is_off_is_told_how_far_and_why(scene, tmp_path, reftrace):
 def test_what_contradicts_itself_is_refused(options, said, scene, reftrace):
     done = reftrace("camera", scene, *options)
     assert done.returncode == 4 and said in done.stderr
+
+
+def seen_by(view):
+    """The camera, and its certificate, that an export has with a file's camera chosen."""
+    with chosen(Choice(seen_by=view)):
+        return gather_case(bpy.context)
+
+
+def test_a_blend_is_seen_as_the_file_says(scene):
+    own = next(cameras()).view.camera
+    turned = replace(
+        own,
+        world_from_camera=own.world_from_camera
+        @ [[0.8, -0.6, 0, 0.1], [0.6, 0.8, 0, 0], [0, 0, 1, 0.3], [0, 0, 0, 1]],
+    )
+    bpy.context.scene.render.use_border = True
+    case = seen_by(View(turned, "0001.png"))
+    found = case.scene.camera
+    points = known_points(turned)
+    apart = np.subtract(film_of(found, points)[:2], film_of(turned, points)[:2])
+    assert np.abs(apart).max() < BLENDERS and case.certificate.passed
+    assert (found.region.width, found.region.height) == (96, 54)
+    assert result_of(compared(case)).verdict == "agree"
+
+
+def test_a_file_without_a_clip_range_leaves_the_scenes(scene):
+    bpy.context.scene.camera.data.clip_start = 0.25
+    own = next(cameras()).view.camera
+    found = seen_by(View(own, "a", is_clipped=False)).scene.camera
+    assert (found.clip_start, found.clip_end) == (0.25, own.clip_end)
+    found = seen_by(View(replace(own, clip_start=0.5), "a")).scene.camera
+    assert found.clip_start == 0.5
+
+
+def test_a_camera_that_blender_cannot_have_is_refused(scene):
+    own = next(cameras()).view.camera
+    sheared = own.world_from_camera.copy()
+    sheared[:3, 0] = (sheared[:3, 0] + 0.3 * sheared[:3, 1]) / np.hypot(1, 0.3)
+    with pytest.raises(SceneError, match="Blender has no camera like 'a' of 96 x 54 pixels"):
+        seen_by(View(replace(own, world_from_camera=sheared, name="a"), "a"))
+    tiny = replace(own, width=2, height=1, region=Region(0, 0, 2, 1))
+    with pytest.raises(SceneError, match=r"2 x 1 pixels: .* pictures of 4 to 65536 pixels"):
+        seen_by(View(tiny, "a"))
+
+
+def test_a_command_takes_the_file(scene, tmp_path, reftrace):
+    """A camera is written at one frame, and the file at another is seen through it."""
+    path = tmp_path / "there.json"
+    assert reftrace("camera", scene, "--frame", "5", "--out", path).returncode == 0
+    again = tmp_path / "again.json"
+    assert reftrace("camera", scene, "--camera", path, "--out", again).returncode == 0
+    done = reftrace("camera", scene, "--frame", "5", "--check", again)
+    assert done.returncode == 0, done.stdout
+    assert reftrace("camera", scene, "--frame", "1", "--check", again).returncode == 2
+
+
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_the_camera_that_blender_writes_into_a_glb_is_its_own(kind, build, tmp_path):
+    """An independent writer of glTF cameras; it writes float32."""
+    build.scene(160, 90)
+    camera = build.camera((1, -4, 2), (1.1, 0.2, 0.3), type=kind, ortho_scale=5.0, lens=35)
+    path = tmp_path / "scene.glb"
+    bpy.ops.export_scene.gltf(filepath=str(path), export_cameras=True)
+    (own,) = cameras()
+    view = named(read(path, size=(160, None)), camera.name)
+    x, y, _ = film_of(view.camera, own.points)
+    assert np.abs(np.stack((x, y)) - own.film).max() < 10 * BLENDERS
+    assert view.camera.clip_end == pytest.approx(own.view.camera.clip_end)
+
+
+@pytest.mark.parametrize(("name", "written"), [("opencv", "a.json"), ("colmap", "a")])
+def test_the_button_writes_what_the_command_does(name, written, scene, tmp_path, reftrace):
+    ours, theirs = tmp_path / "ours" / written, tmp_path / "theirs" / written
+    button = bpy.ops.reference_tracer.export_camera
+    assert button(filepath=str(ours), convention=name, animation=True) == {"FINISHED"}
+    done = reftrace("camera", scene, "--frames", "all", "--convention", name, "--out", theirs)
+    assert done.returncode == 0
+    for file in sorted(ours.iterdir()) if ours.is_dir() else [ours]:
+        other = theirs / file.name if ours.is_dir() else theirs
+        assert file.read_bytes() == other.read_bytes()
+    assert bpy.context.scene.frame_current == 1
+
+
+def test_the_button_says_what_cannot_be_said(scene, tmp_path):
+    with pytest.raises(RuntimeError, match=r"a lens shift and a pixel aspect .* glTF cannot say"):
+        bpy.ops.reference_tracer.export_camera(filepath=str(tmp_path / "a.gltf"), convention="gltf")
+    assert not (tmp_path / "a.gltf").exists()

@@ -73,7 +73,7 @@ def test_its_formula_agrees_with_the_tracers_rays(name, tmp_path):
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_a_panorama_is_refused(name):
     own = Camera(np.eye(4), ViewWindow(-1, 1, -0.5, 0.5), 8, 4, EQUIRECTANGULAR)
-    with pytest.raises(SceneError, match="an equirectangular projection"):
+    with pytest.raises(SceneError, match="a panoramic projection"):
         texts([View(own, "0001.png", 1)], CONVENTIONS[name])
 
 

@@ -171,6 +171,19 @@ def test_the_numbers_are_those_of_the_mistake(own):
     assert difference(own, half_pixel(own)).largest == pytest.approx(np.hypot(0.5, 0.5))
 
 
+def test_another_unit_of_length_is_asked_for(own):
+    """The place in millimetres; of a camera that is only moved, nothing is said of units."""
+
+    def millimetres(cv):
+        return np.vstack((np.hstack((cv[:3, :3], 1000 * cv[:3, 3:])), cv[3:]))
+
+    found = difference(own, with_world(own, millimetres))
+    assert [step.fault.name for step in found.steps] == ["camera_moved"]
+    assert found.lines()[-1].endswith("the scene's times 1000: another unit of length?")
+    assert difference(own, moved(own)).unit is None
+    assert difference(own, longer(own)).unit is None
+
+
 def test_the_same_camera_agrees(own):
     found = difference(own, with_world(own, lambda cv: cv))
     assert found.agrees and found.largest < 1e-9 and not found.steps

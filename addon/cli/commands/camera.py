@@ -177,8 +177,8 @@ def _checked(options: CameraOptions, at: _At) -> int:
         for view, one in zip(views, scene, strict=True)
     ]
     for view, one, its in zip(views, scene, found, strict=True):
-        print(*(f"{view.name or options.check.name}: {line}" for line in its.lines()), sep="\n")
-        print(*_said(view, one.view.camera), sep="\n", end="")
+        for line in (*its.lines(), *_said(view, one.view.camera)):
+            print(f"{view.name or options.check.name}: {line}")
     return AGREE if all(one.agrees for one in found) else DIFFERENCES
 
 

@@ -1,15 +1,17 @@
-"""`reftrace trace`: traces a scene or a mesh into a picture."""
+"""`reftrace trace`: traces a scene or a mesh into a picture, or a certificate of it."""
 
 from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from ... import exr, images
+from ...certificate_file import save_certificate
 from ...framing import Choice
 from ...mesh_files.load import READERS
 from ...rendering import render
@@ -32,7 +34,8 @@ class TraceOptions:
     """The options of `reftrace trace`."""
 
     scene: Path
-    out: Path
+    out: Path | None
+    certificate: Path | None
     settings: GivenSettings
     choice: Choice
     rows: Sequence[int] | None  # the first and the last
@@ -43,11 +46,16 @@ class TraceOptions:
     @classmethod
     def parsed(cls, given: Namespace) -> TraceOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
-        if given.out.suffix.lower() != ".npz":
+        if not (given.out or given.certificate):
+            raise SceneError("name a file to write: --out PICTURE, --certificate FILE, or both")
+        if given.out is None:
+            refuse(given, ("masks", "top_down"), "is for a picture: --out PICTURE")
+        elif given.out.suffix.lower() != ".npz":
             refuse(given, ("top_down",), "is for a .npz: pictures begin with their topmost row")
         return cls(
             scene=given.scene,
             out=given.out,
+            certificate=given.certificate,
             settings=settings_from(given),
             choice=choice_from(given, given.scene),
             rows=given.rows,
@@ -59,7 +67,12 @@ class TraceOptions:
     @property
     def is_png(self) -> bool:
         """Whether the picture is what a screen shows, not every output."""
-        return self.out.suffix.lower() == ".png"
+        return self.out is not None and self.out.suffix.lower() == ".png"
+
+    @property
+    def files(self) -> list[Path]:
+        """The files that are written."""
+        return [path for path in (self.out, self.certificate) if path]
 
 
 def add(parser: Parser) -> None:
@@ -71,11 +84,17 @@ def add(parser: Parser) -> None:
     parser.add_scene(SOURCES)
     parser.add_argument(
         "--out",
-        required=True,
         type=parser.path_ending(".png", ".exr", ".npz"),
         metavar="PICTURE",
         help="picture.png (what a screen shows), picture.exr (every output, and Cryptomatte) or "
         "picture.npz (every output as arrays)",
+    )
+    parser.add_argument(
+        "--certificate",
+        type=parser.path_ending(".npz"),
+        metavar="FILE",
+        help="a file with the scene and what every pixel sees, for `reftrace verify`, which checks "
+        "it without the tracer",
     )
     add_settings(parser)
     parser.add_argument(
@@ -106,23 +125,31 @@ def add(parser: Parser) -> None:
 
 
 def trace(options: TraceOptions) -> int:
-    """Trace, and write the picture."""
-    with folders.made_for_file(options.out):
+    """Trace, and write the picture, its certificate, or both."""
+    with ExitStack() as stack:
+        for path in options.files:
+            stack.enter_context(folders.made_for_file(path))
         scene, stored = load(options.scene, options.choice)
         settings = options.settings.over(stored)
+        if options.certificate and not settings.method.is_proven:
+            raise SceneError(f"--certificate: {settings.method} proves nothing: --method certified")
         if options.rows:
             scene = _rows_alone(scene, settings, *options.rows)
         with options.place as place, progress_bar() as progress:
             frame = render(scene, settings, lambda s: progress(Share(s, "tracing")), **place)
-        with folders.replacing_file(options.out) as new:
-            _write(options, frame, new)
-        if options.masks:
+        for path in options.files:
+            with folders.replacing_file(path) as new:
+                if path == options.certificate:
+                    save_certificate(new, frame)
+                else:
+                    _write(path, frame, new, -1 if options.top_down else 1)
+        if options.masks and options.out:
             masks.write(options.masks, frame, options.out.name)
     s = frame.statistics
     print(
         f"{frame.shape[1]} x {frame.shape[0]} pixels, {count_of(s.triangles, 'triangle')}, "
         f"{count_of(s.pairs_tested, 'pair')} tested in {s.seconds:.2f} s ({s.method}, "
-        f"{settings.precision}): {options.out}"
+        f"{settings.precision}): {', '.join(map(str, options.files))}"
     )
     for line in s.required():
         print(line)
@@ -132,17 +159,16 @@ def trace(options: TraceOptions) -> int:
     return AGREE
 
 
-def _write(options: TraceOptions, frame: Frame, path: Path) -> None:
-    """Write a frame in the format that is asked for."""
-    if options.is_png:
-        images.save_png(path, images.to_display(frame.color))
-    elif options.out.suffix.lower() == ".exr":
+def _write(path: Path, frame: Frame, new: Path, step: int) -> None:
+    """Write a frame as `path` is called, into the file `new`; arrays by steps of 1 or -1 rows."""
+    if path.suffix.lower() == ".png":
+        images.save_png(new, images.to_display(frame.color))
+    elif path.suffix.lower() == ".exr":
         passes = frame.passes() | {f"{cryptomatte.LAYER}00": cryptomatte.layer(frame)}
-        exr.save(path, passes, cryptomatte.header(frame))
+        exr.save(new, passes, cryptomatte.header(frame))
     else:
-        step = -1 if options.top_down else 1
         passes = {name: values[::step] for name, values in frame.passes().items()}
-        with path.open("wb") as file:  # given a name, numpy would add .npz to it
+        with new.open("wb") as file:  # given a name, numpy would add .npz to it
             np.savez_compressed(file, objects=np.array(frame.scene.objects, "U"), **passes)  # type: ignore[arg-type]  # none is "allow_pickle"
 
 
