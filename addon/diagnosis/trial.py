@@ -141,10 +141,10 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
     if mixes > before.case.picture.sampling.filter_radius:
         return True
     picture = as_known(case)
-    right = picture.alike(case.scene, frame.instance_index, frame.color)
+    right = picture.shows(frame)
     right &= ~picture.other_object(frame.instance_index)
     settled = int((right & before.unexplained).sum())
-    was = before.picture.alike(before.case.scene, before.frame.instance_index, before.frame.color)
+    was = before.picture.shows(before.frame)
     broken = int((~right & (was | (not mixes)) & before.judged).sum())
     # Where colours are mixed, it may be that only the checks can say so.
     return settled > HOPE * broken or bool(mixes and settled == broken == 0)
@@ -190,6 +190,9 @@ def left_unexplained(evidence: Evidence) -> Bools:
 
 def _changed(before: Evidence, after: Evidence) -> Bools:
     """Return which pixels (h, w) are traced in other colours; all, if the picture changed."""
-    if before.case.picture.color is not after.case.picture.color:
+    one, other = before.case.picture, after.case.picture
+    if one.color is not other.color or one.data is not other.data:
         return np.ones(before.unexplained.shape, bool)
+    if one.data is not None:
+        return one.sees_apart(before.frame, after.frame)
     return differing_pixels(before.frame.color, after.frame.color)
