@@ -33,6 +33,7 @@ FLOORS = {
     "camera_files": 1,
     "mesh_diagnosis": 1,
     "opened": 2,
+    "certificate_file": 2,
     "certified": 2,
     "rendering": 2,
     "pictures": 3,

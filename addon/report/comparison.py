@@ -11,7 +11,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 
-from .. import images
+from .. import images, png
 from ..arrays import Array, Colors
 from ..causes.case import Case
 from ..causes.cause import UNEXPLAINED
@@ -54,12 +54,14 @@ def write(
     """
     colors = comparison.frame.color, comparison.picture, cause_picture(comparison)
     with replacing(Path(directory), NAMES) as new:
+        stored = {}
         for name, color in zip(PICTURES, colors, strict=True):
-            images.save_png(new / f"{name}.png", images.to_display(color))
+            stored[name] = png.encode(images.to_display(color))
+            (new / f"{name}.png").write_bytes(stored[name])
             yield 0.1
         height = comparison.frame.shape[0]
         yield from scaled(_write_arrays(new / ARRAYS, height, _arrays(comparison)), 0.2, 0.4)
-        page.write(new / page.NAME, comparison, extras)
+        page.write(new / page.NAME, comparison, extras, stored)
         write_json(new / JSON, comparison.to_dict())
 
 

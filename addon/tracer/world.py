@@ -136,12 +136,13 @@ def world_vertices(
     Triangles share vertices: each is computed once, if those of the batch lie together in the mesh.
     """
     mesh = scene.meshes[batch.mesh]
-    corner = mesh.triangles[batch.first : batch.last].T
-    low, end = int(corner.min()), int(corner.max()) + 1
-    if end - low <= corner.size:
-        local, corner = mesh.vertices[low:end], corner - low
-    else:
-        local, corner = mesh.vertices[corner.ravel()], np.arange(corner.size).reshape(3, -1)
+    names = mesh.triangles[batch.first : batch.last].T
+    low = np.min(names)
+    local = mesh.vertices[low : np.max(names) + 1]
+    corner: Index = names - low
+    if len(local) > names.size:
+        local = mesh.vertices[names.ravel()]
+        corner = np.arange(names.size).reshape(3, -1)
     matrices = scene.instance_matrices[..., batch.instances]
     with np.errstate(over="ignore", invalid="ignore"):  # `refused` tells of what is not finite
         world = transform_points(matrices[..., None], local.T.astype(np.float64)[:, None, :])
