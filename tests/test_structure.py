@@ -30,6 +30,7 @@ FLOORS = {
     "framing": 1,
     "scene_files": 1,
     "mesh_files": 1,
+    "camera_files": 1,
     "mesh_diagnosis": 1,
     "opened": 2,
     "certificate_file": 2,

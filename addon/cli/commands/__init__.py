@@ -56,6 +56,12 @@ def _export() -> ModuleType:
     return export
 
 
+def _camera() -> ModuleType:
+    from . import camera
+
+    return camera
+
+
 COMMANDS = {  # in the order of `--help`
     "compare": Command(
         "trace a scene and compare it with Blender's own picture, or with any other", _compare
@@ -73,5 +79,7 @@ COMMANDS = {  # in the order of `--help`
         "find where every method breaks: far away, tiny, edge-on, and so on", _extremes
     ),
     "bench": Command("measure the speed of the tracer beside embreex, Cycles and others", None),
+    "diff": Command("list object by object how two files of a scene differ", None),
     "export": Command("export a .blend to a scene that needs no Blender", _export),
+    "camera": Command("write a scene's camera for other programs, or check one of theirs", _camera),
 }
