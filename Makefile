@@ -12,7 +12,7 @@ SHARED = -n $(WORKERS) --no-loadscope-reorder
 # Bytecode is kept, also where the machine says no: else each of hundreds of processes compiles anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu torture bench docs lessons lesson-tools lint \
+.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu cameras torture bench docs lessons lesson-tools lint \
 	extension release clean
 
 help: ## list the commands
@@ -38,7 +38,7 @@ set-up-tests: extension
 		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
 	done
 
-prove: .venv/.stamp ## have Coq read the proofs: 3.5 minutes on two cores; root installs Coq if it is missing
+prove: .venv/.stamp ## have Coq read the proofs: 6 minutes on two cores; root installs Coq if it is missing
 	tools/coq.sh setup
 	$(PYTHON_IN_VENV) tools/prove.py
 
@@ -57,6 +57,10 @@ test-matrix: extension ## run what needs Blender in 4.2, 4.3, 4.5, 5.0, 5.2, num
 # BLENDER=/path/to/blender: that one, with OpenGL and with Vulkan.
 test-gpu: extension ## compare all sample scenes with what draws here, a graphics card or software: one table
 	$(PYTHON_IN_VENV) tools/gpu.py $(if $(BLENDER),--blender "$(BLENDER)")
+
+# OPEN3D=1: Open3D's code, too, whose wheel has 400 MB.
+cameras: .venv/.stamp ## have the code of COLMAP, Mitsuba, OpenCV and pyrender read camera files: two tables; 200 MB of wheels
+	$(PYTHON_IN_VENV) tools/cameras.py $(if $(OPEN3D),--open3d)
 
 # What `make test` samples, at its full length.
 torture: extension lesson-tools ## run the long tests, too long for every day: the suites at their full size

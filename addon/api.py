@@ -8,9 +8,12 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from .causes.case import Case
+from .camera_files.files import CONVENTIONS, chosen, read
+from .camera_files.frame import part
+from .causes.case import Case, without_colors
 from .comparison.comparing import compared
 from .comparison.comparison import Comparison
 from .comparison.verdict import Verdict as Verdict
@@ -19,9 +22,11 @@ from .derivation.derivation import derive
 from .derivation.document import document_markdown
 from .images import open_picture
 from .opened import file_manifest, open_scene
+from .pictures.data.given import GivenData, picture_of_data
 from .pictures.given import Making, picture_of_array, picture_of_file
 from .rendering import render as render
 from .rendering import trace as trace
+from .report.cameras import SceneCamera, write_cameras
 from .scene import Camera as Camera
 from .scene import Instance as Instance
 from .scene import Mesh as Mesh
@@ -40,7 +45,7 @@ from .tracer.settings import Settings
 
 
 def load_scene(path: str | Path) -> Scene:
-    r"""Read a scene from a .npz, or from a mesh (.obj, .ply, .stl, .off, .glb, .gltf).
+    r"""Read a scene from a .npz, or from a mesh (.obj, .ply, .stl, .off, .glb, .gltf, .usd).
 
     A mesh has no camera: it is framed, at 960 x 540 pixels. A .blend is exported before, by
     ``reftrace export scene.blend --out scene.npz``.
@@ -87,6 +92,8 @@ def compare(
     renderer: str = "",
     filter_radius: float = 0.0,
     dither: float | None = None,
+    kind: str = "",
+    scale: float | None = None,
     self_check: bool = False,
     diagnose: bool = True,
 ) -> Comparison:
@@ -109,6 +116,12 @@ def compare(
         How far the picture's filter reaches, in pixels; 0 for one sample at each pixel's centre.
     dither : float, optional
         Noise that was added on purpose, in levels of 8 bits.
+    kind : {'', 'depth', 'distance', 'normals', 'positions', 'ids'}
+        What the picture holds in place of colours, in world or camera space, as most pixels agree:
+        see ``docs/data.md``. Its file may be a .npy or .npz, too, with the lowest row first; its
+        array is (h, w) or (h, w, c).
+    scale : float, optional
+        Of depths, distances and positions: how many metres 1 is.
     self_check : bool
         Whether known faults are made on purpose, to see that they are found.
     diagnose : bool
@@ -141,11 +154,15 @@ def compare(
         manifest = file_manifest(Path("scene"), scene, Account())
     else:
         scene, manifest = open_scene(Path(scene))
-    if isinstance(picture, (str, Path)):
+    if kind:
+        source = Path(picture) if isinstance(picture, (str, Path)) else np.asarray(picture)
+        shown = picture_of_data(GivenData(kind, source, scale=scale), scene, making)
+    elif isinstance(picture, (str, Path)):
         shown = picture_of_file(open_picture(picture), scene.camera, making)
     else:
         shown = picture_of_array(picture, scene.camera, making)
     case = Case(scene, manifest, settings or Settings(), shown, curves=(), self_check=self_check)
+    case = without_colors(case) if kind else case
     return result_of(compared(case, diagnose))
 
 
@@ -177,3 +194,77 @@ def explain(scene: Scene, x: int, y: int, limit: int = LIMIT) -> str:
     # The ray through pixel (480, 270)
     """
     return document_markdown(derive(scene, x, y, limit))
+
+
+def read_camera(
+    path: str | Path,
+    view: str | int | None = None,
+    *,
+    convention: str | None = None,
+    size: tuple[int, int] | None = None,
+) -> Camera:
+    r"""Read the camera of another program's file; ``docs/cameras.md`` has which.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file, or a folder where a convention has several: ``camera.json``, ``transforms.json``, a
+        folder of COLMAP's, a ``.glb`` with cameras, and so on.
+    view : str or int, optional
+        Which of several: the name or the number of its image.
+    convention : str, optional
+        What the file is; by default what its content says.
+    size : (int, int), optional
+        Width and height of the picture, for files that say none.
+
+    Returns
+    -------
+    Camera
+        In the file's own world, with Z up for glTF; ``scene.seen_by(camera)`` looks through it. It
+        clips nothing where the file says no clip range.
+
+    Raises
+    ------
+    SceneError, OSError
+        If it cannot be read, has no such view, or a camera that is not modelled.
+
+    Examples
+    --------
+    >>> from reference_tracer import load_scene, read_camera, write_camera
+    >>> _ = Path("triangle.obj").write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n")
+    >>> scene = load_scene("triangle.obj")
+    >>> write_camera("transforms.json", scene.camera, "nerf")
+    >>> camera = read_camera("transforms.json")
+    >>> (camera.width, camera.height) == (scene.camera.width, scene.camera.height)
+    True
+    >>> seen = scene.seen_by(camera)
+    """
+    views = read(Path(path), convention, size or (None, None))
+    return chosen(views, None if view is None else str(view)).camera
+
+
+def write_camera(
+    path: str | Path, camera: Camera, convention: str = "opencv", *, centers: str = "half"
+) -> None:
+    """Write a camera as another program reads it, read it again, and see that it is the same.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file, or the folder where the convention has several files.
+    camera : Camera
+        Of the picture of its region.
+    convention : str
+        opencv, opengl, colmap, nerf, gltf, mitsuba, pytorch3d, open3d or bop.
+    centers : {'half', 'integer'}
+        Where the centre of the first pixel is: at (0.5, 0.5), or at (0, 0).
+
+    Raises
+    ------
+    SceneError, OSError
+        If the convention cannot say what the camera has, or the file cannot be written.
+    """
+    if convention not in CONVENTIONS:
+        raise SceneError(f"'{convention}' is none of {', '.join(CONVENTIONS)}")
+    own = SceneCamera.of(part(camera), camera.name)
+    write_cameras(Path(path), [own], CONVENTIONS[convention], centers)

@@ -28,6 +28,7 @@ def said(name: str, words: str, **attributes: str | float) -> str:
 
 
 @cache
+@cache
 def width_of(words: str, size: float) -> float:
     """Return how wide the longest line of words is, at most."""
     wide = (sum(_WIDE if c > "\u2e80" else _LETTER for c in line) for line in words.split("\n"))

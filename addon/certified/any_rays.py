@@ -17,6 +17,7 @@ from ..tracer.nearest import every_pair
 from ..tracer.progress import Work
 from ..tracer.settings import Settings
 from ..tracer.vector import occurring
+from .arithmetic import sound, sound_steps
 from .bounds import FromPoint
 from .exact import IntegerBatch
 from .ladder import Ladder, in_range, sides
@@ -24,6 +25,7 @@ from .many import hits as hits_of
 from .surfaces import SURE
 
 
+@sound_steps
 def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
     """Find the nearest hits of n rays with t in the camera's clip range, with proof, in steps."""
     ladder = Ladder.of(scene, rays)
@@ -42,6 +44,7 @@ class Decision:
     exact: Bools  # integers decided
 
 
+@sound
 def decide(
     rays: Rays,
     corners: Floats,

@@ -168,8 +168,16 @@ class Evidence:
         r = case.scene.camera.region
         if (r.height, r.width) != self.unexplained.shape:
             return Score(0, 0)
-        hits = yield from self.trace(case.scene)
+        own = self._own_hits if case.scene is self.case.scene else []
+        if not own:
+            own.append((yield from self.trace(case.scene)))
+        hits = own[0]
         return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
+
+    @cached_property
+    def _own_hits(self) -> list[Hits]:
+        """The hits of the sampled pixels in the scene as it is, once they were asked for."""
+        return []
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
         """Return which of the n sampled pixels agree with the n hits of a scene, (n,)."""
@@ -221,6 +229,8 @@ class Evidence:
         """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
         scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
+        if shown.data:
+            return np.full(len(shown.color), NOTHING, np.int32)
         if shown.owners:
             of_owner = reversed(list(enumerate(shown.owners.instances[:-1])))
             first = {int(owner): n for n, owner in of_owner}

@@ -43,6 +43,10 @@ def along(area, command, step=16):
     raise LookupError(f"there is no button {command}")
 
 
+WHEEL = 24  # its clicks from the end of a panel to its top
+last = {}  # how high in its region each command's button was found last: it is looked for there
+
+
 def found(area, command, across=0.6, step=16, kind="WINDOW"):
     """Go down an editor, scrolled if need be, until the pointer is on a command's button.
 
@@ -55,14 +59,22 @@ def found(area, command, across=0.6, step=16, kind="WINDOW"):
     """
     region = next(r for r in area.regions if r.type == kind)
     x = across * region.width
+
+    def is_under_the_pointer(y):
+        return command in (yield from command_under(area, region, x, y))
+
     xdotool("mousemove", 0, 0)  # what was under the pointer is it no more
     yield 0.3
-    for _ in range(3):
+    if command in last and (yield from is_under_the_pointer(last[command])):
+        return region, x, last[command]
+    xdotool("mousemove", *on_screen(region, x, step), "click", "--repeat", WHEEL, 4)  # to the top
+    for _ in range(4):
+        yield
         for y in range(region.height - step, 0, -step):
-            if command in (yield from command_under(area, region, x, y)):
+            if (yield from is_under_the_pointer(y)):
+                last[command] = y
                 return region, x, y
         xdotool("click", "--repeat", 8, 5)  # the wheel
-        yield
     raise LookupError(f"there is no button {command}")
 
 

@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 
 import bpy
-from hands import along, click, click_on, found, on_screen
+from hands import along, click, click_on, found, last, on_screen
 from inspector_stories import place_in_view, region_of
 from story import (
     compared,
@@ -53,6 +53,7 @@ def clicked(step, *where):
 def begun(lesson, scene):
     """Step 1, from Blender as it starts: unfold *Open Sample Scene*, press the scene's name."""
     noted["lesson"] = lesson
+    last.clear()  # the offsets below are from where a button is found from the top
     bpy.context.preferences.view.render_display_type = "AREA"
     bpy.context.preferences.is_dirty = False
     bpy.ops.wm.read_homefile(use_factory_startup=True)

@@ -30,7 +30,7 @@ import seen_stories
 import stories
 import study_stories
 import viewport_stories
-from story import OUT, by_rounds, noted, window
+from story import OUT, by_rounds, noted, resized, window
 
 STORIES = {
     story.__name__: (module.SCENE, story)
@@ -54,6 +54,12 @@ STORIES = {
 }
 
 
+# Of the window, in pixels: most of the time goes into drawing it, in software.
+SMALL, LARGE = (1280, 720), (1600, 900)
+# Stories that look at all of a sidebar; those whose pictures are the lessons'.
+LARGE_ONES = "panel", "compared_images", "in_images", *(s.__name__ for s in lesson_stories.STORIES)
+
+
 def played(names):
     """Play one story after another, each until its end or its first error."""
     for name in names:
@@ -62,6 +68,7 @@ def played(names):
         noted.clear()
         try:
             yield from opened(scene)
+            yield from resized(*LARGE if name in LARGE_ONES else SMALL)
             yield from story()
         except Exception:
             noted["error"] = traceback.format_exc()

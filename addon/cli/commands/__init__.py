@@ -56,6 +56,12 @@ def _export() -> ModuleType:
     return export
 
 
+def _camera() -> ModuleType:
+    from . import camera
+
+    return camera
+
+
 COMMANDS = {  # in the order of `--help`
     "compare": Command(
         "trace a scene and compare it with Blender's own picture, or with any other", _compare
@@ -65,6 +71,7 @@ COMMANDS = {  # in the order of `--help`
         "show the maths of one pixel's ray: every step, in float32, float64 and exactly", _explain
     ),
     "judge": Command("judge students' own ray/triangle tests (this runs their code)", None),
+    "verify": Command("check a certificate of `trace`, by a program that knows no tracer", None),
     "trade": Command(
         "measure what every method, precision, number of samples and size costs on a scene", _trade
     ),
@@ -72,5 +79,7 @@ COMMANDS = {  # in the order of `--help`
         "find where every method breaks: far away, tiny, edge-on, and so on", _extremes
     ),
     "bench": Command("measure the speed of the tracer beside embreex, Cycles and others", None),
+    "diff": Command("list object by object how two files of a scene differ", None),
     "export": Command("export a .blend to a scene that needs no Blender", _export),
+    "camera": Command("write a scene's camera for other programs, or check one of theirs", _camera),
 }

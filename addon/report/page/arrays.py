@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array, Integers
+from ...arrays import Array, Index, Integers
 from ...runs import run_starts
 from ...scene import Scene
 from ...tracer import plane
@@ -52,20 +52,21 @@ def size(value: object) -> int:
 class SeenSurfaces(NamedTuple):
     """The k surfaces that are seen, and which of them each pixel sees."""
 
-    number: Integers  # (h, w): 0 for none, else one more than the index into the others
+    number: Index  # (h, w): 0 for none, else one more than the index into the others
     instance: Integers  # (k,), as in a `Frame`
     triangle: Integers
 
 
 def seen(frame: Frame) -> SeenSurfaces:
     """Return the surfaces that a frame sees, each once."""
-    instance, triangle = (a.astype(np.int64) for a in (frame.instance_index, frame.triangle_index))
+    every = frame.instance_index.ravel(), frame.triangle_index.ravel()
+    first = run_starts(*every)
+    instance, triangle = (a[first].astype(np.int64) for a in every)
     names = np.where(instance == NOTHING, -1, (instance << 32) | (triangle + 1))
-    first = run_starts(names.ravel())
-    unique, number = np.unique(np.append(names.flat[first], -1), return_inverse=True)
-    number = np.repeat(number[:-1], np.diff(first, append=names.size)).reshape(names.shape)
+    unique, number = np.unique(np.append(names, -1), return_inverse=True)
+    number = number[:-1].astype(np.int32)
     return SeenSurfaces(
-        number.astype(np.int32),
+        np.repeat(number, np.diff(first, append=len(every[0]))).reshape(frame.shape),
         (unique[1:] >> 32).astype(np.int32),
         ((unique[1:] & 0xFFFFFFFF) - 1).astype(np.int32),
     )
