@@ -67,7 +67,9 @@ def found(area, command, across=0.6, step=16, kind="WINDOW"):
     yield 0.3
     if command in last and (yield from is_under_the_pointer(last[command])):
         return region, x, last[command]
-    xdotool("mousemove", *on_screen(region, x, step), "click", "--repeat", WHEEL, 4)  # to the top
+    # To the top, where a sidebar has something: else the wheel is for what is below it.
+    top = on_screen(region, x, region.height - step)
+    xdotool("mousemove", *top, "click", "--repeat", WHEEL, 4)
     for _ in range(4):
         yield
         for y in range(region.height - step, 0, -step):
