@@ -29,7 +29,7 @@ from reference_tracer_grading.page import MARK_COLORS, marked
 from reference_tracer_grading.picture import Mark
 from reference_tracer_grading.report import student
 from reference_tracer_grading.subjects.triangle import TRIANGLE
-from reference_tracer_grading.submission import Limits
+from reference_tracer_processes.running import Limits
 from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, class_table, lines
 
 TEXT = """
