@@ -6,6 +6,7 @@ PACKAGES = {  # by the folder that each stands in
     "packages/grading": "reference_tracer_grading",
     "packages/benchmarks": "reference_tracer_benchmarks",
     "packages/cluster": "reference_tracer_cluster",
+    "packages/conformance": "reference_tracer_conformance",
     "packages/processes": "reference_tracer_processes",
 }
 found = [f"{name}.{sub}" for folder, name in PACKAGES.items() for sub in find_packages(folder)]

@@ -21,7 +21,7 @@ MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
 KEPT = 4000  # bytes of what a program prints
 
 
-@dataclass
+@dataclass(frozen=True)
 class Limits:
     """What a program may take: seconds a scene, bytes."""
 

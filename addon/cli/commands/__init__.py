@@ -65,6 +65,7 @@ COMMANDS = {  # in the order of `--help`
         "show the maths of one pixel's ray: every step, in float32, float64 and exactly", _explain
     ),
     "judge": Command("judge students' own ray/triangle tests (this runs their code)", None),
+    "conform": Command("judge a renderer or an exporter on forty small scenes", None),
     "trade": Command(
         "measure what every method, precision, number of samples and size costs on a scene", _trade
     ),
