@@ -43,6 +43,8 @@ FLOORS = {
     "errors": 3,
     "report": 7,
     "api": 7,
+    "testing": 8,
+    "pytest_plugin": 8,
     "blender": 8,
     "cli": 8,
     "__init__": 8,
