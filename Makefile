@@ -12,7 +12,7 @@ SHARED = -n $(WORKERS) --no-loadscope-reorder
 # Bytecode is kept, also where the machine says no: else each of hundreds of processes compiles anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu torture bench docs lessons lesson-tools lint \
+.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu cameras torture bench docs lessons lesson-tools lint \
 	extension release clean
 
 help: ## list the commands
@@ -58,6 +58,10 @@ test-matrix: extension ## run what needs Blender in 4.2, 4.3, 4.5, 5.0, 5.2, num
 test-gpu: extension ## compare all sample scenes with what draws here, a graphics card or software: one table
 	$(PYTHON_IN_VENV) tools/gpu.py $(if $(BLENDER),--blender "$(BLENDER)")
 
+# OPEN3D=1: Open3D's code, too, whose wheel has 400 MB.
+cameras: .venv/.stamp ## have the code of COLMAP, Mitsuba and OpenCV read camera files: two tables; 160 MB of wheels
+	$(PYTHON_IN_VENV) tools/cameras.py $(if $(OPEN3D),--open3d)
+
 # What `make test` samples, at its full length.
 torture: extension lesson-tools ## run the long tests, too long for every day: the suites at their full size
 	$(PYTEST) -m torture
@@ -81,7 +85,7 @@ docs: extension demo ## refresh the documents: run their commands, compute their
 		$(PYTHON_IN_VENV) tools/make_docs.py; \
 	fi
 
-# PYODIDE=folder: Pyodide's full distribution, unpacked, to go into the pack, so that it needs no network.
+# PYODIDE=folder: another distribution of Pyodide, unpacked, than the one that is fetched.
 lessons: extension lesson-tools ## build the lesson pack, dist/lessons: needs npm, and Chromium, which root installs
 	$(PYTHON_IN_VENV) tools/make_lessons.py $(if $(PYODIDE),--pyodide "$(PYODIDE)")
 

@@ -8,6 +8,7 @@ PACKAGES = {  # by the folder that each stands in
     "packages/cluster": "reference_tracer_cluster",
     "packages/conformance": "reference_tracer_conformance",
     "packages/processes": "reference_tracer_processes",
+    "packages/verify": "reference_tracer_verify",
 }
 found = [f"{name}.{sub}" for folder, name in PACKAGES.items() for sub in find_packages(folder)]
 setup(packages=[*PACKAGES.values(), *found])

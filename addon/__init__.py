@@ -29,9 +29,11 @@ __all__ = [  # noqa: F822  # each is imported once it is asked for
     "compare",
     "explain",
     "load_scene",
+    "read_camera",
     "render",
     "save_scene",
     "trace",
+    "write_camera",
 ]
 
 

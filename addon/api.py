@@ -10,6 +10,8 @@ from pathlib import Path
 
 from numpy.typing import ArrayLike
 
+from .camera_files.files import CONVENTIONS, chosen, read
+from .camera_files.frame import part
 from .causes.case import Case
 from .comparison.comparing import compared
 from .comparison.comparison import Comparison
@@ -22,6 +24,7 @@ from .opened import file_manifest, open_scene
 from .pictures.given import Making, picture_of_array, picture_of_file
 from .rendering import render as render
 from .rendering import trace as trace
+from .report.cameras import SceneCamera, write_cameras
 from .scene import Camera as Camera
 from .scene import Instance as Instance
 from .scene import Mesh as Mesh
@@ -177,3 +180,77 @@ def explain(scene: Scene, x: int, y: int, limit: int = LIMIT) -> str:
     # The ray through pixel (480, 270)
     """
     return document_markdown(derive(scene, x, y, limit))
+
+
+def read_camera(
+    path: str | Path,
+    view: str | int | None = None,
+    *,
+    convention: str | None = None,
+    size: tuple[int, int] | None = None,
+) -> Camera:
+    r"""Read the camera of another program's file; ``docs/cameras.md`` has which.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file, or a folder where a convention has several: ``camera.json``, ``transforms.json``, a
+        folder of COLMAP's, a ``.glb`` with cameras, and so on.
+    view : str or int, optional
+        Which of several: the name or the number of its image.
+    convention : str, optional
+        What the file is; by default what its content says.
+    size : (int, int), optional
+        Width and height of the picture, for files that say none.
+
+    Returns
+    -------
+    Camera
+        In the file's own world, with Z up for glTF; ``scene.seen_by(camera)`` looks through it. It
+        clips nothing where the file says no clip range.
+
+    Raises
+    ------
+    SceneError, OSError
+        If it cannot be read, has no such view, or a camera that is not modelled.
+
+    Examples
+    --------
+    >>> from reference_tracer import load_scene, read_camera, write_camera
+    >>> _ = Path("triangle.obj").write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n")
+    >>> scene = load_scene("triangle.obj")
+    >>> write_camera("transforms.json", scene.camera, "nerf")
+    >>> camera = read_camera("transforms.json")
+    >>> (camera.width, camera.height) == (scene.camera.width, scene.camera.height)
+    True
+    >>> seen = scene.seen_by(camera)
+    """
+    views = read(Path(path), convention, size or (None, None))
+    return chosen(views, None if view is None else str(view)).camera
+
+
+def write_camera(
+    path: str | Path, camera: Camera, convention: str = "opencv", *, centers: str = "half"
+) -> None:
+    """Write a camera as another program reads it, read it again, and see that it is the same.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file, or the folder where the convention has several files.
+    camera : Camera
+        Of the picture of its region.
+    convention : str
+        opencv, opengl, colmap, nerf, gltf, mitsuba, pytorch3d, open3d or bop.
+    centers : {'half', 'integer'}
+        Where the centre of the first pixel is: at (0.5, 0.5), or at (0, 0).
+
+    Raises
+    ------
+    SceneError, OSError
+        If the convention cannot say what the camera has, or the file cannot be written.
+    """
+    if convention not in CONVENTIONS:
+        raise SceneError(f"'{convention}' is none of {', '.join(CONVENTIONS)}")
+    own = SceneCamera.of(part(camera), camera.name)
+    write_cameras(Path(path), [own], CONVENTIONS[convention], centers)

@@ -102,6 +102,33 @@ def read(path: Path) -> tuple[Colors, bool, set[str]]:
     return color, len(at) == 3, noted
 
 
+def read_channels(path: Path) -> dict[str, Array]:
+    """Return every channel of a file by its name, (h, w) each, row 0 on top, in its own type.
+
+    Half floats come as float16. Of several parts with a channel of one name, the first counts.
+
+    Raises
+    ------
+    MissingLibraryError
+        If OpenImageIO is not installed.
+    OSError
+        If the file is damaged.
+    """
+    out: dict[str, Array] = {}
+    with _opened(path) as file:
+        part = 0
+        while file.seek_subimage(part, 0):
+            spec = file.spec()
+            for number, name in enumerate(spec.channelnames):
+                of = str(spec.channelformat(number))
+                values = file.read_image(part, 0, number, number + 1, of)
+                if values is None:
+                    raise OSError(f"'{path}' cannot be read, save it again: {_error(file)}")
+                out.setdefault(name, values[..., 0] if values.ndim == 3 else values)
+            part += 1
+    return out
+
+
 @contextmanager
 def _opened(path: Path) -> Iterator[Any]:
     """Open an EXR; what the library would print stays unsaid."""

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import Floats
+from .camera_files.convention import View
 from .projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
 from .tracer.vector import transform_points
@@ -117,6 +118,8 @@ class Choice:
     view_layer: str | None = None
     frame: int | None = None
     camera: str | None = None  # the name of one that is there
+    # The camera of a file.
+    seen_by: View | None = None
     # A new camera: one that frames all, or one that is placed.
     frame_all: bool = False
     eye: Sequence[float] | None = None  # metres; up is as in :func:`framing`

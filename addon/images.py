@@ -22,6 +22,7 @@ from .png.samples import PngError
 from .runs import by_runs
 
 EIGHT_BITS = 255  # levels above 0
+_TOGETHER = 1 << 16  # pixels
 
 
 def to_display(color: Floats) -> Bytes:
@@ -35,7 +36,12 @@ def to_display(color: Floats) -> Bytes:
         color = np.nan_to_num(color.astype(np.float64), posinf=1.0, neginf=0.0)
         return np.rint(EIGHT_BITS * encoded(color)).astype(np.uint8)
 
-    return by_runs(shown, np.reshape(color, (-1, 4))).reshape(np.shape(color))
+    flat = np.reshape(color, (-1, 4))
+    out = np.empty(flat.shape, np.uint8)
+    for start in range(0, len(flat), _TOGETHER):  # temporaries of whole pictures take longer
+        some = slice(start, start + _TOGETHER)
+        out[some] = by_runs(shown, flat[some])
+    return out.reshape(np.shape(color))
 
 
 def encoded(color: Floats) -> Floats:
@@ -79,12 +85,9 @@ def save_png(path: str | Path, picture: Bytes) -> None:
     Path(path).write_bytes(png.encode(picture))
 
 
-def data_uri(picture: Bytes, level: int = png.LEVEL) -> str:
-    """Return an (h, w, 4) uint8 picture, row 0 at the bottom, as an image's address in a page.
-
-    `level` is zlib's.
-    """
-    return f"data:image/png;base64,{base64.b64encode(png.encode(picture, level)).decode('ascii')}"
+def data_uri(content: bytes) -> str:
+    """Return the content of a PNG file as an image's address in a page."""
+    return f"data:image/png;base64,{base64.b64encode(content).decode('ascii')}"
 
 
 @dataclass(frozen=True, eq=False)

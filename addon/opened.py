@@ -40,7 +40,9 @@ def open_scene(path: Path, choice: Choice | None = None) -> Opened:
 
 def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
     size = choice.size(SIZE)
-    camera = choice.placed(*size) if choice.eye else None
+    camera = choice.seen_by.camera if choice.seen_by else None
+    if choice.eye:
+        camera = choice.placed(*size)
     try:
         return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)
     except SceneError as error:

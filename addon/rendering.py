@@ -104,10 +104,22 @@ def render(
 def steps(
     scene: Scene, settings: Settings, frame: Frame, tracer: Tracer | None = None
 ) -> Work[None]:
-    """Trace a scene into an empty frame, as `tracer.render.steps`, by any method."""
-    settings = resolved(settings, frame.statistics)
-    own = certified_samples if loop.samples_together(scene.camera, settings) else None
-    yield from loop.steps(scene, settings, frame, tracer or own or TRACERS[Method(settings.method)])
+    """Trace a scene into an empty frame, as `tracer.render.steps`, by any method.
+
+    Raises
+    ------
+    AssumptionError
+        If the method is `certified`, and this thread's arithmetic allows no proof, or no longer
+        does: then the frame is empty.
+    """
+    chosen = resolved(settings, frame.statistics)
+    own = certified_samples if loop.samples_together(scene.camera, chosen) else None
+    try:
+        yield from loop.steps(scene, chosen, frame, tracer or own or TRACERS[chosen.method])
+    except AssumptionError as error:
+        frame.withdraw()
+        chosen = _unproven(settings, frame.statistics, error)
+        yield from loop.steps(scene, chosen, frame, tracer or TRACERS[chosen.method])
 
 
 def trace(
@@ -154,8 +166,13 @@ def resolved(settings: Settings, statistics: Statistics) -> Settings:
     try:
         check_assumptions()
     except AssumptionError as error:
-        if settings.method != Method.AUTO:
-            raise
-        statistics.notes.append(f"traced by watertight in float64, as {error}")
-        return replace(settings, method=Method.WATERTIGHT, precision=Precision.FLOAT64)
+        return _unproven(settings, statistics, error)
     return replace(settings, method=Method.CERTIFIED)
+
+
+def _unproven(settings: Settings, statistics: Statistics, why: AssumptionError) -> Settings:
+    """Return the settings of `auto` where nothing can be certified; else raise why."""
+    if settings.method != Method.AUTO:
+        raise why
+    statistics.notes.append(f"traced by watertight in float64, as {why}")
+    return replace(settings, method=Method.WATERTIGHT, precision=Precision.FLOAT64)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import zip_longest
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -51,6 +51,11 @@ def save_scene(path: str | Path, scene: Scene, manifest: Manifest | None = None)
     manifest : Manifest, optional
         What the scene's source holds and the scene lacks: a comparison of the file knows it, too.
     """
+    save_arrays(path, arrays_of(scene, manifest))
+
+
+def arrays_of(scene: Scene, manifest: Manifest | None = None) -> dict[str, Array]:
+    """Return a scene as the arrays of its file, by their names."""
     head = {
         "schema": _SCHEMA,
         "camera": scene.camera.to_dict(),
@@ -71,6 +76,11 @@ def save_scene(path: str | Path, scene: Scene, manifest: Manifest | None = None)
         for k, thing in enumerate(things):
             held = {f"{kind}{k}_{name}": getattr(thing, name) for name in names}
             arrays |= {name: array for name, array in held.items() if array is not None}
+    return arrays
+
+
+def save_arrays(path: str | Path, arrays: Mapping[str, Array]) -> None:
+    """Write arrays to a compressed .npz."""
     with open(path, "wb") as file:  # given a name, numpy would add .npz to one in capitals
         np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # none is "allow_pickle"
 

@@ -33,6 +33,7 @@ def legal(words: str) -> str:
 
 
 @cache
+@cache
 def width_of(words: str, size: float) -> float:
     """Return how wide the longest line of words is, at most."""
     wide = (sum(_WIDE if c > "\u2e80" else _LETTER for c in line) for line in words.split("\n"))

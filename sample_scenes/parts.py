@@ -51,6 +51,8 @@ def start(
     for space in (area.spaces.active for screen in bpy.data.screens for area in screen.areas):
         if space.type == "VIEW_3D":
             space.region_3d.view_perspective = "CAMERA"
+        if space.type == "PROPERTIES":
+            space.context = "RENDER"  # where the extension's panel is
         if (
             space.type == "FILE_BROWSER"
         ):  # it came up in the user's own folder, which is nobody's business

@@ -144,3 +144,15 @@ def test_an_array_of_the_whole_view_is_compared_in_the_region(triangle):
     assert compare(part, color[40:80, 20:140]).verdict == "agree"
     with pytest.raises(ValueError, match="120 x 60 pixels"):
         compare(part, color[40:100, 20:140])
+
+
+def test_cameras_are_written_and_read(triangle):
+    reference_tracer.write_camera("sparse", triangle.camera, "colmap")
+    again = reference_tracer.read_camera("sparse", triangle.camera.name)
+    assert np.array_equal(
+        render(triangle.seen_by(again)).instance_index, render(triangle).instance_index
+    )
+    with pytest.raises(SceneError, match="'maya' is none of opencv, "):
+        reference_tracer.write_camera("camera.ma", triangle.camera, "maya")
+    with pytest.raises(SceneError, match="no camera '7'"):
+        reference_tracer.read_camera("sparse", 7)

@@ -10,7 +10,7 @@ from reference_tracer.causes.explain import CAUSES
 from reference_tracer.diagnosis.faults import EXAMPLES, FAULTS
 from reference_tracer.methods import Method
 
-from .attacks import withstood
+from .attacks.table import withstood
 
 PROJECT = Path(__file__).parent.parent
 sys.path.insert(0, str(PROJECT / "tools"))
@@ -21,6 +21,7 @@ from documents.markers import refreshed  # noqa: E402
 
 sys.path.pop(0)
 PAGES = {
+    "camera_conventions": "cameras.md",
     "causes": "causes.md",
     "checks": "causes.md",
     "faults": "faults.md",
@@ -75,7 +76,7 @@ def test_the_picture_of_a_cause_shows_it(cause):
 
 def test_a_cause_that_excuses_withstands_an_attack():
     for cause, attacks in withstood().items():
-        assert attacks, f"no attack in tests/attacks.py imitates '{cause.key}'"
+        assert attacks, f"no attack in tests/attacks/ imitates '{cause.key}'"
 
 
 def test_no_sentence_is_left_without_words():

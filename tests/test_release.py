@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import re
 import runpy
@@ -138,6 +139,18 @@ def test_it_takes_the_lesson_pack_of_its_commit(script, monkeypatch, tmp_path: P
     for name in ("tracer-1.0.zip", "tracer-1.0-py3-none-any.whl"):
         (pack / name).write_text("built before")
         (out / name).write_text("released")
+    wheel = pack / "lite/pypi/tracer-1.0-py3-none-any.whl"
+    wheel.parent.mkdir(parents=True)
+    wheel.write_text("built before")
+
+    def digest(content, kind="sha256"):
+        return hashlib.new(kind, content).hexdigest()
+
+    kinds = "md5", "sha256"
+    listed = {"digests": {kind: digest(b"built before", kind) for kind in kinds}, "size": 12}
+    index, settings = wheel.with_name("all.json"), pack / "lite/jupyter-lite.json"
+    index.write_text(json.dumps(listed))
+    settings.write_text(f"./pypi/all.json?sha256={digest(index.read_bytes())}")
     names = script["lesson_pack"].__globals__
     monkeypatch.setitem(names, "PROJECT", tmp_path)
     monkeypatch.setitem(names, "git", lambda *_: b"this\n")
@@ -150,6 +163,11 @@ def test_it_takes_the_lesson_pack_of_its_commit(script, monkeypatch, tmp_path: P
     with zipfile.ZipFile(path) as packed:
         assert packed.read("index.html") == b"lessons"
         assert packed.read("tracer-1.0.zip") == b"released"
+        assert packed.read(str(wheel.relative_to(pack))) == b"released"
+        listing, pointing = (packed.read(str(p.relative_to(pack))) for p in (index, settings))
+    released = {"digests": {kind: digest(b"released", kind) for kind in kinds}, "size": 8}
+    assert json.loads(listing) == released
+    assert pointing.decode().endswith(digest(listing))
 
 
 def test_an_address_takes_the_place_of_the_placeholder(script, clone: Path, tmp_path: Path):

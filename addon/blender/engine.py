@@ -74,6 +74,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def _trace(self, depsgraph: Any) -> None:
         """Export, trace and show one view layer of one frame, as long as Esc is not pressed."""
+        from ..certified.arithmetic import AssumptionError
         from ..tracer.frame import Frame
         from .reading.export import export
 
@@ -83,7 +84,12 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         frame = Frame.empty(scene)
         layer = depsgraph.view_layer.name
         passes = _enabled(depsgraph.view_layer)
-        shown = self._fill(frame, depsgraph.scene.reference_tracer.settings(), layer, passes[:1])
+        settings = depsgraph.scene.reference_tracer.settings()
+        try:
+            shown = self._fill(frame, settings, layer, passes[:1])
+        except AssumptionError:
+            self._show(frame, layer, passes, slice(0, frame.shape[0]))  # empty: it is withdrawn
+            raise
         # Blender takes over all passes of a row at once: those that are added need all rows again.
         first = 0 if len(passes) > 1 else shown
         self._show(frame, layer, passes, slice(first, frame.shape[0]))
@@ -106,11 +112,12 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
                 frame.cancel()
                 break
             self.update_progress(share)
+            done = int(frame.rows_done.sum())  # they are done from the lowest upwards
+            shown = min(shown, done)  # none is, if what was traced had to be withdrawn
             now = time.monotonic()
             if now > due:
                 left = f", {(now - began) * (1 - share) / share:.0f} s left" if share else ""
                 self.update_stats("", f"Tracing {int(100 * share)} %{left}")
-                done = int(frame.rows_done.sum())  # they are done from the lowest upwards
                 if done > shown:
                     self._show(frame, layer, picture, slice(shown, done))
                     shown = done

@@ -17,6 +17,7 @@ DITHER = 1.0 if bpy.app.version >= (4, 5, 0) else 1.275
 RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
 COMPOSITOR = "compositing_node_group" if _FROM_5 else "use_nodes"  # whether a scene has one
 STRIPS = "strips_all" if _FROM_5 else "sequences_all"  # of a sequencer
+LAYERS = "OPEN_EXR_MULTILAYER"  # the format of a file of all layers of a render
 # Names of engines, where this Blender has another than 5.0 and later.
 ENGINES = {} if _FROM_5 else {"BLENDER_EEVEE": "BLENDER_EEVEE_NEXT"}
 # Names in a 3D view's filters of types; the old grease pencil is there up to 4.2.
@@ -62,7 +63,7 @@ def set_format(render: Any, kind: str, mode: str, depth: str) -> None:
     """Set what files a `bpy.types.RenderSettings` writes."""
     settings = render.image_settings
     if _FROM_5:
-        settings.media_type = "IMAGE"
+        settings.media_type = "MULTI_LAYER_IMAGE" if kind == LAYERS else "IMAGE"
     settings.file_format = kind
     settings.color_mode = mode
     settings.color_depth = depth

@@ -63,6 +63,22 @@ def without(scene: Scene, names: Collection[str]) -> Scene:
     )
 
 
+def without_colors(case: Case) -> Case:
+    """Return a case whose picture shows data: what changes colours alone changes nothing."""
+    of_colors = Effect.COLOR, Effect.LIGHT
+    others = tuple(
+        replace(u, effect=Effect.NONE) if u.effect in of_colors else u
+        for u in case.manifest.unmodelled
+    )
+    drawn = case.picture.drawn and replace(case.picture.drawn, beneath=None)
+    return replace(
+        case,
+        manifest=replace(case.manifest, unmodelled=others),
+        picture=replace(case.picture, drawn=drawn),
+        curves=None,
+    )
+
+
 def no_variants() -> tuple[Variant, ...]:
     """Return no variants: nothing but the scene itself is known."""
     return ()

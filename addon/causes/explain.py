@@ -31,7 +31,7 @@ from .checks.clip import CLIP_PLANE
 from .checks.color import COLOR
 from .checks.edges import DEPTH_TIE, EDGE
 from .checks.hidden import HIDDEN
-from .checks.probe import OpenPixels, other_color
+from .checks.probe import OpenPixels, by_blocks, other_color
 from .checks.unmodelled import NOT_MODELLED
 from .embree import not_decidable
 
@@ -140,8 +140,11 @@ def _open(pixels: OpenPixels) -> Work[None]:
     frame = pixels.frame
     seen = frame.instance_index
     moved = yield from _moved(pixels)
-    ramp = shading.interpolated(scene, seen)
-    finding = other_color(pixels.picture, frame.color, ramp)
+    if pixels.picture.data is not None:
+        finding = by_blocks(frame.shape, lambda rows: ~pixels.picture.at(rows).shows(frame, rows))
+    else:
+        ramp = shading.interpolated(scene, seen)
+        finding = other_color(pixels.picture, frame.color, ramp)
     differ = yield from scaled(finding, 1.0, 0.0)
     pixels.open[:] = differ | pixels.picture.other_object(seen)
     pixels.give(np.broadcast_to(~frame.rows_done[:, None], frame.shape), NOT_TRACED)

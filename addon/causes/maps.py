@@ -35,9 +35,10 @@ def dimmed(color: Colors) -> Colors:
         rgb = np.nan_to_num(c[:, :3])
         light = rgb @ np.array(_LUMINANCE)
         shown = DIM * (HUE * rgb + (1 - HUE) * light[:, None])
-        return np.concatenate((shown, np.nan_to_num(c[:, 3:], nan=1.0)), axis=1)
+        alpha = np.nan_to_num(c[:, 3:], nan=1.0)
+        return np.concatenate((shown, alpha), axis=1, dtype=np.float32)
 
-    return by_runs(paler, flat).reshape(color.shape).astype(np.float32)
+    return by_runs(paler, flat).reshape(color.shape)
 
 
 def cause_map(color: Colors, cause: Bytes, opaque: bool = True) -> Colors:

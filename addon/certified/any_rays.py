@@ -19,6 +19,7 @@ from ..tracer.nearest import every_pair
 from ..tracer.progress import Work, result_of
 from ..tracer.settings import Settings
 from ..tracer.vector import occurring, parts
+from .arithmetic import sound, sound_steps
 from .bounds import FromPoint
 from .exact import IntegerBatch
 from .ladder import Ladder, in_range, sides
@@ -36,6 +37,7 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
     return (yield from nearest_hits(scene, rays, clip, statistics, culled))
 
 
+@sound_steps
 def nearest_hits(
     scene: Scene,
     rays: Rays,
@@ -88,6 +90,7 @@ class Decision:
     exact: Bools  # integers decided
 
 
+@sound
 def decide(
     rays: Rays,
     corners: Floats,

@@ -17,6 +17,7 @@ from ..tracer.camera import camera_rays, corner_rays, film_positions
 from ..tracer.candidates import Plan, candidates, cull
 from ..tracer.hits import Hits, Statistics
 from ..tracer.progress import Work, scaled
+from .arithmetic import sound_steps
 from .ladder import Ladder
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 _ROWS = 8  # rows of pixels in a tile
 
 
+@sound_steps
 def plain(
     scene: Scene,
     region: Region,

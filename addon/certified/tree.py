@@ -75,7 +75,7 @@ class Tree:
         found = found.take(np.minimum(order, count - 1))
         ends = np.concatenate((found.corners.min(axis=0), found.corners.max(axis=0)))
         boxes = _joined(ends.reshape(6, -1, WIDE))
-        levels = []
+        levels: list[Floats] = []
         while count and (boxes.shape[1] > 1 or not levels):
             missing = -boxes.shape[1] % WIDE
             empty = np.repeat(((np.inf,), (-np.inf,)), 3, axis=0)

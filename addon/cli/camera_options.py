@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from argparse import Namespace, _ActionsContainer
 from dataclasses import fields
 from pathlib import Path
 
+from ..camera_files.convention import View
+from ..camera_files.files import CONVENTIONS, is_seen_to_be, read
+from ..camera_files.files import chosen as chosen_view
 from ..file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
 from ..mesh_files.load import READERS
@@ -13,9 +17,12 @@ from ..scene import SceneError
 from .arguments import is_blend, refuse
 from .parser import COUNT, FINITE, POSITIVE, Parser, number
 
-_OF_BLEND = "scene_name", "view_layer", "frame", "camera"
+_OF_BLEND = "scene_name", "view_layer", "frame"
+_OF_FILE = "camera_convention", "camera_view"
 _OF_MESH = "width", "height", "frame_all", "eye", "target", "angle", "ortho_scale", "up"
-CAMERA_OPTIONS = *_OF_MESH, *_OF_BLEND
+CAMERA_OPTIONS = *_OF_MESH, *_OF_BLEND, "camera", *_OF_FILE
+# Of files that `--camera` takes for a camera's, whatever cameras a .blend has.
+_ENDINGS = ".json", ".txt", ".xml", ".glb", ".gltf"
 
 _DEGREES = number(float, lambda value: 0 < value < 180, "between 0 and 180 degrees")
 _FRAME = number(
@@ -44,7 +51,17 @@ def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -
             choices=["y", "z"],
             help="which axis of a mesh is up (default y of glTF, z of others); it is turned to Z",
         )
-    _add_which(group.add_mutually_exclusive_group())
+    _add_which(group.add_mutually_exclusive_group(), parser)
+    group.add_argument(
+        "--camera-convention",
+        choices=CONVENTIONS,
+        help="how the file of --camera is read (default as its content says)",
+    )
+    group.add_argument(
+        "--camera-view",
+        metavar="NAME",
+        help="which camera of the file of --camera: the name or the number of its image",
+    )
     group.add_argument(
         "--target",
         type=FINITE,
@@ -68,9 +85,19 @@ def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -
     _add_parts_of_blend(parser)
 
 
-def _add_which(group: _ActionsContainer) -> None:
+def _add_which(group: _ActionsContainer, parser: Parser) -> None:
     """Add the three ways to choose a camera."""
-    group.add_argument("--camera", metavar="NAME", help="use this camera of a .blend")
+
+    def name_or_path(text: str) -> str:
+        return str(parser.path(text)) if text.startswith("//") else text  # as Blender writes it
+
+    group.add_argument(
+        "--camera",
+        type=name_or_path,
+        metavar="NAME",
+        help="use this camera of a .blend or a .glb; or a file's, as another program wrote it: "
+        "K, R and t in JSON, transforms.json, a folder of COLMAP's, and so on",
+    )
     group.add_argument(
         "--frame-all",
         action="store_true",
@@ -144,7 +171,37 @@ def choice_from(given: Namespace, path: Path) -> Choice:
             why = f"is for a .blend or a mesh: '{path}' has its own camera and its own picture"
             refuse(given, CAMERA_OPTIONS, why)
     known = [field.name for field in fields(Choice) if field.name in given]
-    return Choice(**{name: getattr(given, name) for name in known})
+    chosen = {name: getattr(given, name) for name in known}
+    if view := _view(given, path if is_mesh else None):
+        for note in view.notes:
+            print(f"{given.camera}: {note}", file=sys.stderr)
+        chosen |= {"camera": None, "seen_by": view}
+    return Choice(**chosen)
+
+
+def _view(given: Namespace, mesh: Path | None) -> View | None:
+    """Return the camera of a file that is named; None if none is, but a camera of a .blend."""
+    if given.camera is None:
+        refuse(given, _OF_FILE, "is for a file of --camera")
+        return None
+    file, which = Path(given.camera), given.camera_view
+    size = given.width, getattr(given, "height", None)
+    is_file = file.suffix.lower() in _ENDINGS or (file.is_dir() and is_seen_to_be(file))
+    if not (is_file or given.camera_convention or which):
+        if mesh is None:
+            return None
+        file, which = mesh, given.camera
+        if mesh.suffix.lower() not in (".glb", ".gltf"):
+            raise SceneError(f"--camera {which} is no file, and '{mesh}' has no cameras")
+        if given.up == "z":
+            raise SceneError("--up z is for the meshes alone: a camera of glTF has Y up")
+    view = chosen_view(read(file, given.camera_convention, size), which)
+    own = view.camera.width, view.camera.height
+    if any(asked not in (None, has) for asked, has in zip(size, own, strict=True)):
+        raise SceneError(
+            f"--width and --height are for files that say no size: '{file}' has {own[0]} x {own[1]}"
+        )
+    return view
 
 
 def _refuse_without_camera(given: Namespace, is_mesh: bool) -> None:

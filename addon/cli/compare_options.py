@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..comparison.animation import frames_named
 from ..framing import Choice
+from ..pictures.data.given import KINDS, GivenData
 from ..pictures.palette import By
 from ..pictures.renderers import RENDERERS
 from ..scene import SceneError
@@ -20,10 +21,11 @@ from .arguments import (
     settings_from,
 )
 from .camera_options import add_camera, choice_from
+from .data_options import add_data, data_from
 from .parser import AT_LEAST_0, Parser
 
 # A frame of an animation stays the same whatever these are.
-_NOT_OF_A_FRAME = "scene", "out", "frames", "against", "colors_out", "junit", "place"
+_NOT_OF_A_FRAME = "scene", "out", "frames", "against", "data", "colors_out", "junit", "place"
 
 # Options for a picture of unknown origin.
 _OF_GIVEN = "filter", "renderer"
@@ -48,6 +50,7 @@ class CompareOptions:
     frames: str | None  # of an animation, as they are typed
     # Another picture, in place of Blender's.
     against: Path | None
+    data: GivenData | None  # depths and so on in place of colours
     filter: float | None  # pixels
     dither: float | None  # levels of 255
     renderer: str | None  # whose rounding excuses a pixel; None for what the picture says
@@ -66,7 +69,8 @@ class CompareOptions:
             refuse(given, ("colors_out",), "is for one judge, not for --judge all")
         if given.as_is:
             refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
-        if given.against is None:
+        data = data_from(given)
+        if given.against is None and data is None:
             _check_judge(given.judge or "auto", given)
             refuse(given, ("dither",), "is for a picture of --against")
         else:
@@ -85,6 +89,7 @@ class CompareOptions:
             diagnosis=given.diagnosis,
             frames=given.frames,
             against=given.against,
+            data=data,
             filter=given.filter,
             dither=given.dither,
             renderer=given.renderer,
@@ -94,6 +99,11 @@ class CompareOptions:
             extremes=given.extremes,
             place=place_from(given),
         )
+
+    @property
+    def file(self) -> Path | None:
+        """The picture or data in place of Blender's picture."""
+        return self.data.path if self.data else self.against
 
     def of_a_frame(self) -> dict[str, str]:
         """Return the options that a frame's comparison depends on, in words that can be stored."""
@@ -116,7 +126,7 @@ def _refuse_beside_frames(given: Namespace) -> None:
     if given.frames is None:
         return
     why = "is for one frame, not for --frames"
-    of_one = "frame", "against", "trade", "extremes", "diagnosis", "colors_out"
+    of_one = "frame", "against", *KINDS, "trade", "extremes", "diagnosis", "colors_out"
     refuse(given, of_one, why)
     if isinstance(given.colors, Path):
         raise SceneError(f"--colors {given.colors} {why}")
@@ -230,18 +240,21 @@ def _add_page(parser: Parser) -> None:
 
 def _add_against(parser: Parser) -> None:
     group = parser.add_argument_group("another picture, in place of Blender's")
-    group.add_argument(
+    instead = group.add_mutually_exclusive_group()
+    instead.add_argument(
         "--against",
         type=parser.path,
         metavar="PICTURE",
         help="a .png (sRGB) or .exr (linear) of the same camera and size; a background of its own, "
         "of one colour or transparent, is named and does not count as a difference",
     )
+    add_data(parser, instead)
     group.add_argument(
         "--filter",
         type=AT_LEAST_0,
         metavar="PIXELS",
-        help="how far its anti-aliasing reaches (default 0: one sample in each pixel's centre)",
+        help="how far its anti-aliasing reaches, or its samples lie from the pixels' centres if it "
+        "holds data (default 0: one sample in each pixel's centre)",
     )
     group.add_argument(
         "--dither",

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
+
 from ..causes.case import Case
 from ..causes.counts import count_pixels
 from ..causes.excused import excused
@@ -144,6 +146,10 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     traced, picture = found.frame, found.case.picture  # both before the picture's own background
     channels = slice(3 if picture.storage.opaque else 4)  # an opaque picture says nothing of alpha
     pair = traced.color[..., channels], picture.color[..., channels]
+    if picture.data is not None:
+        made, held = picture.data.pair(traced)
+        traced = replace(traced, color=picture.data.shown(made))
+        pair = np.nan_to_num(made), np.nan_to_num(held)
     measuring = called(image_metrics(*pair), "measuring differences")
     measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
     identity = picture.identity(traced.instance_index)

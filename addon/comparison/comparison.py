@@ -217,12 +217,15 @@ class Comparison:
             yield "           Draw each flat, in those that --colors-out writes"
 
     def _measured(self) -> str:
-        m = self.metrics
+        m, data = self.metrics, self.case.picture.data
         psnr = f"{m.psnr:.1f} dB" if m.rmse else "infinite"
         x, y = m.largest_difference.pixel
         most = f"largest difference {m.largest_difference.value:.3g} at pixel ({x}, {y})"
         if not m.rmse:
             most = "no difference anywhere"
+        if data is not None:  # what ratios say is of colours
+            unit = data.kind.unit and f" {data.kind.unit}"
+            return f"{data.kind.words}: RMSE {m.rmse:.3g}{unit}, {most}"
         return f"RMSE {m.rmse:.3g}, PSNR {psnr}, SSIM {m.ssim:.6f}, {most}"
 
     def _evidence(self) -> Iterator[str]:

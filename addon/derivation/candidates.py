@@ -89,9 +89,11 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
     )
     order = _order(pixel, triangles)
     count = _enough(pixel, triangles, order, limit)
-    seen = {answer(pixel, triangles, some).seen for some in UNPROVEN_SETTINGS}
-    more = (k for k in order[count:] if (triangles.instance[k], triangles.triangle[k]) in seen)
-    shown = [*order[:count], *more]
+    shown = [*order[:count]]
+    if len(order) > count:
+        seen = {answer(pixel, triangles, some).seen for some in UNPROVEN_SETTINGS}
+        names = ((triangles.instance[k], triangles.triangle[k]) for k in order[count:])
+        shown += [k for k, name in zip(order[count:], names, strict=True) if name in seen]
     return replace(
         pixel,
         candidates=(*(_candidate(scene, triangles, k) for k in shown), *planes),

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from decimal import Decimal, localcontext
 from fractions import Fraction
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -70,25 +69,35 @@ def ulps(value: np.floating, exact: Fraction | None) -> float | None:
     """
     if exact is None or not np.isfinite(value):
         return None
-    error = abs(Fraction(float(value)) - exact)
+    error, parts = _error(value, exact)
     if not error:
         return 0.0
     if not exact:
         return None
-    try:
-        return float(error / unit_in_last_place(exact, type(value)))
+    power = last_place(exact, type(value))
+    try:  # a quotient of integers is correctly rounded
+        return (error << max(-power, 0)) / (parts << max(power, 0))
     except OverflowError:
         return float("inf")
 
 
-def unit_in_last_place(exact: Fraction, kind: type[np.floating]) -> Fraction:
-    """Return the distance between neighbouring floats of a type around a number that is not 0."""
+def _error(value: np.floating, exact: Fraction) -> tuple[int, int]:
+    """Return numerator and denominator, not reduced, of how far a float is from the truth.
+
+    In integers alone: fractions take most of the time that a page of numbers takes.
+    """
+    top, bottom = float(value).as_integer_ratio()
+    return abs(top * exact.denominator - exact.numerator * bottom), bottom * exact.denominator
+
+
+def last_place(exact: Fraction, kind: type[np.floating]) -> int:
+    """Return the power of 2 between neighbouring floats of a type around a number that is not 0."""
     limits = np.finfo(kind)
-    size = abs(exact)
-    power = size.numerator.bit_length() - size.denominator.bit_length()
-    if Fraction(2) ** power > size:
+    top, bottom = abs(exact.numerator), exact.denominator
+    power = top.bit_length() - bottom.bit_length()
+    if bottom << max(power, 0) > top << max(-power, 0):
         power -= 1  # 2^power <= size < 2^(power + 1)
-    return Fraction(2) ** (max(power, int(limits.minexp)) - int(limits.nmant))
+    return max(power, int(limits.minexp)) - int(limits.nmant)
 
 
 def marked(value: np.floating, exact: Fraction | None) -> Parts:
@@ -103,19 +112,15 @@ def marked(value: np.floating, exact: Fraction | None) -> Parts:
         return Parts(whole)
     mantissa, mark, power = whole.partition("e")
     exponent = int(power) if mark else 0
-    twice = 2 * abs(Fraction(float(value)) - exact)
+    error, parts = _error(value, exact)
     point = mantissa.find(".") if "." in mantissa else len(mantissa)
     for at, sign in enumerate(mantissa):
         if sign.isdigit():
             place = point - at - 1 if at < point else point - at
-            if twice > _power_of_10(place + exponent):
+            power_of_10 = place + exponent
+            if 2 * error * 10 ** max(-power_of_10, 0) > parts * 10 ** max(power_of_10, 0):
                 return Parts(mantissa[:at], mantissa[at:], mark + power)
     return Parts(whole)
-
-
-@cache
-def _power_of_10(exponent: int) -> Fraction:
-    return Fraction(10) ** exponent
 
 
 def off_text(off: float | None) -> str:

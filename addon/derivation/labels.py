@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ..svg import width_of
@@ -82,11 +82,12 @@ def placed(labels: Sequence[Label], lines: Sequence[Segment], room: Box) -> list
         tries = _tries(label)
         best, least = tries[0], math.inf
         for place in tries:
-            box = place.box
-            cost = _cost(place, box, taken, dots, room)
-            if cost < least:  # else its crossing lines, slow to count, do not matter
-                cost += _ON_LINE * sum(crosses(line, box) for line in lines)
-            if cost < least:
+            cost = 0.0
+            for more in _costs(place, taken, dots, lines, room):
+                cost += more
+                if cost >= least:  # what is slow to count comes last
+                    break
+            else:
                 best, least = place, cost
         out.append(best)
         taken.append(best.box)
@@ -109,23 +110,24 @@ def _tries(label: Label) -> list[Placed]:
     return out
 
 
-def _cost(
+def _costs(
     place: Placed,
-    box: Box,
     others: Sequence[Box],
     dots: Sequence[Place],
+    lines: Sequence[Segment],
     room: Box,
-) -> float:
-    """Return how bad a place with this box is, but for the lines in it."""
-    left, top, right, bottom = box
+) -> Iterator[float]:
+    """Yield what makes a place bad, the quickest to find first."""
+    left, top, right, bottom = box = place.box
     x, y = place.at
-    cost = math.hypot(max(left - x, 0, x - right), max(top - y, 0, y - bottom))
-    cost += 0.3 * math.dist(place.at, place.middle)
+    away = math.hypot(max(left - x, 0, x - right), max(top - y, 0, y - bottom))
+    yield away + 0.3 * math.dist(place.at, place.middle)
     if left < room[0] or top < room[1] or right > room[2] or bottom > room[3]:
-        cost += _OUTSIDE
-    cost += _ON_LABEL * sum(overlap(box, other) for other in others)
-    near = sum(left - 5 < x < right + 5 and top - 5 < y < bottom + 5 for x, y in dots)
-    return cost + _ON_DOT * near
+        yield _OUTSIDE
+    yield _ON_LABEL * sum(overlap(box, other) for other in others)
+    yield _ON_DOT * sum(left - 5 < x < right + 5 and top - 5 < y < bottom + 5 for x, y in dots)
+    for line in lines:
+        yield _ON_LINE * crosses(line, box)
 
 
 def overlap(one: Box, other: Box) -> bool:

@@ -7,6 +7,7 @@ component), ², operators, and one fraction: "/" between spaces, at the top of a
 from __future__ import annotations
 
 import re
+from functools import cache
 from html import escape
 
 from .formulas import VECTORS, Formula
@@ -18,6 +19,7 @@ _AROUND = re.compile(r"^\((.*)\)$")
 _INDEX = str.maketrans("ₛᵢ₁₂₃", "si123")
 
 
+@cache  # a page has each of them in every surface's table
 def math(formula: Formula) -> str:
     """Return `label = right side`, or the label alone where a number is given."""
     inner = _inline(formula.label)

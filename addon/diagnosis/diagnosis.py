@@ -18,7 +18,7 @@ from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..wording import count_of
 from .evidence import Evidence
-from .faults import FAULTS
+from .faults import FAULTS, OF_COLORS
 from .faults.fault import AnyFault, Guess
 from .guessing import LEAST_SETTLED, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
@@ -180,6 +180,8 @@ def diagnose(
     if not evidence.unexplained.any() or frame.cancelled:
         return Diagnosis()
     began = time.monotonic()
+    if case.picture.data is not None:
+        faults = [fault for fault in faults if fault.name not in OF_COLORS]
     guessing = Guessing(faults, steps)
     evidence = yield from scaled(with_variants(evidence), 0.0, 0.0)
     at_first = evidence.unexplained
@@ -233,8 +235,12 @@ def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
     after = trial.evidence
     settled, broken, _, _ = counted(evidence, after)
     color = after.frame.color.copy()
-    made = after.case.picture.made_of(color)  # by a transform, if that is the fault
-    color[..., : made.shape[-1]] = made
+    picture = after.case.picture
+    if picture.data is not None:
+        color = picture.data.shown(picture.data.of_frame(after.frame))
+    else:
+        made = picture.made_of(color)  # by a transform, if that is the fault
+        color[..., : made.shape[-1]] = made
     return Told(
         trial.fault,
         trial.guess,

@@ -221,6 +221,8 @@ class Evidence:
         """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
         scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
+        if shown.data:
+            return np.full(len(shown.color), NOTHING, np.int32)
         if shown.owners:
             of_owner = reversed(list(enumerate(shown.owners.instances[:-1])))
             first = {int(owner): n for n, owner in of_owner}

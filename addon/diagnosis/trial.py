@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from operator import is_
 
 import numpy as np
 
@@ -12,7 +13,8 @@ from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
 from ..pictures.bounds import differing_pixels, largest_within
 from ..rendering import steps
-from ..scene import SceneError
+from ..scene import Scene, SceneError
+from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from .evidence import Evidence
@@ -101,12 +103,33 @@ def trial_of(
 
 
 def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
-    """Trace another case; if it has the same scene, return the frame there is."""
+    """Trace another case; if it has the same scene, return the frame there is.
+
+    Where only colours are others, what was traced is painted anew.
+    """
     if other.scene is case.scene:
         return frame
+    if case.settings.samples == 1 and not frame.cancelled and same_shapes(other.scene, case.scene):
+        color = shading.colors(other.scene, frame.hits()).reshape(frame.color.shape)
+        return replace(frame, scene=other.scene, color=color)
     traced = Frame.empty(other.scene)
     yield from steps(other.scene, case.settings, traced)  # here: waiting for others is no work
     return traced
+
+
+def same_shapes(one: Scene, other: Scene) -> bool:
+    """Return whether two scenes, one made of the other, differ in nothing but colours."""
+    records = (one.camera, *one.meshes, *one.planes), (other.camera, *other.meshes, *other.planes)
+    pairs = list(zip(one.instances, other.instances, strict=False))
+    return (
+        len(records[0]) == len(records[1])
+        and all(map(is_, *records))
+        and len(pairs) == len(one.instances) == len(other.instances)
+        and all(
+            i.mesh == j.mesh and np.array_equal(i.world_from_object, j.world_from_object)
+            for i, j in pairs
+        )
+    )
 
 
 def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
@@ -118,10 +141,10 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
     if mixes > before.case.picture.sampling.filter_radius:
         return True
     picture = as_known(case)
-    right = picture.alike(case.scene, frame.instance_index, frame.color)
+    right = picture.shows(frame)
     right &= ~picture.other_object(frame.instance_index)
     settled = int((right & before.unexplained).sum())
-    was = before.picture.alike(before.case.scene, before.frame.instance_index, before.frame.color)
+    was = before.picture.shows(before.frame)
     broken = int((~right & (was | (not mixes)) & before.judged).sum())
     # Where colours are mixed, it may be that only the checks can say so.
     return settled > HOPE * broken or bool(mixes and settled == broken == 0)
@@ -167,6 +190,9 @@ def left_unexplained(evidence: Evidence) -> Bools:
 
 def _changed(before: Evidence, after: Evidence) -> Bools:
     """Return which pixels (h, w) are traced in other colours; all, if the picture changed."""
-    if before.case.picture.color is not after.case.picture.color:
+    one, other = before.case.picture, after.case.picture
+    if one.color is not other.color or one.data is not other.data:
         return np.ones(before.unexplained.shape, bool)
+    if one.data is not None:
+        return one.sees_apart(before.frame, after.frame)
     return differing_pixels(before.frame.color, after.frame.color)

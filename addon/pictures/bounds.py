@@ -101,13 +101,11 @@ def corner_errors(
         first = run_starts(*names[:, rows])
         instance, triangle = names[:, rows[first]]
         length = np.diff(first, append=len(rows))
-        matrices = scene.instance_matrices[..., instance]
-        own = np.empty((3, len(first)))
-        for out, corner in zip(own, mesh.triangles[triangle].T, strict=True):
-            v = mesh.vertices[corner].T
-            p = np.abs(transform_points(matrices, v)).sum(axis=0)
-            model = transform_points(np.abs(matrices), np.abs(v)).sum(axis=0)
-            out[:] = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
+        matrices = scene.instance_matrices[..., None, instance]
+        v = mesh.vertices[mesh.triangles[triangle].T].transpose(2, 0, 1)  # component, corner, row
+        p = np.abs(transform_points(matrices, v)).sum(axis=0)
+        model = transform_points(np.abs(matrices), np.abs(v)).sum(axis=0)
+        own = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
         error[rows] = together(np.repeat(own, length, axis=1), hits.s[:, rows])
     return U32 * error
 

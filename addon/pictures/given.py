@@ -59,10 +59,10 @@ def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Pictur
     OSError
         If they are damaged.
     """
-    traced = _traced(camera, (file.height, file.width))
+    at = traced(camera, (file.height, file.width))
     check_memory(camera.region.width, camera.region.height, COMPARED, ALWAYS)
     stored = file.read()
-    color = np.ascontiguousarray(stored.color[traced])
+    color = np.ascontiguousarray(stored.color[at])
     dither = 0.0 if stored.levels > 255 else making.default_dither  # of what has 8 bits alone
     if making.dither is not None:
         dither = making.dither * stored.levels / 255
@@ -76,7 +76,7 @@ def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Pictur
     )
 
 
-def _traced(camera: Camera, size: tuple[int, int]) -> tuple[slice, slice]:
+def traced(camera: Camera, size: tuple[int, int]) -> tuple[slice, slice]:
     """Return the rows and columns of a picture (h, w) that are traced.
 
     They are the camera's region of its whole view, or the whole of that region.
@@ -108,8 +108,8 @@ def picture_of_array(color: ArrayLike, camera: Camera, making: Making) -> Pictur
         say = "a picture holds linear colours, floats from 0 to 1"
         raise ValueError(f"{say}, not {given.dtype}: for what is encoded, name its file")
     opaque = given.shape[2] == 3
-    traced = _traced(camera, given.shape[:2])
-    given = np.ascontiguousarray(given[traced], np.float32)
+    at = traced(camera, given.shape[:2])
+    given = np.ascontiguousarray(given[at], np.float32)
     if opaque:
         given = np.concatenate((given, np.ones_like(given[..., :1])), axis=2)
     renderer, known = making.renderer_of("")

@@ -17,8 +17,10 @@ from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where
 from ..runs import by_runs
 from ..scene import Scene
 from ..tracer import shading
+from ..tracer.frame import Frame
 from ..tracer.hits import Hits
 from .bounds import FLOATS, Storage, difference, differing
+from .data.kind import Data
 from .identity import NOTHING, Identity, Owners
 from .sampling import AT_CENTRES, Sampling
 
@@ -66,9 +68,10 @@ class Source:
     known: str = ""  # of a file: how it is known what made it, in words
     remarks: tuple[str, ...] = ()  # what a file says of its pixels that is not applied
     settings: dict[str, object] = field(default_factory=dict)
+    what: str = "the picture"  # that its file holds
 
     def __str__(self) -> str:
-        return f"the picture '{self.file}'" if self.file else f"Blender's {self.name} picture"
+        return f"{self.what} '{self.file}'" if self.file else f"Blender's {self.name} picture"
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +114,7 @@ class Picture:
     colorless: Bools | None = None  # the tracer does not know the instance's colours
     holes: Bools | None = None  # the instance is shown as if nothing were there
     drawn: DrawnOver | None = None  # what draws itself, if anything does
+    data: Data | None = None  # what it shows in place of colours: these are to look at then
 
     def to_dict(self) -> dict[str, object]:
         """Return who made it and how, as JSON can hold it."""
@@ -147,7 +151,31 @@ class Picture:
             color=self.color[where],
             owners=self.owners and self.owners.at(where),
             drawn=self.drawn and self.drawn.at(where),
+            data=self.data and self.data.at(where),
         )
+
+    def moved(self, where: Where) -> Picture:
+        """Return the picture (h, w) with its pixels in other places, those of `where`."""
+        there = self.at(where)
+        if self.data is None or there.data is None:
+            return there
+        return replace(there, data=replace(there.data, film=self.data.film))
+
+    def shows(self, frame: Frame, rows: slice = slice(None)) -> Bools:
+        """Return which of these pixels, some rows, may show what a frame has there, (k, w)."""
+        seen = frame.instance_index[rows]
+        if self.data is None:
+            return self.alike(frame.scene, seen, frame.color[rows])
+        hits, data = frame.hits(rows), self.data.flat
+        return data.same(frame.scene, hits, self.sampling, hits.t).reshape(seen.shape)
+
+    def sees_apart(self, first: Frame, second: Frame) -> Bools:
+        """Return where two frames (h, w) have something else to show in such a picture."""
+        if self.data is None:
+            return np.asarray((first.color != second.color).any(axis=-1), np.bool_)
+        with np.errstate(invalid="ignore"):
+            out = (first.t != second.t) | (first.object_index != second.object_index)
+        return out | (first.triangle_index != second.triangle_index)
 
     def of_instances(self, some_of: Bools) -> Picture:
         """Return the picture with its owners for some of the scene's instances and planes only."""
@@ -211,6 +239,8 @@ class Picture:
 
         In a lit picture any colour may be right, and so may be that of a colourless surface.
         """
+        if self.data is not None:
+            return self.data.same(scene, hits, self.sampling)
         if self.lit:
             return self.known(hits.instance)
         return self.alike(scene, hits.instance, shading.colors(scene, hits))

@@ -9,7 +9,7 @@ hit may be left out.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,15 @@ from ..arrays import Bools, Floats, Index, Integers
 from .camera import pixel_size, project
 from .progress import Work
 from .vector import Vectors, groups, spread
-from .world import Batch, Pairs, WorldTriangles, batches, world_triangles
+from .world import (
+    Batch,
+    Pairs,
+    WorldTriangles,
+    WorldVertices,
+    batches,
+    world_triangles,
+    world_vertices,
+)
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region, Scene
@@ -73,7 +81,6 @@ def has_sound_axes(camera: Camera) -> bool:
         return bool(fits.all() and abs(np.linalg.det(axes)) >= least)
 
 
-@np.errstate(all="ignore")  # what overflows has no bounds
 def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> Integers:
     """Return boxes of pixels outside which no ray of the camera truly hits a triangle.
 
@@ -90,17 +97,24 @@ def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> Intege
         x0, x1, y0, y1 with x0 <= x < x1 and y0 <= y < y1, within the camera's region; empty where
         x0 >= x1 or y0 >= y1.
     """
+    flat = np.concatenate(list(corners), axis=1)
+    every = np.arange(flat.shape[1]).reshape(len(corners), -1)
+    return vertex_bounds(camera, WorldVertices(flat, every), reach)
+
+
+@np.errstate(all="ignore")  # what overflows has no bounds
+def vertex_bounds(camera: Camera, vertices: WorldVertices, reach: float = 0.0) -> Integers:
+    """Return what :func:`pixel_bounds` does, of polygons that share vertices."""
     region = camera.region
-    count = corners.shape[2]
+    count = vertices.corners.shape[1]
     if not has_sound_axes(camera):
         everywhere = np.array([region.x0, region.x1, region.y0, region.y1], np.int32)
         return np.repeat(everywhere[:, None], count, axis=1)
-    flat = np.concatenate(list(corners), axis=1).astype(np.float64)
-    xyz, magnitude = project(camera, flat)
+    xyz, magnitude = project(camera, vertices.points.astype(np.float64))
     magnitude = magnitude[0] + magnitude[1] + magnitude[2]
-    eps = float(np.finfo(corners.dtype).eps)
-    error = SAFETY * eps * magnitude + _TINY
-    error = error.reshape(len(corners), count).max(axis=0)
+    eps = float(np.finfo(vertices.points.dtype).eps)
+    error = vertices.of_corners(SAFETY * eps * magnitude + _TINY).max(axis=0)
+    corners = vertices.of_corners(xyz).swapaxes(0, 1)
     w = camera.window
     sizes = pixel_size(camera)
     starts = (w.left, w.bottom)
@@ -112,7 +126,7 @@ def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> Intege
     x, y = (size * slack for size, slack in zip(sizes, slacks, strict=True))
     edges = w.left - x, w.right + x, w.bottom - y, w.top + y
     smallest, largest, nearest, farthest = camera.projection.box(
-        xyz.reshape(3, len(corners), count), error, camera.clip_start, edges, eps
+        corners, error, camera.clip_start, edges, eps
     )
     bounds = np.empty((4, count), np.int32)
     ends = (region.x0, region.x1), (region.y0, region.y1)
@@ -174,12 +188,15 @@ def cull(
 
 
 def _bounds(scene: Scene, dtype: np.dtype[np.floating], reach: float, batch: Batch) -> _Bounded:
-    triangles = world_triangles(scene, batch, dtype)
+    vertices = world_vertices(scene, batch, dtype)
+    triangles = world_triangles(scene, batch, dtype, vertices)
     finite = triangles.finite
     refused = len(finite) - int(finite.sum())
     if refused:
-        triangles = triangles.take(np.flatnonzero(finite))
-    return triangles, pixel_bounds(scene.camera, triangles.corners, reach), refused
+        some = np.flatnonzero(finite)
+        triangles = triangles.take(some)
+        vertices = replace(vertices, corners=vertices.corners[:, some])
+    return triangles, vertex_bounds(scene.camera, vertices, reach), refused
 
 
 def candidates(

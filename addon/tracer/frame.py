@@ -109,8 +109,17 @@ class Frame:
     def cancel(self) -> None:
         """End here: empty the rows that are not done, whatever was found of them."""
         self.cancelled = True
+        self._empty(int(self.rows_done.sum()))  # the lowest are done first
+
+    def withdraw(self) -> None:
+        """Empty all rows, as if nothing had been traced."""
+        self.rows_done[:] = False
+        self.statistics = Statistics()
+        self._empty(0)
+
+    def _empty(self, first: int) -> None:
         height, width = self.shape
-        rows = slice(int(self.rows_done.sum()), height)  # the lowest are done first
+        rows = slice(first, height)
         self.color[rows] = 0
         self.ties = self.ties.below(rows.start * width)
         self.enter(rows, Hits.none((height - rows.start) * width))

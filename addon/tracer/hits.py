@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..arrays import Bools, Bytes, Floats, Index
 from ..certainty import Certainty, Reason, sentences
 from ..wording import count_of
-from .vector import Vectors, groups, spread
+from .vector import Vectors, gather, groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
 Names = NDArray[np.int32]  # (n,) instances, or triangles
@@ -247,7 +247,8 @@ class Hits:
         self.instance[index] = other.instance
         self.triangle[index] = other.triangle
         self.certainty[index] = other.certainty
-        self.values[:, index] = other.values
+        for own, new in zip(self.values, other.values, strict=True):  # faster than all at once
+            own[index] = new
 
     def take(self, index: Index | slice) -> Hits:
         """Return the hits of the rays at `index`, without their ties."""
@@ -256,8 +257,10 @@ class Hits:
             if isinstance(index, slice):
                 index = np.arange(*index.indices(len(self)))
             measures = partial(_measures_at, measures, index)
-        else:
+        elif isinstance(index, slice):
             measures = measures[:, index]
+        else:
+            measures = gather(measures, index)
         return Hits(self.instance[index], self.triangle[index], self.certainty[index], measures)
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index, Integers
+from ..arrays import Array, Bools, Floats, Index, Integers
 from .camera import dual_axes, project
 from .vector import Arrays, Vectors, gather, transform_points
 
@@ -113,23 +113,56 @@ def batches(scene: Scene) -> Iterator[Batch]:
                 yield Batch(mesh, some, first, min(first + BATCH, count))
 
 
-def world_triangles(
+@dataclass(frozen=True, eq=False)
+class WorldVertices:
+    """The v vertices of a batch in world space, (3, v), and which of them each corner is, (3, m).
+
+    The m triangles are those of the first instance, then of the second, and so on.
+    """
+
+    points: Vectors
+    corners: Index
+
+    def of_corners(self, values: Array) -> Array:
+        """Return for each corner, (3, ..., m), what is known of its vertex, (..., v)."""
+        return np.stack([gather(values, corner) for corner in self.corners])
+
+
+def world_vertices(
     scene: Scene, batch: Batch, dtype: np.dtype[np.floating] | type[float]
-) -> WorldTriangles:
-    """Return a batch's triangles in world space, computed in float64 and then made `dtype`."""
+) -> WorldVertices:
+    """Return a batch's vertices in world space, computed in float64 and then made `dtype`.
+
+    Triangles share vertices: each is computed once, if those of the batch lie together in the mesh.
+    """
     mesh = scene.meshes[batch.mesh]
-    triangles = mesh.triangles[batch.first : batch.last]
-    each = len(triangles)
-    copies = len(batch.instances)
+    names = mesh.triangles[batch.first : batch.last].T
+    low = np.min(names)
+    local = mesh.vertices[low : np.max(names) + 1]
+    corner: Index = names - low
+    if len(local) > names.size:
+        local = mesh.vertices[names.ravel()]
+        corner = np.arange(names.size).reshape(3, -1)
     matrices = scene.instance_matrices[..., batch.instances]
-    corners = []
-    for corner in triangles.T:
-        local = mesh.vertices[corner].T.astype(np.float64)
-        with np.errstate(over="ignore", invalid="ignore"):  # `refused` tells of what is not finite
-            world = transform_points(matrices[..., None], local[:, None, :])
-            corners.append(world.reshape(3, copies * each).astype(dtype))
+    with np.errstate(over="ignore", invalid="ignore"):  # `refused` tells of what is not finite
+        world = transform_points(matrices[..., None], local.T.astype(np.float64)[:, None, :])
+        points = world.reshape(3, -1).astype(dtype)
+    before = len(local) * np.arange(len(batch.instances))
+    return WorldVertices(points, (corner[:, None, :] + before[:, None]).reshape(3, -1))
+
+
+def world_triangles(
+    scene: Scene,
+    batch: Batch,
+    dtype: np.dtype[np.floating] | type[float],
+    vertices: WorldVertices | None = None,
+) -> WorldTriangles:
+    """Return a batch's triangles in world space, of its `vertices` where they are known already."""
+    vertices = vertices or world_vertices(scene, batch, dtype)
+    each, copies = batch.last - batch.first, len(batch.instances)
     triangle = np.tile(np.arange(batch.first, batch.last, dtype=np.int32), copies)
-    return WorldTriangles(np.stack(corners), np.repeat(batch.instances, each), triangle)
+    corners = vertices.of_corners(vertices.points)
+    return WorldTriangles(corners, np.repeat(batch.instances, each), triangle)
 
 
 def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 from reference_tracer.certainty import Certainty
+from reference_tracer.certified.arithmetic import sound_steps
 from reference_tracer.certified.exact import IntegerBatch
 from reference_tracer.certified.ladder import Ladder
 from reference_tracer.scene import Region, Scene
@@ -43,6 +44,7 @@ def plain_hits(
     return Hits.joined(found)
 
 
+@sound_steps
 def can_be(scene: Scene, region: Region, dx: float, dy: float, claim: Claim) -> Work[bool]:
     """Return whether a claim of certified owners can be true."""
     around, ties = corner_rays(scene.camera, dx, dy), claim.ties

@@ -12,6 +12,7 @@ from urllib.parse import quote
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer import png
 from reference_tracer.images import data_uri, to_display
 from reference_tracer.wording import count_of
 
@@ -173,7 +174,7 @@ def _scene(found: Look, examples: Sequence[Example]) -> str:
         ("wrong pixels", marked(found)),
     )
     figures = "".join(
-        f'<figure><img alt="{escape(judged.name)}: {title}" src="{data_uri(picture)}">'
+        f'<figure><img alt="{escape(judged.name)}: {title}" src="{data_uri(png.encode(picture))}">'
         f"<figcaption>{title}</figcaption></figure>"
         for title, picture in pictures
     )

@@ -1,6 +1,6 @@
 """A verdict that cannot be fooled: what imitates an excusable difference is found all the same.
 
-Every attack of `tests/attacks.py` on Blender's picture of every sample scene, with what is known of
+Every attack of `tests/attacks/` on Blender's picture of every sample scene, with what is known of
 whose surfaces it shows, and by its colours alone, as `compare --against` judges a foreign picture.
 """
 
@@ -27,16 +27,9 @@ from reference_tracer.rendering import render
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 
-from ..attacks import (
-    ATTACKS,
-    SHADES,
-    Subject,
-    all_recoloured,
-    alone,
-    near_edges,
-    one_recoloured,
-    withstood,
-)
+from ..attacks.colors import SHADES, all_recoloured, one_recoloured
+from ..attacks.subject import Subject, alone, near_edges
+from ..attacks.table import ATTACKS, withstood
 
 SCENES = sorted(p.stem for p in (Path(__file__).parents[2] / "sample_scenes").glob("*.blend"))
 WIDTH = 120

@@ -8,11 +8,15 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer import rendering
+from reference_tracer.blender import engine as engine_module
 from reference_tracer.blender.engine import ENGINE, ReferenceTracerEngine
+from reference_tracer.certified.arithmetic import AssumptionError
 from reference_tracer.rendering import render
 from reference_tracer.tracer import render as loop
 from reference_tracer.tracer.frame import NO_HIT_DEPTH, PASSES, Frame
 from reference_tracer.tracer.settings import Settings
+
+from ..certified.modes import MODES, ON_X86, switch, switched_back
 
 LABELS = {p.label for p in PASSES if p.label}
 
@@ -327,3 +331,51 @@ def test_a_cancelled_render_keeps_the_rows_that_are_done(solids, capsys, monkeyp
     assert (done | empty).all()
     assert cancelled.shares[-1] < 1
     assert "Cancelled: " in capsys.readouterr().out
+
+
+class DisturbedEngine(CancelledEngine):
+    """As if a library switched off subnormals, while so much of the picture is done and shown."""
+
+    def __init__(self, stop_at: float) -> None:
+        super().__init__(stop_at)
+        self.picture = np.full((480, 480, 4), np.nan, np.float32)
+
+    def begin_result(self, x, y, width, height, layer):
+        self.rows = slice(y, y + height)
+        return super().begin_result(x, y, width, height, layer)
+
+    def end_result(self, result) -> None:
+        self.picture[self.rows] = self.shown["Combined"].reshape(-1, 480, 4)
+
+    def update_progress(self, share: float) -> None:
+        super().update_progress(share)
+        if share > self.stop_at and self.asked == 0:
+            self.asked = 1
+            switch(MODES["both"])
+            self.picture[:] = np.nan  # all is to be shown anew
+
+    def test_break(self) -> bool:
+        return False
+
+
+@ON_X86
+@pytest.mark.parametrize("method", ["certified", "auto"])
+def test_a_render_whose_arithmetic_is_switched_off_is_withdrawn(method, solids, monkeypatch):
+    """Rows that are shown by then go, too; *Automatic* begins again, without a proof."""
+    monkeypatch.setattr(loop, "BYTES_PER_PIXEL", Settings().memory // (480 * 60))
+    monkeypatch.setattr(engine_module, "SHOW_EVERY", 0)
+    solids.render.resolution_x = solids.render.resolution_y = 480
+    solids.reference_tracer.method = method
+    solids.view_layers[0].reference_tracer.passes = set()
+    engine = DisturbedEngine(0.5)
+    with switched_back():
+        if method == "certified":
+            with pytest.raises(AssumptionError, match="subnormal results and subnormal operands"):
+                ReferenceTracerEngine._trace(engine, bpy.context.evaluated_depsgraph_get())
+            assert not engine.picture.any() and 0.5 < engine.shares[-1] < 0.9
+            return
+        ReferenceTracerEngine._trace(engine, bpy.context.evaluated_depsgraph_get())
+    solids.reference_tracer.method = "watertight"
+    plain = DisturbedEngine(2)
+    ReferenceTracerEngine._trace(plain, bpy.context.evaluated_depsgraph_get())
+    assert plain.picture.any() and np.array_equal(engine.picture, plain.picture)

@@ -62,11 +62,30 @@ def test_a_wrong_image_is_put_right_on_a_copy(rendered_png, solids):
     right = found.diagnosis.told[0].frame.color
     shown = np.array(results.ours(results.PUT_RIGHT).pixels[:]).reshape(right.shape)
     assert np.array_equal(shown, right) and not np.array_equal(shown, found.frame.color)
+    explained_as_shown(found, found.diagnosis.told[0].frame)
     assert OPS.copy_camera(number=0) == {"FINISHED"}
     assert OPS.activate_copy() == {"FINISHED"}
     assert solids.camera != camera and camera.data.lens == 40
     assert compared_with(solids.reference_tracer.image).verdict == "agree"
     assert results.ours(results.PUT_RIGHT) is None and not OPS.show_put_right.poll()
+    with pytest.raises(RuntimeError, match="No picture of this scene's latest comparison is shown"):
+        OPS.explain(x=1, y=1, source="PUT_RIGHT")
+
+
+def explained_as_shown(found, right):
+    """Hold that a pixel of what is put right is explained as that shows it, not as it was traced.
+
+    Where it sees another object; and the text and the panel say which picture is meant.
+    """
+    y, x = np.argwhere(right.instance_index != found.frame.instance_index)[0]
+    said = []
+    for source, frame in ("PUT_RIGHT", right), ("COMPARISON", found.frame):
+        assert OPS.explain(x=x, y=y, source=source) == {"FINISHED"}
+        kept = results.latest(Kind.PIXEL, bpy.context.scene)
+        assert kept.content.certified.t == frame.t[y, x]
+        text = bpy.data.texts["Reference Tracer Pixel"].as_string()
+        said += [kept.lines[0], text.splitlines()[0]]
+    assert ["put right: the focal length is" in line for line in said] == [True, True, False, False]
 
 
 def test_what_changes_no_picture_is_not_shown_put_right(rendered_png, solids):

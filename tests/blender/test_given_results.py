@@ -31,6 +31,7 @@ def test_the_render_result(rendered_png, solids):
     assert found.case.picture.source.file == "Render Result"
     assert found.case.picture.sampling.renderer.name == "raster"  # as Workbench made it
     bpy.data.objects["Green"].location.x += 0.2
+    solids.reference_tracer.diagnose = False
     OPS.compare()
     found = results.content(Kind.COMPARISON, solids)
     assert found.verdict == "differences" and found.counts.unexplained > 20
@@ -96,6 +97,42 @@ def test_the_engine_of_a_result_goes_with_its_scene(rendered_png, solids):
     other = bpy.data.scenes.new(name)
     assert rendered.engine_of_result(solids) == "BLENDER_WORKBENCH"
     assert rendered.engine_of_result(other) == ""
+
+
+def test_the_engine_of_a_result_goes_with_its_slot(rendered_png, solids, compare):
+    """Another slot may show what another engine rendered before: that has no excuse of this one."""
+    rendered_png()
+    slots = rendered.result_image().render_slots
+    alone = {"judge": "RENDER_RESULT", "diagnose": False}
+    assert compare(**alone).case.picture.sampling.renderer.name == "raster"
+    slots.active_index = 1
+    rendered_png()
+    assert compare(**alone).case.picture.sampling.renderer.name == "raster"
+    slots.active_index = 0
+    try:
+        found = compare(**alone)
+    finally:
+        slots.active_index = 0
+    assert found.verdict == "agree" and found.case.picture.sampling.renderer.name == "rays"
+    assert "which engine rendered it is not known" in str(found.manifest.notes)
+
+
+def test_a_result_of_no_engine_has_no_excuse_of_the_last_one(rendered_png, solids, compare):
+    """The Sequencer draws its strips, as View > Render draws a 3D view: no engine is asked."""
+    rendered_png()
+    alone = {"judge": "RENDER_RESULT", "diagnose": False}
+    assert compare(**alone).case.picture.sampling.renderer.name == "raster"
+    editor = solids.sequence_editor_create()
+    strips = editor.strips if hasattr(editor, "strips") else editor.sequences
+    several = {"length": 9} if bpy.app.version >= (5, 0) else {"frame_end": 9}
+    strips.new_effect("Red", "COLOR", channel=1, frame_start=1, **several)
+    rendered_png()
+    assert rendered.engine_of_result(solids) == "BLENDER_WORKBENCH"  # all that is heard
+    found = compare(**alone)
+    assert found.verdict == "differences" and found.case.picture.sampling.renderer.name == "rays"
+    [drawn, unknown] = [note for note in found.manifest.notes if "of the picture" in note]
+    assert "no engine rendered it, but a 3D view (View > Render) or the Sequencer" in drawn
+    assert "render again with F12" in unknown and "choose Made By" in unknown
 
 
 @pytest.mark.parametrize("kind", ["PNG", "OPEN_EXR"])

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.reading.camera import resolution
+from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.picking import pick
 from reference_tracer.blender.versions import lens
 from reference_tracer.scene import SceneError
@@ -66,6 +67,30 @@ def test_a_render_border_is_the_pictures_origin(click):
     assert click(30.5 / 48, 3.5 / 27) == (6, 3, "SCENE")
     with pytest.raises(SceneError, match="outside of the render border"):
         click(0.25, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("name", "source"),
+    [
+        (results.TRACED, "COMPARISON"),
+        (results.BLENDER, "COMPARISON"),
+        (results.PUT_RIGHT, "PUT_RIGHT"),
+        ("", "SCENE"),
+    ],
+)
+def test_a_pixel_of_an_image_is_of_what_that_shows(build, name, source):
+    scene = build.scene(48, 27)
+    build.corner_camera()
+    image = bpy.data.images.new("Any", 48, 27)
+    if name:
+        image[results.MARK] = name
+    view = SimpleNamespace(region_to_view=lambda x, y: (x / 96, y / 54))
+    region = SimpleNamespace(type="WINDOW", view2d=view, x=0, y=0, width=96, height=54)
+    active = SimpleNamespace(active=SimpleNamespace(image=image))
+    area = SimpleNamespace(type="IMAGE_EDITOR", regions=[region], spaces=active)
+    window = SimpleNamespace(screen=SimpleNamespace(areas=[area]))
+    context = SimpleNamespace(window=window, scene=scene)
+    assert pick(context, 22, 41) == (11, 20, source)
 
 
 def test_what_is_no_pixel_is_said(click):

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui import differing, results
 from reference_tracer.blender.ui.operators import REFERENCE_TRACER_OT_compare
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.causes.cause import AGREE, UNEXPLAINED
@@ -66,6 +66,24 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
     with pytest.raises(RuntimeError, match="has 1 regions"):
         bpy.ops.reference_tracer.frame_region(number=1)
     assert not bpy.ops.reference_tracer.show_image.poll()  # there is no editor
+    assert listed() == [f"3 px: {found[0].objects[0]}"]
+    cause[20, 40:43] = AGREE
+    cause[-2:, :2] = UNEXPLAINED  # where both sides see nothing
+    result_of(results.keep_comparison(told))
+    assert listed() == ["4 px: Background"]
+
+
+def listed():
+    """Return the words of the buttons that frame regions."""
+    words = []
+
+    def operator(name, text, translate):
+        words.append(text)
+        return SimpleNamespace()
+
+    column = SimpleNamespace(operator=operator)
+    differing.draw_regions(SimpleNamespace(column=lambda align: column), bpy.context)
+    return words
 
 
 def test_another_file_has_no_result(build, compare):

@@ -177,6 +177,14 @@ def test_make_scenes_builds_what_is_committed(name, tmp_path):
         np.testing.assert_allclose(again, triangles, rtol=0, atol=SAME, err_msg=obj)
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_it_opens_where_the_button_is_and_looks_through_its_camera(name):
+    bpy.ops.wm.open_mainfile(filepath=str(FOLDER / f"{name}.blend"), load_ui=True)
+    spaces = {area.type: area.spaces.active for area in bpy.data.screens["Layout"].areas}
+    assert spaces["PROPERTIES"].context == "RENDER"
+    assert spaces["VIEW_3D"].region_3d.view_perspective == "CAMERA"
+
+
 def test_forest_has_ten_thousand_instances():
     opened("forest")
     depsgraph = bpy.context.evaluated_depsgraph_get()

@@ -5,9 +5,9 @@ Rounding and subnormals are switched for a whole thread: each case is a process 
 
 from __future__ import annotations
 
-import platform
 import subprocess
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -21,8 +21,8 @@ from reference_tracer.certified.arithmetic import (
 from reference_tracer.rendering import render
 from reference_tracer.tracer.settings import Settings
 
-GLIBC_X86 = platform.machine() in ("x86_64", "AMD64") and platform.libc_ver()[0] == "glibc"
-ON_X86 = pytest.mark.skipif(not GLIBC_X86, reason="sets the control word of x86-64 through glibc")
+from .modes import ON_X86
+
 UP, DOWN, TO_ZERO = 0x800, 0x400, 0xC00  # of fesetround, on x86
 
 SWITCH = """
@@ -112,8 +112,61 @@ def broken(monkeypatch):
     def add(x, y):
         return np.nextafter(np.add(x, y), np.inf)
 
-    checks = tuple((w, add if o is np.add else o, *n) for w, o, *n in arithmetic._CHECKS)
-    monkeypatch.setattr(arithmetic, "_CHECKS", checks)
+    runs = [r._replace(function=add) if r.function is np.add else r for r in arithmetic._RUNS]
+    monkeypatch.setattr(arithmetic, "_RUNS", runs)
+
+
+@pytest.mark.parametrize("number", range(len(arithmetic._RUNS)))
+def test_each_function_is_asked(monkeypatch, number):
+    """In its last element, a scalar's where the others were a register's, one bit is another."""
+    run = arithmetic._RUNS[number]
+
+    def other(*inputs):
+        out = np.array(run.function(*inputs))
+        out.view(np.int64)[-1] ^= 1
+        return out
+
+    runs = [*arithmetic._RUNS]
+    runs[number] = run._replace(function=other)
+    monkeypatch.setattr(arithmetic, "_RUNS", runs)
+    assert broken_assumptions() == [run.checked[-1]]
+
+
+def test_what_is_asked_of_numpy_are_the_functions_that_decide():
+    asked = {run.function for run in arithmetic._RUNS}
+    assert {np.add, np.subtract, np.multiply, np.divide, np.maximum, np.nextafter} < asked
+    strides = {run.inputs[0].strides[0] for run in arithmetic._RUNS if run.function is np.add}
+    assert strides == {8, 16}
+
+
+def test_numbers_that_x87_rounds_twice_are_among_them():
+    """To 64 digits, and again to 53, or to a subnormal: another result each time."""
+    tie = Fraction(1) + Fraction(1, 2**53)
+    exact = tie + Fraction(1, 2**78)
+    assert float(exact) == 1 + 2.0**-52 and float(tie) == 1
+    assert 1 + float(exact - 1) == 1 + 2.0**-52
+    product = Fraction(1 + 2.0**-30) ** 2 / 2**1046
+    first = Fraction(float(product * 2**99)) / 2**99
+    assert float(product) == (2**28 + 1) * 2.0**-1074 != float(first)
+
+
+@pytest.mark.parametrize(
+    "machine, bits, refused",
+    [
+        ("i686", 32, True),
+        ("x86_64", 32, True),  # a 32-bit program on a 64-bit system
+        ("AMD64", 32, True),
+        ("x86_64", 64, False),
+        ("AMD64", 64, False),
+        ("armv7l", 32, False),
+        ("wasm32", 32, False),
+        ("arm64", 64, False),
+    ],
+)
+def test_where_x87_may_compute_nothing_is_certified(monkeypatch, machine, bits, refused):
+    assert arithmetic.has_x87(machine, bits) == refused
+    monkeypatch.setattr(arithmetic, "_X87", arithmetic.has_x87(machine, bits))
+    assert [("x87" in lack) for lack in broken_assumptions()] == [True] * refused
 
 
 def test_certified_refuses_and_auto_falls_back(make, broken):

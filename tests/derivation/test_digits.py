@@ -11,10 +11,10 @@ from reference_tracer.derivation.digits import (
     EXACT_DIGITS,
     digits_text,
     exact_text,
+    last_place,
     marked,
     off_text,
     ulps,
-    unit_in_last_place,
 )
 
 
@@ -67,11 +67,11 @@ def test_ulps_are_those_of_numpy(rng, kind):
     for _ in range(200):
         value = kind(rng.normal() * 10.0 ** rng.integers(-30, 30))
         exact = Fraction(float(value))
-        assert unit_in_last_place(exact, kind) == Fraction(float(np.spacing(np.abs(value))))
+        assert 2.0 ** last_place(exact, kind) == np.spacing(np.abs(value))
         assert ulps(value, exact) == 0
         assert ulps(np.nextafter(value, kind(np.inf)), exact) == pytest.approx(1)
     smallest = np.finfo(kind).smallest_subnormal
-    assert unit_in_last_place(Fraction(float(smallest)) / 4, kind) == Fraction(float(smallest))
+    assert 2.0 ** last_place(Fraction(float(smallest)) / 4, kind) == smallest
     assert ulps(kind(1), Fraction(0)) is None and ulps(kind(0), Fraction(0)) == 0
     assert ulps(kind(np.inf), Fraction(1)) is None and ulps(kind(1), None) is None
 

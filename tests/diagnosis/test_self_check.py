@@ -15,6 +15,7 @@ from reference_tracer.diagnosis import self_check as self_checking
 from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.diagnosis.faults.fault import Example, Fault
 from reference_tracer.diagnosis.self_check import FaultRow, self_check, table
+from reference_tracer.diagnosis.trial import same_shapes, traced_anew
 from reference_tracer.manifest import Effect, ObjectEntry, Unmodelled
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
@@ -51,6 +52,24 @@ def test_objects_of_one_name_are_told_apart(make):
     names = ("dropped_instance", "dropped_triangle", "moved_object")
     rows = checked(case_of(scene, render(scene).color), names)
     assert [rows[name].result for name in names] == ["caught"] * 3
+
+
+def test_what_has_other_colors_alone_is_painted_anew(case):
+    """Nothing else is; and the picture is the one that would be traced."""
+    frame = render(case.scene)
+    painted = set()
+    for fault, example in EXAMPLES:
+        guess = example.pick(case, frame)
+        wrong = guess and (example.make or fault.assume)(case, guess)
+        if not wrong or wrong.scene is case.scene:
+            continue
+        if same_shapes(wrong.scene, case.scene):
+            painted.add(example.name)
+            found = result_of(traced_anew(wrong, case, frame)).passes()
+            for name, values in render(wrong.scene).passes().items():
+                assert np.array_equal(found[name], values), (example.name, name)
+    colors = {"swapped_colors", "one_shade", "one_channels"}
+    assert painted == colors | {"swapped_transforms"}  # which are all the same here
 
 
 @pytest.mark.slow

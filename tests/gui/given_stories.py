@@ -85,6 +85,7 @@ def judged(name):
         "unexplained": found.counts.unexplained,
         "told": [t.fault.name for t in found.diagnosis.told] if found.diagnosis else [],
     }
+    noted[f"{name}_by"] = found.case.picture.sampling.renderer.name
 
 
 def selected():
@@ -153,6 +154,20 @@ def given_engine():
         bpy.utils.unregister_class(ToyEngine)
 
 
+@contextmanager
+def view_of_camera():
+    """Have the 3D view the context, as if the pointer were over it, flat and without overlays."""
+    area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
+    area.spaces.active.region_3d.view_perspective = "CAMERA"
+    shading = area.spaces.active.shading
+    shading.light, shading.color_type = "FLAT", "OBJECT"
+    for name in ("show_cavity", "show_shadows", "show_object_outline"):
+        setattr(shading, name, False)
+    region = next(r for r in area.regions if r.type == "WINDOW")
+    with bpy.context.temp_override(window=window(), area=area, region=region):
+        yield
+
+
 def rendered():
     return "Render Result" in bpy.data.images and not bpy.app.is_job_running("RENDER")
 
@@ -174,6 +189,11 @@ def given_render():
     scene.objects["Suzanne"].location.x += 0.2
     scene.reference_tracer.diagnose = False
     yield from judged("given_rendered_before")
+    scene.objects["Suzanne"].location.x -= 0.2
+    with view_of_camera():  # View > Render Viewport Preview
+        bpy.ops.render.opengl()
+    yield from judged("given_viewed")
+    noted["notes"] = [n for n in result().content.manifest.notes if "of the picture" in n]
 
 
 SCENE = "suzanne"

@@ -23,6 +23,10 @@ def click(region, x, y):
         yield
 
 
+WHEEL = 24  # its clicks from the end of a panel to its top
+_last = {}  # how high in its region each command's button was found last: it is looked for there
+
+
 def found(area, command, across=0.6, step=16):
     """Go down an editor, scrolled if need be, until the pointer is on a command's button.
 
@@ -35,19 +39,28 @@ def found(area, command, across=0.6, step=16):
     """
     region = next(r for r in area.regions if r.type == "WINDOW")
     x = across * region.width
+
+    def is_under_the_pointer(y):
+        xdotool("mousemove", *on_screen(region, x, y))
+        yield
+        with bpy.context.temp_override(window=window(), area=area, region=region):
+            if bpy.ops.ui.copy_python_command_button.poll():  # what Ctrl+C does on a button
+                bpy.ops.ui.copy_python_command_button()
+                return command in bpy.context.window_manager.clipboard
+        return False
+
     xdotool("mousemove", 0, 0)  # what was under the pointer is it no more
     yield 0.3
-    for _ in range(3):
-        for y in range(region.height - step, 0, -step):
-            xdotool("mousemove", *on_screen(region, x, y))
-            yield
-            with bpy.context.temp_override(window=window(), area=area, region=region):
-                if bpy.ops.ui.copy_python_command_button.poll():  # what Ctrl+C does on a button
-                    bpy.ops.ui.copy_python_command_button()
-                    if command in bpy.context.window_manager.clipboard:
-                        return region, x, y
-        xdotool("click", "--repeat", 8, 5)  # the wheel
+    if command in _last and (yield from is_under_the_pointer(_last[command])):
+        return region, x, _last[command]
+    xdotool("mousemove", *on_screen(region, x, step), "click", "--repeat", WHEEL, 4)  # to the top
+    for _ in range(4):
         yield
+        for y in range(region.height - step, 0, -step):
+            if (yield from is_under_the_pointer(y)):
+                _last[command] = y
+                return region, x, y
+        xdotool("click", "--repeat", 8, 5)  # the wheel
     raise LookupError(f"there is no button {command}")
 
 

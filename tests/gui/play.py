@@ -29,7 +29,7 @@ import seen_stories
 import stories
 import study_stories
 import viewport_stories
-from story import OUT, by_rounds, noted, window
+from story import OUT, by_rounds, noted, resized, window
 
 STORIES = {
     story.__name__: (module.SCENE, story)
@@ -52,6 +52,11 @@ STORIES = {
 }
 
 
+# Of the window, in pixels: most of the time goes into drawing it, in software.
+SMALL, LARGE = (1280, 720), (1600, 900)
+LARGE_ONES = "panel", "compared_images", "in_images"  # stories that look at all of a sidebar
+
+
 def played(names):
     """Play one story after another, each until its end or its first error."""
     for name in names:
@@ -60,6 +65,7 @@ def played(names):
         noted.clear()
         try:
             yield from opened(scene)
+            yield from resized(*LARGE if name in LARGE_ONES else SMALL)
             yield from story()
         except Exception:
             noted["error"] = traceback.format_exc()

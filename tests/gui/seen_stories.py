@@ -14,6 +14,7 @@ from story import (
     noted,
     press,
     press_compare,
+    resized,
     result,
     running,
     screenshot,
@@ -49,21 +50,6 @@ def drawn_anew(kind):
             area.tag_redraw()
         yield
     return found
-
-
-def resized(width, height):
-    """Make the window so large, as a hand would."""
-    names = subprocess.run(
-        ["xdotool", "search", "--onlyvisible", "--name", "Blender"], capture_output=True, text=True
-    )
-    for name in names.stdout.split():
-        subprocess.run(["xdotool", "windowsize", name, str(width), str(height)], check=True)
-
-    def it_is():
-        return window().width == width
-
-    yield from until(it_is, 20)
-    yield
 
 
 def panel():

@@ -150,6 +150,7 @@ def engines():
     after = settings(), data_blocks()
     noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
     noted["new"] = {k: v for k, v in after[1].items() if v != before[1][k]}
+    noted["version"] = list(bpy.app.version)
     noted["rows"] = [row.to_dict() for row in result("ENGINES").content]
     yield from open_tab()
     screenshot("engines")

@@ -23,6 +23,23 @@ def window():
     return bpy.context.window_manager.windows[0]
 
 
+def resized(width, height):
+    """Make the window so large, as a hand would."""
+    if (window().width, window().height) == (width, height):
+        return
+    names = subprocess.run(
+        ["xdotool", "search", "--onlyvisible", "--name", "Blender"], capture_output=True, text=True
+    )
+    for name in names.stdout.split():
+        subprocess.run(["xdotool", "windowsize", name, str(width), str(height)], check=True)
+
+    def it_is():
+        return window().width == width
+
+    yield from until(it_is, 20)
+    yield
+
+
 def press(key):
     """Press a key as a keyboard does, with the pointer over the 3D view."""
     key = KEYS.get(key, key)

@@ -32,3 +32,11 @@ def test_the_render_result_agrees_until_an_object_is_moved(noted):
     assert agrees(noted["given_rendered"])
     later = noted["given_rendered_before"]
     assert later["verdict"] == "differences" and later["unexplained"] > 1000
+    assert noted["given_rendered_by"] == "raster"
+
+
+@pytest.mark.story("given_render")
+def test_a_picture_of_a_3d_view_has_no_excuse_of_the_engine_of_the_last_render(noted):
+    assert noted["given_viewed_by"] == "rays"
+    drawn, unknown = noted["notes"]
+    assert "a 3D view (View > Render) or the Sequencer" in drawn and "choose Made By" in unknown

@@ -76,7 +76,7 @@ ELSEWHERE = {
     "sweep.clusters": "which triangles are a cluster: its box is that of their vertices",
     "sweep.clustered": "the boxes of clusters, argued by hand at its head, and what is looked at "
     "first; pictures are held to be the same by test_clusters.py",
-    "measures": "of barycentrics, which have no bound of their own: below it, integers divide",
+    "measures": "of barycentrics, whose bound is argued by hand: below it, integers divide",
 }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -15,7 +16,12 @@ from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render
-from reference_tracer.report.comparison import cause_picture, failure_written, write
+from reference_tracer.report.comparison import (
+    _write_arrays,
+    cause_picture,
+    failure_written,
+    write,
+)
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
@@ -89,6 +95,18 @@ def test_arrays_are_whole(folder, comparison):
     assert np.array_equal(held["cause"], comparison.causes.cause)
     assert np.array_equal(held["cause_figure"], comparison.causes.figure, equal_nan=True)
     assert np.array_equal(held["cause_allowed"], comparison.causes.allowed, equal_nan=True)
+
+
+def test_noisy_arrays_are_deflated_by_runs_alone(rng, tmp_path):
+    """What repeats farther off than the number before it is not looked for in them."""
+    names = "position", "normal"
+    values = np.tile(rng.random((8, 50, 3)), (4, 1, 1))
+    arrays = [(name, iter([values[:20], values[20:]])) for name in names]
+    result_of(_write_arrays(tmp_path / "frame.npz", len(values), arrays))
+    with np.load(tmp_path / "frame.npz") as stored, ZipFile(tmp_path / "frame.npz") as zipped:
+        position, normal = (zipped.getinfo(f"{name}.npy").compress_size for name in names)
+        assert all(np.array_equal(stored[name], values) for name in names)
+    assert normal < 0.4 * position < 0.4 * values.nbytes
 
 
 def strict(folder):

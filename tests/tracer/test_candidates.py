@@ -10,10 +10,10 @@ from reference_tracer.methods import Method
 from reference_tracer.scene import Instance, Mesh, Region, Scene
 from reference_tracer.tracer import candidates, world
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
-from reference_tracer.tracer.candidates import pixel_bounds, within
+from reference_tracer.tracer.candidates import pixel_bounds, vertex_bounds, within
 from reference_tracer.tracer.nearest import within_clip
 from reference_tracer.tracer.triangle import TESTS
-from reference_tracer.tracer.world import batches, world_triangles
+from reference_tracer.tracer.world import batches, world_triangles, world_vertices
 
 from .hostile import hostile_camera, hostile_triangles
 
@@ -188,3 +188,17 @@ def test_vertices_are_bit_identical_whatever_the_batch(forest, monkeypatch):
                     point = some.corners[corner, :, k].tobytes()
                     assert known.setdefault((i, vertex), point) == point
     assert len(known) > 100
+
+
+@pytest.mark.parametrize("size", [1, 50])  # of few triangles, the vertices lie far apart
+def test_boxes_are_those_of_the_corners(size, forest, monkeypatch):
+    """Whether vertices that triangles share are projected once, or every corner by itself."""
+    monkeypatch.setattr(world, "BATCH", size)
+    boxes = set()
+    for batch in batches(forest):
+        for dtype in (np.float32, np.float64):
+            corners = world_triangles(forest, batch, dtype).corners
+            shared = vertex_bounds(forest.camera, world_vertices(forest, batch, dtype), 0.5)
+            assert np.array_equal(shared, pixel_bounds(forest.camera, corners, 0.5))
+            boxes.update(map(tuple, shared.T.tolist()))
+    assert len(boxes) > 20

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.images import data_uri
+from reference_tracer.png import encode
 from reference_tracer.report import plots
 
 
@@ -27,7 +28,7 @@ def shown(axes: plots.Axes, colors: NDArray[np.uint8]) -> str:
     """A picture (h, w, 4), row 0 at the bottom, each pixel a square."""
     place = {"x": axes.left, "y": axes.top, "width": axes.width, "height": axes.height}
     return plots.element(
-        "image", href=data_uri(colors), style="image-rendering: pixelated", **place
+        "image", href=data_uri(encode(colors)), style="image-rendering: pixelated", **place
     )
 
 

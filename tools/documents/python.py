@@ -10,7 +10,16 @@ from typing import Any
 import reference_tracer
 
 _SECTION = re.compile(r"^(?P<title>[A-Z]\w+)\n-+\n", re.M)
-_FIRST = "load_scene", "save_scene", "render", "trace", "compare", "explain"
+_FIRST = (
+    "load_scene",
+    "save_scene",
+    "render",
+    "trace",
+    "compare",
+    "explain",
+    "read_camera",
+    "write_camera",
+)
 
 
 def page() -> str:

@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 
+from reference_tracer.camera_files.features import FEATURES
+from reference_tracer.camera_files.files import CONVENTIONS
 from reference_tracer.causes.cause import Cause
 from reference_tracer.causes.checks import unmodelled
 from reference_tracer.causes.explain import CAUSES, CHECKS
@@ -31,12 +33,24 @@ class _Name(str):
 def values() -> dict[str, str]:
     """Return each part by its name."""
     parts = {
+        "camera_conventions": camera_conventions(),
         "causes": causes(),
         "checks": checks(),
         "faults": faults_by_family(),
         "methods": methods(),
     }
     return {name: f"\n\n{part}\n\n" for name, part in parts.items()}  # blocks of their own
+
+
+def camera_conventions() -> str:
+    """Return a table of the conventions of cameras, and what each can say."""
+    columns = [(f.short, f) for f in FEATURES]
+    head = ["`--convention`", "what is written", *(short for short, _ in columns)]
+    rows = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    for name, own in CONVENTIONS.items():
+        says = ["yes" if f in own.says else "no" for _, f in columns]
+        rows.append(f"| `{name}` | {own.title}: {own.file} | {' | '.join(says)} |")
+    return "\n".join(rows)
 
 
 def methods() -> str:
@@ -61,7 +75,7 @@ def checks() -> str:
 def causes() -> str:
     """Return a section for each cause of a pixel that differs, in the order of the legend."""
     sys.path.insert(0, str(PROJECT))
-    attacks = import_module("tests.attacks").withstood()
+    attacks = import_module("tests.attacks.table").withstood()
     sys.path.remove(str(PROJECT))
     parts = (_cause(c, attacks.get(c, ())) for c in CAUSES if c.why)
     return "\n\n".join(line for part in parts for line in part)

@@ -8,17 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import bpy
 import numpy as np
 
+from ...camera_files.convention import View
 from ...framing import ANGLE, BACKWARD, Choice, axes_of, framing, shown_points
+from ...pictures.certificate import certify, known_points
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, SceneError, ViewWindow
-from ..drawing.camera_object import place_camera
+from ...tracer.camera import film_of
+from ..drawing.camera_object import add_camera, place_camera
 from ..engine import export_for_render
-from ..reading.camera import pixel_height, resolution
+from ..reading.camera import export_camera, pixel_height, resolution
 from ..temporary import temporary_scene
 from .stepping import bake_bodies, visited
 
@@ -49,16 +53,47 @@ def chosen(choice: Choice) -> Iterator[None]:
             for frame in visited(scene, [choice.frame]):
                 scene.frame_set(frame)
         _resize(scene.render, choice)
-        if choice.camera or choice.eye or choice.frame_all:
+        if choice.camera or choice.seen_by or choice.eye or choice.frame_all:
             for marker in scene.timeline_markers:  # which would make its own the active one
                 marker.camera = None
             scene.camera = camera
-        if choice.eye:
+        if choice.seen_by:
+            _see_as(scene, choice.seen_by)
+        elif choice.eye:
             size = resolution(scene.render)
             place_camera(scene, choice.placed(*size, pixel_height(scene.render)))
         elif choice.frame_all:
             frame_all(scene, layer, choice.angle or ANGLE)
         yield
+
+
+def _see_as(scene: Any, view: View) -> None:
+    """Add the camera of a file, as closely as float32 allows, and make it active.
+
+    The picture has its size. A file that says no clip range leaves that of the scene's camera.
+
+    Raises
+    ------
+    SceneError
+        If Blender has no such camera.
+    """
+    own, camera = scene.camera, view.camera
+    if own and own.type == "CAMERA" and not view.is_clipped:
+        ends = {name: getattr(own.data, name) for name in ("clip_start", "clip_end")}
+        camera = replace(camera, **ends)
+    obj = add_camera(scene, camera)
+    scene.render.use_border = False
+    context: Any = bpy.context
+    context.view_layer.update()
+    found = export_camera(scene)
+    points = known_points(found)
+    certificate = certify(camera, points, np.stack(film_of(found, points)[:2]))
+    if (found.width, found.height) != (camera.width, camera.height) or not certificate.passed:
+        raise SceneError(
+            f"Blender has no camera like '{obj.name}' of {camera.width} x {camera.height} pixels: "
+            f"the nearest is up to {certificate.largest:.3g} px off. It has axes at right angles, "
+            "pixels of at most 200 to 1, and pictures of 4 to 65536 pixels"
+        )
 
 
 def frame_all(scene: Any, layer: Any, angle: float = ANGLE) -> Any:

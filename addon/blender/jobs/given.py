@@ -23,7 +23,6 @@ from ..drawing.judge import Judge
 from ..drawing.judges import RENDER_RESULT
 from ..reading.camera import export_camera
 from ..reading.pictures import image_file, render_result
-from ..reading.rendered import engine_of_result
 from ..versions import DITHER
 from .against import gather_against
 from .open_file import Choices
@@ -59,9 +58,9 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
     if judge:
         shown: Any = partial(_rendered, judge=judge, like_for_like=not chosen.as_is, making=making)
     elif chosen.judge == RENDER_RESULT:
-        making = replace(making, engine=engine_of_result(context.scene))
         with render_result(context.scene, context.view_layer.name) as held:
-            if not (making.renderer or making.engine or held.engine == "cycles"):
+            making = replace(making, engine=held.rendered_by)
+            if not (making.renderer or held.rendered_by):
                 held = replace(held, remarks=(*held.remarks, _UNSEEN))
             shown = picture_of_file(held, export_camera(context.scene), making)
     else:

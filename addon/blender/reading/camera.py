@@ -164,11 +164,11 @@ def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertific
     Not of a panorama: Blender has no matrix of it.
     """
     points = known_points(camera)
-    return certify(camera, points, _film(scene, depsgraph, points))
+    return certify(camera, points, film_of_blender(scene, depsgraph, points))
 
 
-def _film(scene: Any, depsgraph: Any, points: Floats) -> Floats:
-    """Return where world points (3, n) appear, (2, n) pixels of the whole picture."""
+def film_of_blender(scene: Any, depsgraph: Any, points: Floats) -> Floats:
+    """Return where Blender has world points (3, n), (2, n) pixels of the whole picture."""
     obj = scene.camera.evaluated_get(depsgraph)
     render = scene.render
     width, height = resolution(render)

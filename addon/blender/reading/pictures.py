@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
 
-from ... import exr
 from ...exr import MissingLibraryError
-from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, engine_of, open_picture
+from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
 from ...runs import by_runs
 from ...scene import SceneError
-from ..versions import set_format
+from ..versions import LAYERS, set_format
+from .rendered import engine_of_result, result_image
 
 _READ = (".png", ".exr")  # as files: what Blender makes of 16 bits, and who wrote it, is lost else
 _KINDS = "FILE", "GENERATED"
+# In the header of an EXR of all layers: their names, and what Cycles notes for each. (Not every
+# Blender brings a library that reads it.)
+_LAYER = re.compile(rb"\0([^\0]+)\.Combined\.R\0")
+_OF_CYCLES = re.compile(rb"cycles\.[^\0]+\.samples\0string\0")
 # Of an image's file, each after those that it depends on.
 _SETTINGS = "media_type", "file_format", "color_mode", "color_depth", "exr_codec", "views_format"
 
@@ -32,6 +37,7 @@ class Held(PictureFile):
     image: Any
     engine: str = ""  # this and the remarks as `StoredPicture` has them
     remarks: tuple[str, ...] = ()
+    rendered_by: str = ""  # Blender's name of the engine, of a Render Result, where it is known
 
     def read(self) -> StoredPicture:
         """Read the pixels: floats are linear, bytes have sRGB's curve and a straight alpha."""
@@ -91,7 +97,7 @@ def render_result(scene: Any, layer: str) -> Iterator[Held]:
     SceneError
         If there is none, or it is stereo.
     """
-    image = next((i for i in bpy.data.images if i.type == "RENDER_RESULT"), None)
+    image = result_image()
     settings = scene.render.image_settings
     with tempfile.TemporaryDirectory() as folder, _kept(settings):
         path = Path(folder) / "Render Result.exr"
@@ -110,21 +116,35 @@ def render_result(scene: Any, layer: str) -> Iterator[Held]:
                 why = "has a stereo Render Result: switch off Stereoscopy, and render again"
             raise SceneError(f"Scene '{scene.name}' {why}.") from error
         width, height = loaded.size
-        engine = ""
-        with suppress(MissingLibraryError):  # then nothing excuses as a rasteriser's rounding
-            engine = engine_of(exr.notes(path))  # the scene may have another one set by now
         try:
-            remarks = tuple(_remarks(scene, layer))
-            yield Held(Path(image.name), width, height, loaded, engine, remarks)
+            made = _header_of_layers(image, scene, path.with_stem("Layers"))
+            # Without a view layer, the picture was composed of none.
+            is_rendered = not set(_LAYER.findall(made)) <= {b"Composite"}
+            engine = "cycles" if _OF_CYCLES.search(made) else "other"
+            rendered_by = engine if engine == "cycles" else engine_of_result(scene)
+            remarks = tuple(_remarks(scene, layer, is_rendered))
+            held = Held(Path(image.name), width, height, loaded, engine, remarks)
+            yield replace(held, rendered_by=rendered_by if is_rendered else "")
         finally:
             bpy.data.images.remove(loaded)
 
 
-def _remarks(scene: Any, layer: str) -> Iterator[str]:
+def _header_of_layers(image: Any, scene: Any, path: Path) -> bytes:
+    """Return how a file of all layers of a scene's Render Result begins: with their names."""
+    set_format(scene.render, LAYERS, "RGBA", "16")
+    scene.render.image_settings.exr_codec = "NONE"  # the quickest
+    image.save_render(str(path), scene=scene)
+    with path.open("rb") as file:
+        return file.read(1 << 16)
+
+
+def _remarks(scene: Any, layer: str, is_rendered: bool) -> Iterator[str]:
     """Say what a scene's Render Result shows beside a view layer, as far as its settings tell.
 
     Of several view layers that are rendered, the first is the picture.
     """
+    if not is_rendered:
+        yield "no engine rendered it, but a 3D view (View > Render) or the Sequencer drew it"
     rendered = [v.name for v in scene.view_layers if v.use]
     if not scene.render.use_single_layer and rendered and rendered[0] != layer:
         yield f"it shows the view layer '{rendered[0]}', and '{layer}' was traced"

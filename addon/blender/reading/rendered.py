@@ -11,19 +11,38 @@ import bpy
 
 from ..temporary import is_temporary
 
-# Blender's names of them, by the scene's `session_uid`: its name may become another scene's.
-_engines: dict[int, str] = {}
+# Blender's names of them, by the slot that was rendered into last and the scene's `session_uid`:
+# its name may become another scene's.
+_engines: dict[tuple[int, int], str] = {}
 
 
 @bpy.app.handlers.persistent
 def _begins(scene: Any, *_: Any) -> None:
-    if not is_temporary(scene):
-        _engines[scene.session_uid] = scene.render.engine
+    if is_temporary(scene):
+        return
+    slot = _slot()
+    if any(other != slot for other, _ in _engines):
+        _engines.clear()  # what that slot shows of another scene from now on is not known
+    _engines[slot, scene.session_uid] = scene.render.engine
+
+
+def result_image() -> Any:
+    """Return the image that shows Render Results; None if nothing was rendered."""
+    return next((i for i in bpy.data.images if i.type == "RENDER_RESULT"), None)
+
+
+def _slot() -> int:
+    """Return the number of the slot that is shown, and rendered into."""
+    image = result_image()
+    return image.render_slots.active_index if image else 0
 
 
 def engine_of_result(scene: Any) -> str:
-    """Return Blender's name of the engine that rendered a scene last; '' if that is not known."""
-    return _engines.get(scene.session_uid, "")
+    """Return Blender's name of the engine that rendered a scene last; '' if that is not known.
+
+    It is not if the slot that is shown is another than was rendered into last.
+    """
+    return _engines.get((_slot(), scene.session_uid), "")
 
 
 def forget() -> None:

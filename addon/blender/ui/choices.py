@@ -146,6 +146,7 @@ SOURCES: tuple[Unstored, ...] = (
     ("SCENE", "Scene", "The scene now, as Trace and Compare takes it"),
     ("RENDER", "Render", "The scene now, as a render takes it"),
     ("COMPARISON", "Comparison", "The scene as the latest comparison took it"),
+    ("PUT_RIGHT", "Put Right", "That scene, with what 'Show as Put Right' shows put right"),
 )
 
 

@@ -96,7 +96,8 @@ def draw_regions(layout: Any, context: Any) -> None:
     regions = found.regions if found else ()
     column = layout.column(align=True)
     for number, region in enumerate(regions[:LISTED]):
-        text = f"{region.pixels:,} px: {region.objects[0] if region.objects else '-'}"
+        shows = region.objects[0] if region.objects else iface_("Background")
+        text = f"{region.pixels:,} px: {shows}"
         button = column.operator(
             REFERENCE_TRACER_OT_frame_region.bl_idname, text=text, translate=False
         )

@@ -27,26 +27,31 @@ def derive_here(context: Any, x: int, y: int, source: str) -> Derivation:
     ----------
     x, y : int
         The pixel's column and row; (0, 0) is the lower left of the picture.
-    source : {'SCENE', 'RENDER', 'COMPARISON'}
-        The scene as *Trace and Compare* would export it now; as a render would; or as the latest
-        comparison did. Without a comparison, it is the scene now.
+    source : {'SCENE', 'RENDER', 'COMPARISON', 'PUT_RIGHT'}
+        The scene as *Trace and Compare* would export it now; as a render would; as the latest
+        comparison did; or this with what is shown as put right. Without a comparison, it is the
+        scene now.
 
     Raises
     ------
     SceneError
-        If the scene cannot be traced, or has no such pixel.
+        If the scene cannot be traced, or has no such pixel; or if nothing is shown as put right.
     """
     from ...derivation.derivation import derive
     from ..jobs.open_file import Choices, export_open_file
 
+    file = bpy.path.basename(bpy.data.filepath) or "the unsaved file"
     comparison = results.content(Kind.COMPARISON, context.scene)
     if source == "COMPARISON" and comparison:
         scene = comparison.scene
+    elif source == "PUT_RIGHT":
+        told = results.shown_put_right(context.scene)
+        scene = told.frame.scene
+        file += f", with this put right: {told.sentence}"
     else:
         chosen = Choices.of(context.scene, {}).judge
         judge = None if source == "RENDER" else judge_or_none(chosen, bpy.app.background)
         scene, _, _ = export_open_file(context, judge)
-    file = bpy.path.basename(bpy.data.filepath) or "the unsaved file"
     return derive(scene, x, y, source=file)
 
 
@@ -79,6 +84,9 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
 
         found = derive_here(context, self.x, self.y, self.source)
         said = document.answer_sentence(found)
+        if self.source == "PUT_RIGHT":
+            told = results.shown_put_right(context.scene)
+            said = rpt_("With this put right: {}. {}").format(told.sentence, said)
         results.keep(Kind.PIXEL, found, [said], context.scene.name)
         results.show_text(context, TEXT, document.document_markdown(found))
         if self.draw_ray:

@@ -13,6 +13,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 
+from .export_camera import REFERENCE_TRACER_OT_export_camera
 from .long_work import named
 from .properties import ReferenceTracerScene
 from .samples import REFERENCE_TRACER_MT_samples
@@ -76,6 +77,8 @@ def _draw_in_image(menu: Any, context: Any) -> None:
 def _draw_in_export(menu: Any, context: Any) -> None:
     menu.layout.separator()
     _add(menu, "export", "Reference Tracer (.npz)")
+    text = "Camera for Other Programs (.json, .txt, .gltf, .xml)"
+    menu.layout.operator(REFERENCE_TRACER_OT_export_camera.bl_idname, text=text)
 
 
 def _draw_in_header(header: Any, context: Any) -> None:

@@ -69,7 +69,10 @@ def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
             f"The image '{image.name}' has {width} x {height} pixels, the picture {own.width} x "
             f"{own.height}: it is of something else, or the resolution has changed since"
         )
-    source = "COMPARISON" if image.get(results.MARK) in IMAGES.values() else "SCENE"
+    mark = image.get(results.MARK)
+    source = "COMPARISON" if mark in IMAGES.values() else "SCENE"
+    if mark == results.PUT_RIGHT:
+        source = "PUT_RIGHT"
     return Pick(int(u * width), int(v * height), source)
 
 

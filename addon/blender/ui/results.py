@@ -21,6 +21,7 @@ from ...tracer.progress import Work, by_rows, scaled
 if TYPE_CHECKING:
     from ...arrays import Colors
     from ...comparison.comparison import Comparison
+    from ...diagnosis.diagnosis import Told
     from ...diagnosis.regions import Region
     from ...study.extremes import ExtremesRow
     from ...study.trade import Trade
@@ -169,6 +170,29 @@ def show(name: str, color: Colors) -> Any:
     image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
     image.update()
     return image
+
+
+def shown_put_right(scene: Any) -> Told:
+    """Return the fault of a scene's latest comparison that our picture shows put right.
+
+    Raises
+    ------
+    SceneError
+        If it shows none of them.
+    """
+    import numpy as np
+
+    from ...scene import SceneError
+
+    image, found = ours(PUT_RIGHT), latest(Kind.COMPARISON, scene)
+    if image and found:
+        width, height = image.size
+        pixels = np.empty((height, width, 4), np.float32)
+        image.pixels.foreach_get(pixels.ravel())
+        for number, color in found.put_right.items():
+            if np.array_equal(np.asarray(color, np.float32), pixels, equal_nan=True):
+                return found.content.diagnosis.told[number]
+    raise SceneError("No picture of this scene's latest comparison is shown put right: press Show.")
 
 
 def ours(name: str) -> Any:

@@ -84,6 +84,7 @@ class _Asked(NamedTuple):
     """What the edge and tie tests have found so far for the n pixels of a part."""
 
     centre: Hits
+    resolution: Floats  # (n,) m: how far apart in depth surfaces are told apart there
     lost: Bools  # the picture's own method lost what the centre sees
     found: Floats  # (2, n) px: how far away the picture's colour is seen, and its object
     behind: list[tuple[Hits, Floats]]  # what may tie with the centre, and how far behind, (n,) m
@@ -97,7 +98,8 @@ def _look(part: Part) -> Work[None]:
     """
     centre = yield from part.probe.trace()
     lost = ~part.picture.differ(part.scene, centre)
-    asked = _Asked(centre, lost, _sides(part.scene, part.picture, centre, 0.0), [], [])
+    found = _sides(part.scene, part.picture, centre, 0.0)
+    asked = _Asked(centre, part.resolution(centre), lost, found, [], [])
     for look in (_behind, _beside, _mixed, _covering):
         if not part.done:
             yield from look(part, asked)
@@ -145,7 +147,7 @@ def _behind(part: Part, asked: _Asked) -> Work[None]:
     if part.scene.instances is frame.scene.instances:
         met = frame.hits().take(np.ravel_multi_index(part.at, frame.shape))
     may = (first.instance != NOTHING) & part.picture.differ(part.scene, met)
-    allowed = np.where(may, part.resolution(first), -1.0)
+    allowed = np.where(may, asked.resolution, -1.0)
     with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
         moved = np.abs(first.t - met.t)
     part.give(asked.lost & (moved <= allowed), DEPTH_TIE, moved, allowed)
@@ -168,12 +170,11 @@ def _mixed(part: Part, asked: _Asked) -> Work[None]:
     scene, picture = part.scene, part.picture
     color, owner = asked.found < np.inf
     color = color & ~asked.lost
-    allowed = part.resolution(asked.centre)
     for hits, gap in asked.behind:
         tied = gap < np.inf
         color |= tied & picture.same_color(scene, hits)
         owner = owner | (tied & ~picture.other_object(hits.instance))
-        part.give(tied & color & owner, DEPTH_TIE, gap, allowed)
+        part.give(tied & color & owner, DEPTH_TIE, gap, asked.resolution)
         yield 0.0
 
 
@@ -191,7 +192,7 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
     closed = np.full(len(width), np.inf)
     if part.picture.sampling.renderer.closed:
         closed = _closed(scene, asked.beside, asks & ~asked.lost)
-    farthest = np.minimum(farthest, (closed + part.resolution(asked.centre))[may.pixel])
+    farthest = np.minimum(farthest, (closed + asked.resolution)[may.pixel])
     visible = may.hits.t <= farthest
     for side, off in zip(found, of, strict=True):
         np.minimum.at(side, may.pixel[visible], off[visible])

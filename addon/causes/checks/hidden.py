@@ -75,7 +75,7 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     there = replace(pixels, case=case, picture=picture)
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.4)
     there = replace(there, frame=traced)
-    changed = (traced.color != pixels.frame.color).any(axis=-1)
+    changed = picture.sees_apart(traced, pixels.frame)
     changed &= pixels.open | (pixels.out.cause == AGREE)
     changed &= ~colorless[traced.instance_index]  # any colour would be the right one
     needed = PRECISE * changed.sum()
@@ -114,7 +114,7 @@ def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:
 
     def alike(rows: slice) -> Bools:
         part, seen = pixels.picture.at(rows), traced.instance_index[rows]
-        return part.alike(scene, seen, traced.color[rows]) & ~part.other_object(seen)
+        return part.shows(traced, rows) & ~part.other_object(seen)
 
     same = yield from scaled(by_blocks(traced.shape, alike), 1.0, 0.0)
     return traced, same

@@ -19,6 +19,7 @@ from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
 from ...tracer.progress import Steps, Work, quiet, scaled, timed
 from ...tracer.vector import gather, parts
+from ..arithmetic import sound_steps
 from ..bounds import plane_fractions
 from .boxes import Boxed, InstanceBoxes, boxes_of, by_depth
 from .chunks import Chunk, Names, Numbering, chunks, expand
@@ -41,6 +42,7 @@ _BYTES_PER_TRIANGLE = 128  # of a chunk, its vertices included
 _BYTES_PER_FRAGMENT = 48  # until its pixel is decided
 
 
+@sound_steps
 def sweep(
     scene: Scene,
     region: Region,

@@ -56,6 +56,12 @@ def _export() -> ModuleType:
     return export
 
 
+def _camera() -> ModuleType:
+    from . import camera
+
+    return camera
+
+
 COMMANDS = {  # in the order of `--help`
     "compare": Command(
         "trace a scene and compare it with Blender's own picture, or with any other", _compare
@@ -66,6 +72,7 @@ COMMANDS = {  # in the order of `--help`
     ),
     "judge": Command("judge students' own ray/triangle tests (this runs their code)", None),
     "conform": Command("judge a renderer or an exporter on forty small scenes", None),
+    "verify": Command("check a certificate of `trace`, by a program that knows no tracer", None),
     "trade": Command(
         "measure what every method, precision, number of samples and size costs on a scene", _trade
     ),
@@ -74,4 +81,5 @@ COMMANDS = {  # in the order of `--help`
     ),
     "bench": Command("measure the speed of the tracer beside embreex, Cycles and others", None),
     "export": Command("export a .blend to a scene that needs no Blender", _export),
+    "camera": Command("write a scene's camera for other programs, or check one of theirs", _camera),
 }

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ... import images
-from ...causes.case import Case
+from ...causes.case import Case, without_colors
 from ...comparison import engines
 from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparison import Comparison
@@ -19,8 +19,10 @@ from ...framing import FRAMED
 from ...manifest import Effect
 from ...pictures import colors_file
 from ...pictures.colors_file import in_colors
+from ...pictures.data.given import GivenData, picture_of_data
 from ...pictures.given import Making, picture_of_file
 from ...pictures.palette import By, GivenColors
+from ...pictures.picture import Picture
 from ...report import animation as frames_report
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
@@ -33,6 +35,8 @@ from ..compare_options import CompareOptions, add_options
 from ..opening import import_trimesh, open_blend, open_file
 from ..parser import AGREE, EXIT_CODES_HELP, Parser
 from ..running import meanwhile, progress_bar
+
+Given = images.PictureFile | GivenData
 
 _FRAMED = (
     "the camera is none of the mesh's: it was placed to see all of it; "
@@ -54,12 +58,12 @@ def compare(options: CompareOptions) -> int:
     """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
     results = [folders.place_of(options.out / name) for name in comparison_report.NAMES]
     colors = options.colors if isinstance(options.colors, Path) else None
-    for file in (options.scene, options.against, colors, options.colors_out, options.junit):
+    for file in (options.scene, options.file, colors, options.colors_out, options.junit):
         if file and folders.place_of(file) in results:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
             )
-    if options.colors_out and options.against is None and not is_blend(options.scene):
+    if options.colors_out and options.file is None and not is_blend(options.scene):
         if options.junit:
             raise SceneError("--junit is for a comparison: name a picture with --against")
         return _only_colors(options, options.colors_out)
@@ -72,9 +76,9 @@ def compare(options: CompareOptions) -> int:
         options.place as place,
     ):
         import_trimesh()  # which diagnoses the meshes
-        if options.against is None:
+        if options.file is None:
             return _with_blender(options, place)
-        return _with_picture(options, images.open_picture(options.against), place)
+        return _with_picture(options, _opened(options), place)
 
 
 def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
@@ -147,9 +151,12 @@ def _frames(
     return _told(options, frames_report.verdict(rows), options.out / frames_report.PAGE)
 
 
-def _with_picture(
-    options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
-) -> int:
+def _opened(options: CompareOptions) -> GivenData | images.PictureFile:
+    """Return the picture whose header was read, or the file of data that will be."""
+    return options.data or images.open_picture(options.against or "")
+
+
+def _with_picture(options: CompareOptions, picture: Given, place: dict[str, Any]) -> int:
     """Compare with a picture from a file."""
     with progress_bar() as progress:
         of = _blend if is_blend(options.scene) else _file
@@ -213,9 +220,7 @@ def _told(options: CompareOptions, verdict: Verdict, *pages: Path) -> int:
     return verdict.exit_code
 
 
-def _blend(
-    options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
-) -> Work[Comparison]:
+def _blend(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Work[Comparison]:
     with open_blend(options.scene, options.choice) as blender:
         from ...blender.jobs.against import gather_against
         from ...blender.reading.camera import export_camera
@@ -226,17 +231,21 @@ def _blend(
         making = replace(
             _making(options), default_dither=dither, engine=context.scene.render.engine
         )
-        shown = picture_of_file(picture, export_camera(context.scene), making)
+        shown: Picture | Callable[[Any], Picture]
+        if isinstance(picture, GivenData):
+            data = picture  # which is read once the scene is there
+            shown = lambda drawing: picture_of_data(data, drawing.exported, making)  # noqa: E731
+        else:
+            shown = picture_of_file(picture, export_camera(context.scene), making)
         settings = options.settings.over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         with meanwhile("having Blender evaluate the scene"):
             case = gather_against(context, shown, settings, bool(options.self_check), colors)
+        case = without_colors(case) if options.data else case
         return (yield from _written(options, replace(case, **place)))
 
 
-def _file(
-    options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
-) -> Work[Comparison]:
+def _file(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Work[Comparison]:
     scene, manifest, stored = open_file(options.scene, options.choice)
     own = scene
     scene, notes = in_colors(own, _colors(options) or By.VIEWPORT)
@@ -246,9 +255,13 @@ def _file(
     if scene.camera.name == FRAMED:
         notes = (*notes, _FRAMED)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))
-    shown = picture_of_file(picture, scene.camera, _making(options))
+    if isinstance(picture, GivenData):
+        shown = picture_of_data(picture, scene, _making(options))
+    else:
+        shown = picture_of_file(picture, scene.camera, _making(options))
     settings, checked = options.settings.over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
+    case = without_colors(case) if options.data else case
     return (yield from _written(options, replace(case, **place)))
 
 

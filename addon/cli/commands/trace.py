@@ -1,13 +1,15 @@
-"""`reftrace trace`: traces a scene or a mesh into a picture."""
+"""`reftrace trace`: traces a scene or a mesh into a picture, or a certificate of it."""
 
 from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ... import exr, images
+from ...certificate_file import save_certificate
 from ...framing import Choice
 from ...mesh_files.load import READERS
 from ...rendering import render
@@ -29,7 +31,8 @@ class TraceOptions:
     """The options of `reftrace trace`."""
 
     scene: Path
-    out: Path
+    out: Path | None
+    certificate: Path | None
     settings: GivenSettings
     choice: Choice
     rows: Sequence[int] | None  # the first and the last
@@ -38,9 +41,12 @@ class TraceOptions:
     @classmethod
     def parsed(cls, given: Namespace) -> TraceOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
+        if not (given.out or given.certificate):
+            raise SceneError("name a file to write: --out PICTURE, --certificate FILE, or both")
         return cls(
             scene=given.scene,
             out=given.out,
+            certificate=given.certificate,
             settings=settings_from(given),
             choice=choice_from(given, given.scene),
             rows=given.rows,
@@ -50,7 +56,12 @@ class TraceOptions:
     @property
     def is_png(self) -> bool:
         """Whether the picture is what a screen shows, not every output."""
-        return self.out.suffix.lower() == ".png"
+        return self.out is not None and self.out.suffix.lower() == ".png"
+
+    @property
+    def files(self) -> list[Path]:
+        """The files that are written."""
+        return [path for path in (self.out, self.certificate) if path]
 
 
 def add(parser: Parser) -> None:
@@ -62,10 +73,16 @@ def add(parser: Parser) -> None:
     parser.add_scene(SOURCES)
     parser.add_argument(
         "--out",
-        required=True,
         type=parser.path_ending(".png", ".exr"),
         metavar="PICTURE",
         help="picture.png (what a screen shows) or picture.exr (every output)",
+    )
+    parser.add_argument(
+        "--certificate",
+        type=parser.path_ending(".npz"),
+        metavar="FILE",
+        help="a file with the scene and what every pixel sees, for `reftrace verify`, which checks "
+        "it without the tracer",
     )
     add_settings(parser)
     parser.add_argument(
@@ -84,24 +101,31 @@ def add(parser: Parser) -> None:
 
 
 def trace(options: TraceOptions) -> int:
-    """Trace, and write the picture."""
-    with folders.made_for_file(options.out):
+    """Trace, and write the picture, its certificate, or both."""
+    with ExitStack() as stack:
+        for path in options.files:
+            stack.enter_context(folders.made_for_file(path))
         scene, stored = load(options.scene, options.choice)
         settings = options.settings.over(stored)
+        if options.certificate and not settings.method.is_proven:
+            raise SceneError(f"--certificate: {settings.method} proves nothing: --method certified")
         if options.rows:
             scene = _rows_alone(scene, settings, *options.rows)
         with options.place as place, progress_bar() as progress:
             frame = render(scene, settings, lambda s: progress(Share(s, "tracing")), **place)
-        with folders.replacing_file(options.out) as new:
-            if options.is_png:
-                images.save_png(new, images.to_display(frame.color))
-            else:
-                exr.save(new, frame.passes())
+        for path in options.files:
+            with folders.replacing_file(path) as new:
+                if path == options.certificate:
+                    save_certificate(new, frame)
+                elif options.is_png:
+                    images.save_png(new, images.to_display(frame.color))
+                else:
+                    exr.save(new, frame.passes())
     s = frame.statistics
     print(
         f"{frame.shape[1]} x {frame.shape[0]} pixels, {count_of(s.triangles, 'triangle')}, "
         f"{count_of(s.pairs_tested, 'pair')} tested in {s.seconds:.2f} s ({s.method}, "
-        f"{settings.precision}): {options.out}"
+        f"{settings.precision}): {', '.join(map(str, options.files))}"
     )
     for line in s.required():
         print(line)

@@ -16,6 +16,7 @@ from ...tracer.frame import Frame
 from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 from .climbing import values_of
+from .data.moving import by_points
 from .fault import (
     AnyFault,
     Effort,
@@ -140,6 +141,12 @@ def _units_or_fitted(evidence: Evidence) -> Work[list[Numbers]]:
     return [*(yield from suspects(*UNITS)(evidence)), *fitted]
 
 
+def _moved_or_by_points(evidence: Evidence) -> Work[list[Numbers]]:
+    """Search for the places of objects; depths say them."""
+    find = MOVED.find if evidence.case.picture.data is None else by_points
+    return (yield from find(evidence))
+
+
 def _whole(instance: Instance, factor: float) -> Instance:
     """Scale an instance about the world's origin."""
     matrix = instance.world_from_object.copy()
@@ -253,7 +260,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "centred its mesh.",
         "compare its world matrix with the one that the scene has",
         of_object(moved),
-        MOVED.find,
+        _moved_or_by_points,
         ("x", "y", "z"),
         refine=MOVED.refine,
         effort=Effort.PLACE,

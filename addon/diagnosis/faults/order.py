@@ -31,7 +31,7 @@ def _quarter_turned(case: Case, quarters: int) -> Case | None:
     rows, columns = np.mgrid[:height, :width]
     # The lowest row is the first: anticlockwise is clockwise in the array.
     where = np.rot90(rows, -quarters), np.rot90(columns, -quarters)
-    return replace(case, picture=case.picture.at(where))
+    return replace(case, picture=case.picture.moved(where))
 
 
 # Quarters of a turn anticlockwise.

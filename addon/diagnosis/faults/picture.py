@@ -21,7 +21,7 @@ from .tones import CURVE_FAULTS
 
 def _upside_down(case: Case, guess: Guess) -> Case:
     """Flip the picture of a case upside down."""
-    return replace(case, picture=case.picture.at(np.arange(len(case.picture.color))[::-1]))
+    return replace(case, picture=case.picture.moved(np.arange(len(case.picture.color))[::-1]))
 
 
 # By how many columns and rows all are off, and what is said of it.
@@ -48,7 +48,7 @@ def _rolled(way: int) -> Make[Rolled]:
         height, width = case.picture.color.shape[:2]
         rows = np.roll(np.arange(height), way * guess.y)
         columns = np.roll(np.arange(width), way * guess.x)
-        return replace(case, picture=case.picture.at(np.ix_(rows, columns)))
+        return replace(case, picture=case.picture.moved(np.ix_(rows, columns)))
 
     return make
 

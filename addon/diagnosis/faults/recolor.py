@@ -11,6 +11,7 @@ from ...arrays import Array, Colors
 from ...causes.case import Case
 from ...images import EIGHT_BITS
 from ...pictures.picture import Picture, Transform, straight
+from ...runs import by_runs
 from .fault import Guess, Make
 
 
@@ -24,8 +25,15 @@ def alpha_divided(color: Array) -> Array:
     return np.concatenate((straight(color), color[..., 3:]), axis=-1)
 
 
-def recolored(change: Callable[[Array], Array]) -> Make[Guess]:
-    """Return a function that changes the colours of a picture and of its own background."""
+def recolored(of_pixels: Callable[[Array], Array], alike: bool = True) -> Make[Guess]:
+    """Return a function that changes the colours of a picture and of its own background.
+
+    Where equal colours are changed alike, one of each run of equal pixels is changed.
+    """
+
+    def change(color: Array) -> Array:
+        flat = color.reshape(-1, color.shape[-1])
+        return (by_runs(of_pixels, flat) if alike else of_pixels(flat)).reshape(color.shape)
 
     def make(case: Case, guess: Guess) -> Case:
         picture = case.picture
@@ -39,15 +47,18 @@ def recolored(change: Callable[[Array], Array]) -> Make[Guess]:
     return make
 
 
-def of_straight(change: Callable[..., Array]) -> Make[Guess]:
-    """Return a function that changes straight RGB by a function of it and the guess' numbers."""
+def of_straight(change: Callable[..., Array], alike: bool = True) -> Make[Guess]:
+    """Return a function that changes straight RGB by a function of it and the guess' numbers.
+
+    `alike` is as :func:`recolored` has it.
+    """
 
     def make(case: Case, guess: Guess) -> Case | None:
         def changed(color: Array) -> Colors:
             rgb = change(straight(color), *guess.values) * color[..., 3:]
             return np.concatenate((rgb, color[..., 3:]), axis=-1, dtype=np.float32)
 
-        return recolored(changed)(case, guess)
+        return recolored(changed, alike)(case, guess)
 
     return make
 

@@ -85,7 +85,7 @@ ROUNDING_FAULTS = (
                 "dithered",
                 "noise of two levels, as of dithering",
                 with_values(2.0),
-                of_straight(_dithered),
+                of_straight(_dithered, alike=False),
             ),
         ),
         words="s",

@@ -161,7 +161,7 @@ def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Tri
             return None  # where they are missing, they break nothing that agrees
         frame = Frame.empty(other.scene)
         yield from steps(other.scene, SOUND, frame)
-        shown = evidence.picture.alike(other.scene, frame.instance_index, frame.color)
+        shown = evidence.picture.shows(frame)
         wrong = evidence.unexplained & ~shown
     if not (frame.instance_index == instance).any():
         return None  # all that is seen of it is gone: the object is missing

@@ -19,6 +19,7 @@ _LABELS = {  # what messages call the things in the file's lists
     "scenes": "scene",
     "nodes": "node",
     "meshes": "mesh",
+    "cameras": "camera",
     "skins": "skin",
     "accessors": "accessor",
     "bufferViews": "buffer view",

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ...scene import Mesh, SceneError
+from ...wording import count_of
 from ..contents import Contents, Placed
 from .accessors import Accessors
 from .buffers import Buffers
@@ -150,7 +151,12 @@ def _name_the_unused(document: Document, notes: Notes) -> None:
     if animations:
         notes.add("Animations are not played; everything is traced at rest", *animations)
     if count := document.count("cameras"):
-        notes.add(f"Cameras are not used: the file has {count}")
+        seeing = (node for node in document.every("nodes") if "camera" in node.content)
+        names = (short(node.name) or node.label for node in seeing)
+        notes.add(
+            f"The file has {count_of(count, 'camera')}; --camera uses one by its node's name",
+            *names,
+        )
     lights = document.extension("KHR_lights_punctual")
     if lights and (count := len(lights.items("lights"))):
         notes.add(f"Lights are not used: the file has {count}")

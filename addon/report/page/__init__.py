@@ -31,15 +31,22 @@ _NO_SCRIPT = "script-src 'none'"  # of the template's policy
 _DATA = '<script type="application/json" id="{}"></script>'
 
 
-def write(path: str | Path, comparison: Comparison, extras: Extras | None = None) -> None:
+def write(
+    path: str | Path,
+    comparison: Comparison,
+    extras: Extras | None = None,
+    stored: Mapping[str, bytes] | None = None,
+) -> None:
     """Write the page of a comparison, and of what else was found out.
+
+    `stored` is as :func:`content.content` has it.
 
     Raises
     ------
     OSError
         If the file cannot be written.
     """
-    text = html(content(comparison, extras))
+    text = html(content(comparison, extras, stored=stored))
     with replacing_file(Path(path)) as new:
         new.write_text(text, encoding="utf-8")
 

@@ -59,13 +59,14 @@ class SeenSurfaces(NamedTuple):
 
 def seen(frame: Frame) -> SeenSurfaces:
     """Return the surfaces that a frame sees, each once."""
-    instance, triangle = (a.astype(np.int64) for a in (frame.instance_index, frame.triangle_index))
+    every = frame.instance_index.ravel(), frame.triangle_index.ravel()
+    first = run_starts(*every)
+    instance, triangle = (a[first].astype(np.int64) for a in every)
     names = np.where(instance == NOTHING, -1, (instance << 32) | (triangle + 1))
-    first = run_starts(names.ravel())
-    unique, number = np.unique(np.append(names.flat[first], -1), return_inverse=True)
-    number = np.repeat(number[:-1], np.diff(first, append=names.size)).reshape(names.shape)
+    unique, number = np.unique(np.append(names, -1), return_inverse=True)
+    number = number[:-1].astype(np.int32)
     return SeenSurfaces(
-        number.astype(np.int32),
+        np.repeat(number, np.diff(first, append=len(every[0]))).reshape(frame.shape),
         (unique[1:] >> 32).astype(np.int32),
         ((unique[1:] & 0xFFFFFFFF) - 1).astype(np.int32),
     )

@@ -6,7 +6,7 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import ModuleType
 from typing import TypeVar
 
@@ -35,11 +35,15 @@ MOST_CHARACTERS = 32 << 20  # characters of the packed arrays: what a browser st
 
 
 def content(
-    comparison: Comparison, extras: Extras | None = None, limit: int = MOST_CHARACTERS
+    comparison: Comparison,
+    extras: Extras | None = None,
+    limit: int = MOST_CHARACTERS,
+    stored: Mapping[str, bytes] | None = None,
 ) -> dict[str, object]:
     """Return all that a page shows.
 
-    `extras` is what else was found out. The packed arrays take at most `limit` characters.
+    `extras` is what else was found out. The packed arrays take at most `limit` characters. `stored`
+    has the PNG files of pictures that are encoded already: "traced" and "blender".
     """
     scene, frame = comparison.scene, comparison.frame
     extras = extras or Extras()
@@ -63,7 +67,10 @@ def content(
         "tolerance": {str(dtype): value for dtype, value in SUM_TOLERANCE.items()},
         "formulas": {"plane": PLANE, "triangle": TRIANGLE, "vectors": sorted(VECTORS)},
         "errata": ERRATA,
-        "pictures": [*_pictures(comparison, extras.literal), *_put_right(comparison)],
+        "pictures": [
+            *_pictures(comparison, extras.literal, stored or {}),
+            *_put_right(comparison),
+        ],
         "regions": [r.to_dict() for r in _unexplained(comparison)],
         "pixels": pixels,
         "derivations": [
@@ -105,7 +112,9 @@ def hex_color(linear: Sequence[float]) -> str:
     return f"#{r:02x}{g:02x}{b:02x}"
 
 
-def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[str, str]]:
+def _pictures(
+    comparison: Comparison, literal: np.ndarray | None, stored: Mapping[str, bytes]
+) -> list[dict[str, str]]:
     s, source = comparison.frame.statistics, comparison.case.picture.source
     found = [
         ("traced", "Traced", f"by {_words(s.method).lower()}", comparison.frame.color, png.LEVEL),
@@ -117,7 +126,12 @@ def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[s
         note = "s₁ + s₂ + s₃ = 1 as printed"
         found.append(("literal", "Literal textbook", note, literal, png.NOISY))
     return [
-        {"id": i, "label": label, "note": note, "png": data_uri(to_display(color), level)}
+        {
+            "id": i,
+            "label": label,
+            "note": note,
+            "png": data_uri(stored.get(i) or png.encode(to_display(color), level)),
+        }
         for i, label, note, color, level in found
     ]
 
@@ -131,7 +145,7 @@ def _put_right(comparison: Comparison) -> Iterator[dict[str, str]]:
             "of": side,
             "label": "Put right" if len(told) == 1 else f"Put right, {number + 1}",
             "note": told[number].sentence,
-            "png": data_uri(to_display(color)),
+            "png": data_uri(png.encode(to_display(color))),
         }
 
 

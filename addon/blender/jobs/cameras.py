@@ -1,0 +1,61 @@
+"""Reads the camera of the open scene, in one frame or more, and where Blender's matrix has points.
+
+Each is the camera of the picture that Blender writes: with *Crop to Render Region*, of the border's
+region alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...camera_files.convention import View
+from ...camera_files.frame import part
+from ...pictures.certificate import known_points
+from ...report.cameras import SceneCamera
+from ...scene import Region
+from ..reading.camera import export_camera, film_of_blender
+from .stepping import visited
+
+
+def cameras(frames: Sequence[int] | None = None) -> Iterator[SceneCamera]:
+    """Yield the context's camera at each of these frames, in order; by default as it is.
+
+    Raises
+    ------
+    SceneError
+        If there is no camera, or one that is not modelled.
+    """
+    scene: Any = bpy.context.scene
+    if frames is None:
+        yield _camera(scene.frame_current)
+        return
+    own = scene.frame_current
+    try:
+        for frame in visited(scene, [*frames]):
+            scene.frame_set(frame)
+            if frame in frames:
+                yield _camera(frame)
+    finally:
+        scene.frame_set(own)
+
+
+def _camera(frame: int) -> SceneCamera:
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    scene: Any = depsgraph.scene_eval
+    camera = export_camera(scene)
+    if not scene.render.use_crop_to_border:
+        camera = replace(camera, region=Region(0, 0, camera.width, camera.height))
+    corner = np.array([[camera.region.x0], [camera.region.y0]])
+    camera = part(camera)
+    points = known_points(camera)
+    if not camera.projection.is_linear:  # of which Blender has no matrix
+        return SceneCamera.of(camera, f"{frame:04d}.png")
+    film = film_of_blender(scene, depsgraph, points) - corner
+    return SceneCamera(
+        View(camera, f"{frame:04d}.png", frame), points, film, "Blender's own matrix"
+    )

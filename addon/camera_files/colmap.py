@@ -1,0 +1,189 @@
+"""COLMAP: `cameras.txt` and `images.txt` in a folder.
+
+Source: COLMAP, "Output Format": the quaternion (w, x, y, z) and t take the world to a camera space
+with +X right, +Y down, +Z forward; "the local camera coordinate system", and "the upper left image
+corner has coordinate (0, 0), the center of the upper left most pixel (0.5, 0.5)". "Camera Models":
+PINHOLE is fx, fy, cx, cy, and u = fx x/z + cx, v = fy y/z + cy. COLMAP's world has no axes of its
+own: the one that is written is Blender's, in metres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..arrays import Floats
+from ..scene import SceneError
+from . import frame
+from .convention import Convention, Files, Source, View
+from .features import ASPECT, SHIFT
+
+CAMERAS, IMAGES, POINTS = "cameras.txt", "images.txt", "points3D.txt"
+# By model: where fx, fy, cx, cy stand among the parameters, and how many there are. All that follow
+# cy are distortions, of which only zero is read.
+_MODELS = {
+    "SIMPLE_PINHOLE": ((0, 0, 1, 2), 3),
+    "PINHOLE": ((0, 1, 2, 3), 4),
+    "SIMPLE_RADIAL": ((0, 0, 1, 2), 4),
+    "RADIAL": ((0, 0, 1, 2), 5),
+    "OPENCV": ((0, 1, 2, 3), 8),
+    "FULL_OPENCV": ((0, 1, 2, 3), 12),
+}
+
+
+def _write(views: Sequence[View], centers: str) -> Files:
+    lenses = [_lens(view) for view in views]
+    numbers = {lens: n for n, lens in enumerate(dict.fromkeys(lenses), 1)}
+    cameras = ["# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]: fx, fy, cx, cy"]
+    cameras += [f"{n} {lens}" for lens, n in numbers.items()]
+    images = ["# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; then a line of points"]
+    for number, (view, lens) in enumerate(zip(views, lenses, strict=True), 1):
+        r = frame.rotation_of(frame.camera_from_world(view.camera)[:3, :3])
+        pose = *quaternion(r), *(-r @ view.camera.origin)
+        said = " ".join(repr(float(v)) for v in pose)
+        images += [f"{number} {said} {numbers[lens]} {view.name}", ""]
+    files = {CAMERAS: cameras, IMAGES: images, POINTS: ["# no points"]}
+    return {name: "\n".join(lines) + "\n" for name, lines in files.items()}
+
+
+def _lens(view: View) -> str:
+    camera = view.camera
+    params = " ".join(map(repr, map(float, frame.intrinsics(camera))))
+    return f"PINHOLE {camera.width} {camera.height} {params}"
+
+
+def quaternion(r: Floats) -> Floats:
+    """Return the unit quaternion (w, x, y, z) of a rotation (3, 3), w at least 0.
+
+    It is the eigenvector of the largest eigenvalue of Bar-Itzhack's matrix (AIAA Journal of
+    Guidance 23, 2000), which is well conditioned for every angle.
+    """
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = r
+    k = np.array(
+        (
+            (xx + yy + zz, 0.0, 0.0, 0.0),
+            (zy - yz, xx - yy - zz, 0.0, 0.0),
+            (xz - zx, yx + xy, yy - xx - zz, 0.0),
+            (yx - xy, zx + xz, zy + yz, zz - xx - yy),
+        )
+    )
+    _, vectors = np.linalg.eigh(k)  # of the lower triangle
+    q: Floats = vectors[:, -1]
+    return -q if q[0] < 0 else q
+
+
+def rotation(q: Floats) -> Floats:
+    """Return the rotation (3, 3) of a quaternion (w, x, y, z), which need not have length 1.
+
+    Raises
+    ------
+    SceneError
+        If it is zero.
+    """
+    length = float(np.linalg.norm(q))
+    if not length:
+        raise SceneError(f"{IMAGES}: a quaternion is zero")
+    w, x, y, z = q / length
+    return np.array(
+        (
+            (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
+            (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
+            (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
+        )
+    )
+
+
+def _folder(path: Path) -> Path:
+    return path if path.is_dir() else path.parent
+
+
+def _is_of(source: Source) -> bool:
+    path = source.path
+    if path.is_dir():
+        return any((path / f"cameras{end}").is_file() for end in (".txt", ".bin"))
+    return path.name.lower() in (CAMERAS, IMAGES)
+
+
+def _read(source: Source) -> list[View]:
+    folder = _folder(source.path)
+    if not (folder / CAMERAS).is_file():
+        raise SceneError(
+            f"it has no {CAMERAS}: `colmap model_converter --output_type TXT` writes it of a binary"
+        )
+    lenses = dict(_camera(words, n) for n, words in _lines(folder / CAMERAS))
+    lines = list(_lines(folder / IMAGES, every=2))
+    return [_image(words, n, lenses) for n, words in lines]
+
+
+def _lines(path: Path, every: int = 1) -> list[tuple[str, list[str]]]:
+    """Return the words of lines that are no comments, with what messages call them.
+
+    Of `every` such lines the first: an image's second line, which may be empty, has its points.
+    """
+    text = path.read_bytes().decode("utf-8-sig", errors="replace")
+    numbered = enumerate(text.splitlines(), 1)
+    kept = [(f"{path.name}, line {n}", line) for n, line in numbered if not line.startswith("#")]
+    if every == 1:
+        kept = [(where, line) for where, line in kept if line.strip()]
+    return [(where, line.split(None, 9)) for where, line in kept[::every] if line.strip()]
+
+
+def _numbers(words: Sequence[str], where: str) -> Floats:
+    try:
+        values = np.array([float(word) for word in words])
+    except ValueError as error:
+        raise SceneError(f"{where}: {error}") from None
+    if not np.isfinite(values).all():
+        raise SceneError(f"{where}: a number is not finite")
+    return values
+
+
+_Lens = tuple[Floats, tuple[int, int]]
+
+
+def _camera(words: list[str], where: str) -> tuple[str, _Lens]:
+    """Return a camera's number, its K and its size."""
+    words = " ".join(words).split()
+    model = words[1] if len(words) > 1 else ""
+    if model not in _MODELS:
+        raise SceneError(f"{where}: the model '{model}' is none of {', '.join(_MODELS)}")
+    places, count = _MODELS[model]
+    values = _numbers(words[2:], where)
+    params = values[2:]
+    if len(params) != count or not all(v >= 1 and v == int(v) for v in values[:2]):
+        raise SceneError(f"{where}: {model} has a width, a height and {count} parameters")
+    if params[max(places) + 1 :].any():
+        raise SceneError(
+            f"{where}: {model} has lens distortion, which is not modelled: "
+            "`colmap image_undistorter` writes pictures and cameras without"
+        )
+    k = frame.matrix_of(*(float(params[n]) for n in places))
+    return words[0], (k, (int(values[0]), int(values[1])))
+
+
+def _image(words: list[str], where: str, lenses: dict[str, _Lens]) -> View:
+    if len(words) != 10:
+        raise SceneError(f"{where}: an image has a number, 7 numbers of its pose, CAMERA_ID, NAME")
+    if words[8] not in lenses:
+        raise SceneError(f"{where}: there is no camera {words[8]} in {CAMERAS}")
+    pose = _numbers(words[1:8], where)
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation(pose[:4])
+    matrix[:3, 3] = pose[4:]
+    k, size = lenses[words[8]]
+    name = words[9].strip()
+    return View(frame.pinhole(k, matrix, size, None, name), name, is_clipped=False)
+
+
+COLMAP = Convention(
+    "colmap",
+    "COLMAP",
+    f"{CAMERAS}, {IMAGES} and {POINTS} in a folder",
+    frozenset((SHIFT, ASPECT)),
+    False,
+    _write,
+    _is_of,
+    _read,
+)

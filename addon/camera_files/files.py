@@ -1,0 +1,146 @@
+"""Writes and reads cameras in any convention: `CONVENTIONS` has them by name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..file_kinds import check_is_file
+from ..scene import Camera, SceneError
+from ..wording import count_of
+from .bop import BOP
+from .colmap import COLMAP
+from .convention import HALF, Convention, Files, Source, View
+from .gltf import GLTF
+from .mitsuba import MITSUBA
+from .nerf import NERF
+from .open3d import OPEN3D
+from .opencv import OPENCV
+from .opengl import OPENGL
+from .pytorch3d import PYTORCH3D
+
+# The first that a file is of reads it.
+CONVENTIONS: dict[str, Convention] = {
+    own.name: own for own in (OPENCV, OPENGL, COLMAP, NERF, GLTF, MITSUBA, PYTORCH3D, OPEN3D, BOP)
+}
+
+
+def texts(views: Sequence[View], convention: Convention, centers: str = HALF) -> Files:
+    """Return what the files of these views hold, by name.
+
+    Raises
+    ------
+    SceneError
+        If the convention cannot say what one of the cameras has, or where a pixel's centre is.
+    """
+    if centers != HALF and not convention.either_center:
+        raise SceneError(
+            f"--centers {centers}: {convention.title} has pixel centres at + 0.5, or none"
+        )
+    for view in views:
+        check(view.camera, convention)
+    return convention.write(views, centers)
+
+
+def check(camera: Camera, convention: Convention) -> None:
+    """Raise a SceneError if a convention cannot say what a camera has."""
+    if lacking := convention.lacks(camera):
+        able = [own.name for own in CONVENTIONS.values() if not own.lacks(camera)]
+        do = f"{', '.join(able)} can" if able else "none of the conventions can"
+        raise SceneError(
+            f"Camera '{camera.name}' has {' and '.join(lacking)}, which {convention.title} cannot "
+            f"say: {do}."
+        )
+
+
+def read(
+    path: Path, convention: str | None = None, size: tuple[int | None, int | None] = (None, None)
+) -> list[View]:
+    """Return the views of a file or a folder, of a convention or of the one that it is seen to be.
+
+    Parameters
+    ----------
+    path : Path
+    convention : str, optional
+        A name in `CONVENTIONS`.
+    size : (int or None, int or None)
+        Width and height of the picture, for files that say none.
+
+    Raises
+    ------
+    SceneError
+        If there is no such file, it is of no convention, or its camera is none that is modelled.
+    OSError
+        If it cannot be read.
+    """
+    source = Source(path, size)
+    if not path.is_dir():
+        check_is_file(path)
+    try:
+        with np.errstate(all="ignore"):  # a camera refuses what is not finite
+            views = _seen_to_be(source, convention).read(source)
+        if not views:
+            raise SceneError("it has no camera")
+    except (ValueError, ArithmeticError) as error:  # of numbers of which no camera can be made
+        raise SceneError(f"'{path}' cannot be read as a camera: {error}") from error
+    return views
+
+
+def _seen_to_be(source: Source, named: str | None) -> Convention:
+    """Return the convention of a source; the one that is named, if it is of that."""
+    for name, own in CONVENTIONS.items():
+        if named in (None, name) and own.is_of(source):
+            return own
+    if named:
+        raise SceneError(f"its content is not that of {CONVENTIONS[named].title}")
+    raise SceneError(f"it is of none of {', '.join(CONVENTIONS)}")
+
+
+def is_seen_to_be(path: Path) -> bool:
+    """Return whether a file or a folder looks like one of the conventions."""
+    return any(own.is_of(Source(path)) for own in CONVENTIONS.values())
+
+
+def chosen(views: Sequence[View], which: str | None) -> View:
+    """Return the view that a name or a number names; without one, the only one.
+
+    A number is a frame's of Blender, else that at the end of an image's name, else the place among
+    the views, from 0.
+
+    Raises
+    ------
+    SceneError
+        If there is no such view, or there are several and none is named.
+    """
+    if which is None:
+        if len(views) == 1:
+            return views[0]
+        many = f"it has {len(views)} cameras"
+        raise SceneError(f"{many}: --camera-view names one of {_names(views)}")
+    named = [view for view in views if which in (view.name, Path(view.name).stem)]
+    if not named and which.lstrip("-").isdigit():
+        number = int(which)
+        named = [view for view in views if number_of(view) == number]
+        if not named and all(number_of(view) is None for view in views):
+            named = list(views[number : number + 1]) if number >= 0 else []
+    if len(named) != 1:
+        count = count_of(len(named), "camera") if named else "no camera"
+        raise SceneError(f"it has {count} '{which}'; there are {_names(views)}")
+    return named[0]
+
+
+def number_of(view: View) -> int | None:
+    """Return the frame of a view, or the number at the end of its image's name."""
+    if view.frame is not None:
+        return view.frame
+    found = re.search(r"(\d+)$", Path(view.name).stem)
+    return int(found[1]) if found else None
+
+
+def _names(views: Sequence[View]) -> str:
+    names = [view.name or str(number) for number, view in enumerate(views)]
+    more = len(names) - 5
+    return ", ".join(names[:5]) + (f" and {more} more" if more > 0 else "")

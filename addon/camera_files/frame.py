@@ -1,0 +1,145 @@
+"""Between a camera's view window and axes, and the numbers of other conventions.
+
+Film positions (u, v) are pixels from the upper left corner of the picture, v downwards, so that the
+first pixel's centre is (0.5, 0.5). With (x, y) on the view window (see `scene.ViewWindow`)
+
+    u = fx x + cx     v = -fy y + cy
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..arrays import Floats
+from ..projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
+from ..scene import Camera, Region, SceneError, ViewWindow
+from ..tracer.camera import pixel_size
+
+# Blender's and OpenGL's camera space has +Y up and -Z forward; OpenCV's has +Y down, +Z forward.
+# This takes one to the other, and back.
+OPENCV = np.diag((1.0, -1.0, -1.0, 1.0))
+# PyTorch3D's and Mitsuba's has +X left, +Y up, +Z forward.
+LEFT_UP = np.diag((-1.0, 1.0, -1.0, 1.0))
+# Where a file says no clip range: nothing but what is in the eye itself is left out.
+_UNCLIPPED = 1e-6, 1e12
+
+
+def intrinsics(camera: Camera) -> tuple[float, float, float, float]:
+    """Return fx, fy, cx, cy: pixels; of an orthographic camera fx, fy are pixels a metre."""
+    width, height = pixel_size(camera)
+    return 1 / width, 1 / height, -camera.window.left / width, camera.window.top / height
+
+
+def matrix_of(fx: float, fy: float, cx: float, cy: float) -> Floats:
+    """Return K, (3, 3)."""
+    return np.array([(fx, 0.0, cx), (0.0, fy, cy), (0.0, 0.0, 1.0)])
+
+
+def camera_from_world(camera: Camera, axes: Floats = OPENCV) -> Floats:
+    """Return the matrix that takes world space to a camera space, (4, 4)."""
+    return axes @ inverse(camera.world_from_camera)
+
+
+def inverse(matrix: Floats) -> Floats:
+    """Return the inverse of a transform, (4, 4).
+
+    Raises
+    ------
+    SceneError
+        If it has none.
+    """
+    try:
+        return np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        raise SceneError("its matrix has no inverse: the axes lie in a plane") from None
+
+
+def pinhole(
+    k: Floats,
+    camera_from_world: Floats,
+    size: tuple[int, int],
+    clip: tuple[float, float] | None,
+    name: str,
+    axes: Floats = OPENCV,
+    projection: Projection = PERSPECTIVE,
+) -> Camera:
+    """Return the camera of K (3, 3) and a matrix (4, 4) into a camera space.
+
+    A negative focal length or a skew is applied: the camera's axes are mirrored or sheared by it.
+
+    Raises
+    ------
+    SceneError
+        If K is none, or the matrix has no inverse.
+    """
+    k = k / k[2, 2] if k[2, 2] else k
+    if k[1, 0] or k[2, 0] or k[2, 1] or not (k[0, 0] and k[1, 1] and k[2, 2]):
+        raise SceneError("its K is not of the form [[fx, skew, cx], [0, fy, cy], [0, 0, 1]]")
+    fx, fy, (cx, cy) = abs(k[0, 0]), abs(k[1, 1]), k[:2, 2]
+    plain = np.eye(4)
+    plain[:2, :2] = k[:2, :2] / ((fx,), (fy,))
+    width, height = size
+    window = ViewWindow(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)
+    # K's v is downwards, as OpenCV's y; its skew is of that y.
+    world = inverse(OPENCV @ plain @ OPENCV @ axes @ camera_from_world)
+    return seen_from(world, window, size, clip, name, projection)
+
+
+def seen_from(
+    world_from_camera: Floats,
+    window: ViewWindow,
+    size: tuple[int, int],
+    clip: tuple[float, float] | None,
+    name: str,
+    projection: Projection = PERSPECTIVE,
+) -> Camera:
+    """Return a camera whose axes may have a scale, which is taken into its window and clip range.
+
+    A ray x right + y up + forward passes the same points if it is divided by forward's length.
+    """
+    right, up, deep = np.linalg.norm(world_from_camera[:3, :3], axis=0)
+    if not min(right, up, deep) > 0:
+        raise SceneError("its matrix has an axis of length 0")
+    matrix = np.array(world_from_camera, np.float64)
+    matrix[:3, :3] /= (right, up, deep)
+    unit = 1.0 if projection is ORTHOGRAPHIC else deep
+    start, end = (deep * depth for depth in clip) if clip else _UNCLIPPED
+    return Camera(
+        matrix,
+        window.scaled(right / unit, up / unit),
+        *size,
+        projection=projection,
+        clip_start=start,
+        clip_end=end,
+        name=name or "Camera",
+    )
+
+
+def rotation_of(matrix: Floats) -> Floats:
+    """Return the rotation that is nearest to a (3, 3) matrix."""
+    u, _, v = np.linalg.svd(matrix)
+    return u @ np.diag((1.0, 1.0, np.sign(np.linalg.det(u @ v)))) @ v
+
+
+def part(camera: Camera) -> Camera:
+    """Return the camera of the picture that holds only a camera's region."""
+    region, (width, height) = camera.region, pixel_size(camera)
+    left, bottom = camera.window.left, camera.window.bottom
+    window = ViewWindow(
+        left + region.x0 * width,
+        left + region.x1 * width,
+        bottom + region.y0 * height,
+        bottom + region.y1 * height,
+    )
+    whole = Region(0, 0, region.width, region.height)
+    return replace(camera, window=window, width=region.width, height=region.height, region=whole)
+
+
+def centred(camera: Camera) -> Camera:
+    """Return an orthographic camera whose shift is in its place: it has the same rays."""
+    x, y = camera.window.centre
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, 3] += x * camera.right + y * camera.up
+    return replace(camera, world_from_camera=matrix, window=camera.window.moved(-x, -y))

@@ -1,0 +1,170 @@
+"""glTF: a camera of a node, in a `.gltf` or a `.glb`.
+
+Source: Khronos, glTF 2.0 specification, 3.10: the camera looks along its node's -Z with +Y up; "the
+view matrix is derived from the global transform of the node containing the camera with the scaling
+ignored"; `yfov` is the whole vertical angle, `aspectRatio` that of the field of view, `xmag` and
+`ymag` are half the orthographic width and height. The world has Y up: (x, y, z) is Blender's
+(x, -z, y).
+
+There is no shift, and no size of the picture: what is written stands in the camera's `extras`, and
+a file without has a picture 960 pixels wide unless another is asked for. Where `aspectRatio` is not
+the picture's, a client "should not crop or perform non-uniform scaling": so pixels are squares. Of
+an orthographic camera the shift is written as its place, which is the same picture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..arrays import Floats
+from ..checked_json import Content
+from ..framing import SIZE
+from ..mesh_files.gltf.container import open_container
+from ..mesh_files.gltf.document import Thing
+from ..mesh_files.gltf.nodes import read_tree
+from ..mesh_files.gltf.notes import Notes
+from ..projections import ORTHOGRAPHIC, PERSPECTIVE
+from ..scene import SceneError, ViewWindow
+from . import frame
+from .convention import Convention, Files, Source, View
+from .features import PARALLEL
+from .json_files import dumped
+
+# Takes glTF's world to Blender's.
+_Z_UP = np.array(((1.0, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
+
+
+def _write(views: Sequence[View], centers: str) -> Files:
+    numbers = range(len(views))
+    content = {
+        "asset": {"version": "2.0", "generator": "Reference Tracer"},
+        "scene": 0,
+        "scenes": [{"nodes": [*numbers]}],
+        "nodes": [_node(view, number) for view, number in zip(views, numbers, strict=True)],
+        "cameras": [_camera(view) for view in views],
+    }
+    return {"": dumped(content)}
+
+
+def _node(view: View, number: int) -> Content:
+    camera = view.camera
+    if camera.projection is ORTHOGRAPHIC:
+        camera = frame.centred(camera)
+    matrix = _Z_UP.T @ camera.world_from_camera
+    return {"name": view.name, "camera": number, "matrix": matrix.T.reshape(-1).tolist()}
+
+
+def _camera(view: View) -> Content:
+    camera = view.camera
+    width, height = camera.window.size
+    if camera.projection is ORTHOGRAPHIC:
+        kind, own = "orthographic", {"xmag": width / 2, "ymag": height / 2}
+    else:
+        kind, own = (
+            "perspective",
+            {"yfov": 2 * np.arctan(height / 2), "aspectRatio": width / height},
+        )
+    if camera.clip_end < np.inf:
+        own["zfar"] = camera.clip_end
+    own["znear"] = camera.clip_start
+    extras = {"width": camera.width, "height": camera.height}
+    return {"name": camera.name, "type": kind, kind: own, "extras": extras}
+
+
+def _is_of(source: Source) -> bool:
+    if source.path.is_dir():
+        return False
+    content = source.json
+    is_text = isinstance(content, dict) and "asset" in content
+    return is_text or source.path.read_bytes()[:4] == b"glTF"
+
+
+def _read(source: Source) -> list[View]:
+    notes = Notes()
+    document = open_container(source.path, notes).document
+    tree = read_tree(document, notes)
+    found = []
+    for node, world in zip(tree.nodes, tree.worlds, strict=True):
+        number = node.refers("camera")
+        if number is not None:
+            own = document.thing("cameras", number, node.label)
+            found.append(_view(own, node.name or own.name, _Z_UP @ world, source))
+    if not found:
+        raise SceneError("no node of it has a camera")
+    return found
+
+
+def _view(own: Thing, name: str, world: Floats, source: Source) -> View:
+    kind = own.content.get("type")
+    lens = own.part(kind) if kind in ("perspective", "orthographic") else None
+    if lens is None:
+        raise SceneError(f"{own.label} is neither a perspective camera nor an orthographic one")
+    parallel = kind == "orthographic"
+    if parallel:
+        across, up = _number(lens, "xmag"), _number(lens, "ymag")
+        aspect: float | None = across / up
+    else:
+        up = float(np.tan(_number(lens, "yfov") / 2))
+        aspect = _number(lens, "aspectRatio") if "aspectRatio" in lens.content else None
+    size = _size(own, aspect, source)
+    across = up * size[0] / size[1]
+    axes = np.linalg.norm(world[:3, :3], axis=0)
+    if not axes.all() or np.linalg.det(world[:3, :3]) < 0:
+        raise SceneError(
+            f"the node of {own.label} has a scale that is zero or negative, and glTF ignores a "
+            "scale: export the camera without"
+        )
+    world = world / (*axes, 1.0)
+    far = _number(lens, "zfar") if "zfar" in lens.content else np.inf
+    return View(
+        frame.seen_from(
+            world,
+            ViewWindow(-across, across, -up, up),
+            size,
+            (_number(lens, "znear"), float(far)),
+            name,
+            ORTHOGRAPHIC if parallel else PERSPECTIVE,
+        ),
+        name,
+    )
+
+
+def _number(lens: Thing, key: str) -> float:
+    value = lens.content.get(key)
+    if not isinstance(value, int | float) or not 0 < value < np.inf:
+        raise SceneError(f"{lens.label} needs '{key}', a finite number above 0")
+    return float(value)
+
+
+def _size(own: Thing, aspect: float | None, source: Source) -> tuple[int, int]:
+    """Return the picture's size: that of the extras, or as asked for, with the aspect ratio."""
+    extras = own.content.get("extras")
+    width, height = source.size
+    ratio = aspect or SIZE[0] / SIZE[1]  # without one it is the picture's, whatever that is
+    if width is None:
+        width = SIZE[0] if height is None else max(1, round(height * ratio))
+    height = height or max(1, round(width / ratio))
+    asked = Source(source.path, (width, height))
+    size: tuple[int, int] = asked.whole_size(extras if isinstance(extras, dict) else {}, _KEYS)
+    if aspect is not None and abs(size[0] / size[1] / aspect - 1) > 1 / min(size):
+        raise SceneError(
+            f"{own.label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
+            "pixels: choose --width or --height alone"
+        )
+    return size
+
+
+_KEYS = "width", "height"
+
+GLTF = Convention(
+    "gltf",
+    "glTF",
+    "camera.gltf",
+    frozenset((PARALLEL,)),
+    False,
+    _write,
+    _is_of,
+    _read,
+)

@@ -1,0 +1,103 @@
+"""Camera files in JSON: what several conventions share of writing and reading them."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from ..arrays import Floats
+from ..checked_json import Content, numbers, part
+from ..scene import Camera, SceneError
+from .convention import CENTERS, FIRST, HALF, Files, Source, View
+
+CENTERS_KEY = "pixel_centers"
+
+
+def first_center(content: Mapping[str, Any], default: str = HALF) -> float:
+    """Return where a JSON file has the first pixel's centre, 0.5 or 0.
+
+    Raises
+    ------
+    SceneError
+        If it names neither.
+    """
+    named = content.get(CENTERS_KEY, default)
+    if named not in CENTERS:
+        raise SceneError(f"{CENTERS_KEY} is {named!r}; it must be {' or '.join(CENTERS)}")
+    return FIRST[named]
+
+
+def offset_of(centers: str) -> float:
+    """Return what is added to a principal point with pixel centres at + 0.5 to have it so."""
+    return FIRST[centers] - 0.5
+
+
+def clip_of(content: Content, where: str, names: Sequence[str]) -> tuple[float, float] | None:
+    """Return the clip range that an object says; None if it says none."""
+    if not any(name in content for name in names):
+        return None
+    start, end = names
+    far = float("inf") if content.get(end) in (None, "inf") else numbers(content, end, where, ())
+    return float(numbers(content, start, where, ())), float(far)
+
+
+def clip_end(camera: Camera) -> float | str:
+    """Return a clip end as JSON can hold it."""
+    return "inf" if camera.clip_end == float("inf") else camera.clip_end
+
+
+def objects(content: Content, key: str) -> list[tuple[Content, str]]:
+    """Return the objects of a list, each with its place as messages have it."""
+    items: list[Any] = part(content, key, "", list)
+    for number, item in enumerate(items):
+        if not isinstance(item, dict):
+            raise SceneError(f"{key}[{number}] must be an object in braces")
+    return [(item, f"{key}[{number}].") for number, item in enumerate(items)]
+
+
+def has(source: Source, *keys: str) -> bool:
+    """Return whether a JSON object, or the first of its list `frames`, has these keys."""
+    content = source.json
+    if isinstance(content, dict) and isinstance(many := content.get("frames"), list):
+        content = many[0] if many else None
+    return isinstance(content, dict) and content.keys() >= {*keys}
+
+
+def bodies(content: Content) -> list[tuple[Content, str]]:
+    """Return the objects of the list `frames`, or the whole one, each as messages call it."""
+    return objects(content, "frames") if "frames" in content else [(content, "")]
+
+
+def written(head: Content, views: Sequence[View], body: Callable[[View], Content]) -> Files:
+    """Return JSON of our own, which :func:`bodies` reads: each view with its name and its size."""
+    every: list[Content] = []
+    for view in views:
+        own = {} if view.frame is None else {"frame": view.frame}
+        size = {"width": view.camera.width, "height": view.camera.height}
+        every.append({**own, "name": view.name, **size, **body(view), **view.extras})
+    head = head | {"world": "Blender's: metres, Z up"}
+    return {"": dumped(head | (every[0] if len(every) == 1 else {"frames": every}))}
+
+
+def view_of(body: Content, camera: Camera, is_clipped: bool = True) -> View:
+    """Return the view of such an object."""
+    number = body.get("frame")
+    frame = number if isinstance(number, int) else None
+    return View(camera, str(body.get("name", "")), frame, is_clipped)
+
+
+def flat(content: Content, key: str, where: str, count: int) -> Floats:
+    """Return so many finite numbers of a list, or of lists in it, (count,), row by row."""
+    values = numbers(content, key, where, None).reshape(-1)
+    if len(values) != count:
+        raise SceneError(f"{where}{key} must be {count} finite numbers, not {len(values)}")
+    return values
+
+
+def dumped(content: Any) -> str:
+    """Return JSON whose lists of numbers have a line each."""
+    text = json.dumps(content, indent=2, allow_nan=False)
+    flat = re.sub(r"\[\s+([^][{}]*?)\s+\]", lambda m: f"[{' '.join(m[1].split())}]", text)
+    return flat + "\n"

@@ -1,0 +1,139 @@
+"""NeRF: `transforms.json`, as instant-ngp and nerfstudio read it.
+
+Source: nerfstudio, "Data conventions"; instant-ngp, `nerf_loader.cpp` (`read_focal_length`) and
+`docs/nerf_dataset_tips.md`. `transform_matrix` is world from camera, with OpenGL's camera space:
++Y up, -Z forward; the world has Z up. (u, v) = (fl_x x / -z + cx, -fl_y y / -z + cy).
+
+The files do not say where a pixel's centre is. instant-ngp and nerfstudio trace pixel (i, j) at
+(i + 0.5, j + 0.5), so this is read and written; the code of the first NeRF traced it at (i, j),
+half a pixel beside what its own pictures show.
+
+`x_fov` (degrees) comes before `fl_x` (pixels), and that before `camera_angle_x` (radians), as in
+instant-ngp; what says neither cx nor cy has them
+in the picture's middle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..checked_json import Content, numbers
+from ..scene import SceneError
+from . import frame
+from .convention import HALF, Convention, Files, Source, View
+from .features import ASPECT, SHIFT
+from .json_files import CENTERS_KEY, dumped, first_center, has, objects, offset_of
+
+_LENSES = "fl_x", "fl_y", "cx", "cy"
+_DISTORTIONS = *("k1 k2 k3 k4 p1 p2".split()), "is_fisheye", "ftheta_p0", "latlong"
+_MODELS = "OPENCV", "PINHOLE", "SIMPLE_PINHOLE"
+
+
+def _write(views: Sequence[View], centers: str) -> Files:
+    lenses = [_lens(view, offset_of(centers)) for view in views]
+    shared = all(lens == lenses[0] for lens in lenses)
+    frames = [
+        ({} if shared else lens)
+        | {
+            "file_path": f"images/{view.name}",
+            "transform_matrix": view.camera.world_from_camera.tolist(),
+        }
+        for view, lens in zip(views, lenses, strict=True)
+    ]
+    said = {} if centers == HALF else {CENTERS_KEY: centers}
+    head = {"camera_model": "PINHOLE", **said, **(lenses[0] if shared else {})}
+    return {"": dumped(head | {"frames": frames})}
+
+
+def _lens(view: View, offset: float) -> Content:
+    camera = view.camera
+    fx, fy, cx, cy = frame.intrinsics(camera)
+    return {
+        "w": camera.width,
+        "h": camera.height,
+        "fl_x": fx,
+        "fl_y": fy,
+        "cx": cx + offset,
+        "cy": cy + offset,
+        "camera_angle_x": 2 * np.arctan(camera.width / 2 / fx),
+        "camera_angle_y": 2 * np.arctan(camera.height / 2 / fy),
+    }
+
+
+def _is_of(source: Source) -> bool:
+    return has(source, "transform_matrix")
+
+
+def _read(source: Source) -> list[View]:
+    content: Content = source.json
+    notes = []
+    if "applied_transform" in content:
+        notes.append("applied_transform is not undone: the world is the file's own")
+    if content.get("rolling_shutter"):
+        notes.append("rolling_shutter is not applied: a camera does not move within a picture")
+    return [
+        _view(content | body, where, source, tuple(notes))
+        for body, where in objects(content, "frames")
+    ]
+
+
+def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> View:
+    size = source.whole_size(body, ("w", "h"), where)
+    model = body.get("camera_model", _MODELS[0])
+    bent = [key for key in _DISTORTIONS if body.get(key)]
+    if model not in _MODELS or bent:
+        what = f"{bent[0]} = {body[bent[0]]}" if bent else f"camera_model = {model!r}"
+        raise SceneError(
+            f"{where} has lens distortion or another projection ({what}), which is not modelled: "
+            "undistort the pictures, and write the camera of these"
+        )
+    center = first_center(body)
+    fx, fy = _focal_lengths(body, where, size)
+    middle = [
+        float(numbers(body, key, where, ())) + 0.5 - center if key in body else n / 2
+        for key, n in zip(("cx", "cy"), size, strict=True)
+    ]
+    world = np.eye(4)
+    rows = numbers(body, "transform_matrix", where, None)
+    if rows.shape not in ((3, 4), (4, 4)):
+        raise SceneError(f"{where}transform_matrix must be 4 x 4 or 3 x 4 finite numbers")
+    world[:3] = rows[:3]
+    name = str(body.get("file_path", "")).replace("\\", "/").rpartition("/")[2]
+    k = frame.matrix_of(fx, fy, *middle)
+    matrix = frame.inverse(world)
+    camera = frame.pinhole(k, matrix, size, None, name, np.eye(4))
+    return View(camera, name, is_clipped=False, notes=notes)
+
+
+def _focal_lengths(body: Content, where: str, size: tuple[int, int]) -> tuple[float, float]:
+    """Return both focal lengths in pixels; one that is not said is the other."""
+    found = []
+    for axis, n in zip("xy", size, strict=True):
+        if f"{axis}_fov" in body:
+            angle = np.radians(float(numbers(body, f"{axis}_fov", where, ())))
+            found.append(n / 2 / float(np.tan(angle / 2)))
+        elif f"fl_{axis}" in body:
+            found.append(float(numbers(body, f"fl_{axis}", where, ())))
+        elif f"camera_angle_{axis}" in body:
+            angle = float(numbers(body, f"camera_angle_{axis}", where, ()))
+            found.append(n / 2 / float(np.tan(angle / 2)))
+        else:
+            found.append(0.0)
+    x, y = found
+    if not (x or y):
+        raise SceneError(f"{where}fl_x and camera_angle_x are missing: it says no focal length")
+    return x or y, y or x
+
+
+NERF = Convention(
+    "nerf",
+    "NeRF (instant-ngp, nerfstudio)",
+    "transforms.json",
+    frozenset((SHIFT, ASPECT)),
+    True,
+    _write,
+    _is_of,
+    _read,
+)

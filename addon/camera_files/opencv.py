@@ -1,0 +1,95 @@
+"""OpenCV: x = K (R X + t), the default of `reftrace camera`.
+
+Source: OpenCV, calib3d, "Detailed Description", the pinhole camera model: camera space has +X to
+the right, +Y down and +Z forward, and (u, v) = (fx x/z + cx, fy y/z + cy). Its documents do not say
+where a pixel's centre is; its functions put the first one's at (0, 0) (`initUndistortRectifyMap`
+takes the integers u, v for pixels). COLMAP, NeRF and renderers put it at (0.5, 0.5), which is the
+default here. The file says which.
+
+OpenCV has no file of its own for K, R and t together: this JSON is ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..arrays import Floats
+from ..checked_json import Content, numbers
+from . import frame
+from .convention import Convention, Files, Source, View
+from .features import ASPECT, MIRRORED, SHIFT
+from .json_files import (
+    CENTERS_KEY,
+    bodies,
+    clip_end,
+    clip_of,
+    first_center,
+    flat,
+    has,
+    offset_of,
+    view_of,
+    written,
+)
+
+_FORMULA = (
+    "x = K (R X + t); (x0 / x2, x1 / x2) is in pixels from the picture's upper left, rows downwards"
+)
+_CLIP = "clip_start", "clip_end"
+
+
+def _write(views: Sequence[View], centers: str) -> Files:
+    head = {"convention": "opencv", "formula": _FORMULA, CENTERS_KEY: centers}
+    return written(head, views, lambda view: _body(view, offset_of(centers)))
+
+
+def _body(view: View, offset: float) -> Content:
+    camera = view.camera
+    fx, fy, cx, cy = frame.intrinsics(camera)
+    matrix = frame.camera_from_world(camera)
+    k = frame.matrix_of(fx, fy, cx + offset, cy + offset)
+    if np.linalg.det(matrix[:3, :3]) < 0:  # mirrored: R stays a rotation, and u counts backwards
+        k[0, 0] *= -1
+        matrix[0] *= -1
+    return {
+        "K": k.tolist(),
+        "R": matrix[:3, :3].tolist(),
+        "t": matrix[:3, 3].tolist(),
+        "clip_start": camera.clip_start,
+        "clip_end": clip_end(camera),
+    }
+
+
+def _is_of(source: Source) -> bool:
+    return has(source, "K", "R", "t")
+
+
+def _read(source: Source) -> list[View]:
+    content: Content = source.json
+    center = first_center(content)
+    return [_view(body, where, center, source) for body, where in bodies(content)]
+
+
+def _view(body: Content, where: str, center: float, source: Source) -> View:
+    matrix = np.eye(4)
+    matrix[:3, :3] = numbers(body, "R", where, (3, 3))
+    matrix[:3, 3] = flat(body, "t", where, 3)
+    k: Floats = numbers(body, "K", where, (3, 3))
+    k[:2, 2] += 0.5 - center
+    clip = clip_of(body, where, _CLIP)
+    size = source.whole_size(body, ("width", "height"), where)
+    camera = frame.pinhole(k, matrix, size, clip, str(body.get("name", "")))
+    return view_of(body, camera, is_clipped=clip is not None)
+
+
+OPENCV = Convention(
+    "opencv",
+    "OpenCV",
+    "camera.json",
+    frozenset((SHIFT, ASPECT, MIRRORED)),
+    True,
+    _write,
+    _is_of,
+    _read,
+)

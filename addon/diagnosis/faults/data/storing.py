@@ -1,0 +1,75 @@
+"""Faults of how data are stored: coarser than the file is, or cut off in place of rounded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from ....causes.case import Case
+from ....pictures.data.kind import Data
+from ....pictures.data.step import Step
+from ....tracer.progress import at_once
+from ...evidence import Evidence
+from ..fault import Effort, Fault, Guess
+from .turned import Turned, data_fault
+
+_STEPS = (
+    (Step("float16"), "half floats, of 11 bits"),
+    (Step("float16", cut=True), "half floats, of 11 bits, by cutting off the others"),
+    (Step("", 0.001), "steps of a millimetre"),
+    (Step("", 0.01), "steps of a centimetre"),
+)
+NUMBERS = "depth", "distance", "normals", "positions"
+
+
+@dataclass(frozen=True, eq=False)
+class Coarser(Guess):
+    """Values that were rounded to a step before they were stored."""
+
+    step: Step
+
+
+def _rounded(case: Case, guess: Coarser) -> Case | None:
+    data = case.picture.data
+    if data is None:
+        return None
+    return replace(case, picture=replace(case.picture, data=replace(data, step=guess.step)))
+
+
+@at_once
+def _steps(evidence: Evidence) -> list[Coarser]:
+    """Guess the steps on which all values lie, as they would if they had been rounded to them."""
+    data = evidence.case.picture.data
+    if data is None or data.kind.name not in NUMBERS:
+        return []
+    own = data.values[~data.blank]
+    return [Coarser(step, words=words) for step, words in _STEPS if step.holds(own)]
+
+
+def _cut_off(evidence: Evidence, data: Data) -> Iterator[Turned]:
+    if not data.step.type:
+        half = data.step.unit / 2
+        yield Turned(turn=lambda made, seen: made - half)
+
+
+STORING_FAULTS = (
+    Fault(
+        "data_rounded",
+        "the values were rounded before they were stored: to {words}",
+        "A renderer's buffer, or a conversion on the way, has fewer digits than the file.",
+        "keep float32 from the renderer to the file",
+        _rounded,
+        _steps,
+        effort=Effort.NOTHING,
+        vague=True,
+        words="half floats, millimetres or centimetres",
+    ),
+    data_fault(
+        "data_cut_off",
+        NUMBERS,
+        "the values are cut off, not rounded, to the file's steps",
+        "A cast to integers, such as astype(uint16), drops the fraction.",
+        "add half a step before the cast, or round",
+        _cut_off,
+    ),
+)

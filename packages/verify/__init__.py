@@ -1,0 +1,1 @@
+"""Checks certified pictures: `verify.py` is the checker, and needs numpy alone."""

@@ -1,0 +1,43 @@
+"""`reftrace verify`: checks a certificate, by `verify.py`, which can be run alone, too."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from pathlib import Path
+
+from reference_tracer.cli.parser import AGREE, COUNT, DIFFERENCES, Parser
+from reference_tracer.cli.running import meanwhile
+
+_CODES = f"""exit codes:
+  {AGREE}  every pixel that was checked sees what the file says
+  {DIFFERENCES}  one does not; the file has what the checker does not know; or it cannot be read
+  130  interrupted by Ctrl-C"""
+
+
+def add(parser: Parser) -> None:
+    """Add the command's options."""
+    parser.runs(
+        verify,
+        "reftrace trace scene.blend --certificate scene.npz\n  reftrace verify scene.npz",
+        _CODES,
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="of `reftrace trace --certificate`")
+    parser.add_argument(
+        "--sample",
+        type=COUNT,
+        metavar="ROWS",
+        help="check only so many rows, drawn at random; the answer says that it is a sample",
+    )
+
+
+def verify(given: Namespace) -> int:
+    """Check, and say what was checked or what is wrong."""
+    from .verify import RefusedError, verified
+
+    try:
+        with meanwhile("checking"):
+            print(f"{given.file}: {verified(given.file, given.sample)}")
+    except RefusedError as error:
+        print(f"{given.file}: refused: {error}")
+        return DIFFERENCES
+    return AGREE

@@ -1,0 +1,262 @@
+"""A .blend's camera in every convention, against Blender's own matrix, and the command around it.
+
+The judge is `Object.calc_matrix_camera`, float32, read by each convention's published formula as
+`tests/camera_files/formulas.py` has it.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from itertools import islice
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.jobs.cameras import cameras
+from reference_tracer.blender.jobs.choice import chosen
+from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.camera_files.convention import View
+from reference_tracer.camera_files.files import CONVENTIONS, read, texts
+from reference_tracer.camera_files.files import chosen as named
+from reference_tracer.comparison.comparing import compared
+from reference_tracer.framing import Choice
+from reference_tracer.pictures.certificate import known_points
+from reference_tracer.scene import Region, SceneError
+from reference_tracer.tracer.camera import film_of
+from reference_tracer.tracer.progress import result_of
+
+from ..camera_files.formulas import FORMULAS
+from .test_camera import (
+    film_of_blender,
+    mirrored,
+    parented,
+    plain,
+    scaled,
+    settings_matrix,  # noqa: F401  # a fixture
+    sheared,
+)
+
+BLENDERS = 1e-3  # pixels: Blender's matrix is float32
+EVERY = 29  # of the combinations one is tried: no number of settings is a multiple of it
+
+
+@pytest.mark.parametrize("place", [plain, parented, scaled, mirrored, sheared])
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_each_formula_agrees_with_blenders_matrix(kind, place, settings_matrix):  # noqa: F811
+    written = dict.fromkeys(CONVENTIONS, 0)
+    for fit in ("AUTO", "HORIZONTAL", "VERTICAL"):
+        for obj in islice(settings_matrix(kind, fit, place), 0, None, EVERY):
+            (own,) = cameras()
+            camera, render = own.view.camera, bpy.context.scene.render
+            size = tuple(
+                n * render.resolution_percentage // 100
+                for n in (render.resolution_x, render.resolution_y)
+            )
+            x, y = film_of_blender(obj, *size, own.points)
+            if render.use_border and render.use_crop_to_border:
+                left, low = (
+                    int(np.float32(share) * np.float32(n))
+                    for share, n in zip(
+                        (render.border_min_x, render.border_min_y), size, strict=True
+                    )
+                )
+                high = int(np.float32(render.border_max_y) * np.float32(size[1]))
+                assert camera.height == high - low < size[1]
+                x, y = x - left, y - low
+            expected = np.stack((x, camera.height - y))
+            for name, convention in CONVENTIONS.items():
+                if convention.lacks(camera):
+                    continue
+                found = FORMULAS[name](texts([own.view], convention), own.points)
+                assert np.abs(found - expected).max() < BLENDERS, name
+                written[name] += 1
+    assert written["opengl"] == 3 * -(-216 // EVERY)
+    lacking = {name for name, count in written.items() if not count}
+    assert ("opencv" in lacking) == (kind == "ORTHO" or place is sheared)
+
+
+@pytest.fixture
+def scene(build, tmp_path):
+    """A saved scene with a camera that moves, and has a shift and oblong pixels."""
+    scene = build.scene(96, 54)
+    build.solids()
+    camera = build.corner_camera(lens=40)
+    camera.data.shift_x, scene.render.pixel_aspect_y = 0.2, 1.5
+    camera.keyframe_insert("location", frame=1)
+    camera.location.x += 2
+    camera.keyframe_insert("location", frame=5)
+    scene.frame_end = 5
+    scene.frame_set(1)
+    path = tmp_path / "scene.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def test_the_file_says_what_it_means_and_is_certified(scene, tmp_path, reftrace):
+    done = reftrace("camera", scene, "--out", tmp_path / "new" / "camera.json")
+    assert done.returncode == 0, done.stderr
+    assert "from where Blender's own matrix has them" in done.stdout
+    file = json.loads((tmp_path / "new" / "camera.json").read_text(encoding="utf-8"))
+    assert (file["width"], file["height"], file["pixel_centers"]) == (96, 54, "half")
+    assert file["certificate"]["passed"] and file["certificate"]["largest"] < BLENDERS
+    assert file["certificate"]["points"] > 1000
+    assert (file["frame"], file["name"]) == (1, "0001.png")
+    done = reftrace("camera", scene, "--check", tmp_path / "new" / "camera.json")
+    assert done.returncode == 0 and "agree" in done.stdout
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_frames_are_written_and_checked(name, scene, tmp_path, reftrace):
+    out = tmp_path / name
+    if CONVENTIONS[name].lacks(next(cameras()).view.camera):
+        done = reftrace("camera", scene, "--out", out, "--convention", name)
+        assert done.returncode == 4 and "cannot say" in done.stderr and not out.exists()
+        return
+    done = reftrace("camera", scene, "--out", out, "--convention", name, "--frames", "1-5:2")
+    assert done.returncode == 0, done.stderr
+    assert "3 cameras" in done.stdout
+    done = reftrace("camera", scene, "--check", out)
+    assert done.returncode == 0, done.stdout
+    assert done.stdout.count("agree") == 3
+
+
+def test_one_view_is_checked_at_another_frame(scene, tmp_path, reftrace):
+    out = tmp_path / "sparse"
+    reftrace("camera", scene, "--out", out, "--convention", "colmap", "--frames", "1-5:2")
+    one = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "3")
+    assert one.returncode == 0 and one.stdout.count("agree") == 1
+    other = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "5")
+    assert other.returncode == 2 and "the camera is moved by" in other.stdout
+
+
+def test_a_file_that_is_off_is_told_how_far_and_why(scene, tmp_path, reftrace):
+    """The shift left out, as one public exporter of transforms.json has it."""
+    out = tmp_path / "transforms.json"
+    reftrace("camera", scene, "--out", out, "--convention", "nerf")
+    file = json.loads(out.read_text(encoding="utf-8"))
+    file["cx"], file["cy"] = file["w"] / 2, file["h"] / 2
+    out.write_text(json.dumps(file), encoding="utf-8")
+    done = reftrace("camera", scene, "--check", out)
+    assert done.returncode == 2
+    assert f"up to {0.2 * 96:.4g} px" in done.stdout
+    assert "the camera's shift is left out" in done.stdout and "add shift X and Y" in done.stdout
+
+
+def test_what_else_a_file_has_is_told_in_lines(scene, tmp_path, reftrace):
+    out = tmp_path / "camera.json"
+    reftrace("camera", scene, "--out", out)
+    file = json.loads(out.read_text(encoding="utf-8"))
+    file["K"] = [[2 * v for v in row] for row in file["K"][:2]] + [[0, 0, 1]]
+    file |= {"width": 192, "height": 108, "clip_start": 0.5}
+    out.write_text(json.dumps(file), encoding="utf-8")
+    done = reftrace("camera", scene, "--check", out)
+    lines = (line for line in done.stdout.splitlines() if line.startswith("0001.png"))
+    first, *rest = lines
+    assert done.returncode == 0 and "agree" in first
+    assert rest[0].startswith("0001.png: its picture has 192 x 108 pixels, the scene's 96 x 54")
+    assert rest[1].startswith("0001.png: its clip range is 0.5 to ")
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ([], "name one"),
+        (["--out", "a.json", "--check", "b.json"], "name one"),
+        (["--out", "a.json", "--view", "3"], "--view is for --check"),
+        (["--check", "a.json", "--centers", "half"], "--centers is for --out"),
+        (["--out", "a.json", "--frames", "5-1"], "ends before it begins"),
+        (["--out", "a.json", "--frames", "1-5", "--frame", "3"], "not for --frames"),
+        (["--check", "missing.json"], "missing.json"),
+    ],
+)
+def test_what_contradicts_itself_is_refused(options, said, scene, reftrace):
+    done = reftrace("camera", scene, *options)
+    assert done.returncode == 4 and said in done.stderr
+
+
+def seen_by(view):
+    """The camera, and its certificate, that an export has with a file's camera chosen."""
+    with chosen(Choice(seen_by=view)):
+        return gather_case(bpy.context)
+
+
+def test_a_blend_is_seen_as_the_file_says(scene):
+    own = next(cameras()).view.camera
+    turned = replace(
+        own,
+        world_from_camera=own.world_from_camera
+        @ [[0.8, -0.6, 0, 0.1], [0.6, 0.8, 0, 0], [0, 0, 1, 0.3], [0, 0, 0, 1]],
+    )
+    bpy.context.scene.render.use_border = True
+    case = seen_by(View(turned, "0001.png"))
+    found = case.scene.camera
+    points = known_points(turned)
+    apart = np.subtract(film_of(found, points)[:2], film_of(turned, points)[:2])
+    assert np.abs(apart).max() < BLENDERS and case.certificate.passed
+    assert (found.region.width, found.region.height) == (96, 54)
+    assert result_of(compared(case)).verdict == "agree"
+
+
+def test_a_file_without_a_clip_range_leaves_the_scenes(scene):
+    bpy.context.scene.camera.data.clip_start = 0.25
+    own = next(cameras()).view.camera
+    found = seen_by(View(own, "a", is_clipped=False)).scene.camera
+    assert (found.clip_start, found.clip_end) == (0.25, own.clip_end)
+    found = seen_by(View(replace(own, clip_start=0.5), "a")).scene.camera
+    assert found.clip_start == 0.5
+
+
+def test_a_camera_that_blender_cannot_have_is_refused(scene):
+    own = next(cameras()).view.camera
+    sheared = own.world_from_camera.copy()
+    sheared[:3, 0] = (sheared[:3, 0] + 0.3 * sheared[:3, 1]) / np.hypot(1, 0.3)
+    with pytest.raises(SceneError, match="Blender has no camera like 'a' of 96 x 54 pixels"):
+        seen_by(View(replace(own, world_from_camera=sheared, name="a"), "a"))
+    tiny = replace(own, width=2, height=1, region=Region(0, 0, 2, 1))
+    with pytest.raises(SceneError, match=r"2 x 1 pixels: .* pictures of 4 to 65536 pixels"):
+        seen_by(View(tiny, "a"))
+
+
+def test_a_command_takes_the_file(scene, tmp_path, reftrace):
+    """A camera is written at one frame, and the file at another is seen through it."""
+    path = tmp_path / "there.json"
+    assert reftrace("camera", scene, "--frame", "5", "--out", path).returncode == 0
+    again = tmp_path / "again.json"
+    assert reftrace("camera", scene, "--camera", path, "--out", again).returncode == 0
+    done = reftrace("camera", scene, "--frame", "5", "--check", again)
+    assert done.returncode == 0, done.stdout
+    assert reftrace("camera", scene, "--frame", "1", "--check", again).returncode == 2
+
+
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_the_camera_that_blender_writes_into_a_glb_is_its_own(kind, build, tmp_path):
+    """An independent writer of glTF cameras; it writes float32."""
+    build.scene(160, 90)
+    camera = build.camera((1, -4, 2), (1.1, 0.2, 0.3), type=kind, ortho_scale=5.0, lens=35)
+    path = tmp_path / "scene.glb"
+    bpy.ops.export_scene.gltf(filepath=str(path), export_cameras=True)
+    (own,) = cameras()
+    view = named(read(path, size=(160, None)), camera.name)
+    x, y, _ = film_of(view.camera, own.points)
+    assert np.abs(np.stack((x, y)) - own.film).max() < 10 * BLENDERS
+    assert view.camera.clip_end == pytest.approx(own.view.camera.clip_end)
+
+
+@pytest.mark.parametrize(("name", "written"), [("opencv", "a.json"), ("colmap", "a")])
+def test_the_button_writes_what_the_command_does(name, written, scene, tmp_path, reftrace):
+    ours, theirs = tmp_path / "ours" / written, tmp_path / "theirs" / written
+    button = bpy.ops.reference_tracer.export_camera
+    assert button(filepath=str(ours), convention=name, animation=True) == {"FINISHED"}
+    done = reftrace("camera", scene, "--frames", "all", "--convention", name, "--out", theirs)
+    assert done.returncode == 0
+    for file in sorted(ours.iterdir()) if ours.is_dir() else [ours]:
+        other = theirs / file.name if ours.is_dir() else theirs
+        assert file.read_bytes() == other.read_bytes()
+    assert bpy.context.scene.frame_current == 1
+
+
+def test_the_button_says_what_cannot_be_said(scene, tmp_path):
+    with pytest.raises(RuntimeError, match=r"a lens shift and a pixel aspect .* glTF cannot say"):
+        bpy.ops.reference_tracer.export_camera(filepath=str(tmp_path / "a.gltf"), convention="gltf")
+    assert not (tmp_path / "a.gltf").exists()

@@ -1,0 +1,50 @@
+"""`reftrace compare scene.blend --depth` and so on: the passes of Cycles are right."""
+
+from __future__ import annotations
+
+import json
+
+import bpy
+import pytest
+from reference_tracer.blender import registration
+from reference_tracer.cli.main import main
+
+
+@pytest.fixture
+def passes(build, tmp_path):
+    """A .blend, and its render by Cycles with a sample in each pixel's centre."""
+    scene = build.scene(48, 27)
+    build.solids()
+    build.corner_camera(lens=40)
+    layer = bpy.context.view_layer
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_position = True
+    layer.use_pass_object_index = True
+    for number, object_ in enumerate(scene.objects):
+        object_.pass_index = number + 1
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples = 1
+    scene.cycles.use_denoising = False
+    scene.cycles.filter_width = 0.01
+    image = scene.render.image_settings
+    if hasattr(image, "media_type"):
+        image.media_type = "MULTI_LAYER_IMAGE"
+    image.file_format, image.color_depth = "OPEN_EXR_MULTILAYER", "32"
+    scene.render.filepath = str(tmp_path / "passes.exr")
+    bpy.ops.render.render(write_still=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    return tmp_path
+
+
+def test_the_passes_of_cycles_agree(passes, addon, capsys):
+    registration.unregister()  # the command registers by itself, in a process of its own
+    try:
+        for kind in ("depth", "positions", "normals", "ids"):
+            paths = [str(passes / name) for name in ("scene.blend", "passes.exr", kind)]
+            code = main(["compare", paths[0], f"--{kind}", paths[1], "--out", paths[2]])
+            found = json.loads((passes / kind / "comparison.json").read_text(encoding="utf-8"))
+            assert code == 0 and found["pixels"]["differ"] == 0, (kind, capsys.readouterr().out)
+        paths[2] = str(passes / "distance")
+        assert main(["compare", paths[0], "--distance", paths[1], "--out", paths[2]]) == 2
+        assert "not distances along the ray" in capsys.readouterr().out
+    finally:
+        registration.register()

@@ -1,0 +1,162 @@
+"""Depths: which are right, by which allowance, and what is named of wrong ones."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.rendering import render
+from reference_tracer.scene import SceneError
+from reference_tracer.tracer.camera import camera_rays, film_positions
+
+from .conftest import CLIP, SOME
+
+
+@pytest.fixture(scope="session")
+def lengths(solids, traced):
+    rays = camera_rays(solids.camera, *film_positions(solids.camera.region))
+    return np.sqrt((rays.directions**2).sum(axis=0)).reshape(traced.shape)
+
+
+def test_right_depths_agree(judged, traced, lengths):
+    for kind, right in (("depth", traced.t), ("distance", traced.t * lengths)):
+        for values in (right, right.astype(np.float32), right.astype(np.float16)):
+            found = judged(kind, values)
+            assert found.verdict == Verdict.AGREE and not found.counts.differ, kind
+
+
+@pytest.mark.parametrize("nothing", [np.nan, np.inf, 0.0, -1.0, 1e10])
+def test_nothing_may_be_written_in_many_ways(judged, traced, nothing):
+    values = np.where(np.isfinite(traced.t), traced.t, nothing)
+    assert judged("depth", values).verdict == Verdict.AGREE
+    hole = values.copy()
+    hole[12, 16] = nothing  # but not where something is
+    assert judged("depth", hole).counts.unexplained == 1
+    beyond = values.copy()
+    y, x = np.argwhere(~np.isfinite(traced.t))[0]
+    beyond[y, x] = 7.0
+    assert judged("depth", beyond).counts.unexplained == 1
+
+
+def test_each_file_has_its_own_steps(judged, traced):
+    right = np.where(np.isfinite(traced.t), traced.t, 0)
+    coarse = right.astype(np.float16)
+    assert judged("depth", coarse).verdict == Verdict.AGREE
+    assert judged("depth", coarse.astype(np.float32)).counts.unexplained > 50
+    millimetres = np.rint(1000 * right).astype(np.uint16)
+    assert judged("depth", millimetres, scale=0.001).verdict == Verdict.AGREE
+    off = millimetres + np.where(right > 0, 1, 0).astype(np.uint16)
+    wrong = judged("depth", off, scale=0.001).counts.unexplained
+    assert wrong > 0.9 * (right > 0).sum()
+    with pytest.raises(SceneError, match="say how many metres 1 is"):
+        judged("depth", millimetres)
+
+
+def test_float32_arithmetic_is_allowed_for_and_no_more(judged, solids, traced):
+    rays = camera_rays(solids.camera, *film_positions(solids.camera.region), np.float32)
+    hits = traced.hits()
+    hit = np.flatnonzero(hits.instance >= 0)
+    values = np.zeros(traced.shape, np.float32)
+    matrices = solids.instance_matrices.astype(np.float32)
+    for k in hit:  # Moeller and Trumbore, in float32
+        mesh = solids.meshes[solids.instances[hits.instance[k]].mesh]
+        m = matrices[:3, :, hits.instance[k]]
+        v = mesh.vertices[mesh.triangles[hits.triangle[k]]].astype(np.float32)
+        p1, p2, p3 = v @ m[:, :3].T + m[:, 3]
+        e1, e2, s = p2 - p1, p3 - p1, rays.origins[:, 0] - p1
+        values.flat[k] = e2 @ np.cross(s, e1) / (e1 @ np.cross(rays.directions[:, k], e2))
+    own = np.abs(values - traced.t)[values > 0] / np.spacing(values[values > 0])
+    assert own.max() > 2  # it is not the nearest float32
+    assert judged("depth", values).verdict == Verdict.AGREE
+    for off in (1 + 2e-5, 1 - 2e-5):
+        assert judged("depth", values * np.float32(off)).counts.unexplained > 150
+
+
+def _buffer(t, near, far):
+    return far / (far - near) * (1 - near / t)
+
+
+def _stretched(t):
+    seen = t[np.isfinite(t)]
+    return (t - seen.min()) / np.ptp(seen)
+
+
+# By fault, what makes a file of depths, of the clip range, and of the lengths of the rays.
+WRONG = {
+    "distance_for_depth": [lambda t, near, far, length: t * length],
+    "data_unit": [lambda t, near, far, length: 1000 * t],
+    "data_scale": [lambda t, near, far, length: t / 1.7],
+    "depth_buffer": [
+        lambda t, near, far, length: _buffer(t, near, far),
+        lambda t, near, far, length: 1 - _buffer(t, near, far),
+        lambda t, near, far, length: 2 * _buffer(t, near, far) - 1,
+    ],
+    "depth_normalised": [
+        lambda t, near, far, length: (t - near) / (far - near),
+        lambda t, near, far, length: 1 - _stretched(t),
+    ],
+    "inverse_depth": [lambda t, near, far, length: 1 / t],
+    "data_sign": [lambda t, near, far, length: -t],
+}
+
+
+EVERY = [("depth", name, of) for name in WRONG for of in WRONG[name]]
+EVERY += [("distance", name, WRONG[name][0]) for name in list(WRONG)[1:]]
+
+
+@pytest.mark.parametrize("kind, fault, of", EVERY, ids=lambda v: v if type(v) is str else "")
+def test_a_fault_has_its_name_alone(told, solids, traced, lengths, kind, fault, of):
+    right = traced.t if kind == "depth" or fault == "depth_buffer" else traced.t * lengths
+    made = of(right, solids.camera.clip_start, solids.camera.clip_end, lengths)
+    made = np.where(np.isfinite(traced.t), made, np.nan).astype(np.float32)
+    assert told(kind, made, faults=SOME) == [fault]
+
+
+@pytest.mark.torture
+@pytest.mark.parametrize("fault, of", [(name, of) for name in WRONG for of in WRONG[name]])
+def test_among_all_faults_too(told, solids, traced, lengths, fault, of):
+    made = of(traced.t, solids.camera.clip_start, solids.camera.clip_end, lengths)
+    assert told("depth", np.where(np.isfinite(traced.t), made, np.nan)) == [fault]
+
+
+def test_rows_upside_down(told, traced):
+    assert told("depth", traced.t[::-1], faults=SOME) == ["rows"]
+
+
+def test_depths_for_distances(told, traced):
+    assert told("distance", traced.t, faults=SOME) == ["depth_for_distance"]
+
+
+def test_no_name_for_what_is_none_of_these(told, traced, rng):
+    values = np.where(np.isfinite(traced.t), traced.t, np.nan)
+    assert told("depth", values + rng.uniform(0.01, 0.1, values.shape), faults=SOME) == []
+    assert told("depth", values**1.3, faults=SOME) == []
+    assert told("depth", values + 0.01, faults=SOME) == []
+
+
+@pytest.mark.parametrize("kind", ["depth", "distance"])
+def test_half_floats_and_cut_off_integers(told, traced, lengths, kind):
+    values = np.where(np.isfinite(traced.t), traced.t, 0)
+    values = values * (lengths if kind == "distance" else 1)
+    half = values.astype(np.float16).astype(np.float32)
+    assert told(kind, half, faults=SOME) == ["data_rounded"]
+    away = np.where(half > values, np.nextafter(values.astype(np.float16), np.float16(0)), half)
+    assert told(kind, away.astype(np.float32), faults=SOME) == ["data_rounded"]
+    cut = (1000 * values).astype(np.uint16)
+    assert told(kind, cut, scale=0.001, faults=SOME) == ["data_cut_off"]
+
+
+def test_a_depth_buffers_steps_are_those_of_the_scenes_own_clip_range(told, solids, traced):
+    """A guess that nothing is clipped makes the steps of a buffer so large that all depths fit."""
+    half = np.where(np.isfinite(traced.t), traced.t, 0).astype(np.float16).astype(np.float32)
+    assert told("depth", half, faults=CLIP, renderer="raster") == []
+
+
+def test_a_moved_object_is_named_by_its_depths(told, solids, traced):
+    at = np.eye(4)
+    at[:3, 3] = 0.05, 0, 0.1
+    other = replace(solids.instances[1], world_from_object=at)
+    wrong = replace(solids, instances=(solids.instances[0], other, solids.instances[2]))
+    assert told("depth", render(wrong).t, faults=SOME) == ["object_moved"]

@@ -1,0 +1,117 @@
+"""Files of data: which array is read, what is refused and how, and what the document says."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from reference_tracer import exr
+from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.diagnosis.faults.data import DATA_FAULTS
+from reference_tracer.pictures.data.depth import DEPTH
+from reference_tracer.pictures.data.files import read
+from reference_tracer.pictures.picture import SizeError
+from reference_tracer.scene_files import save_scene
+
+PAGE = Path(__file__).parents[3] / "docs" / "data.md"
+
+
+def test_our_own_exr_is_right_in_all_that_it_holds(judged, traced):
+    def save(path, values):
+        exr.save(path, values)
+
+    for kind in ("depth", "normals", "positions", "ids"):
+        found = judged(kind, traced.passes(), name="all.exr", save=save)
+        assert found.verdict == Verdict.AGREE, kind
+
+
+def test_an_array_is_chosen_by_its_name(judged, traced, tmp_path):
+    held = {"depth": traced.t, "other": traced.t + 1, "normal": traced.normal, "k": np.eye(3)}
+
+    def save(path, values):
+        np.savez(path, **values)
+
+    assert judged("depth", held, name="all.npz", save=save).verdict == Verdict.AGREE
+    found = judged("depth", held, name="all.npz", save=save, layer="other")
+    assert found.counts.unexplained > 50
+    with pytest.raises(OSError, match=r"no layer 'z': it has depth \(24, 32\), other"):
+        judged("depth", held, name="all.npz", save=save, layer="z")
+    del held["depth"]
+    with pytest.raises(OSError, match=r"several arrays that may be depth.*--layer names"):
+        judged("depth", held, name="all.npz", save=save)
+
+
+def test_the_first_row_may_be_the_topmost(judged, traced):
+    assert judged("depth", traced.t[::-1], top_down=True).verdict == Verdict.AGREE
+
+
+@pytest.mark.parametrize(
+    "values, words",
+    [
+        (np.zeros((24, 32, 2)), "no depth: it has one array"),
+        (np.zeros(7), "no depth"),
+        (np.random.default_rng(1).random((24, 32, 3)), "its channels differ"),
+        (np.full((24, 32), "a"), "holds <U1 and not numbers"),
+        (np.full((24, 32), None), "cut off or damaged"),
+    ],
+)
+def test_what_holds_no_depths_is_refused(judged, values, words):
+    with pytest.raises(OSError, match=words):
+        judged("depth", values)
+
+
+def test_a_file_that_is_cut_off_or_none_is_refused(judged, traced, tmp_path):
+    def save(path, values):
+        np.save(path, values)
+        path.write_bytes(path.read_bytes()[:-100])
+
+    with pytest.raises(OSError, match="is cut off or damaged: write it again"):
+        judged("depth", traced.t, save=save)
+    with pytest.raises(OSError, match="there is no file"):
+        read(tmp_path / "none.npy", DEPTH)
+    with pytest.raises(OSError, match=r"holds no depth: it must be \.exr"):
+        judged("depth", traced.t, name="depth.tiff", save=lambda path, v: path.write_bytes(b"II*"))
+    with pytest.raises(SizeError, match="has 31 x 24 pixels, the traced one 32 x 24"):
+        judged("depth", traced.t[:, 1:])
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        (["--depth", "d.npy", "--space", "camera"], "--space is for --normals and --positions"),
+        (["--depth", "d.npy", "--range", "unit"], "--range is for --normals"),
+        (["--ids", "d.npy", "--depth-scale", "1"], "--depth-scale is for --depth and --distance"),
+        (["--depth", "d.npy", "--dither", "1"], "--dither is for colours, and --depth has none"),
+        (["--depth", "d.npy", "--self-check"], "--self-check is for a picture of colours"),
+        (["--depth", "d.npy", "--against", "d.png"], "not allowed with argument"),
+        (["--against", "d.png", "--layer", "Z"], "--layer is for data: --depth, --distance"),
+        (["--depth", "d.npy", "--filter", "0.6"], "cannot be compared: it is sampled up to 0.6 px"),
+    ],
+)
+def test_options_without_effect_are_refused(
+    solids, traced, tmp_path, monkeypatch, capsys, exit_code, options, words
+):
+    monkeypatch.chdir(tmp_path)
+    save_scene("scene.npz", solids)
+    np.save("d.npy", traced.t)
+    assert exit_code(["compare", "scene.npz", "--out", "out", *options]) == 4
+    assert words in capsys.readouterr().err
+
+
+def test_the_command_says_what_it_compared(solids, traced, tmp_path, capsys, exit_code):
+    save_scene(tmp_path / "scene.npz", solids)
+    np.save(tmp_path / "d.npy", traced.t.astype(np.float32))
+    paths = [str(tmp_path / name) for name in ("scene.npz", "d.npy", "out")]
+    assert exit_code(["compare", paths[0], "--depth", paths[1], "--out", paths[2]]) == 0
+    said = capsys.readouterr().out
+    assert "768 of 768 pixels agree with depths along the view axis 'd.npy', 0 differ" in said
+    assert "note: of 'd.npy': it holds float32" in said
+    assert "depths along the view axis: RMSE " in said and "PSNR" not in said
+    assert (tmp_path / "out" / "page.html").exists()
+
+
+def test_the_document_has_every_fault_of_data_in_its_table():
+    table = PAGE.read_text(encoding="utf-8").split("<!-- named -->")[1].split("<!-- / -->")[0]
+    assert re.findall(r"^\| `(\w+)` \|", table, re.M) == [fault.name for fault in DATA_FAULTS]
