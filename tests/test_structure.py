@@ -46,6 +46,7 @@ FLOORS = {
     "report": 7,
     "api": 7,
     "testing": 8,
+    "ray_files": 3,
     "pytest_plugin": 8,
     "blender": 8,
     "cli": 8,

@@ -34,3 +34,13 @@ def test_they_are_the_same_scenes(tmp_path):
 @pytest.mark.torture
 def test_all_of_them_are(tmp_path):
     check(kit_scenes(), tmp_path)
+
+
+def test_the_whole_is_also_what_the_camera_does_not_see(tmp_path):
+    """As `reftrace rays` takes it."""
+    write_kit(tmp_path, [kit_scenes()[0]])
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "camera-plain" / "scene.blend"))
+    bpy.data.objects["Post"].location.x += 1000
+    seen, _, _ = export_open_file(bpy.context)
+    whole, _, _ = export_open_file(bpy.context, whole=True)
+    assert len(seen.instances) == 2 and len(whole.instances) == 3
