@@ -51,7 +51,8 @@ def _vectors(path: Path, found: dict[str, Array], name: str) -> Floats:
         say = f"holds {found[name].shape} of {found[name].dtype}, not (n, 3) numbers"
         raise SceneError(f"'{path}': {name} {say}")
     vectors = given.T.astype(np.float64)
-    if given.dtype.itemsize > 8 or (given.dtype.kind in "iu" and (vectors.astype(given.dtype) != given.T).any()):
+    rounded = given.dtype.kind in "iu" and (vectors.astype(given.dtype) != given.T).any()
+    if rounded or given.dtype.itemsize > 8:
         raise SceneError(f"'{path}': {name} holds numbers that float64 does not: round them")
     if (bad := np.flatnonzero(~np.isfinite(vectors).all(axis=0))).size:
         raise SceneError(f"'{path}': row {bad[0]} of {name} is not finite")

@@ -19,7 +19,7 @@ from reference_tracer.mesh_files.load import READERS, load_meshes, scene_of_mesh
 from reference_tracer.opened import file_manifest
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.given import Making, picture_of_array, picture_of_file
-from reference_tracer.pictures.palette import By
+from reference_tracer.pictures.palette import GivenColors
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.report.junit import Judged, of_comparison
@@ -105,8 +105,9 @@ def _judged(program: Program, kit: KitScene, folder: Path) -> Work[Result]:
         making = Making(program.renderer, program.filter_radius)
         scene = kit.scene
         if program.ending in READERS:
-            scene, _ = in_colors(scene, By.OBJECT)
-            shown = _picture_of_export(made, scene, making)
+            colors = _one_color_each(scene)
+            scene, _ = in_colors(scene, colors)
+            shown = _picture_of_export(made, scene, colors, making)
         else:
             shown = picture_of_file(open_picture(made), scene.camera, making)
         manifest = file_manifest(folder / "scene.npz", scene, Account())
@@ -136,7 +137,14 @@ def _run(program: Program, folder: Path) -> Path:
     return made
 
 
-def _picture_of_export(made: Path, scene: Scene, making: Making) -> Picture:
+def _one_color_each(scene: Scene) -> GivenColors:
+    """Return the first colour of each object, by its name."""
+    names = scene.objects
+    first = {(names[i.object],) * 2: i.colors[:1, :3] for i in scene.instances}
+    return GivenColors("the kit", first)
+
+
+def _picture_of_export(made: Path, scene: Scene, colors: GivenColors, making: Making) -> Picture:
     """Trace an exported file through a scene's own camera, each object in the colour of its name.
 
     Raises
@@ -152,5 +160,5 @@ def _picture_of_export(made: Path, scene: Scene, making: Making) -> Picture:
         said = (f"{verb} {', '.join(map(repr, sorted(n)))}" for verb, n in parts.items() if n)
         how = "objects are told apart by their names"
         raise SceneError(f"{how}, and the export {' and '.join(said)}")
-    found, _ = in_colors(found, By.OBJECT)
+    found, _ = in_colors(found, colors)
     return picture_of_array(render(found).color, camera, making)

@@ -118,6 +118,16 @@ def test_a_copy_is_a_right_export(conform):
     assert len(found) == 2
 
 
+@pytest.mark.torture
+def test_what_trimesh_makes_of_the_whole_kit(conform):
+    """All is right, but for the names of what has two materials."""
+    script = RENDERER.with_name("trimesh_glb.py")
+    command = f'"{sys.executable}" "{script}" {{scene}} {{out}}'
+    _, told, found = conform(command, options=("--no-sandbox", "--ending", ".glb"))
+    assert "39 of 40 scenes agree" in told, told
+    assert "lacks 'Bracket'" in found["mesh-materials"]["wrong"]
+
+
 def test_an_export_with_another_axis_up_is_named(conform):
     swap = r"s/^v \(\S*\) \(\S*\) \(\S*\)/v \1 \3 -\2/"
     command = f"""sed -n '{swap};w {{out}}' {{obj}}"""
