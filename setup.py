@@ -9,6 +9,7 @@ PACKAGES = {  # by the folder that each stands in
     "packages/conformance": "reference_tracer_conformance",
     "packages/processes": "reference_tracer_processes",
     "packages/verify": "reference_tracer_verify",
+    "packages/scene_diff": "reference_tracer_scene_diff",
 }
 found = [f"{name}.{sub}" for folder, name in PACKAGES.items() for sub in find_packages(folder)]
 setup(packages=[*PACKAGES.values(), *found])

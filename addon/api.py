@@ -8,11 +8,12 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .camera_files.files import CONVENTIONS, chosen, read
 from .camera_files.frame import part
-from .causes.case import Case
+from .causes.case import Case, without_colors
 from .comparison.comparing import compared
 from .comparison.comparison import Comparison
 from .comparison.verdict import Verdict as Verdict
@@ -21,6 +22,7 @@ from .derivation.derivation import derive
 from .derivation.document import document_markdown
 from .images import open_picture
 from .opened import file_manifest, open_scene
+from .pictures.data.given import GivenData, picture_of_data
 from .pictures.given import Making, picture_of_array, picture_of_file
 from .rendering import render as render
 from .rendering import trace as trace
@@ -43,7 +45,7 @@ from .tracer.settings import Settings
 
 
 def load_scene(path: str | Path) -> Scene:
-    r"""Read a scene from a .npz, or from a mesh (.obj, .ply, .stl, .off, .glb, .gltf).
+    r"""Read a scene from a .npz, or from a mesh (.obj, .ply, .stl, .off, .glb, .gltf, .usd).
 
     A mesh has no camera: it is framed, at 960 x 540 pixels. A .blend is exported before, by
     ``reftrace export scene.blend --out scene.npz``.
@@ -90,6 +92,8 @@ def compare(
     renderer: str = "",
     filter_radius: float = 0.0,
     dither: float | None = None,
+    kind: str = "",
+    scale: float | None = None,
     self_check: bool = False,
     diagnose: bool = True,
 ) -> Comparison:
@@ -112,6 +116,12 @@ def compare(
         How far the picture's filter reaches, in pixels; 0 for one sample at each pixel's centre.
     dither : float, optional
         Noise that was added on purpose, in levels of 8 bits.
+    kind : {'', 'depth', 'distance', 'normals', 'positions', 'ids'}
+        What the picture holds in place of colours, in world or camera space, as most pixels agree:
+        see ``docs/data.md``. Its file may be a .npy or .npz, too, with the lowest row first; its
+        array is (h, w) or (h, w, c).
+    scale : float, optional
+        Of depths, distances and positions: how many metres 1 is.
     self_check : bool
         Whether known faults are made on purpose, to see that they are found.
     diagnose : bool
@@ -144,11 +154,15 @@ def compare(
         manifest = file_manifest(Path("scene"), scene, Account())
     else:
         scene, manifest = open_scene(Path(scene))
-    if isinstance(picture, (str, Path)):
+    if kind:
+        source = Path(picture) if isinstance(picture, (str, Path)) else np.asarray(picture)
+        shown = picture_of_data(GivenData(kind, source, scale=scale), scene, making)
+    elif isinstance(picture, (str, Path)):
         shown = picture_of_file(open_picture(picture), scene.camera, making)
     else:
         shown = picture_of_array(picture, scene.camera, making)
     case = Case(scene, manifest, settings or Settings(), shown, curves=(), self_check=self_check)
+    case = without_colors(case) if kind else case
     return result_of(compared(case, diagnose))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -22,8 +22,28 @@ class MissingLibraryError(RuntimeError):
     """An optional library is not installed; the message says how to get it."""
 
 
-def save(path: str | Path, passes: dict[str, Array]) -> None:
-    """Write passes to one EXR: `color` as RGBA, the others as channels of a layer of their name.
+# What other programs call passes: OpenEXR reserves Z, renderers write N and P.
+_AS_OTHERS = {"normal": "N", "position": "P"}
+_LETTERS = {1: "V", 3: "XYZ", 4: "RGBA"}
+
+
+def _channels(name: str, count: int) -> list[str]:
+    """Return the names of a pass' channels."""
+    if name == "depth":
+        return ["Z"]
+    letters = _LETTERS[count]
+    return (
+        list(letters) if name == "color" else [f"{_AS_OTHERS.get(name, name)}.{x}" for x in letters]
+    )
+
+
+def save(
+    path: str | Path, passes: dict[str, Array], notes: Mapping[str, str] | None = None
+) -> None:
+    """Write passes to one EXR: `color` as RGBA, depth as Z, the others as channels of a layer.
+
+    Normals are N.X, N.Y and N.Z, positions P.X and so on, others have their own name. `notes` are
+    texts for the header, by their names.
 
     All channels are float32: an index above 2^24 is rounded (`frame.npz` has it whole).
 
@@ -39,13 +59,14 @@ def save(path: str | Path, passes: dict[str, Array]) -> None:
     pictures = {name: np.atleast_3d(v) for name, v in passes.items() if np.ndim(v) > 1}
     names = []
     for name, values in pictures.items():
-        letters = "RGBA" if name == "color" else "XYZ" if values.shape[2] == 3 else "V"
-        names += [letter if name == "color" else f"{name}.{letter}" for letter in letters]
+        names += _channels(name, values.shape[2])
     height, width = next(iter(pictures.values())).shape[:2]
     spec = oiio.ImageSpec(width, height, len(names), "float")
     spec.channelnames = names
     spec.attribute("compression", "zip")
     spec.attribute("DateTime", "")  # the same frame makes the same file
+    for note, text in (notes or {}).items():
+        spec.attribute(note, text)
     file = oiio.ImageOutput.create(str(path))
     written = file and file.open(str(path), spec)
     for first in range(0, height, _ROWS):

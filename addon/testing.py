@@ -29,6 +29,8 @@ def assert_sees(
     camera: Camera | None = None,
     renderer: str = "",
     filter_radius: float = 0.0,
+    kind: str = "",
+    scale: float | None = None,
     accepted: Collection[Verdict] = (Verdict.AGREE,),
     page: str | Path | None = None,
 ) -> Comparison:
@@ -40,7 +42,7 @@ def assert_sees(
         A .npz or a mesh, as :func:`reference_tracer.load_scene` reads it.
     picture : str, Path or array
         A PNG or an EXR; or (h, w, 3 or 4), linear RGB or RGBA with alpha multiplied in, row 0 at
-        the bottom. Each object is drawn flat, in the scene's colour for it.
+        the bottom. Each object is drawn flat, in the scene's colour for it. With a `kind`, data.
     camera : Camera, optional
         In place of the scene's own.
     renderer : {'', 'rays', 'raster'}
@@ -48,6 +50,10 @@ def assert_sees(
         buffer of 24 bits. By default what the file says, else rays.
     filter_radius : float
         How far the picture's filter reaches, in pixels; 0 for one sample at each pixel's centre.
+    kind : {'', 'depth', 'distance', 'normals', 'positions', 'ids'}
+        What the picture holds in place of colours: see ``docs/data.md``.
+    scale : float, optional
+        Of depths, distances and positions: how many metres 1 is.
     accepted : collection of Verdict
         With these the test passes.
     page : str or Path, optional
@@ -69,7 +75,14 @@ def assert_sees(
     if camera is not None:
         own = scene if isinstance(scene, Scene) else open_scene(Path(scene)).scene
         scene = own.seen_by(camera)
-    found = compare(scene, picture, renderer=renderer, filter_radius=filter_radius)
+    found = compare(
+        scene,
+        picture,
+        renderer=renderer,
+        filter_radius=filter_radius,
+        kind=kind,
+        scale=scale,
+    )
     if found.verdict not in accepted:
         raise AssertionError(_message(found, page))
     return found

@@ -81,19 +81,19 @@ def test_exr_holds_every_pass(tmp_path, rng):
         channels = {name: c.pixels[::-1] for name, c in file.channels().items()}
     assert set(channels) == {
         *"RGBA",
-        "depth.V",
-        "normal.X",
-        "normal.Y",
-        "normal.Z",
+        "Z",
+        "N.X",
+        "N.Y",
+        "N.Z",
         "object_index.V",
     }
     for index, name in enumerate("RGBA"):
         assert np.array_equal(channels[name], passes["color"][..., index])
     for index, name in enumerate("XYZ"):
         assert np.array_equal(
-            channels[f"normal.{name}"], passes["normal"][..., index].astype(np.float32)
+            channels[f"N.{name}"], passes["normal"][..., index].astype(np.float32)
         )
-    assert np.array_equal(channels["depth.V"], passes["depth"])
+    assert np.array_equal(channels["Z"], passes["depth"])
     assert np.array_equal(channels["object_index.V"], passes["object_index"])
 
 

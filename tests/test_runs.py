@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from reference_tracer.runs import by_runs, run_starts
+from reference_tracer.runs import by_runs, places, run_starts
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int32, np.uint8, bool])
@@ -33,3 +33,10 @@ def test_bits_tell_items_apart():
     wide = np.arange(24.0).reshape(4, 6)
     wide[1] = wide[0]
     assert run_starts(wide[:, 1::2]).tolist() == [0, 2, 3]
+
+
+@pytest.mark.parametrize("shape", [(0, 3), (7,), (5, 9), (9, 5)])
+def test_places_of_a_mask_are_those_of_numpy(rng, shape):
+    for mask in (rng.random(shape) < 0.3, (rng.random(shape[::-1]) < 0.3).T):
+        for own, known in zip(places(mask), np.nonzero(mask), strict=True):
+            assert np.array_equal(own, known)

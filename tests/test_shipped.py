@@ -104,6 +104,7 @@ def beside_the_code(source: str) -> list[str]:
 NOT_IN_BLENDER = {
     "cli.opening": "said where there is no Blender",
     "exr": "of OpenImageIO, which Blender brings along",
+    "mesh_files.usd": "said of a mesh, which only `reftrace` reads",
 }
 # Who hands a folder of its own to others, and to whom.
 HANDED_ON = {

@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from reference_tracer import Verdict, images, render, save_scene
 from reference_tracer.report.junit import Judged, junit
@@ -61,6 +62,15 @@ def test_a_failure_says_what_is_wrong_and_leaves_a_page(scene, tmp_path):
     assert "pixels' corners, not their centres" in said and "verdict: differences" in said
     [page] = re.findall(r"its page: (.+)", said)
     assert "corners" in Path(page).read_text(encoding="utf-8")
+
+
+def test_depths_pass_and_millimetres_are_named(scene):
+    frame = render(scene)
+    depth = np.where(frame.instance_index >= 0, frame.depth, np.inf).astype(np.float32)
+    assert check(scene, depth, kind="depth").counts.differ == 0
+    with pytest.raises(AssertionError, match="the values are in millimetres"):
+        check(scene, depth * 1000, kind="depth")
+    assert check(scene, depth * 1000, kind="depth", scale=0.001).counts.differ == 0
 
 
 def test_a_warning_fails_unless_it_is_accepted(scene):

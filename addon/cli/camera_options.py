@@ -49,7 +49,8 @@ def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -
         group.add_argument(
             "--up",
             choices=["y", "z"],
-            help="which axis of a mesh is up (default y of glTF, z of others); it is turned to Z",
+            help="which axis of a mesh is up (default y of glTF and of Blender's own .obj, z of "
+            "others); it is turned to Z",
         )
     _add_which(group.add_mutually_exclusive_group(), parser)
     group.add_argument(
@@ -126,9 +127,7 @@ def add_parts_of_blend(parser: Parser) -> None:
 
 
 # What Blender imports and `reftrace` does not read.
-_OF_OTHERS = frozenset(
-    ".3ds .abc .bvh .collada .dae .dxf .fbx .svg .usd .usda .usdc .usdz .vrml .wrl .x3d".split()
-)
+_OF_OTHERS = frozenset(".3ds .abc .bvh .collada .dae .dxf .fbx .svg .vrml .wrl .x3d".split())
 
 
 def check_kind(path: Path) -> None:

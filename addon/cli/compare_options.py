@@ -103,7 +103,8 @@ class CompareOptions:
     @property
     def file(self) -> Path | None:
         """The picture or data in place of Blender's picture."""
-        return self.data.path if self.data else self.against
+        path = self.data.path if self.data else self.against
+        return path if isinstance(path, Path) else None  # an array is a script's
 
     def of_a_frame(self) -> dict[str, str]:
         """Return the options that a frame's comparison depends on, in words that can be stored."""

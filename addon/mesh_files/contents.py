@@ -28,3 +28,4 @@ class Contents:
     # What of the file's surfaces is not traced, in the same words: it may change the picture, and
     # nobody knows where, so a comparison cannot agree.
     missing: tuple[str, ...] = ()
+    up: str = ""  # which axis is up, "y" or "z", if the file itself says so

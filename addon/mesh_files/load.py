@@ -20,6 +20,7 @@ from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
 from .stl import read_stl
+from .usd import read_usd
 
 READERS: dict[str, Callable[[Path], Contents]] = {
     ".obj": read_obj,
@@ -28,8 +29,12 @@ READERS: dict[str, Callable[[Path], Contents]] = {
     ".stl": read_stl,
     ".glb": read_gltf,
     ".gltf": read_gltf,
+    ".usd": read_usd,
+    ".usda": read_usd,
+    ".usdc": read_usd,
+    ".usdz": read_usd,
 }
-_BLENDERS_OBJ = "it is traced with Z up; Blender writes Y up unless told otherwise: then add --up y"
+_BLENDERS_OBJ = "it is taken to have Y up, as Blender writes it unless told otherwise: then --up z"
 _Y_UP = frozenset((".glb", ".gltf"))  # as their specification says; the others do not say
 
 Thing = TypeVar("Thing", bound=Hashable)
@@ -39,7 +44,7 @@ def load_meshes(path: str | Path, up: str | None = None) -> Contents:
     """Read the meshes of a file.
 
     `up` is the file's axis that is up, "y" or "z": by default Y of glTF, as its specification says,
-    and Z of the others, which do not say.
+    and of an .obj that Blender wrote, as it does by default; Z of the others, which do not say.
 
     Returns
     -------
@@ -66,9 +71,11 @@ def load_meshes(path: str | Path, up: str | None = None) -> Contents:
     if not any(len(placed.mesh.triangles) for placed in found.placed):
         but = "".join(f"; {said}" for said in (*found.missing, *found.notes))
         raise SceneError(f"'{path}' holds no triangles, and a ray meets nothing else{but}")
-    if up is None and suffix == ".obj" and path.read_bytes()[:9] == b"# Blender":
+    is_blenders = suffix == ".obj" and path.read_bytes()[:9] == b"# Blender"
+    if up is None and is_blenders:
         found = replace(found, notes=(*found.notes, _BLENDERS_OBJ))
-    if (up or ("y" if suffix in _Y_UP else "z")) == "y":
+    default = found.up or ("y" if is_blenders or suffix in _Y_UP else "z")
+    if (up or default) == "y":
         found = _turned(found)
     return found
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Index
 from ..certainty import Certainty
+from ..runs import places
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions, pixel_size
 from ..tracer.frame import Frame
@@ -71,7 +72,7 @@ class SampleBand:
         """Find the values of the pixels asked (h, w); of all where that takes no longer."""
         left = asked & np.isnan(self.values)
         if self.most <= _REACH and _FEW * left.sum() < left.size:
-            yield from self._find_some(*np.nonzero(left))
+            yield from self._find_some(*places(left))
         elif left.any():
             yield from self._find_all()
 

@@ -44,10 +44,20 @@ def encode(picture: Bytes, level: int = LEVEL) -> bytes:
 
     It has 8 bits a channel, and no filter: flat colours are smaller without. `level` is zlib's.
     """
+    return _encoded(picture, RGBA, level)
+
+
+def encode_grey(picture: Bytes, level: int = LEVEL) -> bytes:
+    """Return an (h, w) uint8 picture likewise, as one of grey values."""
+    return _encoded(picture, GREY, level)
+
+
+def _encoded(picture: Bytes, kind: int, level: int) -> bytes:
     height, width = picture.shape[:2]
-    rows = np.zeros((height, 1 + 4 * width), np.uint8)  # each begins with 0: it is not filtered
+    # Each row begins with 0: it is not filtered.
+    rows = np.zeros((height, 1 + CHANNELS[kind] * width), np.uint8)
     rows[:, 1:] = picture[::-1].reshape(height, -1)
-    header = struct.pack(">2I5B", width, height, 8, RGBA, 0, 0, 0)
+    header = struct.pack(">2I5B", width, height, 8, kind, 0, 0, 0)
     out = [SIGNATURE]
     for chunk in (b"IHDR" + header, b"IDAT" + zlib.compress(rows, level), b"IEND"):
         out += struct.pack(">I", len(chunk) - 4), chunk, struct.pack(">I", zlib.crc32(chunk))

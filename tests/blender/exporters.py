@@ -46,7 +46,7 @@ class Format:
     name: str
     suffix: str
     write: Callable[[str], object]
-    up: str | None  # that the default options give it; None: its specification's
+    up: str | None  # that the default options give it; None: as it is read by default
     has_objects: bool
     roundings: int = ROUNDINGS
     digits: float = 0.0  # metres
@@ -57,19 +57,20 @@ def _gltf(kind: str) -> Callable[[str], object]:
 
 
 FORMATS = (
-    Format("obj", "obj", lambda p: bpy.ops.wm.obj_export(filepath=p), "y", True, digits=DIGITS),
-    Format("ply", "ply", lambda p: bpy.ops.wm.ply_export(filepath=p), "z", False),
+    Format("obj", "obj", lambda p: bpy.ops.wm.obj_export(filepath=p), None, True, digits=DIGITS),
+    Format("ply", "ply", lambda p: bpy.ops.wm.ply_export(filepath=p), None, False),
     Format(
         "ply, ascii",
         "ply",
         lambda p: bpy.ops.wm.ply_export(filepath=p, ascii_format=True),
-        "z",
+        None,
         False,
         digits=DIGITS,
     ),
-    Format("stl", "stl", lambda p: bpy.ops.wm.stl_export(filepath=p), "z", False),
+    Format("stl", "stl", lambda p: bpy.ops.wm.stl_export(filepath=p), None, False),
     Format("glb", "glb", _gltf("GLB"), None, True, OF_NODES),
     Format("gltf", "gltf", _gltf("GLTF_SEPARATE"), None, True, OF_NODES),
+    Format("usd", "usdc", lambda p: bpy.ops.wm.usd_export(filepath=p), None, True, OF_NODES),
 )
 
 
@@ -128,10 +129,32 @@ _GLTF = {
     "node_instances": Cell("instances of geometry nodes are not written", lambda: _hide("Points")),
     "hidden_and_empty": Cell("hidden and excluded objects are written", _show_all),
 }
+
+
+def _as_cages() -> None:
+    for obj in bpy.data.objects:
+        for modifier in obj.modifiers:
+            modifier.show_viewport = modifier.type != "SUBSURF"
+
+
+def _without_keys() -> None:
+    for keys in bpy.data.shape_keys:
+        for block in keys.key_blocks:
+            block.value = 0
+
+
+_USD = {
+    "posed_rig": Cell("bones are written as a skeleton, which is not read", _at_rest),
+    "shape_keys": Cell("shape keys are written apart, and not read", _without_keys),
+    "modifiers": Cell("subdivision is written as a scheme, and not read", _as_cages),
+    "curves": Cell("a curve is written as a curve, which is not read", lambda: _hide("Curve")),
+    "hidden_and_empty": _EYE,
+}
 CELLS: dict[tuple[str, str], Cell] = {
     **{("scales", suffix): _SCALED for suffix in ("obj", "ply")},
     **({("hidden_and_empty", suffix): _EYE for suffix in ("ply", "stl")} if _WRITES_HIDDEN else {}),
     **{(scene, suffix): cell for scene, cell in _GLTF.items() for suffix in ("glb", "gltf")},
+    **{(scene, "usdc"): cell for scene, cell in _USD.items()},
 }
 
 Owners = NDArray[np.str_]  # (h, w): the name of the object that a pixel shows
@@ -223,6 +246,8 @@ def canonical(name: str, kind: Format) -> str:
         return "something"
     if kind.suffix == "obj":
         return name.replace(" ", "_")
+    if kind.suffix == "usdc":
+        return re.sub(r"(_\d+)+$", "", re.sub(r"\W", "_", name))  # instances are numbered
     return re.sub(r" \(node \d+\)$", "", name)
 
 

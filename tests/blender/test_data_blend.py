@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 
 import bpy
+import numpy as np
 import pytest
+from reference_tracer import exr
 from reference_tracer.blender import registration
 from reference_tracer.cli.main import main
 
@@ -18,7 +20,7 @@ def passes(build, tmp_path):
     build.corner_camera(lens=40)
     layer = bpy.context.view_layer
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_position = True
-    layer.use_pass_object_index = True
+    layer.use_pass_object_index = layer.use_pass_cryptomatte_object = True
     for number, object_ in enumerate(scene.objects):
         object_.pass_index = number + 1
     scene.render.engine = "CYCLES"
@@ -43,8 +45,20 @@ def test_the_passes_of_cycles_agree(passes, addon, capsys):
             code = main(["compare", paths[0], f"--{kind}", paths[1], "--out", paths[2]])
             found = json.loads((passes / kind / "comparison.json").read_text(encoding="utf-8"))
             assert code == 0 and found["pixels"]["differ"] == 0, (kind, capsys.readouterr().out)
+        assert main(["trace", paths[0], "--out", str(passes / "traced.exr")]) == 0
+        _same_cryptomatte(passes / "passes.exr", passes / "traced.exr")
         paths[2] = str(passes / "distance")
         assert main(["compare", paths[0], "--distance", paths[1], "--out", paths[2]]) == 2
         assert "not distances along the ray" in capsys.readouterr().out
     finally:
         registration.register()
+
+
+def _same_cryptomatte(blenders, own):
+    """Blender hashes names by Cryptomatte's own code: its ids are ours, bit by bit."""
+    held = []
+    for path, layer, letters in ((blenders, "ViewLayer.", "rg"), (own, "", "RG")):
+        channels = exr.read_channels(path)
+        ids, coverage = (channels[f"{layer}CryptoObject00.{letter}"] for letter in letters)
+        held.append(np.where(coverage > 0.5, ids, 0).view(np.uint32))
+    assert len(np.unique(held[1])) == 5 and np.array_equal(*held)

@@ -21,7 +21,7 @@ BAD = {
     "no file": (["none.ply"], "none.ply"),
     "a kind that is not read": (["words.txt"], "'words.txt' is none of .blend, .npz, .obj"),
     "a kind that Blender imports": (["scene.fbx"], "import it into Blender"),
-    "a name without an end": (["words"], ".gltf: its name has no such end; rename it"),
+    "a name without an end": (["words"], ".usdz: its name has no such end; rename it"),
     "a backup": (["scene.blend1"], "a .blend once it is renamed"),
     "a folder": (["folder.png"], "'folder.png' is no file but a folder"),
     "other suffix": (["words.txt"], "words.txt"),

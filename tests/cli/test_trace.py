@@ -36,7 +36,7 @@ def test_eye_target_angle(ball, tmp_path):
     assert (
         trace(ball, tmp_path / "b.exr", "--eye", "0", "-2", "0", "--angle", str(2 * half)) == AGREE
     )
-    depth = channels(tmp_path / "b.exr")["depth.V"]
+    depth = channels(tmp_path / "b.exr")["Z"]
     assert depth[7:9, 11:13].min() == pytest.approx(1, abs=0.03)
     rows = np.flatnonzero(np.isfinite(depth).any(axis=1))
     assert (rows.min(), rows.max()) in ((1, 14), (2, 13))  # 16 rows / 1.25, less the corners cut
@@ -48,16 +48,16 @@ def test_target_and_up(ball, tmp_path):
         trace(ball, tmp_path / "b.exr", "--eye", "0", "-5", "0", "--target", "1", "0", "0.7")
         == AGREE
     )
-    y, x = np.nonzero(np.isfinite(channels(tmp_path / "b.exr")["depth.V"]))
+    y, x = np.nonzero(np.isfinite(channels(tmp_path / "b.exr")["Z"]))
     assert x.mean() < 11 and y.mean() < 7
 
 
 def test_ortho_scale(ball, tmp_path):
     assert trace(ball, tmp_path / "b.exr", "--eye", "0", "0", "5", "--ortho-scale", "4") == AGREE
     found = channels(tmp_path / "b.exr")
-    seen = np.isfinite(found["depth.V"])
+    seen = np.isfinite(found["Z"])
     assert seen.any(axis=0).sum() == seen.any(axis=1).sum() == 8  # the height, 4 m, is 16 pixels
-    assert found["position.Z"][seen] == pytest.approx(5 - found["depth.V"][seen], abs=1e-5)
+    assert found["P.Z"][seen] == pytest.approx(5 - found["Z"][seen], abs=1e-5)
 
 
 def test_exr_holds_the_passes(ball, tmp_path):
@@ -73,7 +73,7 @@ def test_exr_holds_the_passes(ball, tmp_path):
     ).all()
     weights = sum(found[f"barycentrics.{x}"] for x in "XYZ")
     assert weights[seen] == pytest.approx(1, abs=1e-5)
-    assert np.isinf(found["depth.V"][~seen]).all()
+    assert np.isinf(found["Z"][~seen]).all()
 
 
 def test_npz_keeps_its_camera(make, tmp_path):
@@ -189,7 +189,7 @@ def test_rows_are_those_of_the_whole_picture(make, tmp_path, capsys):
     assert [traced(f"{p[0]}.exr", "--rows", *p) for p in parts] == [AGREE] * 3
     whole = channels(tmp_path / "whole.exr")
     found = [channels(tmp_path / f"{p[0]}.exr") for p in parts]
-    assert len(whole) > 10 and whole["depth.V"].shape == (7, 7)
+    assert len(whole) > 10 and whole["Z"].shape == (7, 7)
     for name, values in whole.items():
         np.testing.assert_array_equal(np.concatenate([f[name] for f in found]), values)
     for wrong in (["3", "7"], ["-1", "2"], ["3", "2"], ["0", "2", "--color", "depth"]):

@@ -241,13 +241,17 @@ def test_a_byte_order_mark_is_no_part_of_the_first_line(name, text, tmp_path):
 
 
 @pytest.mark.parametrize("up", [None, "y", "z"])
-def test_an_obj_of_blenders_is_told_to_have_y_up_where_nobody_says(up, tmp_path):
+def test_an_obj_of_blenders_has_y_up_where_nobody_says_otherwise(up, tmp_path):
+    def read(text):
+        (tmp_path / "a.obj").write_text(text)
+        contents = load_meshes(tmp_path / "a.obj", up)
+        return contents.notes, contents.placed[0].world_from_object[2, 1]  # y becomes z, or not
+
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
-    (tmp_path / "a.obj").write_text(text)
-    assert not load_meshes(tmp_path / "a.obj", up).notes
-    (tmp_path / "a.obj").write_text(f"# Blender 5.0.0\n{text}")
-    notes = load_meshes(tmp_path / "a.obj", up).notes
-    assert ["--up y" in note for note in notes] == [True] * (up is None)
+    assert read(text) == ((), up == "y")
+    notes, turned = read(f"# Blender 5.0.0\n{text}")
+    assert ["--up z" in note for note in notes] == [True] * (up is None)
+    assert turned == (up != "z")
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".ply", ".off"])

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Bools, Floats
 from ...pictures.picture import Picture
+from ...runs import places
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
@@ -76,7 +77,7 @@ def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels at depth ties and at edges."""
     if pixels.open.any():
         yield from scaled(pixels.band.find(pixels.open), 0.0, 0.0)
-        reach = float(np.max(pixels.bands(np.nonzero(pixels.open))))
+        reach = float(np.max(pixels.bands(places(pixels.open))))
         yield from near_surfaces(pixels, pixels.case.scene, reach, _look)
 
 

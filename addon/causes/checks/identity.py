@@ -13,6 +13,7 @@ import numpy as np
 from ...arrays import Bools, Colors, Places
 from ...pictures.identity import UNKNOWN
 from ...pictures.picture import Picture
+from ...runs import places
 from ...scene import Scene
 from ...tracer import shading
 from ...tracer.frame import Frame
@@ -35,7 +36,7 @@ def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
     for rows in blocks(pixels.shape):
         part, shown = picture.at(rows), pixels[rows]
         odd = part.other_object(frame.instance_index[rows])
-        at = np.nonzero(odd)
+        at = places(odd)
         odd[at] = ~part.at(at).other_color(frame.color[rows][at])
         for number in np.unique(shown[odd]):
             own = np.flatnonzero(owners.instances == number)

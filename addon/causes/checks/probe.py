@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from ...arrays import Array, Bools, Floats, Index, Places
 from ...pictures.bands import SampleBand
 from ...pictures.picture import Picture
+from ...runs import places
 from ...scene import Region, Scene
 from ...tracer.camera import Rays, camera_rays, film_positions
 from ...tracer.candidates import PAIRS, Plan, candidates
@@ -102,7 +103,10 @@ class OpenPixels:
             (self.out.allowed, allowed),
             (self.open, False),
         ):
-            values[at] = np.where(new, given, values[at])
+            if isinstance(at, slice):
+                np.copyto(values[at], given, where=new)
+            else:
+                values[at] = np.where(new, given, values[at])
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,7 +245,7 @@ def by_parts(
         if asked[rows].any():
             finding = Probe.of(made, tile, asked[rows].ravel())
             probe = yield from scaled(finding, y0 / height, 0.5 * (y1 - y0) / height)
-            y, x = np.nonzero(asked[rows])
+            y, x = places(asked[rows])
             for _ in look(Part.of(pixels, (y + y0, x), probe)):
                 yield 0.5 * (y0 + y1) / height
 
@@ -306,7 +310,7 @@ def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
     if any_color or len(colors) > FEW_COLORS:
         return pixels.open
     out = np.zeros_like(pixels.open)
-    row, column = np.nonzero(pixels.open)
+    row, column = places(pixels.open)
     for part in parts(len(row), BLOCK // len(colors)):
         at = row[part], column[part]
         shape = len(colors), *pixels.picture.color[at].shape

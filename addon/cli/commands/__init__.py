@@ -87,6 +87,7 @@ COMMANDS = {  # in the order of `--help`
         "find where every method breaks: far away, tiny, edge-on, and so on", _extremes
     ),
     "bench": Command("measure the speed of the tracer beside embreex, Cycles and others", None),
+    "diff": Command("list object by object how two files of a scene differ", None),
     "export": Command("export a .blend to a scene that needs no Blender", _export),
     "camera": Command("write a scene's camera for other programs, or check one of theirs", _camera),
 }

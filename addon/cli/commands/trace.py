@@ -8,18 +8,21 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from ... import exr, images
 from ...certificate_file import save_certificate
 from ...framing import Choice
 from ...mesh_files.load import READERS
 from ...rendering import render
-from ...report import folders
+from ...report import cryptomatte, folders, masks
 from ...scene import Scene, SceneError
 from ...tracer.coloring import Color
+from ...tracer.frame import Frame
 from ...tracer.progress import Share
 from ...tracer.settings import Settings
 from ...wording import count_of
-from ..arguments import GivenSettings, Place, add_settings, place_from, settings_from
+from ..arguments import GivenSettings, Place, add_settings, place_from, refuse, settings_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
 from ..parser import AGREE, INTEGER, Parser
@@ -36,6 +39,8 @@ class TraceOptions:
     settings: GivenSettings
     choice: Choice
     rows: Sequence[int] | None  # the first and the last
+    masks: Path | None  # a folder for a mask of each object
+    top_down: bool  # the first row of an array is the topmost
     place: Place
 
     @classmethod
@@ -43,6 +48,10 @@ class TraceOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
         if not (given.out or given.certificate):
             raise SceneError("name a file to write: --out PICTURE, --certificate FILE, or both")
+        if given.out is None:
+            refuse(given, ("masks", "top_down"), "is for a picture: --out PICTURE")
+        elif given.out.suffix.lower() != ".npz":
+            refuse(given, ("top_down",), "is for a .npz: pictures begin with their topmost row")
         return cls(
             scene=given.scene,
             out=given.out,
@@ -50,6 +59,8 @@ class TraceOptions:
             settings=settings_from(given),
             choice=choice_from(given, given.scene),
             rows=given.rows,
+            masks=given.masks,
+            top_down=given.top_down,
             place=place_from(given),
         )
 
@@ -73,9 +84,10 @@ def add(parser: Parser) -> None:
     parser.add_scene(SOURCES)
     parser.add_argument(
         "--out",
-        type=parser.path_ending(".png", ".exr"),
+        type=parser.path_ending(".png", ".exr", ".npz"),
         metavar="PICTURE",
-        help="picture.png (what a screen shows) or picture.exr (every output)",
+        help="picture.png (what a screen shows), picture.exr (every output, and Cryptomatte) or "
+        "picture.npz (every output as arrays)",
     )
     parser.add_argument(
         "--certificate",
@@ -97,6 +109,18 @@ def add(parser: Parser) -> None:
         metavar=("FIRST", "LAST"),
         help="trace only a part of a large picture: its rows FIRST to LAST, row 0 the lowest",
     )
+    parser.add_argument(
+        "--masks",
+        type=parser.path,
+        metavar="DIR",
+        help="also write a mask of each object that is seen, as PNG and in coco.json, where its "
+        "whole extent is, too, of which others hide a part",
+    )
+    parser.add_argument(
+        "--top-down",
+        action="store_true",
+        help="the first row of the arrays in a .npz is the topmost (default the lowest)",
+    )
     add_camera(parser)
 
 
@@ -117,10 +141,10 @@ def trace(options: TraceOptions) -> int:
             with folders.replacing_file(path) as new:
                 if path == options.certificate:
                     save_certificate(new, frame)
-                elif options.is_png:
-                    images.save_png(new, images.to_display(frame.color))
                 else:
-                    exr.save(new, frame.passes())
+                    _write(path, frame, new, -1 if options.top_down else 1)
+        if options.masks and options.out:
+            masks.write(options.masks, frame, options.out.name)
     s = frame.statistics
     print(
         f"{frame.shape[1]} x {frame.shape[0]} pixels, {count_of(s.triangles, 'triangle')}, "
@@ -133,6 +157,19 @@ def trace(options: TraceOptions) -> int:
     if options.is_png and is_mesh and not options.settings.color:
         print("each mesh has one flat colour: --color facing shows its shape")
     return AGREE
+
+
+def _write(path: Path, frame: Frame, new: Path, step: int) -> None:
+    """Write a frame as `path` is called, into the file `new`; arrays by steps of 1 or -1 rows."""
+    if path.suffix.lower() == ".png":
+        images.save_png(new, images.to_display(frame.color))
+    elif path.suffix.lower() == ".exr":
+        passes = frame.passes() | {f"{cryptomatte.LAYER}00": cryptomatte.layer(frame)}
+        exr.save(new, passes, cryptomatte.header(frame))
+    else:
+        passes = {name: values[::step] for name, values in frame.passes().items()}
+        with new.open("wb") as file:  # given a name, numpy would add .npz to it
+            np.savez_compressed(file, objects=np.array(frame.scene.objects, "U"), **passes)  # type: ignore[arg-type]  # none is "allow_pickle"
 
 
 def _rows_alone(scene: Scene, settings: Settings, first: int, last: int) -> Scene:

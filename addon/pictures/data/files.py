@@ -31,12 +31,12 @@ class StoredData:
     layer: str  # the name of the array, of several
 
 
-def read(path: Path, kind: Kind, layer: str = "", top_down: bool = False) -> StoredData:
-    """Read a kind of data from a file.
+def read(path: Path | Array, kind: Kind, layer: str = "", top_down: bool = False) -> StoredData:
+    """Read a kind of data from a file, or take an array.
 
     Parameters
     ----------
-    path : Path
+    path : Path or (h, w) or (h, w, c) array
     kind : Kind
     layer : str
         The name of the array, or of the layer of channels; '' where the kind's own names decide.
@@ -50,6 +50,8 @@ def read(path: Path, kind: Kind, layer: str = "", top_down: bool = False) -> Sto
     OSError
         If there is no such file, it cannot be read, or it does not hold such data.
     """
+    if not isinstance(path, Path):
+        return _stored("array", {"": np.asarray(path)}, kind, layer, top_down)
     if not path.is_file():
         raise OSError(f"there is no file '{path}', or it is a folder or a pipe")
     suffix = path.suffix.lower()
@@ -57,10 +59,16 @@ def read(path: Path, kind: Kind, layer: str = "", top_down: bool = False) -> Sto
         raise OSError(f"'{path}' holds no {kind.name}: it must be {', '.join(SUFFIXES)}")
     if said := mistaken(path):
         raise OSError(f"'{path}' {said}")
-    layers = _READ[suffix](path)
+    return _stored(path, _READ[suffix](path), kind, layer, top_down or suffix in (".png", ".exr"))
+
+
+def _stored(
+    path: object, layers: Mapping[str, Array], kind: Kind, layer: str, top_down: bool
+) -> StoredData:
+    """Return the layer that is asked for."""
     name = _chosen(path, layers, kind, layer)
     values = _shaped(path, layers[name], kind, name)
-    if suffix in (".png", ".exr") or top_down:
+    if top_down:
         values = values[::-1]
     if values.dtype.kind not in "fiub":
         raise OSError(f"'{path}' holds {values.dtype} and not numbers")
@@ -112,7 +120,7 @@ def _exr(path: Path) -> dict[str, Array]:
 _READ = {".npy": _arrays, ".npz": _arrays, ".exr": _exr, ".png": _png}
 
 
-def _chosen(path: Path, layers: Mapping[str, Array], kind: Kind, layer: str) -> str:
+def _chosen(path: object, layers: Mapping[str, Array], kind: Kind, layer: str) -> str:
     """Return the name of the layer that holds the kind."""
     if layer:
         if layer in layers:
@@ -140,7 +148,7 @@ def _fits(values: Array, kind: Kind) -> bool:
     return values.ndim in (2, 3) and channels in (kind.channels, 3, 4)
 
 
-def _shaped(path: Path, values: Array, kind: Kind, name: str) -> Array:
+def _shaped(path: object, values: Array, kind: Kind, name: str) -> Array:
     """Return an array as (h, w, c), with as many channels as the kind has."""
     if values.ndim not in (2, 3) or not values.size:
         raise OSError(f"'{path}': {name or 'it'} has the shape {values.shape}, not (h, w, c)")

@@ -47,7 +47,7 @@ class GivenData:
     """
 
     kind: str  # of KINDS
-    path: Path
+    path: Path | Array  # or an array, (h, w) or (h, w, c), row 0 at the bottom
     layer: str = ""  # of several arrays in the file; '': as they are named
     scale: float | None = None  # metres that 1 is; None: 1, but integers have to be told
     space: str = ""  # of vectors.SPACES; '': told from the data
@@ -62,6 +62,11 @@ class GivenData:
         ):
             if value not in known:
                 raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(known)}")
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self.path.name if isinstance(self.path, Path) else "array"
 
     def conventions(self, stored: StoredData) -> Iterator[Kind]:
         """Yield the kind in each convention that may be the file's."""
@@ -107,7 +112,7 @@ def picture_of_data(given: GivenData, scene: Scene, making: Making) -> Picture:
         right = [int(one.flat.same(scene, hits, sampling, hits.t).sum()) for one in found]
         data = found[int(np.argmax(right))]
         remarks.append(f"its {data.kind.words} are taken to be {data.kind.variant}, as most agree")
-    name = given.path.name
+    name = given.name
     said = tuple(f"of '{name}': {remark}" for remark in remarks)
     source = Source(file=name, known=known, remarks=said, what=data.kind.words)
     return Picture(data.color, source, sampling=sampling, data=data)
@@ -132,7 +137,7 @@ def _data(given: GivenData, stored: StoredData, scene: Scene, kind: Kind) -> Dat
     if kind.unit:
         if not stored.step.type and given.scale is None:
             raise SceneError(
-                f"'{given.path}' holds integers: say how many metres 1 is, as --depth-scale 0.001"
+                f"'{given.name}' holds integers: say how many metres 1 is, as --depth-scale 0.001"
             )
         unit = given.scale or 1.0
     elif not stored.step.type:

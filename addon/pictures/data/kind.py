@@ -145,9 +145,8 @@ class Data:
         ends = np.array([self.made(seen.along(sign * far)) - made for sign in (-1, 1)])
         out += np.sqrt((ends * ends).sum(axis=2)).max(axis=0)[:, None]
         if aside := renderer.snapping + sampling.sample_radius:
-            for x, y in ((aside, 0.0), (0.0, aside)):
-                sides = [self.made(seen.aside(s * x, s * y)) for s in (-1, 1)]
-                out += np.max(np.abs(np.array(sides) - made), axis=0)
+            corners = [seen.aside(x, y) for x in (-aside, aside) for y in (-aside, aside)]
+            out += np.max([np.abs(self.made(one) - made) for one in corners], axis=0)
         return out
 
     @np.errstate(invalid="ignore", over="ignore", divide="ignore")

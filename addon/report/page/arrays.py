@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array, Integers
+from ...arrays import Array, Index, Integers
 from ...runs import run_starts
 from ...scene import Scene
 from ...tracer import plane
@@ -52,7 +52,7 @@ def size(value: object) -> int:
 class SeenSurfaces(NamedTuple):
     """The k surfaces that are seen, and which of them each pixel sees."""
 
-    number: Integers  # (h, w): 0 for none, else one more than the index into the others
+    number: Index  # (h, w): 0 for none, else one more than the index into the others
     instance: Integers  # (k,), as in a `Frame`
     triangle: Integers
 

@@ -20,9 +20,11 @@ from reference_tracer.scene_files import Account
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
+MAKING = Making()
 # The faults of data, and of others a few: all of them take a second for each picture.
-BESIDE = "rows", "object_missing", "object_moved", "mirrored_x", "flipped_winding", "scene_scaled"
+BESIDE = "rows", "object_missing", "flipped_winding"
 CLIP = [f for f in FAULTS if f.name.startswith("clip_")]
+MOVED = [f for f in FAULTS if f.name in ("object_moved", "object_missing", "data_scale")]
 SOME = [f for f in FAULTS if f in DATA_FAULTS or f.name in BESIDE]
 
 
@@ -49,10 +51,10 @@ def traced(solids):
 def judged(solids, tmp_path):
     """Return the function that compares the scene with values of a kind, as .npy or by `save`."""
 
-    def run(kind, values, scene=solids, name="data.npy", save=np.save, renderer="", **known):
+    def run(kind, values, scene=solids, name="data.npy", save=np.save, making=MAKING, **known):
         path = tmp_path / name
         save(path, values)
-        shown = picture_of_data(GivenData(kind, path, **known), scene, Making(renderer))
+        shown = picture_of_data(GivenData(kind, path, **known), scene, making)
         manifest = file_manifest(path, scene, Account())
         case = without_colors(Case(scene, manifest, Settings(), shown))
         return result_of(compared(case))

@@ -6,12 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.causes.case import without_colors
+from reference_tracer.comparison.comparing import compared
 from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.pictures.given import Making
 from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import camera_rays, film_positions
+from reference_tracer.tracer.progress import result_of
 
-from .conftest import CLIP, SOME
+from .conftest import CLIP, MOVED, SOME
 
 
 @pytest.fixture(scope="session")
@@ -151,7 +156,7 @@ def test_half_floats_and_cut_off_integers(told, traced, lengths, kind):
 def test_a_depth_buffers_steps_are_those_of_the_scenes_own_clip_range(told, solids, traced):
     """A guess that nothing is clipped makes the steps of a buffer so large that all depths fit."""
     half = np.where(np.isfinite(traced.t), traced.t, 0).astype(np.float16).astype(np.float32)
-    assert told("depth", half, faults=CLIP, renderer="raster") == []
+    assert told("depth", half, faults=CLIP, making=Making("raster")) == []
 
 
 def test_a_moved_object_is_named_by_its_depths(told, solids, traced):
@@ -159,4 +164,50 @@ def test_a_moved_object_is_named_by_its_depths(told, solids, traced):
     at[:3, 3] = 0.05, 0, 0.1
     other = replace(solids.instances[1], world_from_object=at)
     wrong = replace(solids, instances=(solids.instances[0], other, solids.instances[2]))
-    assert told("depth", render(wrong).t, faults=SOME) == ["object_moved"]
+    assert told("depth", render(wrong).t, faults=MOVED) == ["object_moved"]
+
+
+def test_an_edge_excuses_what_lies_beside_it_and_nothing_far_from_it(judged, solids, traced):
+    """A surface that is seen a pixel away, or lies behind, is not what a pixel shows."""
+    t, beside = traced.t, np.roll(traced.t, 1, axis=1)
+    away = np.isfinite(t) & np.isfinite(beside)
+    away[away] = np.abs(beside[away] - t[away]) > 0.3
+    assert away.sum() > 5
+    assert judged("depth", np.where(away, beside, t)).counts.unexplained > 5
+    behind = render(replace(solids, instances=solids.instances[1:])).t
+    found = judged("depth", behind)
+    assert found.counts.unexplained == (behind != t).sum()
+
+
+def test_samples_may_lie_as_far_from_the_centres_as_is_said(judged, solids, make):
+    window, camera = solids.camera.window, solids.camera
+    shift = 0.2 * (window.right - window.left) / camera.width
+    moved = replace(camera, window=window.moved(shift, -shift))
+    values = render(solids.seen_by(moved)).t
+    right = judged("depth", values, making=Making(filter_radius=0.2))
+    assert right.counts.unexplained == 0 and right.counts.by_cause["edge"] > 0
+    assert judged("depth", values, making=Making(filter_radius=0.1)).counts.unexplained > 20
+    assert judged("depth", values + 0.05, making=Making(filter_radius=0.2)).counts.unexplained > 20
+
+
+def test_a_buffers_depths_may_be_off_by_its_steps(judged, solids, traced):
+    """Of 24 bits, at z: z^2 (f - n) / (f n) 2^-24."""
+    near, far = solids.camera.clip_start, solids.camera.clip_end
+    level = np.rint((far / (far - near) * (1 - near / traced.t)) * 2**24) / 2**24
+    values = near * far / (far - level * (far - near))
+    values = np.where(np.isfinite(traced.t), values, 0)
+    assert judged("depth", values, making=Making("raster")).verdict == Verdict.AGREE
+    off = values + 300 * values**2 / near * 2.0**-24
+    assert judged("depth", off, making=Making("raster")).counts.unexplained > 20
+
+
+def test_colors_that_are_not_modelled_excuse_no_depth(judged, traced, solids):
+    case = judged("depth", traced.t + 0.1).case
+    light = Unmodelled("Sun", "light", effect=Effect.LIGHT)
+    glass = Unmodelled("Ball", "glass", effect=Effect.COLOR)
+    hair = Unmodelled("Ball", "hair", bounds=np.array([[-9, -9, -9], [9, 9, 9.0]]))
+    for some, blind in (((light, glass), 0), ((hair,), 1)):
+        manifest = replace(case.manifest, unmodelled=some)
+        found = result_of(compared(without_colors(replace(case, manifest=manifest))))
+        assert (found.counts.unexplained == 0) == bool(blind)
+        assert bool(found.counts.not_judged.pixels) == bool(blind)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from reference_tracer import exr
+from reference_tracer import compare, exr
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.diagnosis.faults.data import DATA_FAULTS
 from reference_tracer.pictures.data.depth import DEPTH
@@ -113,5 +113,16 @@ def test_the_command_says_what_it_compared(solids, traced, tmp_path, capsys, exi
 
 
 def test_the_document_has_every_fault_of_data_in_its_table():
-    table = PAGE.read_text(encoding="utf-8").split("<!-- named -->")[1].split("<!-- / -->")[0]
+    table = PAGE.read_text(encoding="utf-8").split("## What is named")[1]
     assert re.findall(r"^\| `(\w+)` \|", table, re.M) == [fault.name for fault in DATA_FAULTS]
+
+
+def test_a_script_compares_arrays(solids, traced):
+    assert compare(solids, traced.t, kind="depth").verdict == Verdict.AGREE
+    found = compare(solids, 1000 * traced.t.astype(np.float32), kind="depth")
+    assert [told.fault.name for told in found.diagnosis.told] == ["data_unit"]
+    millimetres = np.rint(1000 * np.nan_to_num(traced.t, posinf=0)).astype(np.uint16)
+    assert compare(solids, millimetres, kind="depth", scale=0.001).verdict == Verdict.AGREE
+    assert compare(solids, traced.object_index, kind="ids").verdict == Verdict.AGREE
+    with pytest.raises(ValueError, match="kind is 'height'; it must be one of depth, distance"):
+        compare(solids, traced.t, kind="height")

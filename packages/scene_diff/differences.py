@@ -1,0 +1,250 @@
+"""Compares the objects of two scenes, and names each difference as a diagnosis does."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.causes.case import Variant
+from reference_tracer.diagnosis.faults import FAULTS
+from reference_tracer.diagnosis.faults.fault import AnyFault, Guess
+from reference_tracer.scene import Scene
+from reference_tracer.wording import count_of
+
+from .geometry import Objects
+from .matching import matched, points_alike
+from .moves import MARGIN, Move, move_between
+
+_FAULT: dict[str, AnyFault] = {fault.name: fault for fault in FAULTS}
+_TRIED = 16  # transforms, at most, that may be all objects'
+_LEVELS = (-3, -2, -1, 1, 2, 3)  # of subdivision, each of which makes four triangles of one
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How an object of the second scene differs from the first's."""
+
+    object: str  # '' of all
+    kind: str  # the name of a fault of the diagnosis, or of this package
+    sentence: str
+    advice: str = ""
+
+    def lines(self) -> Iterator[str]:
+        """Yield it as lines of text."""
+        yield self.sentence
+        if self.advice:
+            yield f"  what to do: {self.advice}"
+
+    def to_dict(self) -> dict[str, str]:
+        """Return it as JSON can hold it."""
+        return vars(self).copy()
+
+
+def _of_fault(name: str, object_: str, sentence: str = "", words: str = "") -> Difference:
+    """Return a difference that a fault of the diagnosis explains, in its words."""
+    fault, guess = _FAULT[name], Guess(object=object_, words=words)
+    return Difference(object_, name, sentence or fault.sentence_of(guess), _advice(fault, guess))
+
+
+def _advice(fault: AnyFault, guess: Guess) -> str:
+    return "" if "{" in fault.advice else fault.advice_of(guess)
+
+
+def differences(
+    first: Scene, second: Scene, variants: Sequence[Variant] = ()
+) -> tuple[Difference, ...]:
+    """Return how the objects of the second scene differ from those of the first.
+
+    `variants` are scenes with faults that only Blender can make, of the first. What all objects, or
+    most, have in common is said once, and the rest beside that.
+    """
+    own, other = Objects.of(first), Objects.of(second)
+    tolerance = max(own.tolerance, other.tolerance)
+    shared = own.triangles.keys() & other.triangles
+    if len(other.triangles) == 1 < len(own.triangles) and not shared:
+        name = next(iter(other.triangles))  # the file has no objects
+        own, variants = Objects({name: own.joined}), ()
+    made = [(v, Objects.of(v.scene)) for v in variants]
+    names = _paired(own, other)
+    moves, out = _compared(own, other, names, tolerance, made)
+    common = _common(own, other, names, moves, tolerance)
+    if common is not None:
+        own, *others = (o.moved_by(common) for o in (own, *(o for _, o in made)))
+        made = [(v, o) for (v, _), o in zip(made, others, strict=True)]
+        moves, out = _compared(own, other, names, MARGIN * tolerance, made)
+        out.insert(0, _of_all(common, tolerance))
+    out += [_moved(name, move, tolerance) for name, move in moves.items()]
+    out += _missing(own, other, names, tolerance)
+    return tuple(out)
+
+
+def _compared(
+    own: Objects,
+    other: Objects,
+    names: dict[str, str],
+    tolerance: float,
+    made: Sequence[tuple[Variant, Objects]],
+) -> tuple[dict[str, Move], list[Difference]]:
+    """Return how objects are moved, and what else differs of those with a partner."""
+    moves: dict[str, Move] = {}
+    out: list[Difference] = []
+    for name in names:
+        triangles, shown = own.triangles[name], other.triangles[names[name]]
+        found = _of_object(name, triangles, shown, tolerance, made)
+        if found is not None:
+            out += found
+        elif move := move_between(triangles, shown, tolerance):
+            moves[name] = move
+            out += _turned_over(name, move.of(triangles), shown, 8 * tolerance)
+        else:
+            out.append(_of_triangles(name, triangles, shown, tolerance))
+    return moves, out
+
+
+def _common(
+    own: Objects, other: Objects, names: dict[str, str], moves: dict[str, Move], tolerance: float
+) -> Move | None:
+    """Return a transform that most of several objects have in common, if there is one.
+
+    An object with symmetries is moved in several ways: so each way is tried on all objects.
+    """
+    for move in [*moves.values()][:_TRIED]:
+        alike = 0
+        for name in moves:
+            there = move.of(own.triangles[name])
+            found = matched(there, other.triangles[names[name]], MARGIN * tolerance)
+            alike += int((found.same + found.turned > 0).all())
+        if 2 * alike > len(names) > 1:
+            return move
+    return None
+
+
+def _of_all(move: Move, tolerance: float) -> Difference:
+    words = Move(move.axes, move.by, np.zeros(3)).words(tolerance)
+    up = "if the file has Y up, --up y turns it" if "90 degrees about X" in words else ""
+    return Difference("", "scene_moved", f"all objects are {words}", up)
+
+
+def _moved(name: str, move: Move, tolerance: float) -> Difference:
+    words = move.words(tolerance)
+    kind = "object_scaled" if words.startswith("scaled") else "object_moved"
+    return _of_fault(kind, name, f"'{name}' is {words}")
+
+
+def _paired(own: Objects, other: Objects) -> dict[str, str]:
+    """Return which objects have one name: as it is, or as formats write names."""
+    plain = {_plain(name): name for name in reversed(other.triangles)}
+    same = {name: name for name in own.triangles if name in other.triangles}
+    taken = set(same.values())
+    for name in own.triangles:
+        near = plain.get(_plain(name))
+        if name not in same and near is not None and near not in taken:
+            same[name] = near
+            taken.add(near)
+    return same
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"\W+", "_", re.sub(r" \(node \d+\)$", "", name)).lower()
+
+
+def _of_object(
+    name: str,
+    own: Floats,
+    other: Floats,
+    tolerance: float,
+    made: Sequence[tuple[Variant, Objects]],
+) -> list[Difference] | None:
+    """Return how an object differs that is in place, or as a variant has it; None if neither."""
+    there, back = matched(own, other, tolerance), matched(other, own, tolerance)
+    if (there.same + there.turned > 0).all() and (back.same + back.turned > 0).all():
+        found = list(_turned_over(name, own, other, tolerance))
+        if len(other) > len(own):
+            times = len(other) / len(own)
+            say = f"'{name}' is there {times:.3g} times in one place"
+            found.append(Difference(name, "object_twice", say, _FAULT["object_twice"].advice))
+        elif len(other) < len(own):
+            doubles = count_of(len(own) - len(other), "triangle")
+            say = f"{doubles} of '{name}' that are there twice are there once"
+            found.append(Difference(name, "doubles_left_out", say))
+        return found
+    for variant, objects in made:
+        same = objects.triangles.get(name)
+        if same is None or len(same) != len(other) or not variant.fault:
+            continue
+        found_there = matched(same, other, tolerance)
+        if (found_there.same + found_there.turned > 0).all():
+            words = f"'{name}'" if variant.fault != "subdivision" else f"'{name}', {variant.words}"
+            return [_of_fault(variant.fault, name, words=words)]
+    return None
+
+
+def _turned_over(name: str, own: Floats, other: Floats, tolerance: float) -> Iterator[Difference]:
+    """Yield that triangles have their other side in front."""
+    found = matched(own, other, tolerance)
+    turned = int(((found.same == 0) & (found.turned > 0)).sum())
+    if turned:
+        which = "all normals" if turned == len(own) else f"the normals of {turned:,} triangles"
+        yield _of_fault("flipped_winding", name, f"{which} of '{name}' are turned over")
+
+
+def _of_triangles(name: str, own: Floats, other: Floats, tolerance: float) -> Difference:
+    """Return how the triangles of an object differ that no transform explains."""
+    counts = f"{len(other):,} triangles, not {len(own):,}"
+    for level in _LEVELS:
+        if len(other) == len(own) * 4.0**level:
+            say = f"'{name}' has {counts}: as with {abs(level)} {'more' if level > 0 else 'fewer'}"
+            return _of_fault("subdivision", name, f"{say} levels of subdivision")
+    points = own.reshape(-1, 3), other.reshape(-1, 3)
+    there = matched(own, other, tolerance)
+    same = int((there.same + there.turned > 0).sum())
+    if len(other) < len(own) and same == len(other):
+        return _of_fault(
+            "triangles_missing", name, f"'{name}' lacks {len(own) - same:,} of its triangles"
+        )
+    if len(own) == len(other) and points_alike(*points, tolerance):
+        say = f"{len(own) - same:,} of {len(own):,} triangles of '{name}' are cut otherwise"
+        return _of_fault("other_diagonal", name, f"{say}, from the same corners")
+    size = np.abs(np.ptp(points[1], axis=0) - np.ptp(points[0], axis=0)).max()
+    say = (
+        f"'{name}' has other triangles: {counts}; {same:,} are the same, and its extent differs by"
+    )
+    return Difference(name, "other_triangles", f"{say} {size:.3g} m at most")
+
+
+def _missing(
+    own: Objects, other: Objects, names: dict[str, str], tolerance: float
+) -> Iterator[Difference]:
+    """Yield the objects that have no partner of their name."""
+    left = [name for name in own.triangles if name not in names]
+    more = [name for name in other.triangles if name not in names.values()]
+    for name in more:
+        triangles = other.triangles[name]
+        alike = _found(own, [*left, *names], triangles, tolerance)
+        if alike is None:
+            yield Difference(name, "object_added", f"'{name}' is not in the first scene")
+            continue
+        of, move = alike
+        where = move.words(tolerance)
+        where = "" if where == "unchanged" else f", {where}"
+        if of in left:
+            left.remove(of)
+            yield Difference(of, "object_renamed", f"'{of}' is called '{name}'{where}")
+        else:
+            yield _of_fault("object_twice", of, f"'{of}' is there twice: again as '{name}'{where}")
+    for name in left:
+        yield _of_fault("object_missing", name)
+
+
+def _found(
+    own: Objects, names: Sequence[str], triangles: Floats, tolerance: float
+) -> tuple[str, Move] | None:
+    """Return the first of some objects that has these triangles, and how it is moved."""
+    for name in names:
+        move = move_between(own.triangles[name], triangles, tolerance)
+        if move is not None:
+            return name, move
+    return None
