@@ -12,7 +12,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from reference_tracer import Verdict, images, render, save_scene
+from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.opened import file_manifest
 from reference_tracer.report.junit import Judged, junit
+from reference_tracer.scene_files import Account
 from reference_tracer.testing import assert_sees as check
 from reference_tracer_conformance.scenes import kit_scenes
 
@@ -52,6 +55,17 @@ def test_its_own_picture_passes_and_another_camera_s_does_not(scene, tmp_path):
     assert check(tmp_path / "scene.npz", color, camera=scene.camera).counts.differ == 0
     with pytest.raises(AssertionError, match="not what the camera sees: the camera"):
         check(moved(scene, 3), color)
+
+
+def test_what_a_file_lacks_counts_with_another_camera_too(scene, tmp_path):
+    lost = Unmodelled("lost.bin", "buffer", effect=Effect.MISSING)
+    manifest = file_manifest(tmp_path, scene, Account((lost,)))
+    path = tmp_path / "scene.npz"
+    save_scene(path, scene, manifest)
+    color = render(scene).color
+    for camera in (None, scene.camera):
+        with pytest.raises(AssertionError, match=r"lost\.bin"):
+            check(path, color, camera=camera)
 
 
 def test_a_failure_says_what_is_wrong_and_leaves_a_page(scene, tmp_path):
