@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from reference_tracer.scene import SceneError
+from reference_tracer_conformance.report import NAMES
 
 PROJECT = Path(__file__).parents[2]
 RENDERER = PROJECT / "packages" / "conformance" / "examples" / "embreex_obj.py"
@@ -184,6 +187,25 @@ def test_what_contradicts_itself_is_refused(words, said, exit_code, capsys, tmp_
     assert exit_code(["conform", *words]) == 4
     assert said in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
+def test_a_signal_without_a_name_is_told_by_its_number(conform):
+    _, _, found = conform("sh -c 'kill -40 $$; : {scene} {out}'", "mesh-ball")
+    assert found["mesh-ball"]["wrong"] == "the program was ended by signal 40"
+
+
+def test_a_run_that_breaks_off_leaves_no_result_of_an_earlier_one(conform, out, monkeypatch):
+    conform(rendered(RENDERER), "mesh-triangle")
+    assert (out / "junit.xml").exists()
+
+    def breaks(*_):
+        raise SceneError("the kit cannot be written")
+
+    monkeypatch.setattr("reference_tracer_conformance.judging.write_kit", breaks)
+    code, told, _ = conform(rendered(RENDERER), "mesh-triangle")
+    assert code == 4 and "cannot be written" in told
+    assert not any((out / name).exists() for name in NAMES)
 
 
 def test_the_second_run_leaves_no_page_of_the_first(conform, out, tmp_path):
