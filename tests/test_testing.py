@@ -14,6 +14,7 @@ import pytest
 from reference_tracer import Verdict, images, render, save_scene
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.opened import file_manifest
+from reference_tracer.pytest_plugin import _name_of
 from reference_tracer.report.junit import Judged, junit
 from reference_tracer.scene_files import Account
 from reference_tracer.testing import assert_sees as check
@@ -111,6 +112,14 @@ def test_the_examples_of_the_page_run(scene, tmp_path):
     assert page.parent.name == "sees-1" and page.parent.parent.name.startswith("test_1.py")
     assert f"its page: {page.relative_to(tmp_path)}" in done.stdout
     assert "testing.py" not in done.stdout  # the failure is the test's own line
+
+
+def test_folders_of_tests_with_long_names_can_be_made(tmp_path):
+    names = {_name_of(f"test_a.py::test[{'x' * 400}{end}]") for end in "ab"}
+    names |= {_name_of(f"test_a.py::test[{'ä' * 400}]"), _name_of("test_a.py::test")}
+    assert len(names) == 4 and "test_a.py-test" in names
+    for name in names:
+        (tmp_path / name).mkdir()
 
 
 def test_the_plugin_imports_nothing_before_it_is_used():
