@@ -38,7 +38,7 @@ set-up-tests: extension
 		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
 	done
 
-prove: .venv/.stamp ## have Coq read the proofs: 3.5 minutes on two cores; root installs Coq if it is missing
+prove: .venv/.stamp ## have Coq read the proofs: 6 minutes on two cores; root installs Coq if it is missing
 	tools/coq.sh setup
 	$(PYTHON_IN_VENV) tools/prove.py
 
@@ -59,7 +59,7 @@ test-gpu: extension ## compare all sample scenes with what draws here, a graphic
 	$(PYTHON_IN_VENV) tools/gpu.py $(if $(BLENDER),--blender "$(BLENDER)")
 
 # OPEN3D=1: Open3D's code, too, whose wheel has 400 MB.
-cameras: .venv/.stamp ## have the code of COLMAP, Mitsuba and OpenCV read camera files: two tables; 160 MB of wheels
+cameras: .venv/.stamp ## have the code of COLMAP, Mitsuba, OpenCV and pyrender read camera files: two tables; 200 MB of wheels
 	$(PYTHON_IN_VENV) tools/cameras.py $(if $(OPEN3D),--open3d)
 
 # What `make test` samples, at its full length.

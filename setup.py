@@ -6,6 +6,8 @@ PACKAGES = {  # by the folder that each stands in
     "packages/grading": "reference_tracer_grading",
     "packages/benchmarks": "reference_tracer_benchmarks",
     "packages/cluster": "reference_tracer_cluster",
+    "packages/conformance": "reference_tracer_conformance",
+    "packages/processes": "reference_tracer_processes",
     "packages/verify": "reference_tracer_verify",
     "packages/scene_diff": "reference_tracer_scene_diff",
 }

@@ -137,7 +137,7 @@ def trace(
         To count in.
     rays : Rays, optional
         Any rays to trace instead. The camera's clip range applies to t, in lengths of a direction.
-        Each is tested with every triangle.
+        Where there are many, a tree of boxes says which triangles each may meet.
     """
     statistics = statistics or Statistics()
     settings = resolved(settings, statistics)

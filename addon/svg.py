@@ -24,7 +24,12 @@ def element(name: str, *inside: str, **attributes: str | float) -> str:
 
 def said(name: str, words: str, **attributes: str | float) -> str:
     """Return an element that holds words, whatever they hold."""
-    return element(name, escape(_NO_XML.sub("\ufffd", words)), **attributes)
+    return element(name, escape(legal(words)), **attributes)
+
+
+def legal(words: str) -> str:
+    """Return words with what XML cannot hold, as control characters, made visible."""
+    return _NO_XML.sub("\ufffd", words)
 
 
 @cache

@@ -2,6 +2,7 @@
 From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
 From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
+From Reftrace Require Import CodeRange IntegersCode TwoTriangles.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
     underflow included; k counts the roundings along its longest path. *)
@@ -134,3 +135,32 @@ Check Cells.nearness_encloses.
 (** The sweep, from facts about single events: it has the owner that plain has, and is ambiguous where
     plain is. *)
 Check Sweep.sweep_sees_what_plain_does.
+(** Taken of quotient.py is a t that is sure, and finite: as recorded. *)
+Check CodeRange.taken_is_finite.
+(** Integers: the code's hit of a ray on a triangle, before the clip range, is the model's. *)
+Check IntegersCode.hit_is.
+(** Integers: likewise on an infinite plane. *)
+Check IntegersCode.plane_is.
+(** Integers: likewise whether a hit is in the clip range, with a start and an end. *)
+Check IntegersCode.clipped_both_is.
+(** Integers: likewise what is divided for t. *)
+Check IntegersCode.t_is.
+(** Integers: likewise the order of two hits of the ray that is not moved. *)
+Check IntegersCode.gap_is.
+(** Integers: likewise of the moved ray. *)
+Check IntegersCode.sign_of_difference_is.
+(** Integers: likewise the sign of an edge function for the moved ray. *)
+Check IntegersCode.sign_is.
+(** Integers: likewise whether the moved ray crosses a triangle. *)
+Check IntegersCode.is_crossed_is.
+(** Integers: likewise what decides the order of two surfaces for rays from one point. *)
+Check IntegersCode.difference_from_point_is.
+(** Integers: likewise for parallel rays. *)
+Check IntegersCode.difference_parallel_is.
+(** Integers: likewise which of three hits is seen. *)
+Check IntegersCode.first_of_3_is.
+(** Integers: likewise whether two hits leave a tie. *)
+Check IntegersCode.no_ties_2_is.
+(** An example: of two triangles, Coq computes that the near one's interval ends before the far one's
+    begins. *)
+Check TwoTriangles.near_is_nearer.

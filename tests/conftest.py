@@ -33,6 +33,7 @@ MARKED = {  # all tests of a folder, or of a file
     "tests/benchmarks/": "slow",
     "tests/blender/": "blender",
     "tests/fuzz/": "slow",
+    "tests/conformance/": "slow",
     "tests/grading/": "slow",
     "tests/suites/": "slow",
     "tests/test_errands.py": "slow",

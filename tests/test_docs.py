@@ -174,13 +174,22 @@ def test_the_animation_turns_and_is_small():
     assert all((a != b).any(axis=-1).mean() > 0.02 for a, b in turned)
 
 
-def test_the_clip_has_the_first_steps():
-    path = DOCS / "images" / "tutorial" / "steps.webp"
-    assert path.stat().st_size < 150_000
-    with Image.open(path) as clip:
-        frames = [np.asarray(f.convert("RGB"), int) for f in ImageSequence.Iterator(clip)]
-    changed = pairwise(frames)
-    assert len(frames) == 5 and all((a != b).any(axis=-1).mean() > 0.05 for a, b in changed)
+def test_each_clip_shows_a_plans_step_and_is_small():
+    clips = sorted(DOCS.glob("images/lessons/clips/*.webp"))
+    linked = re.findall(
+        r"^(\d)\. .*clips/(\w+)_(\d)\.webp",
+        "\n".join(p.read_text("utf-8") for p in DOCS.glob("lessons/plans/*.md")),
+        re.M,
+    )
+    assert sorted(f"{name}_{step}" for _, name, step in linked) == [p.stem for p in clips]
+    assert len(clips) == 18 and all(step == number for number, _, step in linked)
+    for path in clips:
+        assert path.stat().st_size < 300_000, path.name
+        with Image.open(path) as clip:
+            shown = [f.convert("L").resize((220, 124)) for f in ImageSequence.Iterator(clip)]
+        frames = [np.asarray(frame, int) for frame in shown]
+        assert len(frames) > 1, path.name
+        assert all((abs(a - b) > 8).any() for a, b in pairwise(frames)), path.name
 
 
 def test_every_fault_is_described():

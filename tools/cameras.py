@@ -1,6 +1,6 @@
 """How far each convention's camera files are off, in pixels, over a camera's settings: one table.
 
-    make cameras             the published formulas, and COLMAP's, Mitsuba's, OpenCV's own code
+    make cameras             the published formulas; COLMAP's, Mitsuba's, OpenCV's, pyrender's code
     make cameras OPEN3D=1    Open3D's, too, whose wheel has 400 MB
 
 What is judged is the largest distance over known points from Blender's own matrix. The programs are
@@ -30,6 +30,7 @@ WHEELS = {
     "colmap": "pycolmap==4.2.1",
     "mitsuba": "mitsuba==3.9.1",
     "opencv": "opencv-python-headless==5.0.0.93",
+    "nerf": "pyrender==0.1.45",  # whose camera is told by these numbers
     "open3d": "open3d==0.20.0",
 }
 # Pixels: Blender's matrix and Mitsuba's and Open3D's rays are float32.

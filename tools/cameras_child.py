@@ -6,6 +6,7 @@ Run by `cameras.py` in an environment of these programs, which knows nothing of 
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -61,6 +62,21 @@ def mitsuba(folder: Path, points: np.ndarray, film: np.ndarray) -> tuple[str, fl
     return f"Mitsuba {mi.__version__}", worst
 
 
+def pyrender(folder: Path, points: np.ndarray, film: np.ndarray) -> tuple[str, float]:
+    """pyrender's projection matrix of the focal lengths, and the pose as OpenGL has it."""
+    os.environ.setdefault("PYOPENGL_PLATFORM", "egl")
+    import pyrender
+
+    file = json.loads((folder / "camera.xml").read_text(encoding="utf-8"))
+    lens = pyrender.IntrinsicsCamera(*(file[name] for name in ("fl_x", "fl_y", "cx", "cy")))
+    projection = lens.get_projection_matrix(file["w"], file["h"])
+    pose = np.array(file["frames"][0]["transform_matrix"])
+    seen = np.linalg.solve(pose, np.vstack((points, np.ones(points.shape[1]))))
+    x, y, _, w = projection @ seen
+    found = np.stack(((1 + x / w) / 2 * file["w"], (1 - y / w) / 2 * file["h"]))
+    return f"pyrender {pyrender.__version__}", float(np.abs(found - film).max())
+
+
 def open3d(folder: Path, points: np.ndarray, film: np.ndarray) -> tuple[str, float]:
     """Open3D reads the parameters, and makes the rays of all pixels."""
     import open3d as o3d
@@ -85,6 +101,7 @@ PROGRAMS: dict[str, Callable[..., Any]] = {
     "colmap": colmap,
     "opencv": opencv,
     "mitsuba": mitsuba,
+    "nerf": pyrender,
     "open3d": open3d,
 }
 

@@ -84,9 +84,10 @@ def main() -> None:
         page = PROJECT / "out" / "demo" / "page.html"  # of `make demo`
         browser.save(page, DOCS / "images" / "page.png", 1400, 1130)
     if not options.no_window:
-        from documents import window
+        from documents import clips, window
 
         window.write(DOCS / "images" / "tutorial")
+        clips.write(DOCS / "images" / "lessons" / "clips")
     values = figures.values() | derivations.values() | records.values() | subjects.values()
     values |= {"python_api": python.page()}
     page = PROJECT / "ARCHITECTURE.md"

@@ -4,7 +4,8 @@
 
 First what the tracer does now is recorded in proofs/recorded/. Then every file of proofs/ is
 compiled, and Coq is asked what the theorems named in proofs/Claims.v assume. Nothing may be left
-out (`Admitted`), and nothing assumed but what Coq's real numbers rest on. At the end digests of
+out (`Admitted`), and nothing assumed but what Coq's real numbers rest on. What was compiled is read
+once more by `coqchk`, which has Coq's kernel alone, and none of its tactics. At the end digests of
 what was recorded are kept: by them `make test` knows, without Coq, that the code is as proven.
 """
 
@@ -18,7 +19,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import record_trees
-from recorder.records import FILES
+from recorder.records import NAMES
 
 PROOFS = Path(__file__).resolve().parents[1] / "proofs"
 # What Coq's library of real numbers, and Flocq on it, take for granted: classical logic, and that
@@ -44,7 +45,7 @@ def files() -> list[Path]:
 
 def recorded() -> list[Path]:
     """Return the Coq files that are recorded from the code, be they there or not."""
-    return [record_trees.RECORDED / f"{name}.v" for name in FILES]
+    return [record_trees.RECORDED / f"{name}.v" for name in NAMES]
 
 
 def listed() -> list[Path]:
@@ -103,6 +104,14 @@ def assumptions(theorems: list[str]) -> set[str]:
     return {line.split()[0] for line in listed.splitlines() if line and not line[0].isspace()}
 
 
+def checked(said: str) -> set[str]:
+    """Return the axioms that `coqchk -o` names; the program ends if it names anything else."""
+    summary = re.search(r"\* Axioms:(.*?)\n\s*\* (.*)", said, re.DOTALL)
+    if not summary or re.findall(r": (.+)", summary[2]) != ["<none>"] * 3:
+        sys.exit(f"coqchk has not found all in order:\n{said}")
+    return {".".join(name.split(".")[-2:]) for name in summary[1].split()}
+
+
 def main() -> None:
     """Record, compile, ask, and print."""
     if sorted(listed()) != sorted([*files(), *recorded()]):
@@ -117,6 +126,9 @@ def main() -> None:
         print(f"{name}\n    {words}")
     if others := (assumed := assumptions([name for name, _ in every])) - AXIOMS:
         sys.exit(f"assumed beyond Coq's real numbers: {', '.join(sorted(others))}")
+    again = checked(run("coqchk", "-silent", "-o", "-Q", ".", "Reftrace", "Reftrace.Claims"))
+    if not again <= AXIOMS:
+        sys.exit(f"coqchk names other axioms: {', '.join(sorted(again - AXIOMS))}")
     texts = [path.read_text(encoding="utf-8") for path in listed()]
     lines = sum(len(text.splitlines()) for text in texts)
     print(

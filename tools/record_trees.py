@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 from recorder import coq
-from recorder.records import FILES, outputs
+from recorder.records import every_output
 
 RECORDED = Path(__file__).resolve().parents[1] / "proofs" / "recorded"
 PROVEN = RECORDED / "proven.txt"  # digests of what Coq has read: the files themselves are not kept
@@ -28,9 +28,10 @@ def proven() -> dict[str, str]:
 def write() -> str:
     """Record all functions and write the Coq files; return their digests as `PROVEN` has them."""
     lines = []
-    for file, records in FILES.items():
-        found = [output for record in records for output in outputs(record)]
-        (RECORDED / f"{file}.v").write_text(coq.text(found), encoding="utf-8")
+    for file, found in every_output():
+        path, text = RECORDED / f"{file}.v", coq.text(file, found)
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
         lines += [f"{name} {digest}\n" for name, digest in coq.digests(file, found).items()]
     return "".join(lines)
 
@@ -39,8 +40,7 @@ def check() -> list[str]:
     """Record all functions; return in words what Coq has not read so."""
     before = proven()
     changed = []
-    for file, records in FILES.items():
-        found = [output for record in records for output in outputs(record)]
+    for file, found in every_output():
         changed += coq.differences(file, before, found)
     return changed
 

@@ -1,6 +1,7 @@
 """Decides rays that are not a camera's: with every triangle, or pair by pair.
 
-They share nothing that could say which triangles they come near, so nothing is culled.
+They share nothing that could say which triangles they come near: where there are many, a tree of
+boxes does (`tree.py`).
 """
 
 from __future__ import annotations
@@ -10,29 +11,74 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Bools, Floats, Index
+from ..certainty import Certainty
 from ..scene import Scene
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics
 from ..tracer.nearest import every_pair
-from ..tracer.progress import Work
+from ..tracer.progress import Work, result_of
 from ..tracer.settings import Settings
-from ..tracer.vector import occurring
+from ..tracer.vector import occurring, parts
 from .arithmetic import sound, sound_steps
 from .bounds import FromPoint
 from .exact import IntegerBatch
 from .ladder import Ladder, in_range, sides
 from .many import hits as hits_of
-from .surfaces import SURE
+from .surfaces import SURE, Surfaces
+from .tree import RAYS, Tree
+
+_FEW = 1 << 20  # pairs that are tested faster than a tree is made
+
+
+def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
+    """Find the nearest hits of n rays with t in the camera's clip range, with proof, in steps."""
+    clip = scene.camera.clip_start, scene.camera.clip_end
+    culled = rays.count * scene.triangle_count > _FEW
+    return (yield from nearest_hits(scene, rays, clip, statistics, culled))
 
 
 @sound_steps
-def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
-    """Find the nearest hits of n rays with t in the camera's clip range, with proof, in steps."""
-    ladder = Ladder.of(scene, rays)
-    for pairs in every_pair(scene, rays, statistics):
-        ladder.test(pairs)
-        yield 0.0
-    return (yield from ladder.hits(statistics))
+def nearest_hits(
+    scene: Scene,
+    rays: Rays,
+    clip: tuple[float, float],
+    statistics: Statistics,
+    culled: bool = True,
+) -> Work[Hits]:
+    """Find the nearest hits of n rays with start <= t <= end, with proof, in steps.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its camera has no effect.
+    rays : Rays
+        Finite, float64.
+    clip : (start, end) float
+        As of a `Ladder`.
+    statistics : Statistics
+        To count in.
+    culled : bool
+        Whether a tree of boxes proposes the pairs; else each ray is tested with each triangle.
+        The result is the same.
+    """
+    surfaces = Surfaces.planes_of(scene)
+    if not culled:
+        ladder = Ladder(rays, surfaces, clip)
+        for pairs in every_pair(scene, rays, statistics):
+            ladder.test(pairs)
+            yield 0.0
+        return (yield from ladder.hits(statistics))
+    tree = Tree.of(scene)
+    found = []
+    for some in parts(rays.count, RAYS):
+        yield some.start / rays.count
+        own = rays.take(np.arange(rays.count)[some])
+        ladder = Ladder(own, surfaces, clip)
+        for pairs in tree.pairs(own, *clip):
+            statistics.pairs_tested += len(pairs.pixel)
+            ladder.test(pairs)
+        found.append(result_of(ladder.hits(statistics)))
+    return Hits.joined(found) if found else Hits.none(0, Certainty.BOUND)
 
 
 @dataclass(frozen=True, eq=False)

@@ -43,7 +43,7 @@ import numpy as np
 
 from ..arrays import Index
 from ..scene import Scene
-from ..tracer.camera import camera_rays, film_positions
+from ..tracer.camera import Rays, camera_rays, film_positions
 from ..tracer.hits import NOTHING, NOWHERE, Name
 from ..tracer.world import WorldTriangles, batches, world_triangles
 from .exact import IntegerBatch
@@ -67,9 +67,13 @@ def definition(scene: Scene, pixels: Index | None = None) -> Iterator[Seen]:
     """
     camera = scene.camera
     rays = camera_rays(camera, *film_positions(camera.region, pixel=pixels))
+    return seen_by(scene, rays, (camera.clip_start, camera.clip_end))
+
+
+def seen_by(scene: Scene, rays: Rays, clip: tuple[float, float]) -> Iterator[Seen]:
+    """Yield what any rays see in a clip range."""
     triangles, names = _surfaces(scene)
     planes = [(plane.point, plane.normal) for plane in scene.planes]
-    clip = camera.clip_start, camera.clip_end
     integers = IntegerBatch(rays, triangles.corners, planes, *clip)  # planes first, as in `names`
     for ray in range(rays.count):
         met = []

@@ -94,7 +94,7 @@ class Prepared:
         s = self._weights(rays, row) if len(self._edges.T) else np.zeros((3, len(surface)))
         if self._planes:
             s[:, surface < self._planes] = 0
-        return t, sure & ~np.isnan(s[0]), s
+        return t, sure & np.isfinite(t) & ~np.isnan(s[0]), s
 
     def _weights(self, rays: Rays, row: Index) -> Vectors:
         """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by D; NaN if they may be off."""

@@ -83,7 +83,7 @@ def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -
         metavar="METRES",
         help="with --eye: make the camera orthographic, with a picture of this height",
     )
-    _add_parts_of_blend(parser)
+    add_parts_of_blend(parser)
 
 
 def _add_which(group: _ActionsContainer, parser: Parser) -> None:
@@ -113,7 +113,8 @@ def _add_which(group: _ActionsContainer, parser: Parser) -> None:
     )
 
 
-def _add_parts_of_blend(parser: Parser) -> None:
+def add_parts_of_blend(parser: Parser) -> None:
+    """Add the options for what is taken of a .blend, but for its camera."""
     group = parser.add_argument_group("what to take of a .blend (default: as it was saved)")
     group.add_argument("--scene", metavar="NAME", dest="scene_name", help="the scene")
     group.add_argument("--view-layer", metavar="NAME", help="the view layer")

@@ -25,7 +25,7 @@ from .data_options import add_data, data_from
 from .parser import AT_LEAST_0, Parser
 
 # A frame of an animation stays the same whatever these are.
-_NOT_OF_A_FRAME = "scene", "out", "frames", "against", "data", "colors_out", "place"
+_NOT_OF_A_FRAME = "scene", "out", "frames", "against", "data", "colors_out", "junit", "place"
 
 # Options for a picture of unknown origin.
 _OF_GIVEN = "filter", "renderer"
@@ -55,6 +55,7 @@ class CompareOptions:
     dither: float | None  # levels of 255
     renderer: str | None  # whose rounding excuses a pixel; None for what the picture says
     colors_out: Path | None  # where the colours are written that it should have
+    junit: Path | None  # where the verdict is written as JUnit's XML
     # What the page shows besides.
     trade: bool
     extremes: bool
@@ -93,6 +94,7 @@ class CompareOptions:
             dither=given.dither,
             renderer=given.renderer,
             colors_out=given.colors_out,
+            junit=given.junit,
             trade=given.trade,
             extremes=given.extremes,
             place=place_from(given),
@@ -142,6 +144,12 @@ def add_options(parser: Parser) -> None:
     parser.add_scene("scene.blend; with --against also scene.npz or a mesh")
     parser.add_argument(
         "--out", required=True, type=parser.path, metavar="DIR", help="folder for what is found"
+    )
+    parser.add_argument(
+        "--junit",
+        type=parser.path_ending(".xml"),
+        metavar="FILE",
+        help="also write the verdict as JUnit's XML, which systems that run tests read",
     )
     add_settings(parser)
     _add_colors(parser)

@@ -49,8 +49,10 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     return opened.scene, opened.settings
 
 
-def open_file(path: Path, choice: Choice = _AS_SAVED) -> OpenedFile:
+def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> OpenedFile:
     """Open a .blend, a .npz or a mesh. Meshes are framed where no camera is chosen.
+
+    Of a .blend, what is outside the camera's view is left out, unless the `whole` is asked for.
 
     Raises
     ------
@@ -62,7 +64,7 @@ def open_file(path: Path, choice: Choice = _AS_SAVED) -> OpenedFile:
             from ..blender.jobs.open_file import export_open_file
 
             with running.meanwhile(f"having Blender evaluate {path.name}"):
-                scene, manifest, settings = export_open_file(blender.context)
+                scene, manifest, settings = export_open_file(blender.context, whole=whole)
         return OpenedFile(scene, manifest, settings)
     check_kind(path)
     with running.meanwhile(f"reading {path.name}"):

@@ -168,8 +168,16 @@ class Evidence:
         r = case.scene.camera.region
         if (r.height, r.width) != self.unexplained.shape:
             return Score(0, 0)
-        hits = yield from self.trace(case.scene)
+        own = self._own_hits if case.scene is self.case.scene else []
+        if not own:
+            own.append((yield from self.trace(case.scene)))
+        hits = own[0]
         return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
+
+    @cached_property
+    def _own_hits(self) -> list[Hits]:
+        """The hits of the sampled pixels in the scene as it is, once they were asked for."""
+        return []
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
         """Return which of the n sampled pixels agree with the n hits of a scene, (n,)."""

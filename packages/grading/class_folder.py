@@ -17,13 +17,13 @@ from pathlib import Path
 
 from reference_tracer import __version__
 from reference_tracer.report.folders import write_json, write_text
+from reference_tracer_processes.sandbox import sandbox
 
 from .external import Run
 from .formats import FORMATS
 from .judging import Judgement
 from .page import class_page, page
 from .report import Student, student, to_dict
-from .sandbox import sandbox
 from .subjects.subject import Subject
 
 JSON, PAGE, STUDENTS = "judge.json", "judge.html", "students"

@@ -28,11 +28,12 @@ from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.progress import Work, called, result_of, scaled
 from reference_tracer.wording import count_of, say
+from reference_tracer_processes.running import Limits
+from reference_tracer_processes.sandbox import sandbox
 
 from .exchange import EXCHANGES
 from .external import Run
 from .options import PIXELS, JudgeOptions
-from .sandbox import sandbox
 from .subjects import NAMES, subject
 
 # As `formats.FORMATS`, which needs all of judging.
@@ -223,7 +224,6 @@ def _work(
     from .extremes import extreme_scenes
     from .judged_scene import prepare
     from .judging import judge_all
-    from .submission import Limits
 
     judged = []
     for k, (name, scene, path) in enumerate(scenes):

@@ -8,23 +8,19 @@ own. It may still read what its user may. `docs/programs.md` says what it reads 
 from __future__ import annotations
 
 import os
-import shlex
-import signal
-import subprocess
 import tempfile
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
 from reference_tracer.arrays import Floats
-from reference_tracer.cli.running import printable
+from reference_tracer_processes.running import KEPT, Limits, ProgramError, filled, run, words_of
 
 from .exchange import ANSWERS, EXCHANGES, RAYS, all_of, answers_in, most_bytes
 from .form import Form
-from .sandbox import kept_in, limited
 from .student_error import StudentError
-from .submission import KEPT, Limits, Submission, kill
+from .submission import Submission
 
 
 @dataclass(frozen=True)
@@ -47,10 +43,7 @@ class Run:
         ValueError
             If a quotation has no end, or there is no word.
         """
-        words = tuple(w.strip('"') for w in shlex.split(command, posix=os.name != "nt"))
-        if not words:
-            raise ValueError("there is no command")
-        return cls(command, words, exchange)
+        return cls(command, words_of(command), exchange)
 
 
 class Program(Submission):
@@ -86,50 +79,29 @@ class Program(Submission):
         given, made = (own / f"{name}{self._exchange.ending}" for name in ("rays", "answers"))
         self._exchange.write(given, rays)
         paths = {RAYS: str(given), ANSWERS: str(made)}
-        words = [_filled(word, paths) for word in self.words]
+        words = filled(self.words, paths)
         by_pipe = not any(ANSWERS in word for word in self.words)
         with (
             given.open("rb") as source,
             (folder / "said").open("w+b") as err,
             (folder / "printed").open("w+b") as out,
         ):
-            code = self._waited(words, own, source, out, err)
-            self._keep(err, *(() if by_pipe else (out,)))
-            if code:
-                raise StudentError("ended", f"{_how(code)}: {_last(err)}".rstrip(": "))
+            began = time.monotonic()
+            try:
+                run(words, own, replace(self.limits, seconds=self._left), (source, out, err))
+            except ProgramError as error:
+                of_limit = f" of {self.limits.seconds:g} s for one scene"
+                text = error.message + of_limit * (error.kind == "time")
+                raise StudentError(error.kind, text) from error
+            finally:
+                self._left -= time.monotonic() - began
+                self.seconds += time.monotonic() - began
+                self._keep(err, *(() if by_pipe else (out,)))
             most = most_bytes(self.form, len(rays))
             if by_pipe:
                 out.seek(0)
                 return all_of(out, most)
             return answers_in(made, most)
-
-    def _waited(
-        self, words: list[str], folder: Path, source: IO[bytes], out: IO[bytes], err: IO[bytes]
-    ) -> int:
-        own = {"TMPDIR": str(folder), "OMP_NUM_THREADS": "1"}
-        began = time.monotonic()
-        try:
-            process = subprocess.Popen(
-                kept_in(words, folder, own),
-                stdin=source,
-                stdout=out,
-                stderr=err,
-                env=os.environ | own,
-                start_new_session=True,
-                **limited(self.limits),
-            )
-        except OSError as error:
-            raise StudentError("ended", f"it cannot be started: {error}") from error
-        try:
-            return process.wait(max(self._left, 0.0))
-        except subprocess.TimeoutExpired as error:
-            text = f"took longer than the time limit of {self.limits.seconds:g} s for one scene"
-            raise StudentError("time", text) from error
-        finally:
-            kill(process)
-            process.wait()
-            self._left -= time.monotonic() - began
-            self.seconds += time.monotonic() - began
 
     def _keep(self, *printed: IO[bytes]) -> None:
         """Keep the first of what it printed."""
@@ -137,22 +109,3 @@ class Program(Submission):
             self.printed += file.seek(0, os.SEEK_END)
             file.seek(0)
             self._said += file.read(KEPT - len(self._said))
-
-
-def _filled(word: str, own: dict[str, str]) -> str:
-    for name, value in own.items():
-        word = word.replace(name, value)
-    return word
-
-
-def _how(code: int) -> str:
-    if code < 0:
-        return f"the program was ended by {signal.Signals(-code).name}"
-    return f"the program ended with exit code {code}"
-
-
-def _last(file: IO[bytes]) -> str:
-    """Return the last line of what a program has printed."""
-    file.seek(max(0, file.seek(0, os.SEEK_END) - KEPT))
-    lines = file.read().decode("utf-8", "replace").strip().splitlines()
-    return printable(lines[-1])[:200] if lines else ""

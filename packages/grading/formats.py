@@ -10,7 +10,8 @@ import io
 import json
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import PurePosixPath
-from xml.etree import ElementTree
+
+from reference_tracer.report.junit import Judged, junit
 
 from .judging import CHECKS
 from .report import Student
@@ -39,20 +40,15 @@ def _as_text(name: str) -> str:
 
 def as_junit(pages: Pages) -> Files:
     """Yield JUnit's XML: a suite for each student, a case for the checks and for each scene."""
-    root = ElementTree.Element("testsuites", name="reftrace judge")
-    for s, _ in pages:
-        parts = _parts(s)
-        failures = str(sum(not right for _, _, right in parts))
-        own = {"name": s["file"], "tests": str(len(parts)), "failures": failures}
-        suite = ElementTree.SubElement(root, "testsuite", own)
-        for name, score, right in parts:
-            case = ElementTree.SubElement(suite, "testcase", name=name, classname=s["file"])
-            if not right:
-                message = f"{score:.1f} of 100: {', '.join(wrong_names(s))}"
-                failure = ElementTree.SubElement(case, "failure", message=message)
-                failure.text = "\n".join(_sentences(s))
-    ElementTree.indent(root)
-    yield "judge.xml", ElementTree.tostring(root, encoding="unicode", xml_declaration=True)
+    suites = {s["file"]: [_judged(s, *part) for part in _parts(s)] for s, _ in pages}
+    yield "judge.xml", junit("reftrace judge", suites)
+
+
+def _judged(s: Student, name: str, score: float, right: bool) -> Judged:
+    if right:
+        return Judged(name)
+    message = f"{score:.1f} of 100: {', '.join(wrong_names(s))}"
+    return Judged(name, message, "\n".join(_sentences(s)))
 
 
 def as_gradescope(pages: Pages) -> Files:

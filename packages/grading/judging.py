@@ -14,6 +14,7 @@ from typing import TypeVar
 from reference_tracer.arrays import Floats
 from reference_tracer.cli.running import printable
 from reference_tracer.tracer.progress import Work, scaled
+from reference_tracer_processes.running import Limits
 
 from .examples import Example, find_examples
 from .external import Program, Run
@@ -29,7 +30,7 @@ from .student import Student
 from .student_error import StudentError
 from .subjects.subject import Cases, Subject
 from .subjects.triangle import TRIANGLE
-from .submission import Limits, Submission
+from .submission import Submission
 from .tally import COST, Tally, score_of
 from .wrong_case import WrongCase
 

@@ -21,10 +21,11 @@ from typing import IO
 
 import numpy as np
 from reference_tracer.arrays import Floats
+from reference_tracer_processes.running import KEPT, Limits, kill
 
 from .form import Form
 from .student_error import StudentError, parsed
-from .submission import KEPT, Limits, Submission, kill
+from .submission import Submission
 
 _LONGEST = 1 << 20  # bytes of a line that answers
 

@@ -2,31 +2,15 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import subprocess
 from abc import ABC, abstractmethod
-from contextlib import suppress
-from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 from reference_tracer.arrays import Array, Floats
 from reference_tracer.cli.running import printable
+from reference_tracer_processes.running import Limits
 
 from .form import Form
-
-SECONDS = 60.0  # of a scene, by default
-MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
-KEPT = 4000  # bytes of what it prints
-
-
-@dataclass
-class Limits:
-    """What the student's code may take: seconds a scene, bytes."""
-
-    seconds: float = SECONDS
-    memory: int = MEMORY
 
 
 class Submission(ABC):
@@ -73,12 +57,3 @@ class Submission(ABC):
     @abstractmethod
     def end(self) -> None:
         """End what still runs."""
-
-
-def kill(process: subprocess.Popen[bytes]) -> None:
-    """End a process, and what it has started, but for what has a session of its own."""
-    with suppress(OSError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()

@@ -170,3 +170,8 @@ Proof.
     rewrite Kept by exact farthest_not_nan. reflexivity.
 Qed.
 End Range.
+
+(** measures.py: t by quotient.py is taken where that is sure, and t finite: [CertifiedDepth.recorded_quotient]. *)
+Theorem taken_is_finite v : holds v taken_as_it_is = true ->
+  holds v (Given "sure") = true /\ is_finite (eval v (Var "t")) = true.
+Proof. unfold taken_as_it_is. cbn. rewrite !andb_true_iff. tauto. Qed.

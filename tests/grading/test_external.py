@@ -12,10 +12,10 @@ from reference_tracer.cli.main import main
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading.external import Program, Run
 from reference_tracer_grading.judging import judge, names
-from reference_tracer_grading.sandbox import sandbox
 from reference_tracer_grading.student_error import StudentError
 from reference_tracer_grading.subjects.triangle import FORM
-from reference_tracer_grading.submission import KEPT, Limits
+from reference_tracer_processes.running import KEPT, Limits
+from reference_tracer_processes.sandbox import sandbox
 
 RAYS = np.zeros((5, 3)), np.ones((5, 3)), np.arange(45.0).reshape(5, 3, 3)
 PYTHON = shlex.quote(sys.executable)

@@ -19,8 +19,8 @@ from reference_tracer_grading.judging import judge
 from reference_tracer_grading.picture import Mark, look
 from reference_tracer_grading.student_error import StudentError
 from reference_tracer_grading.subjects.triangle import TRIANGLE
-from reference_tracer_grading.submission import Limits
 from reference_tracer_grading.tally import Tally, score_of
+from reference_tracer_processes.running import Limits
 
 TEXTBOOK = plain(Method.TEXTBOOK)
 

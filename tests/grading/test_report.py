@@ -29,8 +29,8 @@ from reference_tracer_grading.page import MARK_COLORS, marked
 from reference_tracer_grading.picture import Mark
 from reference_tracer_grading.report import student
 from reference_tracer_grading.subjects.triangle import TRIANGLE
-from reference_tracer_grading.submission import Limits
 from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, class_table, lines
+from reference_tracer_processes.running import Limits
 
 TEXT = """
 import numpy as np

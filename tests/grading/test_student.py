@@ -11,7 +11,7 @@ import pytest
 from reference_tracer_grading.student import Student
 from reference_tracer_grading.student_error import StudentError
 from reference_tracer_grading.subjects.triangle import FORM
-from reference_tracer_grading.submission import KEPT, Limits
+from reference_tracer_processes.running import KEPT, Limits
 
 HEAD = "import os, sys\nimport numpy as np\n\ndef intersect(o, d, p):\n    "
 NOTHING = "return np.full(len(o), np.inf), np.zeros((len(o), 3))"

@@ -1,7 +1,6 @@
-"""A first use with the pointer and the keys alone: each event comes as from a user's hand."""
+"""What comes in between in a first use: each event comes as from a user's hand."""
 
 import time
-from pathlib import Path
 
 import bpy
 from hands import click, click_on
@@ -12,7 +11,6 @@ from story import (
     ended,
     module,
     noted,
-    opened,
     press,
     result,
     running,
@@ -21,7 +19,6 @@ from story import (
     show_panel,
     until,
     window,
-    with_browser,
 )
 
 COMPARE = "reference_tracer.compare("
@@ -41,31 +38,6 @@ def at_the_panel(percentage=50):
     window().scene.render.resolution_percentage = percentage
     show_panel()
     yield
-
-
-def first_use():
-    """Press the button, see the verdict, go to what differs, open the page, undo."""
-    with_browser()
-    yield from at_the_panel()
-    screenshot("first_use_opened")
-    yield from click_on(properties(), COMPARE)
-    noted["begun"] = running() or compared()
-    yield from until(compared)
-    yield from until(ended)
-    yield
-    screenshot("first_use_compared")
-    noted["verdict"], noted["images"] = result().content.verdict, len(images())
-    yield from click_on(properties(), "reference_tracer.frame_region(")
-    noted["selected"] = [o.name for o in window().view_layer.objects if o.select_get()]
-    screenshot("first_use_framed")
-    yield from click_on(properties(), "reference_tracer.open_page(")
-    yield from until(opened)
-    noted["page"] = Path(opened().removeprefix("file://")).exists()
-    for _ in range(2):  # what was selected, and the comparison
-        press("ctrl+z")
-        yield
-    noted["after_undo"] = images()
-    screenshot("first_use_undone")
 
 
 def second_press():
@@ -130,4 +102,4 @@ def enabled():
 
 
 SCENE = "exercise_perspective"
-STORIES = (first_use, second_press, new_file, unticked)
+STORIES = (second_press, new_file, unticked)

@@ -23,42 +23,58 @@ def click(region, x, y):
         yield
 
 
+def command_under(area, region, x, y):
+    """Move the pointer to a place; return the command of the button there, or ""."""
+    xdotool("mousemove", *on_screen(region, x, y))
+    yield
+    with bpy.context.temp_override(window=window(), area=area, region=region):
+        if not bpy.ops.ui.copy_python_command_button.poll():  # what Ctrl+C does on a button
+            return ""
+        bpy.ops.ui.copy_python_command_button()
+    return bpy.context.window_manager.clipboard
+
+
+def along(area, command, step=16):
+    """Go along an editor's header until the pointer is on a command's button; return where."""
+    region = next(r for r in area.regions if r.type == "HEADER")
+    for x in range(step, region.width, step):
+        if command in (yield from command_under(area, region, x, region.height // 2)):
+            return region, x, region.height // 2
+    raise LookupError(f"there is no button {command}")
+
+
 WHEEL = 24  # its clicks from the end of a panel to its top
-_last = {}  # how high in its region each command's button was found last: it is looked for there
+last = {}  # how high in its region each command's button was found last: it is looked for there
 
 
-def found(area, command, across=0.6, step=16):
+def found(area, command, across=0.6, step=16, kind="WINDOW"):
     """Go down an editor, scrolled if need be, until the pointer is on a command's button.
 
-    So far across it, as a share of its width. Returns where that is.
+    So far across a region of it, as a share of its width. Returns where that is.
 
     Raises
     ------
     LookupError
         If there is none.
     """
-    region = next(r for r in area.regions if r.type == "WINDOW")
+    region = next(r for r in area.regions if r.type == kind)
     x = across * region.width
 
     def is_under_the_pointer(y):
-        xdotool("mousemove", *on_screen(region, x, y))
-        yield
-        with bpy.context.temp_override(window=window(), area=area, region=region):
-            if bpy.ops.ui.copy_python_command_button.poll():  # what Ctrl+C does on a button
-                bpy.ops.ui.copy_python_command_button()
-                return command in bpy.context.window_manager.clipboard
-        return False
+        return command in (yield from command_under(area, region, x, y))
 
     xdotool("mousemove", 0, 0)  # what was under the pointer is it no more
     yield 0.3
-    if command in _last and (yield from is_under_the_pointer(_last[command])):
-        return region, x, _last[command]
-    xdotool("mousemove", *on_screen(region, x, step), "click", "--repeat", WHEEL, 4)  # to the top
+    if command in last and (yield from is_under_the_pointer(last[command])):
+        return region, x, last[command]
+    # To the top, where a sidebar has something: else the wheel is for what is below it.
+    top = on_screen(region, x, region.height - step)
+    xdotool("mousemove", *top, "click", "--repeat", WHEEL, 4)
     for _ in range(4):
         yield
         for y in range(region.height - step, 0, -step):
             if (yield from is_under_the_pointer(y)):
-                _last[command] = y
+                last[command] = y
                 return region, x, y
         xdotool("click", "--repeat", 8, 5)  # the wheel
     raise LookupError(f"there is no button {command}")

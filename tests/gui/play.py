@@ -24,6 +24,7 @@ import house_stories
 import inspector_stories
 import installation_stories
 import interruption_stories
+import lesson_stories
 import page_stories
 import seen_stories
 import stories
@@ -43,6 +44,7 @@ STORIES = {
         inspector_stories,
         installation_stories,
         interruption_stories,
+        lesson_stories,
         page_stories,
         seen_stories,
         study_stories,
@@ -54,7 +56,8 @@ STORIES = {
 
 # Of the window, in pixels: most of the time goes into drawing it, in software.
 SMALL, LARGE = (1280, 720), (1600, 900)
-LARGE_ONES = "panel", "compared_images", "in_images"  # stories that look at all of a sidebar
+# Stories that look at all of a sidebar; those whose pictures are the lessons'.
+LARGE_ONES = "panel", "compared_images", "in_images", *(s.__name__ for s in lesson_stories.STORIES)
 
 
 def played(names):

@@ -15,7 +15,8 @@ MODULE = "bl_ext.user_default.reference_tracer"
 SIDEBAR_TAB = "Reference Tracer"
 # Blender's timers come before the events that it has just received, and the drawing after those.
 ROUNDS = 3
-KEYS = {"F12": "96"}  # by its number: by its name, newer tools press Alt with it
+# By their numbers: by its name, newer tools press Alt with the one, and Shift with the other.
+KEYS = {"F12": "96", "Numpad 0": "90"}
 noted = {}  # what the story that is played has found; see play.py
 
 

@@ -15,7 +15,15 @@ from recorder.arrays import Recorded, variable
 from recorder.evaluate import evaluate
 from recorder.functions import Numpy, recording
 from recorder.nodes import RefusedError
-from recorder.records import BY_HAND, FILES, RECORDS, computed, outputs, recorded
+from recorder.records import (
+    BY_HAND,
+    NAMES,
+    RECORDS,
+    computed,
+    every_output,
+    outputs,
+    recorded,
+)
 
 ORDINARY, HOSTILE = 24, 24  # values of the variables that each function is called with
 
@@ -25,27 +33,28 @@ def found():
     return {record: outputs(record) for record in RECORDS}
 
 
-def of_file(file, found):
-    return [output for record in FILES[file] for output in found[record]]
+@pytest.fixture(scope="module")
+def of_file():
+    return dict(every_output())
 
 
-def test_each_result_has_a_name_of_its_own(found):
-    every = [output.name for some in found.values() for output in some]
+def test_each_result_has_a_name_of_its_own(of_file):
+    every = [output.name for some in of_file.values() for output in some]
     assert len(set(every)) == len(every)
-    assert {name.split(".")[0] for name in proven()} == set(FILES)
+    assert {name.split(".")[0] for name in proven()} == set(of_file) == set(NAMES)
 
 
-@pytest.mark.parametrize("file", FILES)
-def test_the_proofs_are_about_what_is_computed(file, found):
+@pytest.mark.parametrize("file", NAMES)
+def test_the_proofs_are_about_what_is_computed(file, of_file):
     """If not: `make prove`, which stops at the theorems that no longer hold."""
-    changed = coq.differences(file, proven(), of_file(file, found))
+    changed = coq.differences(file, proven(), of_file[file])
     assert not changed, "\n\n".join([f"{file}.v is not what Coq has read", *changed])
 
 
-def test_a_difference_is_told_in_words(found):
+def test_a_difference_is_told_in_words(of_file):
     """Which function, which result, what it is now, and the theorem."""
     file = "RecordedBounds"
-    every = of_file(file, found)
+    every = of_file[file]
     digests = coq.digests(file, every)
     one = f"{file}.from_point_error"
     [said] = coq.differences(file, digests | {one: "another"}, every)
@@ -65,12 +74,12 @@ def test_a_digest_is_of_each_operation_and_constant(found):
     assert len(set(digests)) == len(texts) > 200
 
 
-def test_what_coq_reads_is_written_as_it_is_recorded(found, tmp_path, monkeypatch):
+def test_what_coq_reads_is_written_as_it_is_recorded(of_file, tmp_path, monkeypatch):
     monkeypatch.setattr(record_trees, "RECORDED", tmp_path)
     assert dict(line.split() for line in record_trees.write().splitlines()) == proven()
-    for file in FILES:
+    for file, outputs_of in of_file.items():
         text = (tmp_path / f"{file}.v").read_text(encoding="utf-8")
-        assert text == coq.text(of_file(file, found))
+        assert text == coq.text(file, outputs_of)
 
 
 @pytest.mark.parametrize("record", RECORDS, ids=lambda r: f"{r.function} {r.note}")
@@ -99,9 +108,9 @@ def test_an_expression_is_worth_what_the_function_returns(record, found, rng):
     assert not seen
 
 
-def test_a_theorem_that_is_said_to_be_proven_is_there(found):
+def test_a_theorem_that_is_said_to_be_proven_is_there(of_file):
     paths = {path.stem: path for path in prove.files()}
-    named = {output.theorem for some in found.values() for output in some}
+    named = {output.theorem for some in of_file.values() for output in some}
     for theorem in sorted(named - {"", BY_HAND}):
         file, name = theorem.split(".")
         text = paths[file].read_text(encoding="utf-8")

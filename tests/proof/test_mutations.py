@@ -2,25 +2,15 @@
 
 from __future__ import annotations
 
-import itertools
-import os
-
 import pytest
 
-from ..copied import TOOLS, copied, run
+from ..copied import copied
+from .mutants import Mutant, checked
 
 pytestmark = pytest.mark.slow  # a Python of its own for each
 
-CHECK = f"""
-import sys
-sys.path.append({TOOLS!r})
-sys.argv = ["record_trees.py", "--check"]
-import record_trees
-record_trees.main()
-"""
 BOUNDS = "certified/bounds.py"
 EDGES = "certified/sweep/edge_functions.py"
-TIMES = itertools.count(1_000_000_000, 10)
 # What is changed, in which file, and what the failure says of it.
 CHANGES = {
     "6 roundings instead of 12": (
@@ -101,21 +91,7 @@ def copy(tmp_path_factory):
 
 def changed(copy, path, old, new):
     """Record a copy with one text in one file changed, which then is as it was."""
-    file = copy / path
-    source = file.read_text(encoding="utf-8")
-    assert old in source
-    try:
-        write(file, source.replace(old, new, 1))
-        return run(copy.parent, CHECK)
-    finally:
-        write(file, source)
-
-
-def write(file, source):
-    """Write a file at a time of its own, so that Python sees that it is another."""
-    now = next(TIMES)
-    file.write_text(source, encoding="utf-8")
-    os.utime(file, (now, now))
+    return checked(copy, Mutant("", path, old, new, "expressions"))
 
 
 @pytest.mark.parametrize("what", CHANGES)

@@ -95,3 +95,37 @@ def required(name):
             for names in re.findall(r"From Reftrace Require(?: Import| Export)? ([\w\s]+)\.", text):
                 open_ += names.split()
     return found
+
+
+CHECKED = """
+CONTEXT SUMMARY
+===============
+
+* Theory: Set is predicative
+
+* Axioms:
+    Coq.Logic.FunctionalExtensionality.functional_extensionality_dep
+    Coq.Reals.ClassicalDedekindReals.sig_not_dec
+
+* Constants/Inductives relying on type-in-type: <none>
+
+* Constants/Inductives relying on unsafe (co)fixpoints: <none>
+
+* Inductives whose positivity is assumed: <none>
+"""
+
+
+def test_what_coqchk_says_is_understood():
+    assert prove.checked(CHECKED) == {
+        "FunctionalExtensionality.functional_extensionality_dep",
+        "ClassicalDedekindReals.sig_not_dec",
+    }
+    other = "    Reftrace.Claims.hole\n\n* Constants/Inductives relying on type"
+    found = prove.checked(CHECKED.replace("\n* Constants/Inductives relying on type", other, 1))
+    assert "Claims.hole" in found - prove.AXIOMS
+
+
+@pytest.mark.parametrize("said", ["", CHECKED.replace("assumed: <none>", "assumed: Some.type")])
+def test_what_coqchk_finds_wrong_ends_the_program(said):
+    with pytest.raises(SystemExit, match="coqchk has not found all in order"):
+        prove.checked(said)

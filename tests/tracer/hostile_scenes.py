@@ -20,7 +20,7 @@ SIDE = 14  # pixels of a picture, at most
 
 def hostile_scene(make, rng: np.random.Generator, finite: bool = False) -> Scene:
     """Return a scene of some dozen triangles, of any kind; one instance may not be finite."""
-    scene = (_any, _any, _whole)[rng.integers(3)](make, rng)
+    scene = (_any, _any, scene_of_integers)[rng.integers(3)](make, rng)
     if finite or rng.random() < 0.8 or not scene.instances:
         return scene
     matrix = np.diag((1e308, 1e308, 1e308, 1))
@@ -54,7 +54,7 @@ def _any(make, rng) -> Scene:
     return _scene(camera, corners, planes, rng)
 
 
-def _whole(make, rng) -> Scene:
+def scene_of_integers(make, rng) -> Scene:
     """Small integers: rays through edges and corners, equal depths, clip ends at surfaces."""
     count = int(rng.integers(1, 16))
     corners = (

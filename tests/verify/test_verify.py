@@ -7,6 +7,7 @@ import json
 import subprocess
 import sys
 from dataclasses import replace
+from itertools import permutations
 from pathlib import Path
 
 import numpy as np
@@ -18,13 +19,15 @@ from reference_tracer.certified import ties
 from reference_tracer.certified.definition import definition
 from reference_tracer.certified.plain import plain
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR
+from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.rendering import certified_tracer, render
-from reference_tracer.scene import Region
+from reference_tracer.scene import Camera, Mesh, Region, ViewWindow
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.hits import no_measures
 from reference_tracer.tracer.settings import Settings
 
 from ..certified.test_definition import small
+from ..tracer.hostile_scenes import scene_of_integers
 from .certificates import arrays_of, certified, refusal, scene_of
 
 STORED = Path(__file__).parents[2] / "packages" / "grading" / "scenes"
@@ -38,11 +41,11 @@ def stored(tmp_path):
     return path, certified(scene_of(None, 0), path)
 
 
-def held(make, seeds, path) -> tuple[int, int]:
+def held(make, seeds, path, scene=scene_of) -> tuple[int, int]:
     """Have the certificates of some scenes checked; return how many rays and ambiguous ones."""
     rays = ambiguous = 0
     for seed in seeds:
-        answers = certified(scene_of(make, seed), path)
+        answers = certified(scene(make, seed), path)
         assert not refusal(path), seed
         rays += answers["t"].size
         ambiguous += len(np.unique(answers["tie_pixel"]))
@@ -52,6 +55,36 @@ def held(make, seeds, path) -> tuple[int, int]:
 def test_the_tracers_pictures_are_true(make, tmp_path):
     rays, ambiguous = held(make, range(24), tmp_path / "c.npz")
     assert rays > 1500 and ambiguous > 50
+
+
+def test_on_small_integers(make, tmp_path):
+    """Edges, corners, silhouettes, equal depths, clip ends at surfaces, rays that begin on them."""
+
+    def scene(make, seed):
+        return scene_of_integers(make, np.random.default_rng(seed))
+
+    rays, ambiguous = held(make, (*range(40), 175, 596), tmp_path / "c.npz", scene)
+    assert rays > 800 and ambiguous > 150
+
+
+@pytest.mark.parametrize("depth", [4.0, 0.0])
+def test_surfaces_that_intersect_where_a_ray_meets_them(depth, make, tmp_path):
+    """Three planes behind a half that ends there; or those where the ray begins, in any order."""
+    x, y = np.array([[-8, 8, 0], [-8, -8, 8]]) * 1.0
+    slopes = (-1, 0), (0.5, 1), (0.5, -1)
+    sheets = [np.stack((x, y, u * x + v * y - depth), axis=1) for u, v in slopes]
+    if depth:
+        sheets.append(np.array([(0, -8, -2), (0, 8, -2), (8, 0, -2)]) * 1.0)
+    window = ViewWindow(-1, 1, -1, 1)
+    camera = Camera(np.eye(4), window, 1, 1, ORTHOGRAPHIC, clip_start=-1.0, clip_end=9.0)
+    owners = set()
+    for order in permutations(range(len(sheets))):
+        scene = make.scene(camera, *(Mesh(sheets[k], [[0, 1, 2]]) for k in order))
+        answers = certified(scene, tmp_path / "c.npz")
+        assert not refusal(tmp_path / "c.npz"), order
+        assert len(answers["tie_pixel"]) == len(sheets)
+        owners.add(order[int(answers["instance"][0, 0])])
+    assert len(owners) == 1
 
 
 def test_in_small_parts(make, tmp_path, monkeypatch):

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -23,8 +24,6 @@ OUT = PROJECT / "out" / "tutorial"
 WINDOW, WIDTH = 1600, 1000  # pixels across the whole window, and what they are made
 NAMES = "traced", "blender", "difference"
 FRAME = 120  # milliseconds
-STEPS = "empty", "panel", "compared", "traced", "inspector"  # of the clip
-STEP, CLIP = 2500, (800, 480)  # milliseconds, pixels
 AROUND, ZOOM, GAP = (8, 7), 19, 12  # pixels around the one that is enlarged, and how much
 
 
@@ -40,9 +39,9 @@ def write(folder: Path) -> None:
     OUT.mkdir(parents=True)
     [package] = (PROJECT / "dist").glob("reference_tracer-*.zip")
     install = "--command extension install-file -r user_default --enable"
-    _blender(*install.split(), f"/project/dist/{package.name}")
+    blender(*install.split(), f"/project/dist/{package.name}")
     script = "/project/tools/documents/tour.py"
-    _blender("--python-exit-code", "9", "--python", script, "--", "/project/out/tutorial")
+    blender("--python-exit-code", "9", "--python", script, "--", "/project/out/tutorial")
     failed = OUT / "error.txt"
     if failed.exists():
         raise RuntimeError(failed.read_text())
@@ -58,7 +57,6 @@ def write(folder: Path) -> None:
             picture = picture.resize((WIDTH, height), Image.Resampling.LANCZOS)
         save(picture, folder / shot.name)
     turning(sorted((OUT / "orbit").glob("*.png")), folder / "wrong_pixels.gif")
-    clip(folder)
     x, y = found["metrics"]["largest_difference"]["pixel"]
     browser.save(OUT / "page.html", folder / "page.png", 1240, 960, f"#x={x}&y={y}", "pair")
 
@@ -74,19 +72,6 @@ def turning(shots: list[Path], path: Path) -> None:
     size = whole[0].width, whole[0].width
     frames = [p.crop((0, 0, *size)).quantize(32, dither=Image.Dither.NONE) for p in whole]
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=FRAME, loop=0)
-
-
-def clip(folder: Path) -> None:
-    """Join pictures of the first steps into one that moves, for the lessons."""
-    frames = []
-    for name in STEPS:
-        frame = Image.new("RGB", CLIP, (40, 40, 40))
-        picture = Image.open(folder / f"{name}.png").convert("RGB")
-        picture.thumbnail(CLIP, Image.Resampling.LANCZOS)
-        frame.paste(picture, ((CLIP[0] - picture.width) // 2, (CLIP[1] - picture.height) // 2))
-        frames.append(frame)
-    path = folder / "steps.webp"
-    frames[0].save(path, save_all=True, append_images=frames[1:], duration=STEP, loop=0, quality=70)
 
 
 def near(folder: Path) -> Image.Image:
@@ -114,8 +99,15 @@ def near(folder: Path) -> Image.Image:
     return out
 
 
-def _blender(*arguments: str) -> None:
-    environment = "env", "BLENDER_USER_RESOURCES=/project/out/tutorial/user"
+def blender(*arguments: str, variables: Sequence[str] = ()) -> None:
+    """Run the whole Blender, with variables in its environment, until it ends.
+
+    Raises
+    ------
+    RuntimeError
+        If it fails.
+    """
+    environment = "env", "BLENDER_USER_RESOURCES=/project/out/tutorial/user", *variables
     command = [PROJECT / "tools" / "whole_blender.sh", "run", *environment, "blender", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     if done.returncode:

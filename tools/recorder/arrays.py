@@ -103,6 +103,9 @@ class Recorded(NDArrayOperatorsMixin):
     def transpose(self, *axes) -> Recorded:
         return self._each(lambda v: v.transpose(*axes))
 
+    def swapaxes(self, one: int, other: int) -> Recorded:
+        return self._each(lambda v: v.swapaxes(one, other))
+
     def reshape(self, *shape) -> Recorded:
         return self._each(lambda v: v.reshape(*shape))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,7 +17,7 @@ from ..drawing.picture import prepare_scene
 from ..drawing.workbench import WORKBENCH
 from ..engine import export_for_judge
 from ..reading.camera import export_camera
-from ..temporary import temporary_scene
+from ..temporary import everything, temporary_scene
 
 
 @dataclass(frozen=True)
@@ -53,11 +54,15 @@ class Choices:
 
 
 def export_open_file(
-    context: Any, judge: Judge | None = None, palette: Palette = VIEWPORT
+    context: Any,
+    judge: Judge | None = None,
+    palette: Palette = VIEWPORT,
+    whole: bool = False,
 ) -> tuple[Scene, Manifest, Settings]:
     """Export the context's scene as a render has it, with the settings that it stores.
 
-    For a judge, it is exported as for a comparison with its picture.
+    For a judge, it is exported as for a comparison with its picture. The `whole` is also what its
+    camera cannot see.
 
     Raises
     ------
@@ -71,5 +76,6 @@ def export_open_file(
     with temporary_scene(scene, layer, judge.ignores if judge else None, palette) as tmp:
         if judge:
             prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
-        exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)
+        with everything(tmp) if whole else nullcontext():
+            exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)
     return exported, manifest, stored.settings()

@@ -27,6 +27,7 @@ from ...report import animation as frames_report
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
+from ...report.junit import Judged, junit, of_comparison
 from ...scene import Scene, SceneError
 from ...tracer.progress import Work, result_of
 from ..arguments import is_blend
@@ -57,13 +58,17 @@ def compare(options: CompareOptions) -> int:
     """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
     results = [folders.place_of(options.out / name) for name in comparison_report.NAMES]
     colors = options.colors if isinstance(options.colors, Path) else None
-    for file in (options.scene, options.file, colors, options.colors_out):
+    for file in (options.scene, options.file, colors, options.colors_out, options.junit):
         if file and folders.place_of(file) in results:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
             )
     if options.colors_out and options.file is None and not is_blend(options.scene):
+        if options.junit:
+            raise SceneError("--junit is for a comparison: name a picture with --against")
         return _only_colors(options, options.colors_out)
+    if options.junit:  # that of an earlier run would pass for this one's
+        options.junit.unlink(missing_ok=True)
     written = comparison_report.failure_written(options.out)  # but for an animation
     with (
         folders.made(options.out),
@@ -140,6 +145,9 @@ def _frames(
         print("what is done is kept: the same command goes on from there", file=sys.stderr)
         raise
     print(*frames_report.lines(frames, rows), sep="\n")
+    _write_junit(
+        options, [_judged(f"frame {r.frame}", r.verdict, frames_report.line(r)) for r in rows]
+    )
     return _told(options, frames_report.verdict(rows), options.out / frames_report.PAGE)
 
 
@@ -165,6 +173,8 @@ def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) 
     verdict = engines.worst(rows)
     print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
     pages = [options.out / row.engine / page.NAME for row in rows if row.counts]
+    told = [_judged(r.engine, r.verdict, "\n".join(engines_report.lines([r]))) for r in rows]
+    _write_junit(options, told)
     return _told(options, verdict, *pages)
 
 
@@ -173,7 +183,18 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
     if options.colors_out:
         _write_colors(options.colors_out, comparison.scene, comparison.manifest.owners)
     print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
+    _write_junit(options, [of_comparison(options.scene.name, comparison)])
     return _told(options, comparison.verdict, options.out / page.NAME)
+
+
+def _judged(name: str, verdict: Verdict, lines: str) -> Judged:
+    return Judged(name, "" if verdict is Verdict.AGREE else str(verdict), lines)
+
+
+def _write_junit(options: CompareOptions, judged: Sequence[Judged]) -> None:
+    if options.junit:
+        text = junit("reftrace compare", {str(options.scene): judged})
+        folders.write_text(options.junit, text)
 
 
 def _only_colors(options: CompareOptions, path: Path) -> int:

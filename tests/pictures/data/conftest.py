@@ -22,8 +22,9 @@ from reference_tracer.tracer.settings import Settings
 
 MAKING = Making()
 # The faults of data, and of others a few: all of them take a second for each picture.
-BESIDE = "rows", "object_missing", "object_moved", "mirrored_x", "flipped_winding", "scene_scaled"
+BESIDE = "rows", "object_missing", "flipped_winding"
 CLIP = [f for f in FAULTS if f.name.startswith("clip_")]
+MOVED = [f for f in FAULTS if f.name in ("object_moved", "object_missing", "data_scale")]
 SOME = [f for f in FAULTS if f in DATA_FAULTS or f.name in BESIDE]
 
 

@@ -17,21 +17,26 @@ _BOX = dict(lx=-0.5, ly=-0.6, lz=0.2, hx=0.5, hy=0.7, hz=0.4)
 _PLANE = dict(px=0.3, py=0.2, pz=-9.0, nx=0.1, ny=0.2, nz=0.97)
 
 
-def rays(v: Inputs) -> Rays:
-    return Rays(v.vector("ox oy oz"), v.vector("dx dy dz"))
+def rays(v: Inputs, shared: str = "") -> Rays:
+    """Rays, in columns but for what they share: the origin `o`, or the direction `d`."""
+    return Rays(*((v.shared if k == shared else v.vector)(f"{k}x {k}y {k}z") for k in "od"))
 
 
 def from_point(v: Inputs) -> FromPoint:
-    return FromPoint(v.vector("ox oy oz"), v.vector("rx ry rz"), v.matrix(*CORNERS))
+    return FromPoint(v.shared("ox oy oz"), v.shared("rx ry rz"), v.matrix(*CORNERS))
 
 
 def parallel(v: Inputs) -> Parallel:
-    ends = v.vector("lx ly lz"), v.vector("hx hy hz")
-    return Parallel(v.vector("dx dy dz"), *ends, v.matrix(*CORNERS))
+    ends = v.shared("lx ly lz"), v.shared("hx hy hz")
+    return Parallel(v.shared("dx dy dz"), *ends, v.matrix(*CORNERS))
+
+
+def _shared(prefix: str) -> str:
+    return {"from_point": "o", "parallel": "d"}[prefix]
 
 
 def _edges(prefix: str, prepared: FromPoint | Parallel, v: Inputs) -> Kept:
-    edges, error = prepared.edges(FIRST, rays(v))
+    edges, error = prepared.edges(v.rows, rays(v, _shared(prefix)))
     names = f"{prefix}_ab", f"{prefix}_bc", f"{prefix}_ca"
     return dict(zip(names, edges, strict=True)) | {f"{prefix}_error": error}
 
@@ -43,6 +48,10 @@ def fractions_of(prefix: str, found: Fractions) -> Kept:
         f"{prefix}_D": found.denominator,
         f"{prefix}_D_error": found.denominator_error,
     }
+
+
+def _fractions(prefix: str, prepared: FromPoint | Parallel, v: Inputs) -> Kept:
+    return fractions_of(prefix, prepared.fractions(v.rows, rays(v, _shared(prefix))))
 
 
 def _interval(v: Inputs) -> Kept:
@@ -71,7 +80,7 @@ RECORDS = (
         "from_point",
         "bounds.FromPoint.fractions",
         _TRIANGLE | _RAY | _REACH,
-        lambda v: fractions_of("from_point", from_point(v).fractions(FIRST, rays(v))),
+        lambda v: _fractions("from_point", from_point(v), v),
         _theorems("from_point"),
     ),
     Record(
@@ -85,7 +94,7 @@ RECORDS = (
         "parallel",
         "bounds.Parallel.fractions",
         _TRIANGLE | _RAY | _BOX,
-        lambda v: fractions_of("parallel", parallel(v).fractions(FIRST, rays(v))),
+        lambda v: _fractions("parallel", parallel(v), v),
         _theorems("parallel"),
     ),
     Record(
@@ -93,7 +102,7 @@ RECORDS = (
         "bounds.plane_fractions",
         _PLANE | _RAY,
         lambda v: fractions_of(
-            "plane", plane_fractions(rays(v), v.vector("px py pz"), v.vector("nx ny nz"))
+            "plane", plane_fractions(rays(v), v.shared("px py pz"), v.shared("nx ny nz"))
         ),
         _theorems("plane"),
     ),

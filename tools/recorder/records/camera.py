@@ -39,7 +39,9 @@ def _rays(v: Inputs, prefix: str, projection: Projection) -> Kept:
 def _positions(v: Inputs) -> Kept:
     """Of the first pixel of a region: which one it is, is counted in integers."""
     tile = SimpleNamespace(width=640, x0=v.scalar("region_x"), y0=v.scalar("region_y"))
-    px, py = camera.film_positions(tile, v.scalar("dx"), v.scalar("dy"), np.zeros(1, np.int32))
+    px, py = camera.film_positions(
+        tile, v.scalar("dx"), v.scalar("dy"), np.zeros(v.columns, np.int32)
+    )
     return {"film_position_x": px, "film_position_y": py}
 
 
@@ -51,7 +53,7 @@ def _dual(v: Inputs) -> Kept:
 
 def _dual_axes(v: Inputs):
     """In place of `dual_axes`, which is recorded by itself."""
-    rows = [v.vector(f"{row}_x {row}_y {row}_z").reshape(-1) for row in ("right", "up", "depth")]
+    rows = [v.shared(f"{row}_x {row}_y {row}_z").reshape(-1) for row in ("right", "up", "depth")]
     return mock.patch.object(camera, "dual_axes", lambda _: v.stacked(rows))
 
 

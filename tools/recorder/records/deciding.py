@@ -9,7 +9,6 @@ import numpy as np
 from reference_tracer.certified import ladder, order
 from reference_tracer.tracer.camera import Rays
 
-from .bounds import FIRST
 from .record import Inputs, Kept, Record, locals_of
 
 _EDGES = dict(e1=0.5, e2=0.25, e3=0.75, error=1e-15)
@@ -22,7 +21,7 @@ _RAY = dict(ox=0.11, oy=0.07, oz=0.3, o0x=-0.5, o0y=-0.4, o0z=0.25, dx=0.01, dy=
 def _sides(v: Inputs) -> Kept:
     edges = v.vector("e1 e2 e3"), v.one("error")
     prepared = SimpleNamespace(edges=lambda row, rays: edges)
-    sure, _ = ladder.sides(prepared, FIRST, None)
+    sure, _ = ladder.sides(prepared, v.rows, None)
     return {"sides_possible": v.chosen(0), "sides_sure": sure}
 
 
@@ -39,13 +38,13 @@ def _order(v: Inputs, prefix: str, shared: bool) -> Kept:
     many = np.zeros((3, 2))  # (3, 1) is shared by all rays
     directions = v.vector("dx dy dz") if shared else many
     origin = v.vector("ox oy oz")
-    around = Rays(v.vector("o0x o0y o0z") if shared else _Several(v.vector("o0x o0y o0z")), many)
+    around = Rays(v.shared("o0x o0y o0z") if shared else _Several(v.shared("o0x o0y o0z")), many)
     table = tuple(v.scalar(name) for name in ("base", "v1", "v2", "v3", "sign"))
     with (
         mock.patch.object(order, "_difference", lambda *_: table),
         locals_of(order.order_of) as found,
     ):
-        out = order.order_of(around, Rays(origin, directions), None, FIRST, FIRST)
+        out = order.order_of(around, Rays(origin, directions), None, 0 * v.rows, 0 * v.rows)
     kept = {f"{prefix}_{name}": found[name] for name in ("value", "error", "known")}
     return {prefix: out} | kept
 

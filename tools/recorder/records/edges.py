@@ -11,7 +11,6 @@ from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 
 from .record import Inputs, Kept, Record, locals_of
 
-_CORNERS = np.array([[0], [1], [2]])
 _SIDES, _OF = ("bc", "ca", "ab", "nearness"), ("1", "y", "x")
 _VALUES = dict(
     **dict(pa=1.5, pb=20.25, pc=9.0, qa=2.5, qb=3.75, qc=18.0, wa=1.0, wb=1.25, wc=1.5),
@@ -48,7 +47,7 @@ def _set_up(v: Inputs, prefix: str, projection: Projection) -> Kept:
         out = edge_functions.set_up(
             film(v, projection),
             vertices,
-            _CORNERS,
+            np.arange(3 * v.columns).reshape(3, -1),
             v.one("nearest"),
             v.vector("x0 y0"),
             v.one("reach"),
@@ -60,9 +59,10 @@ def _set_up(v: Inputs, prefix: str, projection: Projection) -> Kept:
     }
     kept |= {f"{prefix}_edge_error": out.edge_error, f"{prefix}_sure": out.sure}
     kept |= {f"{prefix}_nearness_error": out.nearness_error}
-    if len(out) == 2:  # once for each sign
-        other = {name.replace(prefix, f"{prefix}_other"): k[1:] for name, k in kept.items()}
-        kept = {name: k[:1] for name, k in kept.items()} | other
+    if len(out) == 2 * v.columns:  # once for each sign
+        n = v.columns
+        other = {name.replace(prefix, f"{prefix}_other"): k[n:] for name, k in kept.items()}
+        kept = {name: k[:n] for name, k in kept.items()} | other
     return kept | {f"{prefix}_T": local["volume"], f"{prefix}_T_error": local["error"]}
 
 
@@ -70,7 +70,7 @@ def variables(v: Inputs) -> EdgeFunctions:
     """The functions of a triangle, as variables."""
     coefficients = [[v.one(f"{side}_{of}") for side in _SIDES] for of in _OF]
     return EdgeFunctions(
-        np.arange(1),
+        v.rows,
         v.vector("origin_x origin_y"),
         v.stacked([v.stacked(row) for row in coefficients]),
         v.one("edge_error"),

@@ -55,7 +55,7 @@ _FIELDS = ("p", "q", "w", "depth", "size", "x", "y", "nearest", "ahead", "certai
 def camera(v: Inputs, projection: Projection) -> SimpleNamespace:
     """A camera of those variables that there are."""
     vectors = dict(origin="ox oy oz", right="rx ry rz", up="ux uy uz", forward="fx fy fz")
-    known = {k: v.vector(n).reshape(-1) for k, n in vectors.items() if n.split()[0] in v}
+    known = {k: v.shared(n).reshape(-1) for k, n in vectors.items() if n.split()[0] in v}
     window = ("left", "right", "bottom", "top")
     known["window"] = SimpleNamespace(**{k: v.scalar(k) for k in window if k in v})
     known |= {k: v.scalar(k) for k in ("width", "height", "clip_start", "clip_end") if k in v}
@@ -88,7 +88,7 @@ def of(v: Inputs, projection: Projection, *known: str) -> Film:
         "weight": lambda: 0.0 if projection.shares_direction else v.scalar("weight"),
         "ray_error": lambda: v.scalar("ray_error"),
         "dual": lambda: v.stacked(
-            [v.vector(f"{row}_x {row}_y {row}_z").reshape(-1) for row in ("right", "up", "depth")]
+            [v.shared(f"{row}_x {row}_y {row}_z").reshape(-1) for row in ("right", "up", "depth")]
         ),
     }
     out.__dict__.update({k: numbers[k]() for k in known}, is_sound=True)
@@ -98,11 +98,11 @@ def of(v: Inputs, projection: Projection, *known: str) -> Film:
 def _enter(v: Inputs, prefix: str, projection: Projection) -> Kept:
     own = of(v, projection, "dual", "place", "weight", "ray_error", "depth_error")
     with python(film), locals_of(Film._enter_positions) as local:
-        vertices = Vertices.empty(1, np.int32)
+        vertices = Vertices.empty(v.columns, np.int32)
         own.enter(vertices, 0, v.vector("vx vy vz"))
     kept = {f"{prefix}_{name}": getattr(vertices, name) for name in _FIELDS}
     ends = ("lowest_x", "lowest_y", "minus_highest_x", "minus_highest_y")
-    kept |= {f"{prefix}_{name}": vertices.box[0, k : k + 1] for k, name in enumerate(ends)}
+    kept |= {f"{prefix}_{name}": vertices.box[:, k] for k, name in enumerate(ends)}
     return kept | {f"{prefix}_margin": local["margin"]}
 
 

@@ -9,6 +9,7 @@ from unittest import mock
 import numpy as np
 from reference_tracer.certified import ladder
 from reference_tracer.certified.ladder import Ladder
+from reference_tracer.certified.measures import Prepared
 from reference_tracer.certified.sweep.boxes import InstanceBoxes
 from reference_tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
 from reference_tracer.certified.sweep.rasterise import Covered
@@ -18,7 +19,6 @@ from reference_tracer.tracer import camera
 from reference_tracer.tracer.camera import Rays
 
 from . import film
-from .bounds import FIRST
 from .record import Inputs, Kept, Record
 
 _HIT = dict(low=2.0, high=2.5, start=0.5, end=100.0, farthest=3.0, sure=True)
@@ -31,7 +31,7 @@ def _candidates(v: Inputs, prefix: str) -> Kept:
     own = Ladder.__new__(Ladder)
     own._clip, own._farthest = (v.scalar("start"), v.scalar("end")), v.one("farthest")
     fractions = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
-    own._candidates(FIRST, FIRST, fractions, v.one("sure"))
+    own._candidates(v.rows, v.rows, fractions, v.one("sure"))
     return {
         f"{prefix}_certain": v.chosen(1, is_path=True),
         f"{prefix}_kept": v.chosen(2),
@@ -78,19 +78,31 @@ def _of_pairs(v: Inputs, prefix: str) -> Kept:
         ),
         _depths=SimpleNamespace(nearness=v.one("nearness"), enter=lambda *_: [nothing]),
     )
-    pairs = Covered(FIRST, FIRST, v.one("least"), v.one("most"), v.one("sure"))
+    pairs = Covered(v.rows, v.rows, v.one("least"), v.one("most"), v.one("sure"))
     with mock.patch.object(Fragments, "joined", lambda parts: parts):
-        Sweep.of_pairs(own, pairs, FIRST)
+        Sweep.of_pairs(own, pairs, v.rows)
     if v.values["sure"]:
         return {f"{prefix}_enters": v.chosen(0, is_path=True)}
     return {f"{prefix}_stays": v.chosen(2)}
 
 
+def _taken(v: Inputs) -> Kept:
+    """t by `quotient.py`, and the barycentrics, which are NaN where they are not known."""
+    own = Prepared.__new__(Prepared)
+    own._quotients = SimpleNamespace(meet=lambda *_: (v.one("t"), v.one("sure")))
+    own._planes, own._edges = 0, np.zeros((10, v.columns))
+    with mock.patch.object(Prepared, "_weights", lambda *_: v.vector("s1 s2 s3")):
+        _, sure, _ = own.meet(None, v.rows)
+    return {"taken_as_it_is": sure}
+
+
 def _hidden(v: Inputs) -> Kept:
-    own = InstanceBoxes(None, None, np.zeros((2, 1)), np.zeros((2, 1)), v.one("nearest"))
+    own = InstanceBoxes(
+        None, None, np.zeros((2, v.columns)), np.zeros((2, v.columns)), v.one("nearest")
+    )
     region = SimpleNamespace(x0=0, x1=1, y0=0, y1=1)
     depths = SimpleNamespace(region=region, farthest_around=lambda *_: v.scalar("farthest"))
-    return {"hidden_instance": own.hidden(FIRST, depths)}
+    return {"hidden_instance": own.hidden(v.rows, depths)}
 
 
 def _not_hidden(v: Inputs) -> Kept:
@@ -105,7 +117,7 @@ def _not_hidden(v: Inputs) -> Kept:
 def _fragment(v: Inputs) -> Kept:
     depths = DepthBuffer.__new__(DepthBuffer)
     depths.nearness = v.one("nearness")
-    depths.not_hidden(Fragments(FIRST, FIRST, v.one("nearest")))
+    depths.not_hidden(Fragments(v.rows, v.rows, v.one("nearest")))
     return {"not_hidden_fragment": v.chosen(0)}
 
 
@@ -172,6 +184,13 @@ RECORDS = (
             ("pair", True, "what is sure"),
             ("pair_open", False, "what is in doubt"),
         )
+    ),
+    Record(
+        "taken_as_it_is",
+        "measures.Prepared.meet",
+        dict(t=2.5, sure=True, s1=0.5, s2=0.25, s3=0.25),
+        _taken,
+        _named("CodeRange.taken_is_finite", "taken_as_it_is"),
     ),
     Record(
         "hidden_instance",

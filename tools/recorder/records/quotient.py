@@ -8,7 +8,7 @@ from reference_tracer.certified import quotient
 from reference_tracer.certified.quotient import Quotients
 from reference_tracer.tracer.camera import Rays
 
-from .bounds import CORNERS, FIRST
+from .bounds import CORNERS
 from .record import Inputs, Kept, Record, locals_of
 
 _TRIANGLE = dict(ax=-1.1, ay=-0.9, az=-5.2, bx=1.3, by=-0.8, bz=-5.7, cx=0.2, cy=1.4, cz=-4.9)
@@ -66,7 +66,7 @@ def _quotient(v: Inputs) -> Kept:
 
 def _unit(v: Inputs, prefix: str) -> Kept:
     """Of several rays it is the same of the largest components: here there is one."""
-    origins = v.vector("qx qy qz" if "qx" in v else "ox oy oz")
+    origins = v.shared("qx qy qz" if "qx" in v else "ox oy oz")
     own = Quotients(Rays(origins, v.vector("dx dy dz")), 1)
     return {prefix: own._unit}
 
@@ -74,7 +74,7 @@ def _unit(v: Inputs, prefix: str) -> Kept:
 def _triangle(v: Inputs) -> Kept:
     """What is handed on of a triangle: its normal as high + low, and M."""
     kept = []
-    rays = Rays(v.vector("ox oy oz"), v.vector("dx dy dz"))
+    rays = Rays(v.shared("ox oy oz"), v.vector("dx dy dz"))
     with mock.patch.object(Quotients, "_enter", lambda *some: kept.append(some)):
         Quotients.of(rays, v.matrix(*CORNERS))
     [(_, _, _, (high, low), size)] = kept
@@ -85,16 +85,16 @@ def _triangle(v: Inputs) -> Kept:
 def _prepared(v: Inputs, case: str) -> Quotients:
     out = Quotients.__new__(Quotients)
     out._one_origin, out._one_direction = case == "from_point", case == "parallel"
-    out._origin = v.vector("ox oy oz") if "ox" in v else None
-    out._direction = v.vector("dx dy dz") if "dx" in v else None
-    out._unit = v.one("unit") if "unit" in v else None
+    out._origin = v.shared("ox oy oz") if "ox" in v else None
+    out._direction = v.shared("dx dy dz") if "dx" in v else None
+    out._unit = v.shared_one("unit") if "unit" in v else None
     return out
 
 
 def _table(v: Inputs, case: str) -> Kept:
     """The normal and M are variables: `_cross` of two sides is recorded by itself."""
     own, columns = _prepared(v, case), _columns(case)
-    table = quotient.np.empty((len(columns), 1))
+    table = quotient.np.empty((len(columns), v.columns))
     normal = v.vector("nx ny nz"), v.vector("n2x n2y n2z")
     own._enter(table, v.vector("px py pz"), normal, v.one("M"))
     return _named(" ".join(f"table_{case}_{name}" for name in columns), table)
@@ -105,9 +105,10 @@ def _meet(v: Inputs, case: str) -> Kept:
     own = _prepared(v, case)
     own._table = v.vector(" ".join(_columns(case)))
     origins = {"from_point": "", "parallel": "qx qy qz", "alone": "ox oy oz"}[case]
-    rays = Rays(v.vector(origins) if origins else None, own._direction)
+    direction = own._direction if case == "parallel" else v.vector("dx dy dz")
+    rays = Rays(v.vector(origins) if origins else None, direction)
     with locals_of(quotient._quotient) as local:
-        own.meet(rays, FIRST)
+        own.meet(rays, v.rows)
     parts = *local["numerator"], *local["denominator"]
     return _named(" ".join(f"meet_{case}_{name}" for name in (*_T, *_D)), parts)
 

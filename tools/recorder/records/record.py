@@ -21,26 +21,43 @@ Kept = Mapping[str, Any]  # arrays of one number, or of none where it was not re
 
 
 class Inputs:
-    """The variables of a record, as arrays: recorded, or plain to hold the recorder against."""
+    """The variables of a record, as arrays: recorded, or plain to hold the recorder against.
 
-    def __init__(self, values: Values, choices: Choices | None = None) -> None:
+    In several `columns` each has the same variables.
+    """
+
+    def __init__(self, values: Values, choices: Choices | None = None, columns: int = 1) -> None:
         self.values, self._choices, self.named = values, choices, set()
+        self.columns = columns
+
+    @property
+    def rows(self) -> NDArray[np.intp]:
+        """The number of each column."""
+        return np.arange(self.columns)
 
     def one(self, name: str):
-        """Return a variable, (1,)."""
+        """Return a variable, (columns,)."""
+        return self.shared_one(name)[np.zeros(self.columns, np.intp)]
+
+    def shared_one(self, name: str):
+        """Return a variable that all columns share, (1,)."""
         value = self.values[name]
         return np.array([value]) if self._choices is None else variable(name, value)
 
+    def shared(self, names: str):
+        """Return variables that all columns share, (k, 1)."""
+        return self.stacked([self.shared_one(name) for name in names.split()])
+
     def scalar(self, name: str):
         """Return a variable without axes."""
-        return self.one(name).reshape(())[()]
+        return self.shared_one(name).reshape(())[()]
 
     def vector(self, names: str):
-        """Return variables, whose names are separated by spaces, in a column, (k, 1)."""
+        """Return variables, whose names are separated by spaces, (k, columns)."""
         return self.stacked([self.one(name) for name in names.split()])
 
     def matrix(self, *rows: str):
-        """Return variables in rows of columns, (r, k, 1)."""
+        """Return variables in rows, (r, k, columns)."""
         return self.stacked([self.vector(row) for row in rows])
 
     def stacked(self, arrays: Sequence):
@@ -53,10 +70,11 @@ class Inputs:
         """
         if self._choices is None:
             return None
-        test, value = self._choices[number]
+        test, value = self._choices[number * self.columns]
         if not is_path:
             self.named.add(test)
-        return lift(value)._each(lambda v: test if v.dtype == object else v)
+        each = np.full(self.columns, value)
+        return lift(each)._each(lambda v: np.full(len(v), test) if v.dtype == object else v)
 
     def __contains__(self, name: str) -> bool:
         return name in self.values
@@ -86,10 +104,10 @@ class Record:
 
 @dataclass(frozen=True)
 class Output:
-    """A result of a function, as an expression."""
+    """A result of a function, as an expression; or a whole function, as Coq's definition of it."""
 
     name: str
-    node: Node
+    node: Node | str
     words: str
     theorem: str
 
@@ -99,10 +117,13 @@ def outputs(record: Record) -> list[Output]:
     return [output for output, _ in recorded(record, record.values)]
 
 
-def recorded(record: Record, values: Values) -> list[tuple[Output, NDArray]]:
-    """Record a function for values of its variables; return its results with what they are."""
+def recorded(record: Record, values: Values, columns: int = 1) -> list[tuple[Output, NDArray]]:
+    """Record a function for values of its variables; return its results with what they are.
+
+    In several columns, each result must be the same expression in each.
+    """
     with recording() as choices, np.errstate(all="ignore"):
-        inputs = Inputs(values, choices)
+        inputs = Inputs(values, choices, columns)
         try:
             kept = dict(record.call(inputs))
         except RefusedError as refused:
@@ -132,9 +153,11 @@ def _words(record: Record, name: str) -> str:
 
 
 def single(value: Recorded) -> Node:
-    if value.size != 1:
-        raise TypeError(f"{value.size} numbers are kept as one result")
-    return value.nodes.reshape(-1)[0]
+    """Return the one expression of a result: the same in all columns."""
+    first, *others = value.nodes.reshape(-1)
+    if any(other is not first for other in others):
+        raise RefusedError("the columns of a result are different expressions")
+    return first
 
 
 class _Other:

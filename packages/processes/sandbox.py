@@ -1,4 +1,4 @@
-"""What a student's program may see, write and take: in bubblewrap, and by the system's limits."""
+"""What a program of others may see, write and take: in bubblewrap, and by the system's limits."""
 
 from __future__ import annotations
 
@@ -10,8 +10,6 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
-
-from .submission import Limits
 
 _LARGEST_FILE = 1 << 30  # bytes that a program may write to one
 # Sockets of other programs lie here, which a read-only folder would not keep it from.
@@ -71,8 +69,8 @@ def _seen(words: list[str], folder: Path, environment: dict[str, str]) -> Iterat
         yield from ("--setenv", name, value)
 
 
-def limited(limits: Limits) -> dict[str, Any]:
-    """Return what has the system limit a process, where it can: memory, files, core dumps."""
+def limited(memory: int) -> dict[str, Any]:
+    """Return what has the system limit a process, where it can: memory (bytes), files, dumps."""
     try:
         import resource
     except ImportError:  # Windows
@@ -80,7 +78,7 @@ def limited(limits: Limits) -> dict[str, Any]:
 
     def limit() -> None:
         for kind, most in (
-            (resource.RLIMIT_DATA, limits.memory),
+            (resource.RLIMIT_DATA, memory),
             (resource.RLIMIT_FSIZE, _LARGEST_FILE),
             (resource.RLIMIT_CORE, 0),
         ):

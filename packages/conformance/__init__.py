@@ -1,0 +1,1 @@
+"""A kit of small scenes that judges other renderers and exporters."""

@@ -1,0 +1,125 @@
+"""Writes scenes of the kit as .blend: a process of its own, which has bpy, started as a script.
+
+    python blend_child.py FOLDER...
+
+A folder bears the name of its scene; in it comes scene.blend.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+from reference_tracer.projections import PERSPECTIVE
+from reference_tracer.scene import Camera
+from reference_tracer_conformance.scenes import PALETTE, Item, KitScene, Sheared, kit_scenes
+from reference_tracer_conformance.shapes import Shape
+
+_SENSOR = 36.0  # mm
+
+
+def write(kit: KitScene, path: Path) -> None:
+    """Write one scene."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    meshes = {}
+    for item in kit.items:
+        key = item.shape, item.colors
+        if key not in meshes:
+            meshes[key] = _mesh(item.shape, item.colors)
+        _placed(item, meshes[key])
+    _camera(kit.camera)
+    scene = bpy.context.scene
+    scene.view_settings.view_transform = "Standard"
+    scene.render.film_transparent = True
+    scene.display.shading.light = "FLAT"
+    scene.display.shading.color_type = "MATERIAL"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True)
+
+
+def _mesh(shape: Shape, colors: tuple[int, ...]) -> bpy.types.Mesh:
+    mesh = bpy.data.meshes.new(shape.name)
+    # Blender's faces have no corner twice: what is left out has no area.
+    faces = zip(shape.polygons, shape.slot_of, strict=True)
+    kept = [(p, slot) for p, slot in faces if len(set(p)) == len(p)]
+    mesh.from_pydata(shape.vertices.tolist(), [], [p for p, _ in kept])
+    mesh.polygons.foreach_set("material_index", [slot for _, slot in kept])
+    for color in colors:
+        mesh.materials.append(_material(color))
+    return mesh
+
+
+def _material(color: int) -> bpy.types.Material:
+    name = f"color{color}"
+    if name in bpy.data.materials:
+        return bpy.data.materials[name]
+    material = bpy.data.materials.new(name)
+    rgba = (*PALETTE[color].tolist(), 1.0)
+    material.diffuse_color = rgba
+    material.use_nodes = True
+    nodes = material.node_tree.nodes
+    nodes.clear()
+    emission, output = nodes.new("ShaderNodeEmission"), nodes.new("ShaderNodeOutputMaterial")
+    emission.inputs["Color"].default_value = rgba
+    material.node_tree.links.new(emission.outputs["Emission"], output.inputs["Surface"])
+    return material
+
+
+def _placed(item: Item, mesh: bpy.types.Mesh) -> None:
+    """Link an object for each transform, the outermost parent first; the last has the mesh."""
+    parent = None
+    moves = item.moves or (None,)
+    for level, move in enumerate(moves, 1 - len(moves)):
+        name = item.name if level == 0 else f"{item.name}, parent {-level}"
+        made = bpy.data.objects.new(name, mesh if level == 0 else None)
+        bpy.context.scene.collection.objects.link(made)
+        made.parent = parent
+        if isinstance(move, Sheared):  # only the inverse of a parent's matrix holds a shear
+            made.parent = parent or _empty(f"{name}, root")
+            made.matrix_parent_inverse = Matrix(move.matrix.tolist())
+        elif move:
+            x, y, z, w = move.turn
+            made.rotation_mode = "QUATERNION"
+            made.location, made.scale = move.at, move.scale
+            made.rotation_quaternion = w, x, y, z
+        parent = made
+
+
+def _empty(name: str) -> bpy.types.Object:
+    made = bpy.data.objects.new(name, None)
+    bpy.context.scene.collection.objects.link(made)
+    return made
+
+
+def _camera(camera: Camera) -> None:
+    data = bpy.data.cameras.new("Camera")
+    (x, y), (width, height) = camera.window.centre, camera.window.size
+    data.sensor_fit, data.sensor_width = "HORIZONTAL", _SENSOR
+    if camera.projection == PERSPECTIVE:
+        data.lens = _SENSOR / width
+    else:
+        data.type, data.ortho_scale = "ORTHO", width
+    data.shift_x, data.shift_y = x / width, y / width
+    data.clip_start, data.clip_end = camera.clip_start, camera.clip_end
+    made = bpy.data.objects.new("Camera", data)
+    made.matrix_world = Matrix(np.asarray(camera.world_from_camera).tolist())
+    scene = bpy.context.scene
+    scene.collection.objects.link(made)
+    scene.camera = made
+    render = scene.render
+    render.resolution_x, render.resolution_y = camera.width, camera.height
+    render.resolution_percentage = 100
+    render.pixel_aspect_y = height * camera.width / (camera.height * width)
+
+
+def main() -> None:
+    """Write the .blend of each folder that is named."""
+    known = {kit.name: kit for kit in kit_scenes()}
+    for folder in map(Path, sys.argv[1:]):
+        write(known[folder.name], folder / "scene.blend")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,148 @@
+"""Writes what came of the kit's scenes: a table, a page, a badge, JSON and JUnit's XML."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from string import Template
+
+from reference_tracer import __version__
+from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.report import comparison as comparison_report
+from reference_tracer.report import page as comparison_page
+from reference_tracer.report.folders import replacing, write_json
+from reference_tracer.report.junit import junit
+from reference_tracer.report.tables import columns
+from reference_tracer.svg import element, said, width_of
+from reference_tracer.tracer.progress import Work
+from reference_tracer.wording import count_of
+
+from .judging import Program, Result
+
+PAGE, BADGE, JUNIT, JSON = NAMES = "index.html", "badge.svg", "junit.xml", "conformance.json"
+SCHEMA = "reference_tracer.conformance/1"
+_TITLE = "Conformance"
+_COLORS = {  # of a badge, by the gravest verdict: dark enough for white words
+    Verdict.AGREE: "#00703c",
+    Verdict.WARNINGS: "#7a5a00",
+}
+_BAD = "#a8001c"
+_HEAD = "scene", "verdict", "what is wrong"
+
+
+def keep(folder: Path, result: Result) -> Work[None]:
+    """Write the page of a scene that does not agree; remove one that an earlier run left."""
+    own = folder / result.kit.name
+    found = result.comparison
+    if found and result.judged.failure:
+        yield from comparison_report.write(own, found)
+        return
+    for name in comparison_report.NAMES:
+        (own / name).unlink(missing_ok=True)
+    if own.is_dir() and not any(own.iterdir()):
+        own.rmdir()
+
+
+def write(folder: Path, program: Program, results: Sequence[Result]) -> None:
+    """Write the page of all scenes, the badge, JUnit's XML and the JSON; all or none.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    with replacing(folder, NAMES) as new:
+        texts = {
+            PAGE: _page(program, results),
+            BADGE: badge(results),
+            JUNIT: junit("reftrace conform", {program.command: [r.judged for r in results]}),
+        }
+        for name, text in texts.items():
+            (new / name).write_text(text, encoding="utf-8", errors="backslashreplace")
+        write_json(new / JSON, _content(program, results))
+
+
+def verdict(results: Sequence[Result]) -> Verdict:
+    """Return the gravest verdict."""
+    return Verdict.gravest(r.verdict for r in results)
+
+
+def summary(results: Sequence[Result]) -> str:
+    """Return how many scenes agree, in words."""
+    return f"{agreeing(results)} of {count_of(len(results), 'scene')} agree"
+
+
+def agreeing(results: Sequence[Result]) -> int:
+    """Return how many scenes agree."""
+    return sum(r.verdict is Verdict.AGREE for r in results)
+
+
+def lines(results: Sequence[Result]) -> list[str]:
+    """Return the table, and the sum."""
+    rows = [(r.kit.name, str(r.verdict), r.judged.failure) for r in results]
+    return [*columns([_HEAD, *rows], left=(0, 1, 2)), summary(results)]
+
+
+def badge(results: Sequence[Result]) -> str:
+    """Return an SVG that says how many scenes agree, in the colour of the gravest verdict."""
+    color = _COLORS.get(verdict(results), _BAD)
+    texts = "Reference Tracer", f"{agreeing(results)} of {len(results)}"
+    drawn, x = [], 0.0
+    for text, fill in zip(texts, ("#444", color), strict=True):
+        width = width_of(text, 11) + 10
+        drawn.append(element("rect", x=x, width=width, height=20.0, fill=fill))
+        drawn.append(said("text", text, x=x + width / 2, y=14.0))
+        x += width
+    words = {"fill": "#fff", "font_family": "sans-serif", "text_anchor": "middle"}
+    drawn = [element("g", *drawn, **words, font_size=11.0)]
+    title = said("title", f"Reference Tracer: {summary(results)}")
+    space = "http://www.w3.org/2000/svg"
+    return element("svg", title, *drawn, xmlns=space, width=x, height=20.0, role="img") + "\n"
+
+
+def _content(program: Program, results: Sequence[Result]) -> dict[str, object]:
+    return {
+        "schema": SCHEMA,
+        "version": __version__,
+        "command": program.command,
+        "verdict": verdict(results),
+        "scenes": [
+            {
+                "name": r.kit.name,
+                "what": r.kit.sentence,
+                "verdict": r.verdict,
+                "wrong": r.judged.failure,
+                "detail": r.judged.detail if r.judged.failure else "",
+                "seconds": round(r.judged.seconds, 3),
+            }
+            for r in results
+        ],
+    }
+
+
+def _page(program: Program, results: Sequence[Result]) -> str:
+    return Template(Path(__file__).with_name("page.html").read_text(encoding="utf-8")).substitute(
+        title=escape(f"{_TITLE}: {summary(results)}"),
+        badge=badge(results),
+        command=f"<code>{escape(program.command)}</code>",
+        rows="\n".join(map(_row, results)),
+        version=escape(f"Reference Tracer {__version__}"),
+    )
+
+
+def _row(result: Result) -> str:
+    name = escape(result.kit.name)
+    if result.judged.failure and result.verdict is not Verdict.FAILED:
+        name = f'<a href="{name}/{comparison_page.NAME}">{name}</a>'
+    kind = result.verdict if result.verdict in _STYLED else Verdict.WARNINGS
+    cells = (
+        name,
+        escape(result.kit.sentence),
+        f'<span class="{kind}">{result.verdict}</span>',
+        escape(result.judged.failure),
+    )
+    return f"<tr>{''.join(f'<td>{c}</td>' for c in cells)}</tr>"
+
+
+_STYLED = Verdict.AGREE, Verdict.DIFFERENCES, Verdict.FAILED

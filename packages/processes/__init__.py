@@ -1,0 +1,1 @@
+"""Runs programs of others within limits: students' own, renderers, exporters."""

@@ -1,0 +1,131 @@
+"""Runs a program of somebody else until it ends: in a sandbox, with limits of time and memory."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import signal
+import subprocess
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+from reference_tracer.cli.running import printable
+
+from .sandbox import kept_in, limited
+
+SECONDS = 60.0
+MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
+KEPT = 4000  # bytes of what a program prints
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a program may take: seconds a scene, bytes."""
+
+    seconds: float = SECONDS
+    memory: int = MEMORY
+
+
+class ProgramError(Exception):
+    """A program did not end well; `kind` is "ended" or "time"."""
+
+    def __init__(self, kind: str, message: str) -> None:
+        super().__init__(message)
+        self.kind, self.message = kind, message
+
+
+def words_of(command: str) -> tuple[str, ...]:
+    """Split a command as a shell does.
+
+    Raises
+    ------
+    ValueError
+        If a quotation has no end, or there is no word.
+    """
+    words = tuple(w.strip('"') for w in shlex.split(command, posix=os.name != "nt"))
+    if not words:
+        raise ValueError("there is no command")
+    return words
+
+
+def filled(words: Sequence[str], names: Mapping[str, str]) -> list[str]:
+    """Return the words with what stands for files replaced by their paths."""
+    out = list(words)
+    for name, path in names.items():
+        out = [word.replace(name, path) for word in out]
+    return out
+
+
+def run(
+    words: Sequence[str],
+    folder: Path,
+    limits: Limits,
+    streams: tuple[IO[bytes] | None, IO[bytes], IO[bytes]],
+    boxed: bool = True,
+) -> None:
+    """Run a command until it ends, and end what it has started.
+
+    Parameters
+    ----------
+    words : sequence of str
+    folder : Path
+        The one that it may write to.
+    limits : Limits
+    streams : (file, file, file)
+        Its standard input, output and error.
+    boxed : bool
+        Whether it is kept in the sandbox, where there is one.
+
+    Raises
+    ------
+    ProgramError
+        If it cannot be started, takes too long, or ends with another exit code than 0.
+    """
+    given, out, err = streams
+    own = {"TMPDIR": str(folder), "OMP_NUM_THREADS": "1"}
+    try:
+        process = subprocess.Popen(
+            kept_in(list(words), folder, own) if boxed else words,
+            stdin=given or subprocess.DEVNULL,
+            stdout=out,
+            stderr=err,
+            env=os.environ | own,
+            start_new_session=True,
+            **limited(limits.memory),
+        )
+    except OSError as error:
+        raise ProgramError("ended", f"it cannot be started: {error}") from error
+    try:
+        code = process.wait(max(limits.seconds, 0.0))
+    except subprocess.TimeoutExpired as error:
+        raise ProgramError("time", "took longer than the time limit") from error
+    finally:
+        kill(process)
+        process.wait()
+    if code:
+        raise ProgramError("ended", f"{_how(code)}: {_last(err)}".rstrip(": "))
+
+
+def kill(process: subprocess.Popen[bytes]) -> None:
+    """End a process, and what it has started, but for what has a session of its own."""
+    with suppress(OSError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+
+
+def _how(code: int) -> str:
+    if code < 0:
+        return f"the program was ended by {signal.Signals(-code).name}"
+    return f"the program ended with exit code {code}"
+
+
+def _last(file: IO[bytes]) -> str:
+    """Return the last line of what a program has printed."""
+    file.seek(max(0, file.seek(0, os.SEEK_END) - KEPT))
+    lines = file.read().decode("utf-8", "replace").strip().splitlines()
+    return printable(lines[-1])[:200] if lines else ""

@@ -1,0 +1,157 @@
+"""`reftrace rays`: any rays, certified; and Embree, judged by it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+from reference_tracer.certified.definition import seen_by
+from reference_tracer.scene import Plane
+from reference_tracer.scene_files import save_scene
+from reference_tracer.tracer.camera import Rays
+
+PAGE = Path(__file__).parents[2] / "docs" / "rays.md"
+
+
+@pytest.fixture
+def run(tmp_path, exit_code, capsys):
+    """Trace rays through a scene; returns the exit code, the arrays, and what is printed."""
+
+    def traced(scene, *options, **arrays):
+        save_scene(tmp_path / "scene.npz", scene)
+        np.savez(tmp_path / "rays.npz", **arrays)
+        words = ["rays", tmp_path / "scene.npz", tmp_path / "rays.npz", "--out", tmp_path / "h.npz"]
+        code = exit_code([*map(str, words), *options])
+        found = None
+        if code == 0:
+            with np.load(tmp_path / "h.npz") as held:
+                found = dict(held)
+        printed = capsys.readouterr()
+        return code, found, printed.out + printed.err
+
+    return traced
+
+
+@pytest.fixture
+def scene(make):
+    ball = make.mesh(trimesh.creation.icosphere(2), name="Ball")
+    plane = Plane(0, (0, 0, -1.5), (0, 0, 1))
+    made = make.scene(make.camera(4, 4), ball)
+    return type(made)(made.camera, made.meshes, made.instances, (plane,), objects=made.objects)
+
+
+def random_rays(count, seed=1):
+    rng = np.random.default_rng(seed)
+    origins = rng.normal(size=(count, 3)) * 3
+    return {"origins": origins, "directions": rng.normal(size=(count, 3)) - origins}
+
+
+@pytest.mark.parametrize("options", [(), ("--every-pair",), ("--start", "0.4", "--end", "1.5")])
+def test_it_is_what_the_definition_says(options, scene, run):
+    given = random_rays(30)
+    given["origins"][0] = scene.meshes[0].vertices[3] * 4  # at a corner, from outside
+    given["directions"][0] = -scene.meshes[0].vertices[3]
+    clip = (0.4, 1.5) if "--start" in options else (0.0, np.inf)
+    code, found, printed = run(scene, *options, **given)
+    assert code == 0 and "30 rays, 320 triangles" in printed
+    rays = Rays(given["origins"].T, given["directions"].T)
+    for k, wanted in enumerate(seen_by(scene, rays, clip)):
+        assert (found["instance"][k], found["triangle"][k]) == wanted.name
+        assert found["t"][k] == wanted.t
+        tied = found["tie_ray"] == k
+        names = zip(found["tie_instance"][tied], found["tie_triangle"][tied], strict=True)
+        assert set(names) == wanted.ties
+    seen = found["triangle"] >= 0
+    assert np.allclose(found["barycentrics"][seen].sum(axis=1), 1)
+    assert np.isnan(found["barycentrics"][~seen]).all()
+    assert (np.isfinite(found["t"]) == (found["instance"] >= 0)).all()
+    assert (found["object"] >= 0).tolist() == (found["instance"] >= 0).tolist()
+    text = PAGE.read_text(encoding="utf-8")
+    assert not [name for name in found if f"`{name}`" not in text]
+
+
+def test_one_origin_or_one_direction_for_all(scene, run):
+    given = random_rays(10)
+    code, one, _ = run(scene, origins=[0.1, 0.2, 0.3], directions=given["directions"])
+    assert code == 0 and (one["triangle"] >= 0).all()
+    code, all_, _ = run(
+        scene, origins=np.tile((0.1, 0.2, 0.3), (10, 1)), **{"directions": given["directions"]}
+    )
+    assert (one["t"] == all_["t"]).all() and (one["triangle"] == all_["triangle"]).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"origins": None}, "has no array 'origins'"),
+        ({"directions": np.zeros((5, 3))}, "row 0 of directions is zero"),
+        ({"directions": np.ones((5, 2))}, "directions holds (5, 2) of float64"),
+        ({"directions": np.ones((4, 3))}, "5 origins and 4 directions"),
+        ({"origins": np.array([["a", "b", "c"]])}, "origins holds (1, 3) of <U1"),
+        ({"origins": np.full((5, 3), [[1], [2], [np.nan], [0], [0]])}, "row 2 of origins"),
+        ({"origins": np.full((5, 3), 2**53 + 1)}, "numbers that float64 does not"),
+        ({"origins": np.array([object()])}, "cannot be read as an .npz of rays"),
+    ],
+)
+def test_rays_that_are_wrong_are_refused_by_name(change, said, scene, run):
+    arrays = random_rays(5) | change
+    code, _, printed = run(scene, **{k: v for k, v in arrays.items() if v is not None})
+    assert code == 4 and said in printed, printed
+
+
+def test_options_that_are_wrong_are_refused(scene, run, tmp_path, exit_code, capsys):
+    assert (
+        "--start 2 is not below --end 1"
+        in run(scene, "--start", "2", "--end", "1", **random_rays(2))[2]
+    )
+    rays = str(tmp_path / "rays.npz")
+    assert exit_code(["rays", str(tmp_path / "scene.npz"), rays, "--out", rays]) == 4
+    assert "is a file that is read" in capsys.readouterr().err
+    assert exit_code(["rays", str(tmp_path / "scene.npz"), "no.npz", "--out", "o.npz"]) == 4
+    assert "no.npz" in capsys.readouterr().err
+
+
+def test_embree_is_judged(make, run):
+    """It sees the same triangles, but where a ray passes next to an edge, for float32."""
+    mesh = trimesh.creation.icosphere(4)
+    vertices = mesh.vertices.astype(np.float32)
+    given = {k: v.astype(np.float32) for k, v in random_rays(20_000, 3).items()}
+    given["directions"][:500] = vertices[:500] - given["origins"][:500]  # at corners
+    code, found, _ = run(make.scene(make.camera(4, 4), make.mesh(mesh)), **given)
+    embree = EmbreeScene()
+    TriangleMesh(embree, vertices, mesh.faces.astype(np.int32))
+    other = embree.run(given["origins"], given["directions"])
+    wrong = np.flatnonzero(other != found["triangle"])
+    assert code == 0 and len(wrong) and (wrong >= 500).sum() < 20
+    corners = vertices[mesh.faces].astype(float)
+    for k in wrong:  # on the one's or on the other's triangle: what is missed shows what is behind
+        named = [t for t in (found["triangle"][k], other[k]) if t >= 0]
+        rays = given["origins"][k].astype(float), given["directions"][k].astype(float)
+        assert min(beside_an_edge(corners[t], *rays) for t in named) < OF_FLOAT32
+
+
+OF_FLOAT32 = 16 * 2.0**-24  # roundings of (d x e) . s, in units of |d| |e| |s|
+
+
+def beside_an_edge(corners, origin, direction):
+    """Return how near a ray passes to an edge of a triangle: |(d x e) . s| / (|d| |e| |s|)."""
+    arms = corners - origin
+    sides = np.roll(corners, -1, axis=0) - corners
+    volumes = np.abs(np.cross(arms, sides) @ direction)
+    lengths = [np.linalg.norm(v, axis=-1) for v in (direction, arms, sides)]
+    return (volumes / np.prod(np.broadcast_arrays(*lengths), axis=0)).min()
+
+
+def test_the_example_of_the_page_runs(scene, tmp_path, monkeypatch, exit_code):
+    monkeypatch.chdir(tmp_path)
+    save_scene("scene.npz", scene)
+    before, after = re.findall(r"^```python\n(.*?)^```$", PAGE.read_text("utf-8"), re.M | re.S)
+    exec(compile(before, "rays.md", "exec"), {})
+    assert exit_code("rays scene.npz rays.npz --out hits.npz".split()) == 0
+    exec(compile(after, "rays.md", "exec"), held := {})
+    assert held["wrong"].sum() == 0

@@ -1,0 +1,194 @@
+"""`reftrace conform`: Embree agrees on the kit, and what is wrong with a renderer is named."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+PROJECT = Path(__file__).parents[2]
+RENDERER = PROJECT / "packages" / "conformance" / "examples" / "embreex_obj.py"
+MATRICES = 'K, R, t = (np.array(camera[key]) for key in "KRt")'
+DIRECTIONS = "(len(x), 3)), np.stack((x, y, one)"
+WRONG = {  # what is written in place of what, and what is said of it
+    "half": (" + 0.5, np.arange(height) + 0.5", ", np.arange(height)", "the pixels' corners"),
+    "rows": ("(255 * rgba)", "(255 * rgba[::-1])", "mirrored upside down"),
+    "handed": (DIRECTIONS, DIRECTIONS.replace("(x", "(-x"), "mirrored left to right"),
+    "fov": (MATRICES, f"{MATRICES}; K[0, 0] *= 1.15; K[1, 1] *= 1.15", "focal length is +15 %"),
+    "shift": (MATRICES, f"{MATRICES}; K[0, 2] = width / 2", "the camera's shift is left out"),
+    "square": (MATRICES, f"{MATRICES}; K[0, 0] = K[1, 1]", "pixel aspect"),
+    "cull": (
+        "vertices, triangles, colors = read_obj(obj)",
+        "vertices, triangles, colors = read_obj(obj)\n"
+        "    a, b, c = vertices[triangles].transpose(1, 0, 2)\n"
+        "    eye = -np.array(camera['R']).T @ camera['t']\n"
+        "    seen = (np.cross(b - a, c - a) * (eye - a)).sum(1) > 0\n"
+        "    triangles, colors = triangles[seen], colors[seen]",
+        "from behind",
+    ),
+}
+OF = {"shift": "camera-shift-x", "square": "camera-tall-pixels", "cull": "mesh-back"}
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "report"
+
+
+@pytest.fixture
+def conform(out, exit_code, capsys):
+    """Run a command on scenes; returns the exit code, what is printed, and the JSON by scenes."""
+
+    def run(command, *only, options=("--no-sandbox",)):
+        words = ["conform", command, "--out", str(out), *(["--only", *only] if only else [])]
+        code = exit_code([*words, *options])
+        told = capsys.readouterr()
+        held = out / "conformance.json"
+        found = json.loads(held.read_text(encoding="utf-8"))["scenes"] if held.exists() else []
+        return code, told.out + told.err, {each["name"]: each for each in found}
+
+    return run
+
+
+def rendered(script):
+    return f'"{sys.executable}" "{script}" {{obj}} {{camera}} {{out}}'
+
+
+def made_wrong(name, folder):
+    """Return the renderer with a fault, and what is said of it."""
+    before, after, said = WRONG[name]
+    text = RENDERER.read_text(encoding="utf-8")
+    assert before in text
+    path = folder / f"{name}.py"
+    path.write_text(text.replace(before, after), encoding="utf-8")
+    return path, said
+
+
+def test_embree_agrees(conform, out):
+    code, told, found = conform(
+        rendered(RENDERER), "camera-shift-portrait", "camera-orthographic-shift", "mesh-behind"
+    )
+    assert code == 0 and "3 of 3 scenes agree" in told, told
+    assert not any(each["wrong"] for each in found.values())
+    assert not (out / "mesh-behind").exists()
+
+
+@pytest.mark.parametrize("name", ["half", "rows", "handed", "fov"])
+def test_what_is_wrong_is_named(name, conform, out, tmp_path):
+    path, said = made_wrong(name, tmp_path)
+    code, told, found = conform(rendered(path), "camera-plain")
+    assert code == 2 and said in found["camera-plain"]["wrong"] and said in told
+    page = (out / "camera-plain" / "page.html").read_text(encoding="utf-8")
+    assert "diagnosis" in page
+    index = (out / "index.html").read_text(encoding="utf-8")
+    assert 'href="camera-plain/page.html"' in index and "0 of 1" in index
+    failure = ElementTree.parse(out / "junit.xml").find(".//failure")
+    assert said in failure.get("message") and "verdict: differences" in failure.text
+    assert "0 of 1" in (out / "badge.svg").read_text(encoding="utf-8")
+
+
+@pytest.mark.torture
+def test_embree_agrees_on_the_whole_kit(conform):
+    code, told, _ = conform(rendered(RENDERER))
+    assert code == 0 and "40 of 40 scenes agree" in told, told
+
+
+@pytest.mark.torture
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_wrong_is_named_everywhere(name, conform, tmp_path):
+    """And where a scene does not have what the renderer does wrong, it agrees."""
+    path, said = made_wrong(name, tmp_path)
+    _, told, found = conform(rendered(path))
+    wrong = {k: each["wrong"] for k, each in found.items() if each["verdict"] != "agree"}
+    if name in OF:
+        assert said in wrong[OF[name]], wrong
+        assert "camera-plain" not in wrong
+    else:
+        assert sum(said in text for text in wrong.values()) >= 30, told
+
+
+def test_a_copy_is_a_right_export(conform):
+    """In the sandbox, where there is one."""
+    options = ("--ending", ".glb")
+    _, told, found = conform("cp {scene} {out}", "transform-sheared", "mesh-mat", options=options)
+    assert "2 of 2 scenes agree" in told, told
+    assert len(found) == 2
+
+
+@pytest.mark.torture
+def test_what_trimesh_makes_of_the_whole_kit(conform):
+    """All is right, but for the names of what has two materials."""
+    script = RENDERER.with_name("trimesh_glb.py")
+    command = f'"{sys.executable}" "{script}" {{scene}} {{out}}'
+    _, told, found = conform(command, options=("--no-sandbox", "--ending", ".glb"))
+    assert "39 of 40 scenes agree" in told, told
+    assert "lacks 'Bracket'" in found["mesh-materials"]["wrong"]
+
+
+def test_an_export_with_another_axis_up_is_named(conform):
+    swap = r"s/^v \(\S*\) \(\S*\) \(\S*\)/v \1 \3 -\2/"
+    command = f"""sed -n '{swap};w {{out}}' {{obj}}"""
+    code, _, found = conform(command, "transform-moved", options=("--ending", ".obj"))
+    assert code == 2 and "up" in found["transform-moved"]["wrong"], found
+
+
+def test_an_export_of_other_objects_is_refused_by_name(conform, out):
+    command = "sed -n 's/^o Post/o Pole/;w {out}' {obj}"
+    code, _, found = conform(command, "transform-moved", options=("--ending", ".obj"))
+    wrong = found["transform-moved"]["wrong"]
+    assert code == 4 and "lacks 'Post' and has besides 'Pole'" in wrong
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        ("true {scene} {out}", "wrote no file {out} (out.png)"),
+        ("false {scene} {out}", "exit code 1"),
+        ("no-such-program {scene} {out}", "exit code|cannot be started"),
+        ("cp {scene} {out}", "out.png"),
+        ("sleep 30 {scene} {out}", "exit code|longer than the time limit"),
+    ],
+)
+def test_a_program_that_fails_is_a_failed_scene(command, said, conform, out):
+    code, _, found = conform(command, "mesh-ball", options=("--time-limit", "1"))
+    assert code == 4 and found["mesh-ball"]["verdict"] == "failed"
+    assert any(part in found["mesh-ball"]["wrong"] for part in said.split("|")), found
+    assert str(out) not in found["mesh-ball"]["wrong"]
+
+
+def test_a_picture_of_another_size_fails(conform, out, tmp_path):
+    script = tmp_path / "small.py"
+    text = RENDERER.read_text(encoding="utf-8").replace(".save(out)", ".resize((32, 24)).save(out)")
+    script.write_text(text, encoding="utf-8")
+    code, _, found = conform(rendered(script), "camera-plain")
+    assert code == 4 and "32 x 24" in found["camera-plain"]["wrong"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["render {scene} {out}"], "--out DIR"),
+        (["render {out}", "--out", "r"], "names no file of a scene"),
+        (["render {scene}", "--out", "r"], "names no {out}"),
+        (["render '{scene} {out}", "--out", "r"], "is not understood"),
+        (["x {scene} {out}", "--out", "r", "--only", "none"], "there are camera-plain"),
+        (["--write", "kit", "--only", "mesh"], "is for a run"),
+        (["x {scene} {out}", "--write", "kit"], "leave out the command"),
+    ],
+)
+def test_what_contradicts_itself_is_refused(words, said, exit_code, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert exit_code(["conform", *words]) == 4
+    assert said in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_second_run_leaves_no_page_of_the_first(conform, out, tmp_path):
+    path, _ = made_wrong("rows", tmp_path)
+    conform(rendered(path), "mesh-triangle")
+    assert (out / "mesh-triangle" / "page.html").exists()
+    conform(rendered(RENDERER), "mesh-triangle")
+    assert not (out / "mesh-triangle").exists()

@@ -1,0 +1,101 @@
+"""The kit: its files hold the same scenes, whoever reads them."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.mesh_files.load import load_meshes, scene_of_meshes
+from reference_tracer.projections import PERSPECTIVE
+from reference_tracer.rendering import render
+from reference_tracer.scene_files import load_scene
+from reference_tracer.tracer.camera import camera_rays
+from reference_tracer_conformance.cameras import Y_UP_FROM_Z_UP, opencv
+from reference_tracer_conformance.gltf_files import gltf_camera
+from reference_tracer_conformance.kit import CAMERA_Y_UP, write_kit
+from reference_tracer_conformance.scenes import kit_scenes
+
+SCENES = kit_scenes()
+
+
+@pytest.fixture(scope="module")
+def kit(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("kit")
+    write_kit(folder, SCENES, blends=False)
+    return folder
+
+
+def owners(scene):
+    names = np.array([*scene.objects, ""])
+    return names[render(scene).object_index]
+
+
+def test_there_are_forty_small_ones(kit):
+    assert len(SCENES) == len({k.name for k in SCENES}) == 40
+    assert all(k.sentence.endswith(".") for k in SCENES)
+    assert sum(path.stat().st_size for path in kit.rglob("*.*")) < 1e6
+    assert set(json.loads((kit / "kit.json").read_text("utf-8"))) == {k.name for k in SCENES}
+
+
+def test_every_format_holds_every_scene(kit):
+    for k in SCENES:
+        wanted = owners(k.scene)
+        assert 0.02 < (wanted != "").mean(), k.name
+        assert (owners(load_scene(kit / k.name / "scene.npz")) == wanted).all(), k.name
+        for name in ("scene.glb", "scene.obj"):
+            size = k.camera.width, k.camera.height
+            scene = scene_of_meshes(load_meshes(kit / k.name / name), k.camera, *size)
+            assert (owners(scene) == wanted).all(), (k.name, name)
+
+
+def test_another_reader_sees_the_same_triangles(kit):
+    for k in SCENES:
+        read = trimesh.load_scene(kit / k.name / "scene.glb", process=False).to_mesh()
+        own = [i.world_from_object for i in k.scene.instances]
+        ends = [
+            m @ np.column_stack((s.shape.vertices, np.ones(len(s.shape.vertices)))).T
+            for m, s in zip(own, k.items, strict=True)
+        ]
+        points = (Y_UP_FROM_Z_UP @ np.concatenate(ends, axis=1))[:3].T
+        found = np.array([points.min(axis=0), points.max(axis=0)])
+        assert np.allclose(read.bounds, found, atol=2e-4, rtol=1e-6), k.name
+        assert len(read.faces) == sum(len(i.shape.triangles) for i in k.items), k.name
+
+
+@pytest.mark.parametrize("y_up", [False, True])
+def test_the_cameras_formula_gives_back_the_pixels_of_the_rays(y_up):
+    """OpenCV's own formula, of points on the tracer's rays: pixel centres at 0.5, row 0 on top."""
+    turn = Y_UP_FROM_Z_UP[:3, :3] if y_up else np.eye(3)
+    for k in SCENES:
+        camera, said = k.camera, opencv(k.camera, y_up)
+        K, R, t = (np.array(said[key]) for key in "KRt")  # noqa: N806
+        x, y = np.array([0, 3, camera.width - 1]), np.array([0, 7, camera.height - 1])
+        rays = camera_rays(camera, x + 0.5, y + 0.5)
+        points = turn @ (rays.origins + 3.0 * rays.directions)
+        seen = R @ points + t[:, None]
+        assert np.allclose(seen[2], 3.0)
+        if camera.projection == PERSPECTIVE:
+            seen = seen / seen[2]
+        else:
+            seen[2] = 1
+        u, v, _ = K @ seen
+        assert np.allclose(u, x + 0.5, atol=1e-8), k.name
+        assert np.allclose(v, camera.height - (y + 0.5), atol=1e-8), k.name
+
+
+def test_gltf_says_only_cameras_that_it_can(kit):
+    """What is shifted, or has pixels that are not square, is left to the JSON."""
+    silent = {k.name for k in SCENES if gltf_camera(k.camera) is None}
+    assert silent == {f"camera-{n}" for n in SAYS_NOT}
+    for k in SCENES:
+        held = trimesh.load_scene(kit / k.name / "scene.glb", process=False)
+        if k.name not in silent and k.camera.projection == PERSPECTIVE:
+            world = held.graph[held.camera.name][0]
+            assert np.allclose(world, Y_UP_FROM_Z_UP @ k.camera.world_from_camera), k.name
+            assert np.isclose(held.camera.fov[1], 2 * np.degrees(np.arctan(k.camera.window.top)))
+        assert (kit / k.name / CAMERA_Y_UP).is_file()
+
+
+SAYS_NOT = "shift-x", "shift-y", "shift-portrait", "tall-pixels", "orthographic-shift"

@@ -1,0 +1,250 @@
+"""Wrong versions of the certified code, and the check that notices each.
+
+    .venv/bin/python -m tests.proof.mutants    # makes each, runs its check: one table
+
+- *expressions*: `tools/record_trees.py --check`, of the expressions of floats;
+- *integers*: the same, of whole functions of integers;
+- *judge*: small scenes, whose rays meet edges, corners and several surfaces at once, by the sweep
+  and by `plain`; owner, certainty, t and ties against `tests/oracle.py` and `tests/moved.py`, which
+  share nothing with the tracer's own exact path.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import sys
+import tempfile
+from pathlib import Path
+from subprocess import CompletedProcess
+from typing import NamedTuple
+
+from ..copied import TOOLS, copied, run
+
+ROOT = str(Path(__file__).resolve().parents[2])
+CHECKS = {
+    "expressions": f"""
+import sys
+sys.path.append({TOOLS!r})
+sys.argv = ["record_trees.py", "--check"]
+import record_trees
+record_trees.main()
+""",
+    "integers": f"""
+import sys
+sys.path.append({TOOLS!r})
+import record_trees
+from recorder import coq
+from recorder.records.integers import INTEGERS
+found = [record.output() for record in INTEGERS]
+if changed := coq.differences("RecordedIntegers", record_trees.proven(), found):
+    sys.exit("\\n\\n".join(changed))
+""",
+    "judge": f"""
+import sys
+sys.path.append({ROOT!r})
+from tests.proof.judged import wrong_answers
+if wrong := wrong_answers():
+    sys.exit(f"wrong: {{', '.join(sorted(wrong))}}")
+""",
+}
+_TIMES = itertools.count(1_000_000_000, 10)
+
+
+class Mutant(NamedTuple):
+    """What is changed, in which file, from which text to which, and which check notices it."""
+
+    what: str
+    file: str
+    old: str
+    new: str
+    check: str
+
+
+MUTANTS = (
+    # Floats.
+    *(
+        Mutant(what, f"certified/{file}.py", old, new, "expressions")
+        for what, file, old, new in (
+            ("t's error is half of it", "quotient", "_DOT = 2.0**-72", "_DOT = 2.0**-73"),
+            ("no room for the bounds' roundings", "quotient", "_LOOSE = 1.01", "_LOOSE = 1.0"),
+            ("likewise of t's interval", "bounds", "_LOOSE = 1 + 2.0**-48", "_LOOSE = 1.0"),
+            ("no error of t's own rounding", "bounds", "(error + U * np.abs(t))", "error"),
+            ("the sign of D1 D2 is forgotten", "order", "* columns[4]", "* np.abs(columns[4])"),
+            ("sure at the clip start", "ladder", "(low > start) & (", "(low >= start) & ("),
+            (
+                "a miss at the error itself",
+                "ladder",
+                "(low < -error) & (high > error)",
+                "(low <= -error) & (high >= error)",
+            ),
+            (
+                "what may be as near is dropped",
+                "ladder",
+                "& (low <= self._farthest[ray])",
+                "& (low < self._farthest[ray])",
+            ),
+            ("half of the rays' error", "sweep/film", "24 * _EPS", "12 * _EPS"),
+            ("a t that is not finite is taken", "measures", "& np.isfinite(t) ", ""),
+            (
+                "a fragment as near is dropped",
+                "sweep/depth_buffer",
+                "some.nearest < gather(self.nearness",
+                "some.nearest <= gather(self.nearness",
+            ),
+        )
+    ),
+    # Integers, and who is seen.
+    *(
+        Mutant(what, f"certified/{file}.py", old, new, "integers")
+        for what, file, old, new in (
+            (
+                "a component of n has another sign",
+                "exact",
+                "ab[1] + bc[1] + ca[1]",
+                "ab[1] + bc[1] - ca[1]",
+            ),
+            ("an edge is a miss", "exact", "min(edges) < 0 <", "min(edges) <= 0 <"),
+            ("the clip range is open", "exact", "abs(denominator)) < 0", "abs(denominator)) <= 0"),
+            ("no hit at t = 0", "exact", "if not numerator and self._open", "if not numerator"),
+            (
+                "the sign of D1 D2 is forgotten in `gap`",
+                "exact",
+                "return apart if (first.denominator > 0) == (second.denominator > 0) else -apart",
+                "return apart",
+            ),
+            (
+                "likewise for the moved ray",
+                "exact",
+                "return sign if (first.denominator > 0) == (second.denominator > 0) else -sign",
+                "return sign",
+            ),
+            ("the origin moves always", "exact", "if not value and m == ZERO", "if not value"),
+            ("crossed from one side alone", "exact", "signs in ({1}, {-1})", "signs == {1}"),
+            ("t by another power of two", "exact", "denominator <<= -self._shift", "pass"),
+            (
+                "w has another sign",
+                "order",
+                "by1 * b - by2 * a",
+                "by2 * a - by1 * b",
+            ),
+            ("the highest name is seen", "ties", "name < hits[best][0]", "name > hits[best][0]"),
+            ("what is as near is not in front", "ties", "gap(m, least) <= 0", "gap(m, least) < 0"),
+        )
+    ),
+    # What no theorem notices: settling, ties, candidates.
+    *(
+        Mutant(what, file, old, new, "judge")
+        for what, file, old, new in (
+            (
+                "ties are called exact",
+                "certified/ladder.py",
+                "Certainty.AMBIGUOUS if ties else Certainty.EXACT",
+                "Certainty.EXACT",
+            ),
+            (
+                "who is alone is taken as sure",
+                "certified/ladder.py",
+                "return found, alone & (found.doubt == SURE), surfaces",
+                "return found, alone, surfaces",
+            ),
+            (
+                "the farther candidate wins",
+                "certified/ladder.py",
+                "nearer = result == order.FARTHER",
+                "nearer = result == order.NEARER",
+            ),
+            (
+                "likewise in a tournament",
+                "certified/sweep/tournament.py",
+                "beaten = result == FARTHER",
+                "beaten = result == -FARTHER",
+            ),
+            (
+                "candidates are not sorted by their names",
+                "certified/ladder.py",
+                "found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], "
+                "found.ray)))",
+                "found = found.take(np.lexsort((-found.surface, found.ray)))",
+            ),
+            (
+                "one edge function of one sign is a miss",
+                "certified/many.py",
+                "out[some] = low & high",
+                "out[some] = low | high",
+            ),
+            (
+                "intersections of planes are no lines of change",
+                "certified/ties.py",
+                "for other in planes[:k] if gap(hit, other) == 0]",
+                "for other in planes[:0]]",
+            ),
+            (
+                "only one side of each line is tried",
+                "certified/ties.py",
+                "for s in (1, -1)}",
+                "for s in (1,)}",
+            ),
+            (
+                "a float's last digit is lost in its integer",
+                "certified/integers.py",
+                "(mantissa * 2.0**53).astype(np.int64)",
+                "((mantissa * 2.0**53).astype(np.int64) & ~1)",
+            ),
+            (
+                "a clip limit is another power of two",
+                "certified/exact.py",
+                "self._shift + power.bit_length() - 1",
+                "self._shift + power.bit_length()",
+            ),
+            (
+                "the box begins a pixel later",
+                "tracer/candidates.py",
+                "bounds[2 * axis] = _pixel(first, low",
+                "bounds[2 * axis] = _pixel(first + 1, low",
+            ),
+            (
+                "triangles before the camera are culled",
+                "tracer/candidates.py",
+                "unseen = (farthest < camera.clip_start)",
+                "unseen = (nearest < camera.clip_start)",
+            ),
+        )
+    ),
+)
+
+
+def checked(copy: Path, mutant: Mutant) -> CompletedProcess[str]:
+    """Make a mutant of a copy, run its check, and put the text back."""
+    file = copy / mutant.file
+    source = file.read_text(encoding="utf-8")
+    assert mutant.old in source, f"{mutant.file} has no {mutant.old!r}"
+    try:
+        write(file, source.replace(mutant.old, mutant.new, 1))
+        return run(copy.parent, CHECKS[mutant.check])
+    finally:
+        write(file, source)
+
+
+def write(file: Path, source: str) -> None:
+    """Write a file at a time of its own, so that Python sees that it is another."""
+    now = next(_TIMES)
+    file.write_text(source, encoding="utf-8")
+    os.utime(file, (now, now))
+
+
+def main() -> None:
+    """Print which check notices each mutant; the program fails if one passes."""
+    passed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        copy = copied(Path(folder))
+        for mutant in MUTANTS:
+            noticed = checked(copy, mutant).returncode != 0
+            passed += not noticed
+            result = mutant.check if noticed else "NOT NOTICED"
+            print(f"{mutant.file:32}{mutant.what:50}{result}", flush=True)
+    sys.exit(f"{passed} pass" if passed else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,46 @@
+"""Each wrong version of the certified code is noticed by the check that is said to notice it."""
+
+from __future__ import annotations
+
+import prove
+import pytest
+
+from ..copied import copied
+from .mutants import CHECKS, MUTANTS, Mutant, checked
+
+# Every day; all of them in `make torture`.
+SAMPLE = {"an edge is a miss", "the highest name is seen", "the farther candidate wins"}
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    return copied(tmp_path_factory.mktemp("copy"))
+
+
+def marked(mutant: Mutant):
+    """Return a mutant as a test's parameter."""
+    marks = pytest.mark.slow if mutant.what in SAMPLE else pytest.mark.torture
+    return pytest.param(mutant, id=mutant.what, marks=marks)
+
+
+@pytest.mark.parametrize("mutant", [marked(mutant) for mutant in MUTANTS])
+def test_it_is_noticed(copy, mutant):
+    result = checked(copy, mutant)
+    assert result.returncode
+    said = {"expressions": "than Coq has read", "integers": "than Coq has read", "judge": "wrong: "}
+    assert said[mutant.check] in result.stderr, result.stderr
+
+
+@pytest.mark.torture
+@pytest.mark.parametrize("check", CHECKS)
+def test_the_code_as_it_is_passes(copy, check):
+    result = checked(copy, Mutant("nothing", "certified/exact.py", "", "", check))
+    assert not result.returncode, result.stderr
+
+
+def test_the_document_has_all_of_them():
+    text = (prove.PROOFS.parent / "docs" / "proof.md").read_text(encoding="utf-8")
+    assert len({mutant.what for mutant in MUTANTS}) == len(MUTANTS)
+    for check in CHECKS:
+        [row] = [line for line in text.splitlines() if line.startswith(f"| *{check}* |")]
+        assert all(m.what in row for m in MUTANTS if m.check == check)
