@@ -154,6 +154,8 @@ def compare(
     ('differences', 1)
     """
     making = Making(renderer, filter_radius, dither)
+    if scale is not None and not kind:
+        raise ValueError("scale is of depths, distances and positions: say which, by kind")
     if isinstance(scene, Scene):
         manifest = file_manifest(Path("scene"), scene, Account())
     else:

@@ -88,6 +88,19 @@ def test_depths_pass_and_millimetres_are_named(scene):
     assert check(scene, depth * 1000, kind="depth", scale=0.001).counts.differ == 0
 
 
+@pytest.mark.parametrize("scale", [0.0, -1.0, np.nan, np.inf])
+def test_a_scale_that_is_none_is_refused(scene, scale):
+    depth = render(scene).depth
+    with pytest.raises(ValueError, match="must be above 0"):
+        check(scene, depth, kind="depth", scale=scale)
+
+
+@pytest.mark.parametrize("kind", ["", "ids", "normals"])
+def test_a_scale_of_what_has_none_is_refused(scene, kind):
+    with pytest.raises(ValueError, match="scale is of"):
+        check(scene, render(scene).color, kind=kind, scale=0.001)
+
+
 def test_a_warning_fails_unless_it_is_accepted(scene):
     """Of an empty picture nothing could have been wrong."""
     away = scene.seen_by(replace(scene.camera, clip_end=0.2))
