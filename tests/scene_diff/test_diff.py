@@ -212,3 +212,12 @@ def test_the_command_prints_and_writes(scene, tmp_path, capsys, exit_code):
     assert held["object"] == "Ball" and held["kind"] == "object_moved"
     assert exit_code(["diff", a, str(tmp_path / "none.glb")]) == 4
     assert "there is no file" in capsys.readouterr().err
+
+
+def test_a_far_object_allows_a_near_one_nothing(scene):
+    far = with_instance(scene, 0, np.diag((1e5, 1e5, 1e5, 1.0)))
+    moved = np.eye(4)
+    moved[0, 3] = 0.01
+    found = differences(far, with_instance(far, 1, moved))
+    assert [(d.object, d.kind) for d in found] == [("Box", "object_moved")]
+    assert not differences(far, with_mesh(far, 0, shuffled))
