@@ -11,10 +11,10 @@ from reference_tracer.arrays import Floats
 from reference_tracer.causes.case import Variant
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault, Guess
-from reference_tracer.scene import Scene
+from reference_tracer.scene import Plane, Scene
 from reference_tracer.wording import count_of
 
-from .geometry import Objects
+from .geometry import DIGITS, ROUNDINGS, Objects
 from .matching import matched, points_alike
 from .moves import MARGIN, Move, move_between
 
@@ -80,7 +80,30 @@ def differences(
     for name, move in moves.items():
         out.append(_moved(name, move, _allowed(own, other, name, names[name])))
     out += _missing(own, other, names)
+    out += _of_planes(first, second)
     return tuple(out)
+
+
+def _of_planes(first: Scene, second: Scene) -> Iterator[Difference]:
+    """Yield how infinite planes differ, which have no triangles."""
+    own, other = ([(s.objects[p.object], p) for p in s.planes] for s in (first, second))
+    for name, plane in own:
+        theirs = [p for its, p in other if its == name]
+        if not theirs:
+            yield _of_fault("object_missing", name)
+        elif not any(_alike(plane, p) for p in theirs):
+            yield Difference(name, "plane_moved", f"the infinite plane '{name}' lies elsewhere")
+    for name in dict.fromkeys(its for its, _ in other):
+        if name not in [its for its, _ in own]:
+            yield Difference(name, "object_added", f"'{name}' is not in the first scene")
+
+
+def _alike(first: Plane, second: Plane) -> bool:
+    """Return whether two planes are the same, with the same side in front."""
+    size = float(max(np.abs(first.point).max(), np.abs(second.point).max()))
+    n, m = (p.normal / np.sqrt((p.normal * p.normal).sum()) for p in (first, second))
+    off = abs(float(n @ (second.point - first.point)))
+    return float(np.abs(n - m).max()) <= ROUNDINGS and off <= 2 * (ROUNDINGS * size + DIGITS)
 
 
 def _allowed(own: Objects, other: Objects, name: str, shown: str) -> float:
