@@ -133,6 +133,10 @@ def test_pytorch3ds_ndc_is_in_halves_of_the_shorter_side(tmp_path):
     # x_ndc = 2 x / z + 0.5 is from -2 at the right edge to 2 at the left one; +x is left.
     assert window.left == pytest.approx(-(2 - 0.5) / 2) and window.right == pytest.approx(2.5 / 2)
     assert window.top == pytest.approx(1 / 2)
+    arguments["K"] = [np.eye(4).tolist()]  # which PyTorch3D would take in their place
+    path.write_text(json.dumps({"class": "PerspectiveCameras", "arguments": arguments}))
+    with pytest.raises(SceneError, match="arguments.K is not read"):
+        read(path)
 
 
 def test_open3ds_file_is_by_columns(tmp_path):
@@ -169,6 +173,9 @@ def test_bops_size_is_in_a_folder_above_and_its_unit_millimetres(tmp_path):
     assert chosen(read(scene), "3").camera.height == 480
     path.write_text(json.dumps({"3": image}))
     with pytest.raises(SceneError, match="image 3: cam_R_w2c is missing"):
+        read(path)
+    path.write_text(json.dumps({"3": image | pose, "4": None}))
+    with pytest.raises(SceneError, match="4 must be an object in braces"):
         read(path)
 
 
