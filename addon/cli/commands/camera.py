@@ -20,7 +20,7 @@ from ...framing import Choice
 from ...report.cameras import SceneCamera, write_cameras
 from ...scene import Camera, Region, SceneError
 from ..arguments import is_blend, refuse
-from ..camera_options import add_camera, choice_from
+from ..camera_options import LAST_FRAME, add_camera, choice_from
 from ..opening import SOURCES, open_blend, open_file
 from ..parser import AGREE, DIFFERENCES, Parser
 
@@ -170,6 +170,8 @@ def _checked(options: CameraOptions, at: _At) -> int:
         frames = [number for number in numbers if number is not None]
         if len({*frames}) != len(views):
             raise SceneError(f"'{options.check}': its images have no numbers of their own: --view")
+        if is_blend(options.scene) and (far := [n for n in frames if abs(n) > LAST_FRAME]):
+            raise SceneError(f"'{options.check}': Blender has no frame {far[0]}: --view")
         by_frame = dict(zip(sorted(frames), at(sorted(frames)), strict=True))
         scene = [by_frame[number] for number in frames]
     found = [

@@ -59,6 +59,15 @@ def test_each_file_has_its_own_steps(judged, traced):
         judged("depth", millimetres)
 
 
+@pytest.mark.parametrize("unit", [0.001, 1 / 5000, 3.7])
+def test_the_steps_of_floats_are_those_before_their_unit(judged, traced, unit):
+    for dtype in (np.float16, np.float32):
+        stored = (np.nan_to_num(traced.t, posinf=0) / unit).astype(dtype)
+        assert judged("depth", stored, scale=unit).verdict == Verdict.AGREE
+    coarser = np.nextafter(stored.astype(np.float16), np.float16(np.inf))
+    assert judged("depth", coarser, scale=unit).verdict == Verdict.DIFFERENCES
+
+
 def test_float32_arithmetic_is_allowed_for_and_no_more(judged, solids, traced):
     rays = camera_rays(solids.camera, *film_positions(solids.camera.region), np.float32)
     hits = traced.hits()
