@@ -145,12 +145,13 @@ def test_ids_may_be_of_64_bits_or_nan_where_nothing_is(judged, placed, seen):
     assert judged("ids", np.where(own < 0, np.nan, own), scene=placed).verdict == Verdict.AGREE
     colors = np.where(own < 0, np.nan, own)[..., None] * np.ones(3)
     assert judged("ids", colors, scene=placed).verdict == Verdict.AGREE
-    large = 2**60 + own.astype(np.int64)  # all the same in float64
+    own = own.astype(np.int64)
+    large = 2**60 + own  # all the same in float64
     assert judged("ids", large, scene=placed).verdict == Verdict.AGREE
-    far = np.where(own == 0, 2**60, own).astype(np.int64)
+    far = np.where(own == 0, 2**60, own)
     rows, columns = np.nonzero(own == 0)
-    far[rows[:20], columns[:20]] += 1
-    assert judged("ids", far, scene=placed).counts.unexplained == 20
+    far[rows[:3], columns[:3]] += 1
+    assert judged("ids", far, scene=placed).counts.unexplained == 3
 
 
 def test_objects_that_share_an_id(told, placed, seen):
