@@ -179,7 +179,7 @@ def _checked(options: CameraOptions, at: _At) -> int:
         for view, one in zip(views, scene, strict=True)
     ]
     for view, one, its in zip(views, scene, found, strict=True):
-        for line in (*its.lines(), *_said(view, one.view.camera)):
+        for line in (*its.lines(), *_said(view, one.view)):
             print(f"{view.name or options.check.name}: {line}")
     return AGREE if all(one.agrees for one in found) else DIFFERENCES
 
@@ -190,10 +190,12 @@ def _of_size(camera: Camera, like: Camera) -> Camera:
     return replace(camera, width=like.width, height=like.height, region=whole)
 
 
-def _said(view: View, own: Camera) -> list[str]:
-    """Return what else is to be said of a file's camera."""
+def _said(view: View, scenes: View) -> list[str]:
+    """Return what else is to be said of a file's camera, beside the scene's."""
     said = list(view.notes)
-    other = view.camera
+    own, other = scenes.camera, view.camera
+    if None not in (view.frame, scenes.frame) and view.frame != scenes.frame:
+        said.append(f"it is the camera of frame {view.frame}, and the scene is at {scenes.frame}")
     if (other.width, other.height) != (own.width, own.height):
         said.append(
             f"its picture has {other.width} x {other.height} pixels, the scene's {own.width} x "
