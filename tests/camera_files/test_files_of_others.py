@@ -135,7 +135,7 @@ def test_pytorch3ds_ndc_is_in_halves_of_the_shorter_side(tmp_path):
     assert window.top == pytest.approx(1 / 2)
     arguments["K"] = [np.eye(4).tolist()]  # which PyTorch3D would take in their place
     path.write_text(json.dumps({"class": "PerspectiveCameras", "arguments": arguments}))
-    with pytest.raises(SceneError, match="arguments.K is not read"):
+    with pytest.raises(SceneError, match=r"arguments\.K is not read"):
         read(path)
 
 

@@ -94,6 +94,8 @@ def _buffers(evidence: Evidence, data: Data) -> Iterator[Turned]:
 
 def _normalised(evidence: Evidence, data: Data) -> Iterator[Turned]:
     made = data.of_frame(evidence.frame)
+    if not np.isfinite(made).any():
+        return
     ends = float(np.nanmin(made)), float(np.nanmax(made))
     for turn, of in ((_linear, "the clip range"), (_between(*ends), "what is seen")):
         for reverse in (False, True):
