@@ -106,6 +106,8 @@ def seen_from(
     SceneError
         If the matrix is none of a camera.
     """
+    if not np.isfinite(world_from_camera).all():
+        raise SceneError("its matrix is not of finite numbers")
     if not np.abs(world_from_camera[3] - (0, 0, 0, 1)).max() <= _AFFINE:
         raise SceneError("its matrix has another last row than 0 0 0 1")
     right, up, deep = np.linalg.norm(world_from_camera[:3, :3], axis=0)

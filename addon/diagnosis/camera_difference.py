@@ -162,12 +162,12 @@ def _explained(own: Camera, other: Camera, allowed: float) -> list[Step]:
     chain: list[Step] = []
     camera = own
     for name in _LAST_RESORT:
-        step = next((step for step in _fitted(camera, other) if step.fault.name == name), None)
-        if step is None:  # of a panorama, or of mirrored axes
+        last = next((step for step in _fitted(camera, other) if step.fault.name == name), None)
+        if last is None:  # of a panorama, or of mirrored axes
             return []
-        if any(abs(v) > _NEGLIGIBLE for v in step.guess.values):
-            chain.append(step)
-            camera = step.camera
+        if any(abs(v) > _NEGLIGIBLE for v in last.guess.values):
+            chain.append(last)
+            camera = last.camera
     return chain if is_other(camera) else []
 
 

@@ -51,6 +51,16 @@ def test_mitsubas_transforms_come_one_after_the_other(tmp_path):
     assert np.allclose(camera.right, (0, 0, -1)) and np.allclose(camera.up, (0, 1, 0))
 
 
+def test_mitsubas_other_transforms_place_no_camera(tmp_path):
+    values = '<float name="fov" value="90"/><transform name="other"><translate x="9"/></transform>'
+    assert np.allclose(mitsuba(tmp_path, values, '<translate x="2"/>').origin, (2, 0, 0))
+    moving = values + '<animation name="to_world"><transform time="0"/></animation>'
+    with pytest.raises(SceneError, match="its to_world is animated"):
+        mitsuba(tmp_path, moving)
+    with pytest.raises(SceneError, match="not of finite numbers"):
+        mitsuba(tmp_path, values, '<rotate angle="9"/>')
+
+
 HALF = np.tan(np.radians(50) / 2)
 AXES = {
     "x": HALF,
