@@ -137,7 +137,7 @@ DEPTH_FAULTS = (
     data_fault(
         "data_scale",
         ("depth", "distance", "positions"),
-        "the values are {factor:.6g} times too large",
+        "the values are {factor:.6g} times the right ones",
         "Data sets store depths in units of their own, as 1/5000 m or 1/256 m.",
         "divide the values by {factor:.6g}, or name the unit with --depth-scale",
         _factor,
