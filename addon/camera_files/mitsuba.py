@@ -139,7 +139,7 @@ def _view(sensor: ElementTree.Element, defaults: dict[str, str], source: Source)
     if not all(n == int(n) and n >= 1 for n in (*whole, *crop)):
         raise SceneError("its film's width and height must be integers of at least 1")
     width, height = whole
-    world = np.eye(4)
+    world: Floats = np.eye(4)
     for child in sensor:
         if child.tag == "animation":
             raise SceneError("its to_world is animated, which is not read: write one frame's")
