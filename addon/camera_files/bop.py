@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..checked_json import Content
+from ..checked_json import Content, part
 from ..scene import SceneError
 from . import frame
 from .convention import Convention, Files, Source, View
@@ -88,11 +88,8 @@ def _read(source: Source) -> list[View]:
             break
     size = own.whole_size(camera, ("width", "height"), f"{CAMERA}: ")
     center = first_center(camera)
-    return [
-        _view(number, body, center, size)
-        for number, body in own.json.items()
-        if isinstance(body, dict)
-    ]
+    every: Content = own.json
+    return [_view(number, part(every, number, "", dict), center, size) for number in every]
 
 
 def _view(number: str, body: Content, center: float, size: tuple[int, int]) -> View:

@@ -21,6 +21,7 @@ from .convention import Convention, Files, Source, View
 from .features import ASPECT, SHIFT
 
 CAMERAS, IMAGES, POINTS = "cameras.txt", "images.txt", "points3D.txt"
+_POINT = 3  # numbers of a point: x, y, and the number of its point in space
 # By model: where fx, fy, cx, cy stand among the parameters, and how many there are. All that follow
 # cy are distortions, of which only zero is read.
 _MODELS = {
@@ -121,12 +122,25 @@ def _lines(path: Path, every: int = 1) -> list[tuple[str, list[str]]]:
     """Return the words of lines that are no comments, with what messages call them.
 
     Of `every` such lines the first: an image's second line, which may be empty, has its points.
+
+    Raises
+    ------
+    SceneError
+        If an image's second line has none.
     """
     text = path.read_bytes().decode("utf-8-sig", errors="replace")
     numbered = enumerate(text.splitlines(), 1)
     kept = [(f"{path.name}, line {n}", line) for n, line in numbered if not line.startswith("#")]
     if every == 1:
         kept = [(where, line) for where, line in kept if line.strip()]
+    else:
+        while kept and not kept[0][1].strip():
+            del kept[0]
+    for where, line in (own for n in range(1, every) for own in kept[n::every]):
+        if len(line.split()) % _POINT:
+            raise SceneError(
+                f"{where}: an image's second line has its points, three numbers each, or is empty"
+            )
     return [(where, line.split(None, 9)) for where, line in kept[::every] if line.strip()]
 
 

@@ -22,6 +22,8 @@ from .opencv import OPENCV
 from .opengl import OPENGL
 from .pytorch3d import PYTORCH3D
 
+_WHOLE = re.compile(r"-?\d{1,18}")  # what more digits say is a name
+
 # The first that a file is of reads it.
 CONVENTIONS: dict[str, Convention] = {
     own.name: own for own in (OPENCV, OPENGL, COLMAP, NERF, GLTF, MITSUBA, PYTORCH3D, OPEN3D, BOP)
@@ -121,7 +123,7 @@ def chosen(views: Sequence[View], which: str | None) -> View:
         many = f"it has {len(views)} cameras"
         raise SceneError(f"{many}: --camera-view names one of {_names(views)}")
     named = [view for view in views if which in (view.name, Path(view.name).stem)]
-    if not named and which.lstrip("-").isdigit():
+    if not named and _WHOLE.fullmatch(which):
         number = int(which)
         named = [view for view in views if number_of(view) == number]
         if not named and all(number_of(view) is None for view in views):
@@ -136,8 +138,9 @@ def number_of(view: View) -> int | None:
     """Return the frame of a view, or the number at the end of its image's name."""
     if view.frame is not None:
         return view.frame
-    found = re.search(r"(\d+)$", Path(view.name).stem)
-    return int(found[1]) if found else None
+    stem = Path(view.name).stem
+    found = _WHOLE.fullmatch(stem) or re.search(r"(?<!\d)\d{1,18}$", stem)
+    return int(found[0]) if found else None
 
 
 def _names(views: Sequence[View]) -> str:

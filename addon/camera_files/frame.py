@@ -24,6 +24,8 @@ OPENCV = np.diag((1.0, -1.0, -1.0, 1.0))
 LEFT_UP = np.diag((-1.0, 1.0, -1.0, 1.0))
 # Where a file says no clip range: nothing but what is in the eye itself is left out.
 _UNCLIPPED = 1e-6, 1e12
+# How far rounding may leave the last row of a matrix from 0 0 0 1, in its own numbers.
+_AFFINE = 1e-6
 
 
 def intrinsics(camera: Camera) -> tuple[float, float, float, float]:
@@ -98,7 +100,16 @@ def seen_from(
     """Return a camera whose axes may have a scale, which is taken into its window and clip range.
 
     A ray x right + y up + forward passes the same points if it is divided by forward's length.
+
+    Raises
+    ------
+    SceneError
+        If the matrix is none of a camera.
     """
+    if not np.isfinite(world_from_camera).all():
+        raise SceneError("its matrix is not of finite numbers")
+    if not np.abs(world_from_camera[3] - (0, 0, 0, 1)).max() <= _AFFINE:
+        raise SceneError("its matrix has another last row than 0 0 0 1")
     right, up, deep = np.linalg.norm(world_from_camera[:3, :3], axis=0)
     if not min(right, up, deep) > 0:
         raise SceneError("its matrix has an axis of length 0")

@@ -139,8 +139,12 @@ def _view(sensor: ElementTree.Element, defaults: dict[str, str], source: Source)
     if not all(n == int(n) and n >= 1 for n in (*whole, *crop)):
         raise SceneError("its film's width and height must be integers of at least 1")
     width, height = whole
-    transform = sensor.find("transform")
-    world = np.eye(4) if transform is None else _to_world(transform, own)
+    world: Floats = np.eye(4)
+    for child in sensor:
+        if child.tag == "animation":
+            raise SceneError("its to_world is animated, which is not read: write one frame's")
+        if child.tag == "transform" and child.get("name") == "to_world":
+            world = _to_world(child, own)
     if kind == "orthographic":
         f, cx, cy = width / 2, width / 2, height / 2
     else:

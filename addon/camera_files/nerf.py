@@ -27,7 +27,9 @@ from .features import ASPECT, SHIFT
 from .json_files import CENTERS_KEY, dumped, first_center, has, objects, offset_of
 
 _LENSES = "fl_x", "fl_y", "cx", "cy"
-_DISTORTIONS = *("k1 k2 k3 k4 p1 p2".split()), "is_fisheye", "ftheta_p0", "latlong"
+_DISTORTIONS = *("k1 k2 k3 k4 p1 p2".split()), "is_fisheye"
+# Of another projection if they are there at all, also as 0 or false.
+_PROJECTIONS = "ftheta_p0", "latlong", "equirectangular", "orthographic"
 _MODELS = "OPENCV", "PINHOLE", "SIMPLE_PINHOLE"
 
 
@@ -69,8 +71,9 @@ def _is_of(source: Source) -> bool:
 def _read(source: Source) -> list[View]:
     content: Content = source.json
     notes = []
-    if "applied_transform" in content:
-        notes.append("applied_transform is not undone: the world is the file's own")
+    for key in ("applied_transform", "applied_scale"):
+        if key in content:
+            notes.append(f"{key} is not undone: the world is the file's own")
     if content.get("rolling_shutter"):
         notes.append("rolling_shutter is not applied: a camera does not move within a picture")
     return [
@@ -83,6 +86,7 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     size = source.whole_size(body, ("w", "h"), where)
     model = body.get("camera_model", _MODELS[0])
     bent = [key for key in _DISTORTIONS if body.get(key)]
+    bent += [key for key in _PROJECTIONS if key in body]
     if model not in _MODELS or bent:
         what = f"{bent[0]} = {body[bent[0]]}" if bent else f"camera_model = {model!r}"
         raise SceneError(
@@ -99,7 +103,7 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     rows = numbers(body, "transform_matrix", where, None)
     if rows.shape not in ((3, 4), (4, 4)):
         raise SceneError(f"{where}transform_matrix must be 4 x 4 or 3 x 4 finite numbers")
-    world[:3] = rows[:3]
+    world[: len(rows)] = rows
     name = str(body.get("file_path", "")).replace("\\", "/").rpartition("/")[2]
     k = frame.matrix_of(fx, fy, *middle)
     matrix = frame.inverse(world)

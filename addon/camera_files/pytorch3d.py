@@ -56,6 +56,8 @@ def _is_of(source: Source) -> bool:
 def _read(source: Source) -> list[View]:
     content: Content = source.json
     own: Content = part(content, "arguments", "", dict)
+    if own.get("K") is not None:
+        raise SceneError("arguments.K is not read: write focal_length and principal_point")
     r = numbers(own, "R", "arguments.", None)
     if r.ndim != 3 or r.shape[1:] != (3, 3):
         raise SceneError("arguments.R must be N x 3 x 3 finite numbers")

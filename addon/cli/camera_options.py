@@ -25,8 +25,11 @@ CAMERA_OPTIONS = *_OF_MESH, *_OF_BLEND, "camera", *_OF_FILE
 _ENDINGS = ".json", ".txt", ".xml", ".glb", ".gltf"
 
 _DEGREES = number(float, lambda value: 0 < value < 180, "between 0 and 180 degrees")
+LAST_FRAME = 1048574  # of Blender's; the first one is as far below 0
 _FRAME = number(
-    int, lambda value: abs(value) <= 1048574, "from -1048574 to 1048574, as Blender's frames are"
+    int,
+    lambda value: abs(value) <= LAST_FRAME,
+    f"from {-LAST_FRAME} to {LAST_FRAME}, as Blender's frames are",
 )
 
 

@@ -85,6 +85,7 @@ class CameraDifference:
         return out
 
 
+@np.errstate(invalid="ignore", divide="ignore", over="ignore")  # of points behind a camera
 def difference(own: Camera, other: Camera) -> CameraDifference:
     """Compare another camera with the scene's own, whose picture is as large.
 
@@ -123,7 +124,7 @@ def _unit(own: Camera, other: Camera) -> float | None:
 
 def _apart(first: Film, second: Film) -> Floats:
     """Return how far apart points are on two films, (n,) pixels."""
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", over="ignore"):
         apart = np.hypot(first[0] - second[0], first[1] - second[1])
     return np.where(np.isnan(apart), np.inf, apart)
 
@@ -135,7 +136,9 @@ def _explained(own: Camera, other: Camera, allowed: float) -> list[Step]:
     turned: so these are told only where no known mistake, alone or with another, does as well.
     Cameras are the same if they see what is before the other one in the same places.
     """
-    before = known_points(replace(other, clip_start=own.clip_start, clip_end=own.clip_end))
+    before = known_points(other)
+    if own.clip_start > 0 or other.projection.sees_behind:
+        before = known_points(replace(other, clip_start=own.clip_start, clip_end=own.clip_end))
     points = before[:, :_FEW]
     film = film_of(other, points)
 
@@ -159,10 +162,12 @@ def _explained(own: Camera, other: Camera, allowed: float) -> list[Step]:
     chain: list[Step] = []
     camera = own
     for name in _LAST_RESORT:
-        step = next(step for step in _fitted(camera, other) if step.fault.name == name)
-        if any(abs(v) > _NEGLIGIBLE for v in step.guess.values):
-            chain.append(step)
-            camera = step.camera
+        last = next((step for step in _fitted(camera, other) if step.fault.name == name), None)
+        if last is None:  # of a panorama, or of mirrored axes
+            return []
+        if any(abs(v) > _NEGLIGIBLE for v in last.guess.values):
+            chain.append(last)
+            camera = last.camera
     return chain if is_other(camera) else []
 
 
@@ -186,7 +191,12 @@ def _half_pixels(camera: Camera) -> Iterator[Step]:
 
 
 def _with(camera: Camera, name: str, family: Family, values: Values) -> Step | None:
-    """Return the camera with a fault that has numbers; None if it cannot have them."""
+    """Return the camera with a fault that has numbers; None if it cannot have them.
+
+    No turn makes mirrored axes of others, and what is read off for one need not be finite.
+    """
+    if not np.isfinite(values).all():
+        return None
     changed = family.camera(camera, *values)
     if changed is None:
         return None

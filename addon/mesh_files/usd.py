@@ -66,6 +66,8 @@ class _Reading:
         self.time = usd.Usd.TimeCode.EarliestTime()
         self.places = usd.UsdGeom.XformCache(self.time)
         self.scale = float(usd.UsdGeom.GetStageMetersPerUnit(stage))
+        if not 0 < self.scale < np.inf:
+            raise SceneError(f"its metersPerUnit is {self.scale:g}, which must be above 0")
         self.meshes: dict[Any, Contents] = {}  # by the prim, or by that of its prototype
         self.left: Counter[tuple[str, str]] = Counter()
         self.animated = 0
@@ -79,7 +81,8 @@ class _Reading:
             notes.append(f"its unit is {self.scale:.6g} m, and it is scaled to metres")
         if self.animated:
             notes.append(
-                f"{count_of(self.animated, 'surface')} moved in time, read at the first time"
+                f"{count_of(self.animated, 'surface')} moved or hidden in time, read at the first "
+                "time"
             )
         missing = [said for one in cut for said in one.missing]
         missing += [f"{count_of(n, what)} {how}" for (what, how), n in sorted(self.left.items())]
@@ -88,11 +91,17 @@ class _Reading:
 
     def _placed(self) -> Iterator[Placed]:
         geom, every = self.usd.UsdGeom, self.usd.Usd.TraverseInstanceProxies()
-        for prim in self.usd.Usd.PrimRange(self.stage.GetPseudoRoot(), every):
+        prims = iter(self.usd.Usd.PrimRange(self.stage.GetPseudoRoot(), every))
+        for prim in prims:
             if prim.HasAuthoredMetadata("clips"):  # values in other files, read when asked for
                 say = f"the values of '{prim.GetName()}' are in other files"
                 raise SceneError(f"{say}: export it as one file")
-            if not prim.IsA(geom.Boundable) or not self._is_shown(geom.Imageable(prim)):
+            if prim.IsA(geom.PointInstancer):  # what it repeats is not shown in its own place
+                prims.PruneChildren()
+            if not prim.IsA(geom.Boundable):
+                continue
+            self.animated += prim.IsA(geom.Mesh) and self._is_animated(prim)
+            if not self._is_shown(geom.Imageable(prim)):
                 continue
             if prim.IsA(geom.Mesh):
                 matrix = np.array(self.places.GetLocalToWorldTransform(prim), np.float64).T
@@ -105,6 +114,17 @@ class _Reading:
     def _is_shown(self, prim: Any) -> bool:
         visible = prim.ComputeVisibility(self.time) != self.usd.UsdGeom.Tokens.invisible
         return visible and prim.ComputePurpose() in _SHOWN
+
+    def _is_animated(self, prim: Any) -> bool:
+        """Return whether a mesh, or what it is below, may move or be hidden at another time."""
+        geom = self.usd.UsdGeom
+        moving = bool(geom.Mesh(prim).GetPointsAttr().ValueMightBeTimeVarying())
+        while prim and not moving:
+            place, seen = geom.Xformable(prim), geom.Imageable(prim)
+            moving = bool(place) and place.TransformMightBeTimeVarying()
+            moving |= bool(seen) and seen.GetVisibilityAttr().ValueMightBeTimeVarying()
+            prim = prim.GetParent()
+        return moving
 
     def _name(self, prim: Any) -> str:
         above = prim.GetParent()
@@ -132,7 +152,6 @@ class _Reading:
             raise SceneError(f"'{name}' has {len(corners)} corners, and faces of {sizes.sum()}")
         solid = ~np.isin(np.arange(len(sizes)), array(mesh.GetHoleIndicesAttr(), np.intp))
         corners = corners[np.repeat(solid, sizes)]
-        self.animated += mesh.GetPointsAttr().ValueMightBeTimeVarying()
         if "SkelBindingAPI" in mesh.GetPrim().GetAppliedSchemas():
             self.left["skinned surface", "read at rest"] += 1
         if mesh.GetSubdivisionSchemeAttr().Get() != self.usd.UsdGeom.Tokens.none:

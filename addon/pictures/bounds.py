@@ -135,9 +135,13 @@ def depth_step(camera: Camera, depth: Floats) -> Floats:
     """Return how near a buffer of 24 bits takes two depths (n,) for one, metres.
 
     It holds f / (f - n) (1 - n / z) of a perspective camera, so a step at depth z is
-    z^2 (f - n) / (f n) 2^-24; of an orthographic one (f - n) 2^-24.
+    z^2 (f - n) / (f n) 2^-24; of an orthographic one (f - n) 2^-24. Without a clip end the former
+    is z^2 / n 2^-24; of the latter there is no such buffer, and a depth is a float32.
     """
     near, far = camera.clip_start, camera.clip_end
+    if far == np.inf:
+        z = np.abs(np.asarray(depth, np.float64))
+        return _DEPTH_STEPS * U32 * (z if camera.projection.shares_direction else z**2 / near)
     step = np.full(np.shape(depth), (far - near) * U32)
     if not camera.projection.shares_direction:
         step = step * np.asarray(depth, np.float64) ** 2 / (far * near)

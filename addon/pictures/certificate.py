@@ -23,6 +23,10 @@ SEED = 1
 ROUNDINGS = 16
 
 
+# Clip starts, at least metres: how deep points are of a view volume that has no end.
+_ENDLESS = 1e4
+
+
 class CameraMismatchError(SceneError):
     """The tracer's camera is not Blender's."""
 
@@ -65,7 +69,8 @@ class CameraCertificate(NamedTuple):
 def known_points(camera: Camera) -> Floats:
     """Return points all over the view volume, its corners first: (3, n) float64, world space."""
     w, rng = camera.window, np.random.default_rng(SEED)
-    ends = np.array((camera.clip_start, camera.clip_end), np.float64)
+    start, end = float(camera.clip_start), float(camera.clip_end)
+    ends = np.array((start, end if end < np.inf else _ENDLESS * max(abs(start), 1.0)))
     corners = np.meshgrid((w.left, w.right), (w.bottom, w.top), ends, indexing="ij")
     x, y, depth = np.reshape(corners, (3, 8))
     x = np.append(x, rng.uniform(w.left, w.right, POINTS))

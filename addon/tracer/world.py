@@ -137,8 +137,8 @@ def world_vertices(
     """
     mesh = scene.meshes[batch.mesh]
     names = mesh.triangles[batch.first : batch.last].T
-    low = np.min(names)
-    local = mesh.vertices[low : np.max(names) + 1]
+    low, end = (np.min(names), np.max(names) + 1) if names.size else (0, 0)
+    local = mesh.vertices[low:end]
     corner: Index = names - low
     if len(local) > names.size:
         local = mesh.vertices[names.ravel()]

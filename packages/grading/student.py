@@ -71,9 +71,6 @@ class Student(Submission):
             with suppress(OSError):
                 stream.close()
         self._reader.join(1.0)
-        if not self._reader.is_alive():  # else what lives on has it open, and closing would wait
-            with suppress(OSError):
-                process.stderr.close()
 
     def _start(self) -> None:
         own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
@@ -96,7 +93,9 @@ class Student(Submission):
 
     def _listen(self, stream: IO[bytes]) -> None:
         """Read all that is printed, so that nobody waits for it, and keep the first of it."""
-        with suppress(OSError, ValueError):
+        # It closes its end itself: on a busy machine, or where what lives on has the other end
+        # open, nobody else knows when.
+        with suppress(OSError, ValueError), stream:
             while part := os.read(stream.fileno(), 1 << 16):
                 self.printed += len(part)
                 self._said += part[: KEPT - len(self._said)]

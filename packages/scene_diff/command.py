@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from reference_tracer.causes.case import WHOLE, Variant
-from reference_tracer.cli.arguments import is_blend
+from reference_tracer.cli.arguments import is_blend, refuse
 from reference_tracer.cli.camera_options import check_kind
 from reference_tracer.cli.opening import SOURCES, open_blend, open_file
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, EXIT_CODES_HELP, Parser
@@ -67,7 +67,12 @@ def add(parser: Parser) -> None:
 
 def diff(options: DiffOptions) -> int:
     """Print how the second scene differs from the first; return whether it does."""
-    first, second = (side(path, options.up) for path in (options.first, options.second))
+    paths = options.first, options.second
+    for path in paths:
+        check_kind(path)
+    if not any(path.suffix.lower() in READERS for path in paths):
+        refuse(options, ("up",), "is for meshes: in a scene Z is up")
+    first, second = (side(path, options.up) for path in paths)
     found = differences(first.scene, second.scene, first.variants)
     for line in (*first.remarks, *second.remarks):
         print(line)
@@ -90,7 +95,6 @@ def side(path: Path, up: str | None) -> Side:
     SceneError, OSError
         If there is no such scene, or it cannot be read.
     """
-    check_kind(path)
     if is_blend(path):
         with open_blend(path) as blender, meanwhile(f"having Blender evaluate {path.name}"):
             from reference_tracer.blender.jobs.open_file import export_open_file

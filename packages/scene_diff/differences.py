@@ -11,10 +11,10 @@ from reference_tracer.arrays import Floats
 from reference_tracer.causes.case import Variant
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault, Guess
-from reference_tracer.scene import Scene
+from reference_tracer.scene import Plane, Scene
 from reference_tracer.wording import count_of
 
-from .geometry import Objects
+from .geometry import DIGITS, ROUNDINGS, Objects
 from .matching import matched, points_alike
 from .moves import MARGIN, Move, move_between
 
@@ -62,37 +62,71 @@ def differences(
     most, have in common is said once, and the rest beside that.
     """
     own, other = Objects.of(first), Objects.of(second)
-    tolerance = max(own.tolerance, other.tolerance)
     shared = own.triangles.keys() & other.triangles
     if len(other.triangles) == 1 < len(own.triangles) and not shared:
         name = next(iter(other.triangles))  # the file has no objects
-        own, variants = Objects({name: own.joined}), ()
+        own, variants = own.joined(name), ()
     made = [(v, Objects.of(v.scene)) for v in variants]
     names = _paired(own, other)
-    moves, out = _compared(own, other, names, tolerance, made)
-    common = _common(own, other, names, moves, tolerance)
+    moves, out = _compared(own, other, names, made)
+    common = _common(own, other, names, moves)
     if common is not None:
-        own, *others = (o.moved_by(common) for o in (own, *(o for _, o in made)))
+        move, of = common
+        out_of_all = _of_all(move, _allowed(own, other, of, names[of]))
+        own, *others = (o.moved_by(move) for o in (own, *(o for _, o in made)))
         made = [(v, o) for (v, _), o in zip(made, others, strict=True)]
-        moves, out = _compared(own, other, names, MARGIN * tolerance, made)
-        out.insert(0, _of_all(common, tolerance))
-    out += [_moved(name, move, tolerance) for name, move in moves.items()]
-    out += _missing(own, other, names, tolerance)
+        moves, out = _compared(own, other, names, made, MARGIN)
+        out.insert(0, out_of_all)
+    for name, move in moves.items():
+        out.append(_moved(name, move, _allowed(own, other, name, names[name])))
+    out += _missing(own, other, names)
+    out += _of_planes(first, second)
     return tuple(out)
+
+
+def _of_planes(first: Scene, second: Scene) -> Iterator[Difference]:
+    """Yield how infinite planes differ, which have no triangles."""
+    own, other = ([(s.objects[p.object], p) for p in s.planes] for s in (first, second))
+    for name, plane in own:
+        theirs = [p for its, p in other if its == name]
+        if not theirs:
+            yield _of_fault("object_missing", name)
+        elif not any(_alike(plane, p) for p in theirs):
+            yield Difference(name, "plane_moved", f"the infinite plane '{name}' lies elsewhere")
+    for name in dict.fromkeys(its for its, _ in other):
+        if name not in [its for its, _ in own]:
+            yield Difference(name, "object_added", f"'{name}' is not in the first scene")
+
+
+def _alike(first: Plane, second: Plane) -> bool:
+    """Return whether two planes are the same, with the same side in front."""
+    size = float(max(np.abs(first.point).max(), np.abs(second.point).max()))
+    n, m = (p.normal / np.sqrt((p.normal * p.normal).sum()) for p in (first, second))
+    off = abs(float(n @ (second.point - first.point)))
+    return float(np.abs(n - m).max()) <= ROUNDINGS and off <= 2 * (ROUNDINGS * size + DIGITS)
+
+
+def _allowed(own: Objects, other: Objects, name: str, shown: str) -> float:
+    """Return how far digits may move a coordinate of an object and its partner, metres."""
+    return max(own.tolerance(name), other.tolerance(shown))
 
 
 def _compared(
     own: Objects,
     other: Objects,
     names: dict[str, str],
-    tolerance: float,
     made: Sequence[tuple[Variant, Objects]],
+    times: int = 1,
 ) -> tuple[dict[str, Move], list[Difference]]:
-    """Return how objects are moved, and what else differs of those with a partner."""
+    """Return how objects are moved, and what else differs of those with a partner.
+
+    `times` is how many tolerances an object in place may be off.
+    """
     moves: dict[str, Move] = {}
     out: list[Difference] = []
     for name in names:
         triangles, shown = own.triangles[name], other.triangles[names[name]]
+        tolerance = times * _allowed(own, other, name, names[name])
         found = _of_object(name, triangles, shown, tolerance, made)
         if found is not None:
             out += found
@@ -105,20 +139,21 @@ def _compared(
 
 
 def _common(
-    own: Objects, other: Objects, names: dict[str, str], moves: dict[str, Move], tolerance: float
-) -> Move | None:
-    """Return a transform that most of several objects have in common, if there is one.
+    own: Objects, other: Objects, names: dict[str, str], moves: dict[str, Move]
+) -> tuple[Move, str] | None:
+    """Return a transform that most of several objects have in common, and whose it is, if any.
 
     An object with symmetries is moved in several ways: so each way is tried on all objects.
     """
-    for move in [*moves.values()][:_TRIED]:
+    for of, move in [*moves.items()][:_TRIED]:
         alike = 0
         for name in moves:
             there = move.of(own.triangles[name])
-            found = matched(there, other.triangles[names[name]], MARGIN * tolerance)
+            tolerance = MARGIN * _allowed(own, other, name, names[name])
+            found = matched(there, other.triangles[names[name]], tolerance)
             alike += int((found.same + found.turned > 0).all())
         if 2 * alike > len(names) > 1:
-            return move
+            return move, of
     return None
 
 
@@ -215,20 +250,17 @@ def _of_triangles(name: str, own: Floats, other: Floats, tolerance: float) -> Di
     return Difference(name, "other_triangles", f"{say} {size:.3g} m at most")
 
 
-def _missing(
-    own: Objects, other: Objects, names: dict[str, str], tolerance: float
-) -> Iterator[Difference]:
+def _missing(own: Objects, other: Objects, names: dict[str, str]) -> Iterator[Difference]:
     """Yield the objects that have no partner of their name."""
     left = [name for name in own.triangles if name not in names]
     more = [name for name in other.triangles if name not in names.values()]
     for name in more:
-        triangles = other.triangles[name]
-        alike = _found(own, [*left, *names], triangles, tolerance)
+        alike = _found(own, [*left, *names], other, name)
         if alike is None:
             yield Difference(name, "object_added", f"'{name}' is not in the first scene")
             continue
         of, move = alike
-        where = move.words(tolerance)
+        where = move.words(_allowed(own, other, of, name))
         where = "" if where == "unchanged" else f", {where}"
         if of in left:
             left.remove(of)
@@ -240,11 +272,12 @@ def _missing(
 
 
 def _found(
-    own: Objects, names: Sequence[str], triangles: Floats, tolerance: float
+    own: Objects, names: Sequence[str], other: Objects, shown: str
 ) -> tuple[str, Move] | None:
-    """Return the first of some objects that has these triangles, and how it is moved."""
+    """Return the first of some objects that has another's triangles, and how it is moved."""
     for name in names:
-        move = move_between(own.triangles[name], triangles, tolerance)
+        tolerance = _allowed(own, other, name, shown)
+        move = move_between(own.triangles[name], other.triangles[shown], tolerance)
         if move is not None:
             return name, move
     return None

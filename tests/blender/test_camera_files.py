@@ -104,6 +104,19 @@ def test_the_file_says_what_it_means_and_is_certified(scene, tmp_path, reftrace)
     assert (file["frame"], file["name"]) == (1, "0001.png")
     done = reftrace("camera", scene, "--check", tmp_path / "new" / "camera.json")
     assert done.returncode == 0 and "agree" in done.stdout
+    done = reftrace("camera", scene, "--frame", "3", "--check", tmp_path / "new" / "camera.json")
+    assert "it is the camera of frame 1, and the scene is at 3" in done.stdout
+
+
+def test_a_frame_that_blender_has_not_is_refused(scene, tmp_path, reftrace):
+    out = tmp_path / "transforms.json"
+    done = reftrace("camera", scene, "--out", out, "--convention", "nerf", "--frames", "1-2")
+    assert done.returncode == 0, done.stderr
+    text = out.read_text(encoding="utf-8").replace("0001.png", "20240101123456.png")
+    out.write_text(text, encoding="utf-8")
+    done = reftrace("camera", scene, "--check", out)
+    assert done.returncode == 4 and "Blender has no frame 20240101123456" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("name", CONVENTIONS)

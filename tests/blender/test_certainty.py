@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from reference_tracer.blender.engine import ENGINE
 from reference_tracer.certainty import Certainty
-from reference_tracer.certified import arithmetic
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region
 from reference_tracer.tracer.settings import Settings
@@ -28,13 +27,6 @@ def square(build):
     build.square(size=2.0)
     build.camera(type="ORTHO", ortho_scale=2.5)
     return scene
-
-
-@pytest.fixture
-def broken(monkeypatch):
-    """A machine whose arithmetic allows no proof."""
-    wrong = ("rounding to nearest", np.add, arithmetic._ONE, arithmetic._ONE, arithmetic._ONE)
-    monkeypatch.setattr(arithmetic, "_CHECKS", (wrong,))
 
 
 def test_the_pass_says_how_each_pixel_was_decided(square, rendered):
@@ -58,20 +50,20 @@ def test_what_the_scene_required_is_in_the_log(square, rendered, capfd):
     assert "needed exact arithmetic" in capfd.readouterr().out
 
 
-def test_certified_fails_where_nothing_can_be(square, broken, rendered):
+def test_certified_fails_where_nothing_can_be(square, broken_arithmetic, rendered):
     square.reference_tracer.method = "certified"
     with pytest.raises(RuntimeError, match="nothing can be certified in this process"):
         rendered()
 
 
-def test_automatic_falls_back_and_says_so(square, broken, rendered, capfd):
+def test_automatic_falls_back_and_says_so(square, broken_arithmetic, rendered, capfd):
     assert not rendered()["ViewLayer"]["Certainty"].any()
     said = capfd.readouterr()
     assert "Traced by watertight in float64, as nothing can be certified" in said.out + said.err
 
 
 @pytest.mark.parametrize("method", ["auto", "certified"])
-def test_the_operator_says_so_too(method, square, broken, capfd):
+def test_the_operator_says_so_too(method, square, broken_arithmetic, capfd):
     square.reference_tracer.method = method
     if method == "certified":
         with pytest.raises(RuntimeError, match="nothing can be certified"):

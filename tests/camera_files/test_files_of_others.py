@@ -51,6 +51,16 @@ def test_mitsubas_transforms_come_one_after_the_other(tmp_path):
     assert np.allclose(camera.right, (0, 0, -1)) and np.allclose(camera.up, (0, 1, 0))
 
 
+def test_mitsubas_other_transforms_place_no_camera(tmp_path):
+    values = '<float name="fov" value="90"/><transform name="other"><translate x="9"/></transform>'
+    assert np.allclose(mitsuba(tmp_path, values, '<translate x="2"/>').origin, (2, 0, 0))
+    moving = values + '<animation name="to_world"><transform time="0"/></animation>'
+    with pytest.raises(SceneError, match="its to_world is animated"):
+        mitsuba(tmp_path, moving)
+    with pytest.raises(SceneError, match="not of finite numbers"):
+        mitsuba(tmp_path, values, '<rotate angle="9"/>')
+
+
 HALF = np.tan(np.radians(50) / 2)
 AXES = {
     "x": HALF,
@@ -133,6 +143,10 @@ def test_pytorch3ds_ndc_is_in_halves_of_the_shorter_side(tmp_path):
     # x_ndc = 2 x / z + 0.5 is from -2 at the right edge to 2 at the left one; +x is left.
     assert window.left == pytest.approx(-(2 - 0.5) / 2) and window.right == pytest.approx(2.5 / 2)
     assert window.top == pytest.approx(1 / 2)
+    arguments["K"] = [np.eye(4).tolist()]  # which PyTorch3D would take in their place
+    path.write_text(json.dumps({"class": "PerspectiveCameras", "arguments": arguments}))
+    with pytest.raises(SceneError, match=r"arguments\.K is not read"):
+        read(path)
 
 
 def test_open3ds_file_is_by_columns(tmp_path):
@@ -169,6 +183,9 @@ def test_bops_size_is_in_a_folder_above_and_its_unit_millimetres(tmp_path):
     assert chosen(read(scene), "3").camera.height == 480
     path.write_text(json.dumps({"3": image}))
     with pytest.raises(SceneError, match="image 3: cam_R_w2c is missing"):
+        read(path)
+    path.write_text(json.dumps({"3": image | pose, "4": None}))
+    with pytest.raises(SceneError, match="4 must be an object in braces"):
         read(path)
 
 

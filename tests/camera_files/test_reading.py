@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 from reference_tracer.camera_files.convention import View
-from reference_tracer.camera_files.files import CONVENTIONS, chosen, read, texts
+from reference_tracer.camera_files.files import CONVENTIONS, chosen, number_of, read, texts
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import film_of
 
@@ -99,6 +99,8 @@ def test_what_is_not_undone_is_said(tmp_path):
         tmp_path, "nerf", lambda c: c.__setitem__("applied_transform", [[1, 0, 0, 0]])
     )
     assert "applied_transform is not undone" in read(path)[0].notes[0]
+    _, path = changed(tmp_path, "nerf", lambda c: c.__setitem__("applied_scale", 0.1))
+    assert "applied_scale is not undone" in read(path)[0].notes[0]
 
 
 @pytest.mark.parametrize(
@@ -116,7 +118,15 @@ def test_what_is_not_undone_is_said(tmp_path):
         ("opengl", lambda c: c.__setitem__("projection", np.eye(3).tolist()), "4 x 4"),
         ("opengl", lambda c: c["projection"][3].__setitem__(2, 1), "row 0 0 -1 0"),
         ("opengl", lambda c: c["projection"][2].__setitem__(2, 0), "depths from -1 to 1"),
+        ("opengl", lambda c: c["view"].__setitem__(3, [0, 0, 0, 2]), "last row than 0 0 0 1"),
         ("nerf", lambda c: c["frames"].clear(), "none of opencv"),
+        ("nerf", lambda c: c.__setitem__("orthographic", True), "another projection"),
+        ("nerf", lambda c: c.__setitem__("ftheta_p0", 0.0), "another projection"),
+        (
+            "nerf",
+            lambda c: c["frames"][0]["transform_matrix"].__setitem__(3, [0, 0, 1, 1]),
+            "last row than 0 0 0 1",
+        ),
         (
             "nerf",
             lambda c: (
@@ -183,3 +193,32 @@ def test_colmaps_images_need_their_camera(tmp_path):
     (tmp_path / "images.txt").write_text("1 0 0 0 0 0 0 0 1 a.png\n\n", encoding="utf-8")
     with pytest.raises(SceneError, match="a quaternion is zero"):
         read(tmp_path)
+
+
+def test_colmaps_images_without_their_lines_of_points_are_refused(tmp_path):
+    """Every second one would be taken for the points of the one before."""
+    (tmp_path / "cameras.txt").write_text("1 PINHOLE 4 4 1 1 2 2\n", encoding="utf-8")
+    images = [f"{n} 1 0 0 0 0 0 0 1 {n}.png" for n in (1, 2, 3)]
+    path = tmp_path / "images.txt"
+    path.write_text("\n".join(images), encoding="utf-8")
+    with pytest.raises(SceneError, match="line 2: an image's second line has its points"):
+        read(tmp_path)
+    path.write_text("# images\n\n" + "\n\n".join(images), encoding="utf-8")
+    assert [view.name for view in read(tmp_path)] == ["1.png", "2.png", "3.png"]
+
+
+@pytest.mark.parametrize("which", ["--5", "²", "9" * 5000])
+def test_what_is_no_number_is_a_name(which):
+    own = camera(np.random.default_rng(8))
+    views = [View(own, name) for name in ("a.png", "b.png", "9" * 5000)]
+    if which == views[-1].name:
+        assert chosen(views, which) is views[-1] and number_of(views[-1]) is None
+        return
+    with pytest.raises(SceneError, match="no camera"):
+        chosen(views, which)
+
+
+def test_a_frame_before_0_keeps_its_sign():
+    own = camera(np.random.default_rng(8))
+    numbers = [number_of(View(own, name)) for name in ("-001.png", "0001.png", "view-001.png")]
+    assert numbers == [-1, 1, 1]

@@ -6,12 +6,13 @@ Each mistake is written here as a formula of its own on K, R and t, not by the f
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
 from reference_tracer.camera_files import frame
 from reference_tracer.diagnosis.camera_difference import CLOSE, difference
-from reference_tracer.projections import ORTHOGRAPHIC
+from reference_tracer.projections import EQUIRECTANGULAR, ORTHOGRAPHIC
 from reference_tracer.scene import Camera, ViewWindow
 
 WIDTH, HEIGHT = 640, 360
@@ -232,3 +233,34 @@ def test_an_orthographic_camera_is_compared_too(own):
     other = replace(flat, window=flat.window.moved(2 * 0.8 / WIDTH, 0))
     found = difference(flat, other)
     assert found.largest == pytest.approx(2) and found.steps[0].fault.name == "pixel_offset"
+
+
+def cameras_of_all_kinds():
+    matrix = np.eye(4)
+    matrix[:3, 3] = 1, 2, 4
+    plain = Camera(matrix, ViewWindow(-0.4, 0.4, -0.3, 0.3), 64, 48)
+    parallel = replace(plain, projection=ORTHOGRAPHIC, window=ViewWindow(-4, 4, -3, 3))
+    around = replace(plain, projection=EQUIRECTANGULAR, window=ViewWindow(-1, 1, -0.5, 0.5))
+    mirrored = replace(plain, world_from_camera=matrix * (-1, 1, 1, 1))
+    back = replace(plain, world_from_camera=matrix * (-1, 1, -1, 1))
+    behind = replace(parallel, clip_start=-5, clip_end=-1)
+    return plain, parallel, around, mirrored, back, behind
+
+
+def test_cameras_of_all_kinds_are_compared():
+    cameras = cameras_of_all_kinds()
+    for first, second in product(cameras, repeat=2):
+        # The two that are parallel differ in what they clip alone.
+        same = first is second or ORTHOGRAPHIC is first.projection is second.projection
+        found = difference(first, second)
+        assert found.agrees == same and found.lines()
+
+
+def test_a_camera_may_see_without_end():
+    plain = cameras_of_all_kinds()[0]
+    endless = replace(plain, clip_end=np.inf)
+    assert difference(endless, endless).agrees and difference(endless, plain).agrees
+    matrix = endless.world_from_camera.copy()
+    matrix[0, 3] += 0.01
+    found = difference(endless, replace(endless, world_from_camera=matrix))
+    assert [step.fault.name for step in found.steps] == ["camera_moved"]

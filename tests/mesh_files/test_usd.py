@@ -117,7 +117,7 @@ def test_what_is_not_read_is_named(stage, read):
         "1 skinned surface read at rest",
         "1 subdivision surface of which the cage is read",
     )
-    assert found.notes == ("1 surface moved in time, read at the first time",)
+    assert found.notes == ("1 surface moved or hidden in time, read at the first time",)
     assert corners(found.placed[2])[0, 0, 2] == 0
 
 
@@ -160,3 +160,36 @@ def test_without_the_library_it_is_said_what_to_install(stage, read, monkeypatch
     monkeypatch.setitem(sys.modules, "pxr", None)
     with pytest.raises(SceneError, match=r'pip install "reference_tracer\[usd\]"'):
         read()
+
+
+def test_what_a_point_instancer_repeats_is_not_shown_in_its_own_place(stage, read):
+    mesh(stage, "/Floor")
+    trees = UsdGeom.PointInstancer.Define(stage, "/Trees")
+    mesh(stage, "/Trees/Prototypes/Tree")
+    trees.CreatePrototypesRel().SetTargets(["/Trees/Prototypes/Tree"])
+    found = read()
+    assert [placed.object for placed in found.placed] == ["Floor"]
+    assert found.missing == ("1 prim of the type PointInstancer, not read",)
+
+
+@pytest.mark.parametrize("unit", [0.0, -1.0, np.nan, np.inf])
+def test_a_unit_must_be_a_length(stage, read, unit):
+    mesh(stage, "/A")
+    stage.SetMetadata("metersPerUnit", unit)
+    with pytest.raises(SceneError, match="metersPerUnit"):
+        read()
+
+
+def test_what_moves_or_is_hidden_in_time_is_named(stage, read):
+    above = UsdGeom.Xform.Define(stage, "/Moved")
+    moved = above.AddTranslateOp()
+    for time in (1, 9):
+        moved.Set(Gf.Vec3d(time, 0, 0), time)
+    mesh(stage, "/Moved/Mesh")
+    hidden = mesh(stage, "/Hidden").CreateVisibilityAttr()
+    hidden.Set("invisible", 1)
+    hidden.Set("inherited", 9)
+    mesh(stage, "/Still")
+    found = read()
+    assert [placed.object for placed in found.placed] == ["Moved", "Still"]
+    assert found.notes == ("2 surfaces moved or hidden in time, read at the first time",)

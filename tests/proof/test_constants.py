@@ -23,6 +23,7 @@ _SHARE = "the share of the work that is shown to the user"
 TUNING = {
     "sweep.film": {"0.25": "where the bounds hold: the premise `ray_error_small` of Perspective.v"},
     "plain": {"_ROWS": _STEP},
+    "any_rays": {"_FEW": "from how many pairs a tree of boxes is worth while"},
     "ladder": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},
     "sweep.boxes": {
         **dict.fromkeys(("_FIRST", "BINS", "BINS - 1", "_GROWTH", "_GROWTH - 1"), _BINS),
@@ -76,6 +77,8 @@ ELSEWHERE = {
     "sweep.clusters": "which triangles are a cluster: its box is that of their vertices",
     "sweep.clustered": "the boxes of clusters, argued by hand at its head, and what is looked at "
     "first; pictures are held to be the same by test_clusters.py",
+    "tree": "which triangles any rays may meet, argued by hand at its head: what is found is held "
+    "to be what every pair has by test_tree.py",
     "measures": "of barycentrics, whose bound is argued by hand: below it, integers divide",
 }
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.scene import Instance, Mesh
+from reference_tracer.scene import Instance, Mesh, Plane
 from reference_tracer.scene_files import save_scene
 from reference_tracer_scene_diff.differences import differences
 from reference_tracer_scene_diff.matching import matched
@@ -212,3 +212,33 @@ def test_the_command_prints_and_writes(scene, tmp_path, capsys, exit_code):
     assert held["object"] == "Ball" and held["kind"] == "object_moved"
     assert exit_code(["diff", a, str(tmp_path / "none.glb")]) == 4
     assert "there is no file" in capsys.readouterr().err
+
+
+def test_a_far_object_allows_a_near_one_nothing(scene):
+    far = with_instance(scene, 0, np.diag((1e5, 1e5, 1e5, 1.0)))
+    moved = np.eye(4)
+    moved[0, 3] = 0.01
+    found = differences(far, with_instance(far, 1, moved))
+    assert [(d.object, d.kind) for d in found] == [("Box", "object_moved")]
+    assert not differences(far, with_mesh(far, 0, shuffled))
+
+
+def test_infinite_planes_are_compared(scene):
+    floor = Plane(3, np.array((0.0, 0, -1)), np.array((0.0, 0, 1)), np.ones(4))
+    own = replace(scene, planes=(floor,), objects=(*scene.objects, "Floor"))
+    slid = replace(floor, point=np.array((5.0, 3, -1)))
+    assert not differences(own, replace(own, planes=(slid,)))
+    for point, normal in (((0.0, 0, -1.1), floor.normal), (floor.point, -floor.normal)):
+        other = replace(floor, point=np.array(point), normal=np.array(normal))
+        [found] = differences(own, replace(own, planes=(other,)))
+        assert found.kind == "plane_moved"
+    [found] = differences(own, scene)
+    assert found.sentence == "'Floor' is missing"
+    [found] = differences(scene, own)
+    assert found.kind == "object_added"
+
+
+def test_up_is_refused_where_nothing_is_turned(scene, tmp_path, capsys, exit_code):
+    save_scene(tmp_path / "a.npz", scene)
+    assert exit_code(["diff", *[str(tmp_path / "a.npz")] * 2, "--up", "y"]) == 4
+    assert "--up is for meshes" in capsys.readouterr().err

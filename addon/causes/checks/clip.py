@@ -49,7 +49,8 @@ def _clipped(part: Part) -> Work[None]:
     figure = allowed = np.zeros(len(near))
     for _ in range(LAYERS):
         after = hits = yield from part.probe.trace(after=after)
-        ends = np.abs(hits.t - camera.clip_start), np.abs(hits.t - camera.clip_end)
+        with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit and nothing ends
+            ends = np.abs(hits.t - camera.clip_start), np.abs(hits.t - camera.clip_end)
         distance = np.minimum(*ends)
         bound = part.resolution(hits)
         at_clip = (hits.instance != NOTHING) & (distance <= bound)

@@ -20,7 +20,7 @@ from ...framing import Choice
 from ...report.cameras import SceneCamera, write_cameras
 from ...scene import Camera, Region, SceneError
 from ..arguments import is_blend, refuse
-from ..camera_options import add_camera, choice_from
+from ..camera_options import LAST_FRAME, add_camera, choice_from
 from ..opening import SOURCES, open_blend, open_file
 from ..parser import AGREE, DIFFERENCES, Parser
 
@@ -170,6 +170,8 @@ def _checked(options: CameraOptions, at: _At) -> int:
         frames = [number for number in numbers if number is not None]
         if len({*frames}) != len(views):
             raise SceneError(f"'{options.check}': its images have no numbers of their own: --view")
+        if is_blend(options.scene) and (far := [n for n in frames if abs(n) > LAST_FRAME]):
+            raise SceneError(f"'{options.check}': Blender has no frame {far[0]}: --view")
         by_frame = dict(zip(sorted(frames), at(sorted(frames)), strict=True))
         scene = [by_frame[number] for number in frames]
     found = [
@@ -177,7 +179,7 @@ def _checked(options: CameraOptions, at: _At) -> int:
         for view, one in zip(views, scene, strict=True)
     ]
     for view, one, its in zip(views, scene, found, strict=True):
-        for line in (*its.lines(), *_said(view, one.view.camera)):
+        for line in (*its.lines(), *_said(view, one.view)):
             print(f"{view.name or options.check.name}: {line}")
     return AGREE if all(one.agrees for one in found) else DIFFERENCES
 
@@ -188,10 +190,12 @@ def _of_size(camera: Camera, like: Camera) -> Camera:
     return replace(camera, width=like.width, height=like.height, region=whole)
 
 
-def _said(view: View, own: Camera) -> list[str]:
-    """Return what else is to be said of a file's camera."""
+def _said(view: View, scenes: View) -> list[str]:
+    """Return what else is to be said of a file's camera, beside the scene's."""
     said = list(view.notes)
-    other = view.camera
+    own, other = scenes.camera, view.camera
+    if None not in (view.frame, scenes.frame) and view.frame != scenes.frame:
+        said.append(f"it is the camera of frame {view.frame}, and the scene is at {scenes.frame}")
     if (other.width, other.height) != (own.width, own.height):
         said.append(
             f"its picture has {other.width} x {other.height} pixels, the scene's {own.width} x "

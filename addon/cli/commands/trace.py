@@ -133,6 +133,8 @@ def trace(options: TraceOptions) -> int:
         settings = options.settings.over(stored)
         if options.certificate and not settings.method.is_proven:
             raise SceneError(f"--certificate: {settings.method} proves nothing: --method certified")
+        if options.masks and not settings.method.is_proven:
+            raise SceneError(f"--masks: {settings.method} proves nothing: --method certified")
         if options.rows:
             scene = _rows_alone(scene, settings, *options.rows)
         with options.place as place, progress_bar() as progress:

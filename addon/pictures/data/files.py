@@ -83,8 +83,11 @@ def _arrays(path: Path) -> dict[str, Array]:
         if isinstance(held, np.ndarray):
             return {"": held}
         with held:
-            every = ((name, held[name]) for name in held.files)
-            return {name: values for name, values in every if values.ndim in (2, 3)}
+            every = [(name, held[name]) for name in held.files]
+            arrays = [own for own in every if isinstance(own[1], np.ndarray)]  # others are bytes
+            return {name: values for name, values in arrays if values.ndim in (2, 3)}
+    except (RuntimeError, NotImplementedError) as error:
+        raise OSError(f"'{path}' is encrypted or packed in another way: {error}") from error
     except (ValueError, EOFError, BadZipFile, zlib.error, KeyError) as error:
         raise OSError(f"'{path}' is cut off or damaged: write it again ({error})") from error
 
@@ -157,7 +160,7 @@ def _shaped(path: object, values: Array, kind: Kind, name: str) -> Array:
         return values
     if kind.channels == 1 and values.shape[2] in (3, 4):
         rgb = values[..., :3]
-        if not np.array_equal(rgb, np.broadcast_to(rgb[..., :1], rgb.shape), equal_nan=False):
+        if not np.array_equal(rgb, np.broadcast_to(rgb[..., :1], rgb.shape), equal_nan=True):
             say = f"'{path}': its channels differ, so that none of them is {kind.words}"
             raise OSError(f"{say}: save the values as they are, not as colours")
         values = values[..., :1]

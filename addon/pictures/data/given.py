@@ -43,7 +43,7 @@ class GivenData:
     Raises
     ------
     ValueError
-        If there is no such kind, space or range; or a scale is not above 0, or of what has none.
+        If there is no such kind, space or range, the scale is no length, or the kind has none.
     """
 
     kind: str  # of KINDS
@@ -63,10 +63,10 @@ class GivenData:
             if value not in known:
                 raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(known)}")
         if self.scale is not None:
-            if not 0 < self.scale < np.inf:
-                raise ValueError(f"scale is {self.scale}; it must be above 0: metres that 1 is")
             if not KINDS[self.kind]("world", "unit").unit:
-                raise ValueError(f"scale is of what is in metres, which {self.kind} are not")
+                raise ValueError(f"scale is {self.scale!r}; {self.kind} are no lengths")
+            if not 0 < self.scale < np.inf:
+                raise ValueError(f"scale is {self.scale!r}; it must be above 0, in metres")
 
     @property
     def name(self) -> str:
@@ -144,13 +144,12 @@ def _data(given: GivenData, stored: StoredData, scene: Scene, kind: Kind) -> Dat
             raise SceneError(
                 f"'{given.name}' holds integers: say how many metres 1 is, as --depth-scale 0.001"
             )
-        unit = given.scale or 1.0
+        unit = 1.0 if given.scale is None else given.scale
     elif not stored.step.type:
         unit = 1 / stored.top
     values = raw * unit
-    step, full = stored.step, 1.0
-    if not step.type:
-        step, full = Step("", unit), stored.top * unit
+    step = replace(stored.step, unit=unit)
+    full = 1.0 if step.type else stored.top * unit
     blank = _blank(raw if kind.unit else values, stored, kind, step)
     return Data(kind, values, blank, _film(scene), scene.camera, step, full)
 

@@ -19,13 +19,21 @@ from .seen import Seen
 
 LAYERS = ("ids", "id", "object_index", "indexob", "object index", "instance_index", "segmentation")
 
+_EXACT = 2.0**53  # below which float64 holds all integers
+
 
 def numbers_of(values: Array) -> Floats:
-    """Return a number for each pixel's value or colour (h, w, c), equal for equal ones, (h, w)."""
-    if values.shape[2] == 1:
+    """Return a number for each pixel's value or colour (h, w, c), equal for equal ones, (h, w).
+
+    It is the value itself where float64 can hold it; NaN is equal to NaN.
+    """
+    exact = values.dtype.kind == "b" or bool((np.abs(values.astype(np.float64)) < _EXACT).all())
+    if values.shape[2] == 1 and exact:
         return values[..., 0].astype(np.float64)
     flat = values.reshape(-1, values.shape[2])
-    return np.unique(flat, axis=0, return_inverse=True)[1].reshape(values.shape[:2]).astype(float)
+    codes = [np.unique(channel, return_inverse=True)[1].reshape(-1) for channel in flat.T]
+    every = np.unique(np.stack(codes, axis=1), axis=0, return_inverse=True)[1]
+    return np.asarray(every.reshape(values.shape[:2]), np.float64)
 
 
 def kind_of(own: Mapping[str, float]) -> Kind:

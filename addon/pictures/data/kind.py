@@ -157,6 +157,8 @@ class Data:
         none = np.full(len(self.blank), NOTHING, np.int32)
         end = np.full(len(none), float(scene.camera.clip_end))
         far = self.made(Seen(scene, self.film, none, none, end))
+        if not np.isfinite(far).all():  # without an end there is no value of it
+            return np.zeros(len(self.blank), bool)
         allowed = 2 * self.step.half(far) + 4 * U32 * np.abs(far)
         return (np.abs(self.values - far) <= allowed)[:, 0]
 

@@ -18,10 +18,10 @@ _TYPES: dict[str, type[np.floating]] = {
 
 @dataclass(frozen=True)
 class Step:
-    """How a file stores a number: a type of floats, or integers of some unit."""
+    """How a file stores a number: floats of a type, or integers, of some unit."""
 
     type: str  # a key of _TYPES, or '' for integers
-    unit: float = 0.0  # of integers: what 1 is
+    unit: float = 1.0  # what 1 is
     cut: bool = False  # digits are cut off, not rounded
 
     @property
@@ -37,15 +37,16 @@ class Step:
         if not self.type:
             return np.full(np.shape(values), (0.5 + LEVEL_SLACK) * self.unit)
         of = _TYPES[self.type]
-        size = np.minimum(np.nan_to_num(np.abs(values), posinf=0.0), float(np.finfo(of).max))
-        return np.spacing(size.astype(of)).astype(np.float64) / (1 if self.cut else 2)
+        stored = np.nan_to_num(np.abs(values / self.unit), posinf=0.0)
+        size = np.minimum(stored, float(np.finfo(of).max)).astype(of)
+        return self.unit * np.spacing(size).astype(np.float64) / (1 if self.cut else 2)
 
     def holds(self, values: Floats) -> bool:
         """Return whether all finite values lie on such steps, but for float32's own rounding."""
         values = values[np.isfinite(values)]
         if self.type:
             with np.errstate(over="ignore"):
-                on = values.astype(_TYPES[self.type]).astype(np.float64)
+                on = self.unit * (values / self.unit).astype(_TYPES[self.type]).astype(np.float64)
         else:
             on = np.rint(values / self.unit) * self.unit
         return bool((np.abs(values - on) <= U32 * np.abs(values)).all())

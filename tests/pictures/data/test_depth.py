@@ -6,13 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer import compare
 from reference_tracer.causes.case import without_colors
 from reference_tracer.comparison.comparing import compared
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.pictures.given import Making
+from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.rendering import render
-from reference_tracer.scene import SceneError
+from reference_tracer.scene import SceneError, ViewWindow
 from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.progress import result_of
 
@@ -57,6 +59,15 @@ def test_each_file_has_its_own_steps(judged, traced):
     assert wrong > 0.9 * (right > 0).sum()
     with pytest.raises(SceneError, match="say how many metres 1 is"):
         judged("depth", millimetres)
+
+
+@pytest.mark.parametrize("unit", [0.001, 1 / 5000, 3.7])
+def test_the_steps_of_floats_are_those_before_their_unit(judged, traced, unit):
+    for dtype in (np.float16, np.float32):
+        stored = (np.nan_to_num(traced.t, posinf=0) / unit).astype(dtype)
+        assert judged("depth", stored, scale=unit).verdict == Verdict.AGREE
+    coarser = np.nextafter(stored.astype(np.float16), np.float16(np.inf))
+    assert judged("depth", coarser, scale=unit).verdict == Verdict.DIFFERENCES
 
 
 def test_float32_arithmetic_is_allowed_for_and_no_more(judged, solids, traced):
@@ -211,3 +222,27 @@ def test_colors_that_are_not_modelled_excuse_no_depth(judged, traced, solids):
         found = result_of(compared(without_colors(replace(case, manifest=manifest))))
         assert (found.counts.unexplained == 0) == bool(blind)
         assert bool(found.counts.not_judged.pixels) == bool(blind)
+
+
+@pytest.mark.parametrize("parallel", [False, True], ids=["perspective", "orthographic"])
+@pytest.mark.parametrize("renderer", ["rays", "raster"])
+def test_a_camera_without_a_clip_end_allows_no_more(solids, renderer, parallel):
+    camera = replace(solids.camera, clip_end=np.inf)
+    if parallel:
+        window = ViewWindow(-2, 2, -1.5, 1.5)
+        camera = replace(camera, projection=ORTHOGRAPHIC, window=window)
+    endless = replace(solids, camera=camera)
+    right = render(endless).t
+    shown = right.astype(np.float32)
+    assert compare(endless, shown, kind="depth", renderer=renderer).verdict == Verdict.AGREE
+    before_nothing = np.where(np.isfinite(right), shown, 2.5)
+    for wrong in (before_nothing, shown + np.float32(0.5)):
+        found = compare(endless, wrong, kind="depth", renderer=renderer, diagnose=False)
+        assert found.counts.unexplained > 50
+
+
+def test_depths_of_a_scene_with_nothing_are_compared(solids):
+    nothing = replace(solids, instances=())
+    shape = solids.camera.height, solids.camera.width
+    found = compare(nothing, np.full(shape, 3.0, np.float32), kind="depth")
+    assert found.counts.unexplained == found.counts.total

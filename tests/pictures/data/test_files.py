@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -77,6 +78,32 @@ def test_a_file_that_is_cut_off_or_none_is_refused(judged, traced, tmp_path):
         judged("depth", traced.t[:, 1:])
 
 
+def test_what_else_is_in_an_npz_is_no_matter(judged, traced):
+    def save(path, values):
+        np.savez(path, depth=values)
+        with ZipFile(path, "a") as held:
+            held.writestr("README.txt", "depths")
+
+    assert judged("depth", traced.t, name="d.npz", save=save).verdict == Verdict.AGREE
+
+
+@pytest.mark.parametrize("offset, value", [(8, 1), (10, 99)], ids=["encrypted", "packed"])
+def test_an_npz_that_cannot_be_unpacked_is_refused(judged, traced, offset, value):
+    def save(path, values):
+        np.savez(path, depth=values)
+        content = bytearray(path.read_bytes())
+        content[content.find(b"PK\x01\x02") + offset] = value
+        path.write_bytes(content)
+
+    with pytest.raises(OSError, match="is encrypted or packed in another way"):
+        judged("depth", traced.t, name="d.npz", save=save)
+
+
+def test_grey_depths_may_have_nan_where_nothing_is(judged, traced):
+    grey = np.repeat(np.where(np.isfinite(traced.t), traced.t, np.nan)[..., None], 3, axis=2)
+    assert judged("depth", grey).verdict == Verdict.AGREE
+
+
 @pytest.mark.parametrize(
     "options, words",
     [
@@ -126,3 +153,8 @@ def test_a_script_compares_arrays(solids, traced):
     assert compare(solids, traced.object_index, kind="ids").verdict == Verdict.AGREE
     with pytest.raises(ValueError, match="kind is 'height'; it must be one of depth, distance"):
         compare(solids, traced.t, kind="height")
+    for scale in (0, -1, np.nan, np.inf):
+        with pytest.raises(ValueError, match="it must be above 0"):
+            compare(solids, traced.t, kind="depth", scale=scale)
+    with pytest.raises(ValueError, match="normals are no lengths"):
+        compare(solids, traced.normal, kind="normals", scale=2.0)

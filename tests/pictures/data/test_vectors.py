@@ -140,6 +140,20 @@ def test_ids_may_be_any_numbers_or_colours(judged, placed, seen, rng):
     assert judged("ids", colors, placed).counts.unexplained == 1
 
 
+def test_ids_may_be_of_64_bits_or_nan_where_nothing_is(judged, placed, seen):
+    own = seen["frame"].object_index
+    assert judged("ids", np.where(own < 0, np.nan, own), scene=placed).verdict == Verdict.AGREE
+    colors = np.where(own < 0, np.nan, own)[..., None] * np.ones(3)
+    assert judged("ids", colors, scene=placed).verdict == Verdict.AGREE
+    own = own.astype(np.int64)
+    large = 2**60 + own  # all the same in float64
+    assert judged("ids", large, scene=placed).verdict == Verdict.AGREE
+    far = np.where(own == 0, 2**60, own)
+    rows, columns = np.nonzero(own == 0)
+    far[rows[:3], columns[:3]] += 1
+    assert judged("ids", far, scene=placed).counts.unexplained == 3
+
+
 def test_objects_that_share_an_id(told, placed, seen):
     index = seen["frame"].object_index
     assert told("ids", np.array([3, 3, 5, 0])[index], placed, faults=SOME) == ["id_shared"]

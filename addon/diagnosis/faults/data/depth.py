@@ -94,6 +94,8 @@ def _buffers(evidence: Evidence, data: Data) -> Iterator[Turned]:
 
 def _normalised(evidence: Evidence, data: Data) -> Iterator[Turned]:
     made = data.of_frame(evidence.frame)
+    if not np.isfinite(made).any():
+        return
     ends = float(np.nanmin(made)), float(np.nanmax(made))
     for turn, of in ((_linear, "the clip range"), (_between(*ends), "what is seen")):
         for reverse in (False, True):
@@ -135,7 +137,7 @@ DEPTH_FAULTS = (
     data_fault(
         "data_scale",
         ("depth", "distance", "positions"),
-        "the values are {factor:.6g} times too large",
+        "the values are {factor:.6g} times the right ones",
         "Data sets store depths in units of their own, as 1/5000 m or 1/256 m.",
         "divide the values by {factor:.6g}, or name the unit with --depth-scale",
         _factor,

@@ -43,7 +43,9 @@ def _steps(evidence: Evidence) -> list[Coarser]:
     if data is None or data.kind.name not in NUMBERS:
         return []
     own = data.values[~data.blank]
-    return [Coarser(step, words=words) for step, words in _STEPS if step.holds(own)]
+    # Floats were rounded as the file has them, before their unit was applied.
+    steps = [(replace(s, unit=data.step.unit) if s.type else s, words) for s, words in _STEPS]
+    return [Coarser(step, words=words) for step, words in steps if step.holds(own)]
 
 
 def _cut_off(evidence: Evidence, data: Data) -> Iterator[Turned]:
