@@ -86,8 +86,8 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     if model not in _MODELS or bent:
         what = f"{bent[0]} = {body[bent[0]]}" if bent else f"camera_model = {model!r}"
         raise SceneError(
-            f"{where} has lens distortion or another projection ({what}), which is not modelled: "
-            "undistort the pictures, and write the camera of these"
+            f"{where.removesuffix('.')} has lens distortion or another projection ({what}), "
+            "which is not modelled: undistort the pictures, and write the camera of these"
         )
     center = first_center(body)
     fx, fy = _focal_lengths(body, where, size)
