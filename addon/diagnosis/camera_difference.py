@@ -71,7 +71,7 @@ class CameraDifference:
 
     def lines(self) -> list[str]:
         """Return it as sentences."""
-        x, y = (int(np.floor(v)) for v in self.at)
+        x, y = (max(int(np.floor(v)), 0) for v in self.at)  # the edge may be rounded to outside
         where = f"at pixel ({x}, {y}), {self.depth:.4g} m deep"
         if self.agrees:
             return [f"agree: points lie at most {self.largest:.2g} px apart"]
