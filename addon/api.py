@@ -6,6 +6,7 @@ Nothing here needs Blender, and all that it does the commands do by the same fun
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -88,6 +89,7 @@ def compare(
     scene: str | Path | Scene,
     picture: str | Path | ArrayLike,
     *,
+    camera: Camera | None = None,
     settings: Settings | None = None,
     renderer: str = "",
     filter_radius: float = 0.0,
@@ -107,6 +109,8 @@ def compare(
     picture : str, Path or array
         A PNG or an EXR; or (h, w, 3 or 4), linear RGB or RGBA with alpha multiplied in, row 0 at
         the bottom. It shows the camera's whole view, or its region.
+    camera : Camera, optional
+        In place of the scene's own.
     settings : Settings, optional
         How it is traced; by default with proof.
     renderer : {'', 'rays', 'raster'}
@@ -150,10 +154,14 @@ def compare(
     ('differences', 1)
     """
     making = Making(renderer, filter_radius, dither)
+    if scale is not None and not kind:
+        raise ValueError("scale is of depths, distances and positions: say which, by kind")
     if isinstance(scene, Scene):
         manifest = file_manifest(Path("scene"), scene, Account())
     else:
         scene, manifest = open_scene(Path(scene))
+    if camera is not None:
+        scene, manifest = scene.seen_by(camera), replace(manifest, camera=camera.name)
     if kind:
         source = Path(picture) if isinstance(picture, (str, Path)) else np.asarray(picture)
         shown = picture_of_data(GivenData(kind, source, scale=scale), scene, making)

@@ -11,6 +11,7 @@ from functools import wraps
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from zlib import crc32
 
 import pytest
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from .comparison.comparison import Comparison
 
 _OPTION = "--reftrace-pages"
+_LONGEST = 120  # bytes of a folder's name: file systems allow 255, and some less for a whole path
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -35,7 +37,7 @@ def assert_sees(request: pytest.FixtureRequest, tmp_path: Path) -> Callable[...,
     from .testing import assert_sees as check
 
     asked = request.config.getoption(_OPTION)
-    folder = Path(asked, re.sub(r"[^\w.-]+", "-", request.node.nodeid)) if asked else tmp_path
+    folder = Path(asked, _name_of(request.node.nodeid)) if asked else tmp_path
     calls = count(1)
 
     @wraps(check)
@@ -44,3 +46,18 @@ def assert_sees(request: pytest.FixtureRequest, tmp_path: Path) -> Callable[...,
         return check(*args, **{"page": folder / f"sees-{next(calls)}"} | kwargs)
 
     return seeing
+
+
+def _name_of(test: str) -> str:
+    """Return a folder's name for a test; one that is too long for a file system ends in a number.
+
+    Parameters
+    ----------
+    test : str
+        Its id in pytest, with all its parameters.
+    """
+    name = re.sub(r"[^\w.-]+", "-", test)
+    if len(name.encode()) <= _LONGEST:
+        return name
+    short = name.encode()[:_LONGEST].decode(errors="ignore")
+    return f"{short}-{crc32(test.encode(errors='replace')):08x}"

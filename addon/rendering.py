@@ -14,13 +14,15 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from .certified import any_rays, plain
 from .certified.arithmetic import AssumptionError, check_assumptions
 from .certified.rounding import rounding
 from .certified.samples import traced_together
 from .certified.sweep.sweep import sweep
 from .methods import UNPROVEN, Method
-from .scene import Scene
+from .scene import Scene, SceneError
 from .tracer import nearest
 from .tracer import render as loop
 from .tracer.camera import Rays
@@ -138,11 +140,18 @@ def trace(
     rays : Rays, optional
         Any rays to trace instead. The camera's clip range applies to t, in lengths of a direction.
         Where there are many, a tree of boxes says which triangles each may meet.
+
+    Raises
+    ------
+    SceneError
+        If a ray is not finite: nothing is proven of it.
     """
     statistics = statistics or Statistics()
     settings = resolved(settings, statistics)
     method = Method(settings.method)
     if rays:
+        if not (np.isfinite(rays.origins).all() and np.isfinite(rays.directions).all()):
+            raise SceneError("a ray's origin or direction is not finite")
         dtype = settings.precision.dtype
         rays = Rays(rays.origins.astype(dtype), rays.directions.astype(dtype))
         return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))

@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 from .api import compare
 from .comparison.comparison import Comparison
 from .comparison.verdict import Verdict
-from .opened import open_scene
 from .report import comparison as comparison_report
 from .report import page as comparison_page
 from .report.junit import wrong_in
@@ -72,12 +71,10 @@ def assert_sees(
         If the picture has another size, or either side cannot be read or traced.
     """
     __tracebackhide__ = True
-    if camera is not None:
-        own = scene if isinstance(scene, Scene) else open_scene(Path(scene)).scene
-        scene = own.seen_by(camera)
     found = compare(
         scene,
         picture,
+        camera=camera,
         renderer=renderer,
         filter_radius=filter_radius,
         kind=kind,

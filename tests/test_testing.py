@@ -12,7 +12,11 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from reference_tracer import Verdict, images, render, save_scene
+from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.opened import file_manifest
+from reference_tracer.pytest_plugin import _name_of
 from reference_tracer.report.junit import Judged, junit
+from reference_tracer.scene_files import Account
 from reference_tracer.testing import assert_sees as check
 from reference_tracer_conformance.scenes import kit_scenes
 
@@ -54,6 +58,17 @@ def test_its_own_picture_passes_and_another_camera_s_does_not(scene, tmp_path):
         check(moved(scene, 3), color)
 
 
+def test_what_a_file_lacks_counts_with_another_camera_too(scene, tmp_path):
+    lost = Unmodelled("lost.bin", "buffer", effect=Effect.MISSING)
+    manifest = file_manifest(tmp_path, scene, Account((lost,)))
+    path = tmp_path / "scene.npz"
+    save_scene(path, scene, manifest)
+    color = render(scene).color
+    for camera in (None, scene.camera):
+        with pytest.raises(AssertionError, match=r"lost\.bin"):
+            check(path, color, camera=camera)
+
+
 def test_a_failure_says_what_is_wrong_and_leaves_a_page(scene, tmp_path):
     color = render(moved(scene, 0.5)).color
     with pytest.raises(AssertionError) as failed:
@@ -71,6 +86,19 @@ def test_depths_pass_and_millimetres_are_named(scene):
     with pytest.raises(AssertionError, match="the values are in millimetres"):
         check(scene, depth * 1000, kind="depth")
     assert check(scene, depth * 1000, kind="depth", scale=0.001).counts.differ == 0
+
+
+@pytest.mark.parametrize("scale", [0.0, -1.0, np.nan, np.inf])
+def test_a_scale_that_is_none_is_refused(scene, scale):
+    depth = render(scene).depth
+    with pytest.raises(ValueError, match="must be above 0"):
+        check(scene, depth, kind="depth", scale=scale)
+
+
+@pytest.mark.parametrize("kind", ["", "ids", "normals"])
+def test_a_scale_of_what_has_none_is_refused(scene, kind):
+    with pytest.raises(ValueError, match="scale is of"):
+        check(scene, render(scene).color, kind=kind, scale=0.001)
 
 
 def test_a_warning_fails_unless_it_is_accepted(scene):
@@ -97,6 +125,14 @@ def test_the_examples_of_the_page_run(scene, tmp_path):
     assert page.parent.name == "sees-1" and page.parent.parent.name.startswith("test_1.py")
     assert f"its page: {page.relative_to(tmp_path)}" in done.stdout
     assert "testing.py" not in done.stdout  # the failure is the test's own line
+
+
+def test_folders_of_tests_with_long_names_can_be_made(tmp_path):
+    names = {_name_of(f"test_a.py::test[{'x' * 400}{end}]") for end in "ab"}
+    names |= {_name_of(f"test_a.py::test[{'ä' * 400}]"), _name_of("test_a.py::test")}
+    assert len(names) == 4 and "test_a.py-test" in names
+    for name in names:
+        (tmp_path / name).mkdir()
 
 
 def test_the_plugin_imports_nothing_before_it_is_used():

@@ -59,7 +59,8 @@ def nearest_hits(
         To count in.
     culled : bool
         Whether a tree of boxes proposes the pairs; else each ray is tested with each triangle.
-        The result is the same.
+        What is seen, t and ties are the same. Where the tree drops a pair that only integers
+        could decide, the certainty is another, and barycentrics are within `measures.WITHIN`.
     """
     surfaces = Surfaces.planes_of(scene)
     if not culled:

@@ -102,6 +102,8 @@ def run(given: Namespace) -> int:
     if program.boxed and not sandbox():
         say("the program is not kept from the network or from your files: bubblewrap is missing")
     with folders.made(given.out):
+        for name in report.NAMES:  # those of an earlier run would pass for this one's
+            (given.out / name).unlink(missing_ok=True)
         work = conform(program, scenes, lambda result: report.keep(given.out, result))
         with progress_bar() as progress:
             results = result_of(work, progress)

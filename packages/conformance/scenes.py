@@ -321,7 +321,7 @@ def _meshes() -> list[KitScene]:
             (Item("Bracket", zero_areas(bracket())), _POST),
         ),
         "needles": (
-            "Triangles 15 times as long as wide, a pixel or two across.",
+            "Triangles 13 times as long as wide, a pixel or two across.",
             (Item("Needles", needles(), (low,)),),
         ),
         "crossing": (

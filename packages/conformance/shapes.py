@@ -127,7 +127,7 @@ def sheet(size: float = 1.0) -> Shape:
 
 @cache
 def needles(count: int = 24) -> Shape:
-    """Return a fan of thin triangles about the origin, in XZ: each is 40 times as long as wide."""
+    """Return a fan of thin triangles about the origin, in XZ: each is 13 times as long as wide."""
     turns = 2 * np.pi * np.arange(count) / count
     out = np.column_stack((np.cos(turns), np.zeros(count), np.sin(turns)))
     across = np.column_stack((-np.sin(turns), np.zeros(count), np.cos(turns))) * 0.05

@@ -120,7 +120,8 @@ def kill(process: subprocess.Popen[bytes]) -> None:
 
 def _how(code: int) -> str:
     if code < 0:
-        return f"the program was ended by {signal.Signals(-code).name}"
+        known = {s.value: s.name for s in signal.Signals}  # not all of the realtime ones
+        return f"the program was ended by {known.get(-code, f'signal {-code}')}"
     return f"the program ended with exit code {code}"
 
 

@@ -46,7 +46,9 @@ ARRAYS = {
     "plane": ("planes", "point normal color"),
 }
 KINDS = "perspective", "orthographic", "equirectangular"
-WINDOW = "left right bottom top"
+WINDOW, REGION = "left right bottom top", "x0 y0 x1 y1"
+LISTS = {"meshes": "name corner_colors", "instances": "mesh object", "planes": "object"}
+WHOLE, REAL, DOUBLE = "i1 i2 i4 i8 u1 u2 u4 u8", "f4 f8", "f8"  # numpy's types of numbers
 NOWHERE: Name = (-1, -1)
 AXES: Sequence[Vector] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 # How much is in memory together: pixels with their rays; surfaces; pairs of a square and a surface.
@@ -61,6 +63,20 @@ def only(what: str, found: Any, known: Any) -> None:
     """Refuse what is not known."""
     if unknown := [str(each) for each in found if each not in known]:
         raise RefusedError(f"not covered: {what} {', '.join(unknown)}")
+
+
+def array(file: Any, name: str, types: str, *shape: int | None) -> Any:
+    """Return an array; refuse one of other types or of another shape, where None is any length.
+
+    With the types go the roundings: in float32 "up to clip end" could be less.
+    """
+    found = file[name]
+    only(f"type of {name}", [found.dtype.str[1:]], types.split())
+    if len(shape) != found.ndim or any(
+        n not in (None, m) for n, m in zip(shape, found.shape, strict=True)
+    ):
+        raise RefusedError(f"{name} has the shape {found.shape}")
+    return found
 
 
 class Certificate:
@@ -78,18 +94,27 @@ class Certificate:
             only("part of the scene", scene, SCENE.split())
             only("part of the camera", camera, CAMERA.split())
             only("camera", [camera["projection"]], KINDS)
+            only("part of the window", camera["window"], WINDOW.split())
+            only("part of the region", camera["region"], REGION.split())
             self.read_surfaces(file, scene)
-            self.instance, self.triangle, self.t, *ties = (file[name] for name in ANSWERS.split())
+            instance, triangle, t, *ties = ANSWERS.split()
+            self.instance, self.triangle = (
+                array(file, name, WHOLE, None, None) for name in (instance, triangle)
+            )
+            self.t = array(file, t, DOUBLE, None, None)
+            told = [array(file, name, WHOLE, None).tolist() for name in ties]
         self.clip = float(camera["clip_start"]), float(camera["clip_end"])
         matrix = np.array(camera["world_from_camera"], np.float64)
         self.right, self.up, self.back, self.eye = matrix[:3].T[..., None]
         left, right, low, top = (float(camera["window"][k]) for k in WINDOW.split())
-        x0, y0, x1, y1 = (int(camera["region"][k]) for k in ("x0", "y0", "x1", "y1"))
+        x0, y0, x1, y1 = (int(camera["region"][k]) for k in REGION.split())
+        if not (0 <= x0 < x1 <= camera["width"] and 0 <= y0 < y1 <= camera["height"]):
+            raise RefusedError("the region is empty, or not within the picture")
         self.shape = y1 - y0, x1 - x0
         self.x = left + (np.arange(x0, x1) + 0.5) * ((right - left) / camera["width"])
         self.y = low + (np.arange(y0, y1) + 0.5) * ((top - low) / camera["height"])
         self.ties: dict[int, set[Name]] = {}
-        for pixel, instance, triangle in zip(*(v.tolist() for v in ties), strict=True):
+        for pixel, instance, triangle in zip(*told, strict=True):
             self.ties.setdefault(pixel, set()).add((instance, triangle))
         only("tie of pixel", self.ties, range(self.t.size))
         if {self.instance.shape, self.triangle.shape, self.t.shape} != {self.shape}:
@@ -100,15 +125,19 @@ class Certificate:
     def read_surfaces(self, file: Any, scene: Any) -> None:
         """Set names, corners (3 corners, 3 components, n), and the normals of the last, planes."""
         meshes = []
+        for part, known in LISTS.items():
+            for each in scene[part]:
+                only(f"part of {part}", each, known.split())
         for number in range(len(scene["meshes"])):
-            vertices, triangles = (file[f"mesh{number}_{k}"] for k in ("vertices", "triangles"))
+            vertices = array(file, f"mesh{number}_vertices", REAL, None, 3)
+            triangles = array(file, f"mesh{number}_triangles", WHOLE, None, 3)
             only("vertex", np.unique(triangles).tolist(), range(len(vertices)))
             meshes.append((vertices.T.astype(np.float64), triangles))
         names, corners, count = [], [np.empty((3, 0, 3))], len(scene["instances"])
         for number, instance in enumerate(scene["instances"]):
             only("mesh", [instance["mesh"]], range(len(meshes)))
             (x, y, z), triangles = meshes[instance["mesh"]]
-            m = file[f"instance{number}_world_from_object"]
+            m = array(file, f"instance{number}_world_from_object", REAL, 4, 4)
             with np.errstate(all="ignore"):
                 world = [m[k, 0] * x + m[k, 1] * y + m[k, 2] * z + m[k, 3] for k in range(3)]
             corners.append(np.stack(world)[:, triangles])
@@ -117,7 +146,9 @@ class Certificate:
         finite = np.flatnonzero(np.isfinite(every).all(axis=(0, 1)))  # others do not count
         planes = range(len(scene["planes"]))
         points, self.normals = (
-            np.array([file[f"plane{k}_{part}"] for k in planes], np.float64).reshape(-1, 3).T
+            np.array([array(file, f"plane{k}_{part}", REAL, 3) for k in planes], np.float64)
+            .reshape(-1, 3)
+            .T
             for part in ("point", "normal")
         )
         self.names = [names[k] for k in finite] + [(count + k, -1) for k in planes]
@@ -506,6 +537,8 @@ def verified(file: str, sample: int | None = None) -> str:
         If a pixel is wrong, something is not covered, or the file cannot be read.
     """
     began = time.process_time()
+    if sample is not None and sample < 1:
+        raise RefusedError("a sample has at least one row")
     check_arithmetic()
     try:
         of = Certificate(file)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.rendering import trace
+from reference_tracer.scene import SceneError
 from reference_tracer.tracer import nearest
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.hits import Statistics
@@ -45,3 +46,13 @@ def test_as_the_camera_has_it(make, rng, settings, orthographic, pairs, monkeypa
 def test_none_of_nothing(make):
     rays = Rays(np.zeros((3, 5)), np.ones((3, 5)))
     assert (trace(make.scene(make.camera()), Settings(), rays=rays).instance == -1).all()
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("which", [0, 1])
+def test_rays_that_are_not_finite_are_refused(make, which, value):
+    """Else they would be certified to see nothing."""
+    both = np.ones((2, 3, 4))
+    both[which, 1, 2] = value
+    with pytest.raises(SceneError, match="not finite"):
+        trace(make.room(), Settings(), rays=Rays(*both))

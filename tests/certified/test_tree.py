@@ -143,14 +143,37 @@ def test_as_with_every_triangle(count, make):
     assert culled.pairs_tested < every.pairs_tested / 100
 
 
-def test_a_tree_that_drops_too_much_is_found(make, monkeypatch):
-    """The tests above see it where the bounds are left out."""
-    monkeypatch.setattr("reference_tracer.certified.tree._LOOSE", -1e-3)
-    rng = np.random.default_rng(5)
-    scene = scene_of(make, rng.integers(-2, 3, (45, 3, 3)))
-    rays = Rays(rng.integers(-3, 4, (3, 40)) * 1.0, rng.integers(1, 3, (3, 40)) * 1.0)
+def touching(make, seed):
+    """Return a few triangles, and rays exactly at their corners: many touch the box there alone.
+
+    From far away x and y of the second test are differences of large numbers; where a direction
+    has a 0, the ray is in a side of the box.
+    """
+    rng = np.random.default_rng(seed)
+    triangles = rng.integers(-3, 4, (int(rng.integers(1, 4)), 3, 3)) * 1.0
+    directions = rng.integers(-99, 100, (3, 60)) * rng.choice((0.0, 1.0, 1.0), (3, 60))
+    directions = directions[:, directions.any(axis=0)]
+    corner = rng.integers(0, 3 * len(triangles), directions.shape[1])
+    away = rng.choice((1, 1000, 2**30), directions.shape[1])
+    return scene_of(make, triangles), Rays(
+        triangles.reshape(-1, 3)[corner].T - away * directions, directions
+    )
+
+
+def test_rays_that_touch_a_corner(make):
+    ties = 0
+    for seed in range(12):
+        ties += sum(bool(s.ties) for s in check(*touching(make, seed)))
+    assert ties > 200
+
+
+@pytest.mark.parametrize(("name", "value"), [("_LOOSE", -1e-3), ("_LOOSE", 0.0), ("_OFF", 0.0)])
+def test_a_tree_that_drops_too_much_is_found(name, value, make, monkeypatch):
+    """The test above sees it where the bounds are left out."""
+    monkeypatch.setattr(f"reference_tracer.certified.tree.{name}", value)
     with pytest.raises(AssertionError):
-        check(scene, rays)
+        for seed in range(12):
+            check(*touching(make, seed))
 
 
 @pytest.mark.parametrize("leaves", [1, 2, 3, 5, 17, 164_000])

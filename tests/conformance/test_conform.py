@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from reference_tracer.scene import SceneError
+from reference_tracer_conformance.report import NAMES
 
 PROJECT = Path(__file__).parents[2]
 RENDERER = PROJECT / "packages" / "conformance" / "examples" / "embreex_obj.py"
@@ -27,7 +30,7 @@ WRONG = {  # what is written in place of what, and what is said of it
         "    eye = -np.array(camera['R']).T @ camera['t']\n"
         "    seen = (np.cross(b - a, c - a) * (eye - a)).sum(1) > 0\n"
         "    triangles, colors = triangles[seen], colors[seen]",
-        "from behind",
+        "'Sheet' is missing",  # all of it is seen from behind, so that this is as true
     ),
 }
 OF = {"shift": "camera-shift-x", "square": "camera-tall-pixels", "cull": "mesh-back"}
@@ -76,15 +79,16 @@ def test_embree_agrees(conform, out):
     assert not (out / "mesh-behind").exists()
 
 
-@pytest.mark.parametrize("name", ["half", "rows", "handed", "fov"])
+@pytest.mark.parametrize("name", WRONG)
 def test_what_is_wrong_is_named(name, conform, out, tmp_path):
     path, said = made_wrong(name, tmp_path)
-    code, told, found = conform(rendered(path), "camera-plain")
-    assert code == 2 and said in found["camera-plain"]["wrong"] and said in told
-    page = (out / "camera-plain" / "page.html").read_text(encoding="utf-8")
+    scene = OF.get(name, "camera-plain")
+    code, told, found = conform(rendered(path), scene)
+    assert code == 2 and said in found[scene]["wrong"] and said in told
+    page = (out / scene / "page.html").read_text(encoding="utf-8")
     assert "diagnosis" in page
     index = (out / "index.html").read_text(encoding="utf-8")
-    assert 'href="camera-plain/page.html"' in index and "0 of 1" in index
+    assert f'href="{scene}/page.html"' in index and "0 of 1" in index
     failure = ElementTree.parse(out / "junit.xml").find(".//failure")
     assert said in failure.get("message") and "verdict: differences" in failure.text
     assert "0 of 1" in (out / "badge.svg").read_text(encoding="utf-8")
@@ -185,6 +189,25 @@ def test_what_contradicts_itself_is_refused(words, said, exit_code, capsys, tmp_
     assert exit_code(["conform", *words]) == 4
     assert said in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
+def test_a_signal_without_a_name_is_told_by_its_number(conform):
+    _, _, found = conform("sh -c 'kill -40 $$; : {scene} {out}'", "mesh-ball")
+    assert found["mesh-ball"]["wrong"] == "the program was ended by signal 40"
+
+
+def test_a_run_that_breaks_off_leaves_no_result_of_an_earlier_one(conform, out, monkeypatch):
+    conform(rendered(RENDERER), "mesh-triangle")
+    assert (out / "junit.xml").exists()
+
+    def breaks(*_):
+        raise SceneError("the kit cannot be written")
+
+    monkeypatch.setattr("reference_tracer_conformance.judging.write_kit", breaks)
+    code, told, _ = conform(rendered(RENDERER), "mesh-triangle")
+    assert code == 4 and "cannot be written" in told
+    assert not any((out / name).exists() for name in NAMES)
 
 
 def test_the_second_run_leaves_no_page_of_the_first(conform, out, tmp_path):

@@ -221,6 +221,83 @@ def test_what_it_does_not_know_is_refused_by_name(stored):
     assert said(tie_pixel=arrays["tie_pixel"] + 50).startswith("not covered: tie of pixel 11")
 
 
+def test_numbers_of_another_type_are_refused(stored):
+    """What rounds otherwise than the page says, or is no number at all."""
+    path, arrays = stored
+
+    def said(**changed) -> str:
+        np.savez(path, **(arrays | changed))
+        return refusal(path)
+
+    for kind in ("f2", "f4", "U", "c16", "M8[s]"):
+        assert said(t=np.zeros((8, 12), kind)).startswith("not covered: type of t "), kind
+    wide = np.dtype(np.longdouble).str[1:]
+    real = "mesh0_vertices", "instance0_world_from_object", "plane0_point", "plane0_normal"
+    for name in real:
+        for kind in {"U", "c16", wide} - {"f8"}:  # long doubles are doubles on some machines
+            assert said(**{name: arrays[name].astype(kind)}).startswith(
+                f"not covered: type of {name} "
+            )
+    for name in ("instance", "triangle", "tie_pixel", "tie_triangle", "mesh0_triangles"):
+        assert f"type of {name} f8" in said(**{name: arrays[name].astype(float)})
+    assert said(plane0_point=np.zeros(6)) == "plane0_point has the shape (6,)"
+    assert said(instance0_world_from_object=np.eye(5)).endswith("has the shape (5, 5)")
+
+
+def test_a_t_in_float32_hides_no_tie(make, tmp_path):
+    """The middle ray meets an edge, and 1e-7 before clip end a surface, which the file leaves out.
+
+    In float32 clip end itself is before that surface.
+    """
+    window = ViewWindow(-1, 1, -1, 1)
+    camera = Camera(np.eye(4), window, 3, 1, ORTHOGRAPHIC, clip_start=0.5, clip_end=9.7)
+    half, left, last = (
+        Mesh(np.array(corners, float), [[0, 1, 2]])
+        for corners in (
+            [(0, -8, -2), (0, 8, -2), (8, 0, -2)],
+            [(-20, -20, -4), (-0.3, -20, -4), (-0.3, 40, -4)],
+            [(-20, -20, -9.6999999), (20, -20, -9.6999999), (0, 40, -9.6999999)],
+        )
+    )
+    path = tmp_path / "c.npz"
+    answers = certified(make.scene(camera, half, left, last), path)
+    assert answers["t"].tolist() == [[4, 2, 2]] and answers["tie_instance"].tolist() == [0, 2]
+    answers["tie_instance"] = np.array([0, -1])
+    answers["tie_triangle"] = np.array([0, -1])
+    np.savez(path, **answers)
+    assert refusal(path).startswith("pixel (1, 0): the file says")
+    np.savez(path, **(answers | {"t": answers["t"].astype(np.float32)}))
+    assert refusal(path) == "not covered: type of t f4"
+
+
+def test_keys_within_the_scenes_parts_are_refused_too(stored):
+    path, arrays = stored
+
+    def said(change) -> str:
+        scene = json.loads(str(arrays["scene"]))
+        change(scene)
+        np.savez(path, **(arrays | {"scene": np.array(json.dumps(scene))}))
+        return refusal(path)
+
+    for part in ("meshes", "instances", "planes"):
+        assert said(lambda s, p=part: s[p][0].update(hidden=True)) == (
+            f"not covered: part of {part} hidden"
+        )
+    for part in ("window", "region"):
+        assert said(lambda s, p=part: s["camera"][p].update(skew=1)) == (
+            f"not covered: part of the {part} skew"
+        )
+    for region in ({"x1": 0}, {"y1": 0}, {"x0": -12, "x1": 0}, {"y0": 8, "y1": 16}):
+        found = said(lambda s, r=region: s["camera"]["region"].update(r))
+        assert found == "the region is empty, or not within the picture", region
+
+
+def test_a_sample_of_no_rows_is_refused(stored):
+    for rows in (0, -3):
+        with pytest.raises(checker.RefusedError, match="at least one row"):
+            checker.verified(str(stored[0]), rows)
+
+
 def test_the_command(tmp_path, exit_code, capsys):
     out = tmp_path / "c.npz"
     scene = str(STORED / "exercise_triangle.npz")

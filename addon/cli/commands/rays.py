@@ -84,7 +84,7 @@ def add(parser: Parser) -> None:
     parser.add_argument(
         "--every-pair",
         action="store_true",
-        help="test each ray with each triangle, without a tree of boxes: the same, far slower",
+        help="test each ray with each triangle, without a tree of boxes: sees the same, far slower",
     )
     parser.add_argument(
         "--up",

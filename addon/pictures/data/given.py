@@ -43,7 +43,7 @@ class GivenData:
     Raises
     ------
     ValueError
-        If there is no such kind, space or range.
+        If there is no such kind, space or range; or a scale is not above 0, or of what has none.
     """
 
     kind: str  # of KINDS
@@ -62,6 +62,11 @@ class GivenData:
         ):
             if value not in known:
                 raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(known)}")
+        if self.scale is not None:
+            if not 0 < self.scale < np.inf:
+                raise ValueError(f"scale is {self.scale}; it must be above 0: metres that 1 is")
+            if not KINDS[self.kind]("world", "unit").unit:
+                raise ValueError(f"scale is of what is in metres, which {self.kind} are not")
 
     @property
     def name(self) -> str:
