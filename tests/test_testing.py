@@ -97,7 +97,7 @@ def test_a_scale_that_is_none_is_refused(scene, scale):
 
 @pytest.mark.parametrize("kind", ["", "ids", "normals"])
 def test_a_scale_of_what_has_none_is_refused(scene, kind):
-    with pytest.raises(ValueError, match="no lengths"):
+    with pytest.raises(ValueError, match="scale is"):
         check(scene, render(scene).color, kind=kind, scale=0.001)
 
 

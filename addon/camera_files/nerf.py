@@ -20,6 +20,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..checked_json import Content, numbers
+from ..projections import PERSPECTIVE, PROJECTIONS
 from ..scene import SceneError
 from . import frame
 from .convention import HALF, Convention, Files, Source, View
@@ -29,7 +30,7 @@ from .json_files import CENTERS_KEY, dumped, first_center, has, objects, offset_
 _LENSES = "fl_x", "fl_y", "cx", "cy"
 _DISTORTIONS = *("k1 k2 k3 k4 p1 p2".split()), "is_fisheye"
 # Of another projection if they are there at all, also as 0 or false.
-_PROJECTIONS = "ftheta_p0", "latlong", "equirectangular", "orthographic"
+_PROJECTIONS = "ftheta_p0", "latlong", *(PROJECTIONS.keys() - {PERSPECTIVE.name})
 _MODELS = "OPENCV", "PINHOLE", "SIMPLE_PINHOLE"
 
 
@@ -90,8 +91,8 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     if model not in _MODELS or bent:
         what = f"{bent[0]} = {body[bent[0]]}" if bent else f"camera_model = {model!r}"
         raise SceneError(
-            f"{where} has lens distortion or another projection ({what}), which is not modelled: "
-            "undistort the pictures, and write the camera of these"
+            f"{where.removesuffix('.')} has lens distortion or another projection ({what}), "
+            "which is not modelled: undistort the pictures, and write the camera of these"
         )
     center = first_center(body)
     fx, fy = _focal_lengths(body, where, size)

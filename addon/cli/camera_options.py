@@ -202,7 +202,8 @@ def _view(given: Namespace, mesh: Path | None) -> View | None:
     own = view.camera.width, view.camera.height
     if any(asked not in (None, has) for asked, has in zip(size, own, strict=True)):
         raise SceneError(
-            f"--width and --height are for files that say no size: '{file}' has {own[0]} x {own[1]}"
+            f"--width and --height are for files that say no size: '{file}' has "
+            f"{own[0]} x {own[1]}, and so has the picture: leave them out"
         )
     return view
 

@@ -35,6 +35,7 @@ CLOSE = 1e-3
 _FEW = 40  # points: the view volume's corners, and some between, tell two cameras apart
 _IN_LINE = 1e-6  # of the distance from the origin
 _DIGITS = 6  # of an offset in pixels, so that half a pixel is one
+_PLACES = 12  # of a percentage, so that a rounding is none
 _NEGLIGIBLE = 1e-9  # of a number of the last resort: metres, degrees, percent, pixels
 _NO_MANIFEST = Manifest("", "", "", 0, "FILE", "")
 _NO_PICTURE: Any = None  # what has no numbers is guessed without one
@@ -70,14 +71,18 @@ class CameraDifference:
 
     def lines(self) -> list[str]:
         """Return it as sentences."""
-        x, y = (int(np.floor(v)) for v in self.at)
+        x, y = (max(int(np.floor(v)), 0) for v in self.at)  # the edge may be rounded to outside
         where = f"at pixel ({x}, {y}), {self.depth:.4g} m deep"
         if self.agrees:
             return [f"agree: points lie at most {self.largest:.2g} px apart"]
         far = f"up to {self.largest:.4g} px" if np.isfinite(self.largest) else "behind the camera"
-        out = [f"differ: points lie {far} ({where}), half of them {self.median:.4g} px or more"]
+        half = f"{self.median:.4g} px or more" if np.isfinite(self.median) else "there"
+        out = [f"differ: points lie {far} ({where}), half of them {half}"]
         for fault, guess, _ in self.steps:
             out += [fault.sentence_of(guess), f"  {fault.advice_of(guess)}"]
+            if fault.name == "pixel_offset":
+                dx, dy = guess.values
+                out.append(f"  its principal point is off by ({-dx:+.3f}, {dy:+.3f}) px, rows down")
         if self.unit is not None:
             out.append(f"  its place is the scene's times {self.unit:.6g}: another unit of length?")
         if not self.steps:
@@ -162,12 +167,15 @@ def _explained(own: Camera, other: Camera, allowed: float) -> list[Step]:
     chain: list[Step] = []
     camera = own
     for name in _LAST_RESORT:
-        last = next((step for step in _fitted(camera, other) if step.fault.name == name), None)
-        if last is None:  # of a panorama, or of mirrored axes
+        fitted = {step.fault.name: step for step in _fitted(camera, other)}
+        if name not in fitted:  # of a panorama, or of mirrored axes
             return []
-        if any(abs(v) > _NEGLIGIBLE for v in last.guess.values):
-            chain.append(last)
-            camera = last.camera
+        step = fitted[name]
+        if name == "focal_lengths" and np.ptp([*step.guess.values]) <= _NEGLIGIBLE:
+            step = fitted["focal_length"]  # one says as much
+        if any(abs(v) > _NEGLIGIBLE for v in step.guess.values):
+            chain.append(step)
+            camera = step.camera
     return chain if is_other(camera) else []
 
 
@@ -213,7 +221,7 @@ def _fitted(camera: Camera, other: Camera) -> Iterator[Step]:
 
 def _focal_lengths(camera: Camera, other: Camera) -> Values:
     pairs = zip(camera.window.size, other.window.size, strict=True)
-    return tuple(100 * (own / its - 1) for own, its in pairs)
+    return tuple(round(100 * float(own / its - 1), _PLACES) for own, its in pairs)
 
 
 def _offset(camera: Camera, other: Camera) -> Values:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from argparse import Namespace
+from difflib import get_close_matches
 from pathlib import Path
 
 from reference_tracer.cli.arguments import refuse
@@ -138,6 +140,10 @@ def _program(given: Namespace) -> Program:
     if not any(f"{{{key}}}" in word for word in words for key in FILES):
         names = ", ".join(f"{{{key}}}" for key in FILES)
         raise SceneError(f"the command names no file of a scene: one of {names}")
+    for name in re.findall(r"{(\w+)}", given.command):
+        near = [] if name in (*FILES, OUT.strip("{}")) else get_close_matches(name, FILES, 1)
+        if near:
+            raise SceneError(f"the command names {{{name}}}; {{{near[0]}}} is the nearest")
     memory = int((given.memory_limit or 4) * 2**30)
     return Program(
         given.command,

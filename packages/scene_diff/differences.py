@@ -157,10 +157,14 @@ def _common(
     return None
 
 
+_UP = {"-90": "y", "90": "z"}  # by how much a file is turned about X whose other axis is up
+
+
 def _of_all(move: Move, tolerance: float) -> Difference:
     words = Move(move.axes, move.by, np.zeros(3)).words(tolerance)
-    up = "if the file has Y up, --up y turns it" if "90 degrees about X" in words else ""
-    return Difference("", "scene_moved", f"all objects are {words}", up)
+    up = next((axis for by, axis in _UP.items() if f"turned by {by} degrees about X" in words), "")
+    advice = f"if the file has {up.upper()} up, --up {up} turns it" if up else ""
+    return Difference("", "scene_moved", f"all objects are {words}", advice)
 
 
 def _moved(name: str, move: Move, tolerance: float) -> Difference:

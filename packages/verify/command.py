@@ -5,12 +5,14 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from reference_tracer.cli.parser import AGREE, COUNT, DIFFERENCES, Parser
+from reference_tracer.cli.parser import AGREE, COUNT, DIFFERENCES, INPUT_ERROR, Parser
 from reference_tracer.cli.running import meanwhile
+from reference_tracer.scene import SceneError
 
 _CODES = f"""exit codes:
   {AGREE}  every pixel that was checked sees what the file says
-  {DIFFERENCES}  one does not; the file has what the checker does not know; or it cannot be read
+  {DIFFERENCES}  one does not; the file has what the checker does not know; or it is damaged
+  {INPUT_ERROR}  there is no such file
   130  interrupted by Ctrl-C"""
 
 
@@ -31,9 +33,17 @@ def add(parser: Parser) -> None:
 
 
 def verify(given: Namespace) -> int:
-    """Check, and say what was checked or what is wrong."""
+    """Check, and say what was checked or what is wrong.
+
+    Raises
+    ------
+    SceneError
+        If there is no such file.
+    """
     from .verify import RefusedError, verified
 
+    if not given.file.is_file():
+        raise SceneError(f"there is no file '{given.file}'")
     try:
         with meanwhile("checking"):
             print(f"{given.file}: {verified(given.file, given.sample)}")

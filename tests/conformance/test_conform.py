@@ -177,6 +177,7 @@ def test_a_picture_of_another_size_fails(conform, out, tmp_path):
         (["render {scene} {out}"], "--out DIR"),
         (["render {out}", "--out", "r"], "names no file of a scene"),
         (["render {scene}", "--out", "r"], "names no {out}"),
+        (["render {obj} {colours} {out}", "--out", "r"], "{colours}; {colors} is the nearest"),
         (["render '{scene} {out}", "--out", "r"], "is not understood"),
         (["x {scene} {out}", "--out", "r", "--only", "none"], "there are camera-plain"),
         (["--write", "kit", "--only", "mesh"], "is for a run"),

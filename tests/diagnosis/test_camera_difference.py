@@ -56,6 +56,10 @@ def half_pixel(camera):
     return with_k(camera, lambda fx, fy, cx, cy: (fx, fy, cx - 0.5, cy - 0.5))
 
 
+def beside(camera):
+    return with_k(camera, lambda fx, fy, cx, cy: (fx, fy, cx + 30, cy - 12))
+
+
 def longer(camera):
     return with_k(camera, lambda fx, fy, cx, cy: (1.02 * fx, 1.02 * fy, cx, cy))
 
@@ -143,6 +147,7 @@ MISTAKES = {
     lambda c: half_pixel(shift_left_out(c)): ["shift_left_out", "pixel_offset"],
     lambda c: longer(y_up(c)): ["y_up", "focal_length"],
     lambda c: shift_left_out(y_up(c)): ["y_up", "shift_left_out"],
+    lambda c: beside(longer(c)): ["focal_length", "pixel_offset"],
     lambda c: moved(rolled(oblong(half_pixel(c)))): [
         "camera_turned",
         "camera_moved",
@@ -169,7 +174,19 @@ def test_the_numbers_are_those_of_the_mistake(own):
     assert any(
         "pass the pixels' corners" in line and "(+0.500, -0.500) px" in line for line in lines
     )
+    assert lines[-1] == "  its principal point is off by (-0.500, -0.500) px, rows down"
     assert difference(own, half_pixel(own)).largest == pytest.approx(np.hypot(0.5, 0.5))
+
+
+def test_two_mistakes_have_the_numbers_of_both(own):
+    lines = difference(own, beside(longer(own))).lines()
+    assert lines[1].startswith("the focal length is +2 % off:")
+    assert lines[-1] == "  its principal point is off by (+30.000, -12.000) px, rows down"
+
+
+def test_no_distance_is_said_of_points_behind_the_camera(own):
+    line = difference(own, opencv_for_opengl(own)).lines()[0]
+    assert "points lie behind the camera" in line and line.endswith(", half of them there")
 
 
 def test_another_unit_of_length_is_asked_for(own):

@@ -173,6 +173,14 @@ def test_what_differs_is_named_and_nothing_else(scene, name):
         assert words in difference.sentence
 
 
+@pytest.mark.parametrize("degrees, up", [(-90, "y"), (90, "z")])
+@pytest.mark.parametrize("factor", [1, 100])
+def test_a_file_with_another_axis_up_is_told_which(scene, degrees, up, factor):
+    turned = ROTATED(np.radians(degrees), (1, 0, 0)) @ np.diag((factor, factor, factor, 1.0))
+    [found] = differences(scene, with_all(scene, turned))
+    assert found.advice == f"if the file has {up.upper()} up, --up {up} turns it"
+
+
 def test_beside_what_all_have_in_common_the_rest_is_named(scene):
     other = with_mesh(with_all(scene, np.diag((0.01, 0.01, 0.01, 1))), 2, turned_over)
     assert [d.kind for d in differences(scene, other)] == ["scene_moved", "flipped_winding"]

@@ -318,6 +318,8 @@ def test_the_command(tmp_path, exit_code, capsys):
     assert exit_code([*trace, "--certificate", str(out), "--method", "textbook"]) == INPUT_ERROR
     said = capsys.readouterr().err
     assert "name a file to write" in said and "textbook proves nothing" in said
+    assert exit_code(["verify", str(out.with_name("none.npz"))]) == INPUT_ERROR
+    assert "there is no file" in capsys.readouterr().err
     out.write_bytes(out.read_bytes()[:300])
     assert exit_code(["verify", str(out)]) == DIFFERENCES
     assert f"'{out}' is no certificate, or damaged" in capsys.readouterr().out

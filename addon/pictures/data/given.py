@@ -111,7 +111,7 @@ def picture_of_data(given: GivenData, scene: Scene, making: Making) -> Picture:
     else:
         found = [_data(given, stored, scene, kind) for kind in given.conventions(stored)]
     data = found[0]
-    remarks = [f"it holds {data.step.words}"]
+    remarks = [] if given.kind == "ids" else [f"it holds {data.step.words}"]
     if len(found) > 1:
         hits = trace(scene, Settings())
         right = [int(one.flat.same(scene, hits, sampling, hits.t).sum()) for one in found]
