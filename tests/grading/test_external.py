@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -229,7 +230,8 @@ open(sys.argv[2], "w").write("%d,%d,0,0\\n" % seen * 5)
         with tempfile.NamedTemporaryFile(dir="/tmp") as secret:
             monkeypatch.chdir(where)
             hidden = f"$(echo {secret.name})"  # a word that names no file: else it would be shown
-            command = f"sh -c '{PYTHON} {own.name} {{rays}} {{answers}} {hidden}' {own.name}"
+            python = Path(sys.executable).resolve()  # not the link of a clone that lies in /tmp
+            command = f"sh -c '{python} {own.name} {{rays}} {{answers}} {hidden}' {own.name}"
             t, s = Program(Run.parsed(command, "csv"), FORM).ask(*RAYS)
     assert t[0] == 1 and s[0, 0] == (not sandbox())
 
