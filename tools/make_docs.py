@@ -16,6 +16,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 from documents import (
@@ -43,9 +44,10 @@ def documents() -> list[Path]:
     return [p for p in sorted(DOCS.rglob("*.md")) if MARKED in p.read_text(encoding="utf-8")]
 
 
-def run(command: Command) -> str:
-    """Run a command of a document in the project's folder; returns what it prints."""
-    name, *arguments = shlex.split(command.text)
+@cache  # lessons in two languages have the same commands, of which one writes a file only once
+def printed(text: str) -> str:
+    """Run a command in the project's folder; returns what it prints."""
+    name, *arguments = shlex.split(text)
     if name != "reftrace":
         raise SystemExit(f"documents run reftrace, not '{name}'")
     done = subprocess.run(
@@ -56,10 +58,16 @@ def run(command: Command) -> str:
         env=os.environ | {"COLUMNS": "100"},
     )
     if done.returncode not in (0, 1, 2):  # agree, warnings, differences: what it found
-        raise SystemExit(f"{command.text}\n{done.stdout}{done.stderr}")
-    if command.how != "silently" and (lines := done.stdout.count("\n")) > LINES:
-        raise SystemExit(f"{command.text} prints {lines} lines: no document has room for that")
+        raise SystemExit(f"{text}\n{done.stdout}{done.stderr}")
     return done.stdout
+
+
+def run(command: Command) -> str:
+    """Return what a command of a document prints."""
+    out = printed(command.text)
+    if command.how != "silently" and (lines := out.count("\n")) > LINES:
+        raise SystemExit(f"{command.text} prints {lines} lines: no document has room for that")
+    return out
 
 
 def main() -> None:
