@@ -163,7 +163,7 @@ def export_certified(depsgraph: Any) -> Certified:
     from .reading.export import export
 
     scene, manifest = export(depsgraph)
-    if not scene.camera.projection.is_linear:  # of which Blender has no matrix
+    if not scene.camera.projection.is_linear:  # Blender has no matrix for it
         return scene, manifest, None
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
 

@@ -23,7 +23,7 @@ from .features import ASPECT, SHIFT
 CAMERAS, IMAGES, POINTS = "cameras.txt", "images.txt", "points3D.txt"
 _POINT = 3  # numbers of a point: x, y, and the number of its point in space
 # By model: where fx, fy, cx, cy stand among the parameters, and how many there are. All that follow
-# cy are distortions, of which only zero is read.
+# cy are distortions: only zeros are read.
 _MODELS = {
     "SIMPLE_PINHOLE": ((0, 0, 1, 2), 3),
     "PINHOLE": ((0, 1, 2, 3), 4),
@@ -42,7 +42,7 @@ def _write(views: Sequence[View], centers: str) -> Files:
     images = ["# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; then a line of points"]
     for number, (view, lens) in enumerate(zip(views, lenses, strict=True), 1):
         r = frame.rotation_of(frame.camera_from_world(view.camera)[:3, :3])
-        pose = *quaternion(r), *(-r @ view.camera.origin)
+        pose = [*quaternion(r), *(-r @ view.camera.origin)]
         said = " ".join(repr(float(v)) for v in pose)
         images += [f"{number} {said} {numbers[lens]} {view.name}", ""]
     files = {CAMERAS: cameras, IMAGES: images, POINTS: ["# no points"]}

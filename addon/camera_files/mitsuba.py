@@ -6,7 +6,7 @@ principal point, which is added to a sample's place in shares of the film,
 
     u = width (1/2 - px) - f x/z        v = height (1/2 - py) - f y/z
 
-and of `orthographic`, whose film is from -1 to 1 across,
+and of `orthographic`: its film is from -1 to 1 across,
 
     u = width (1 - x) / 2                v = (height - width y) / 2
 
@@ -146,7 +146,8 @@ def _view(sensor: ElementTree.Element, defaults: dict[str, str], source: Source)
         if child.tag == "transform" and child.get("name") == "to_world":
             world = _to_world(child, own)
     if kind == "orthographic":
-        f, cx, cy = width / 2, width / 2, height / 2
+        f = cx = width / 2
+        cy = height / 2
     else:
         f = width / 2 / _half_tangent(own, width, height)
         cx = width * (0.5 - own.number("principal_point_offset_x", 0))
@@ -183,7 +184,7 @@ def _half_tangent(own: _Values, width: float, height: float) -> float:
 
 
 def _to_world(transform: ElementTree.Element, own: _Values) -> Floats:
-    """Return the matrix of a transform, whose parts come one after the other, (4, 4)."""
+    """Return the matrix (4, 4) of a transform: the product of its parts, the first applied first."""
     matrix = np.eye(4)
     for part in transform:
         given = {key: own.filled(text) for key, text in part.attrib.items()}

@@ -28,7 +28,7 @@ from .features import ASPECT, SHIFT
 from .json_files import CENTERS_KEY, dumped, first_center, has, objects, offset_of
 
 _LENSES = "fl_x", "fl_y", "cx", "cy"
-_DISTORTIONS = *("k1 k2 k3 k4 p1 p2".split()), "is_fisheye"
+_DISTORTIONS = "k1", "k2", "k3", "k4", "p1", "p2", "is_fisheye"
 # Of another projection if they are there at all, also as 0 or false.
 _PROJECTIONS = "ftheta_p0", "latlong", *(PROJECTIONS.keys() - {PERSPECTIVE.name})
 _MODELS = "OPENCV", "PINHOLE", "SIMPLE_PINHOLE"

@@ -45,10 +45,12 @@ def projection(camera: Camera) -> Floats:
 
     An infinite clip end is the limit of that.
     """
-    w, near, far = camera.window, camera.clip_start, camera.clip_end
-    (width, height), (x, y) = w.size, w.centre
+    near, far = camera.clip_start, camera.clip_end
+    width, height = camera.window.size
+    x, y = camera.window.centre
     out = np.zeros((4, 4))
-    out[0, 0], out[1, 1] = 2 / width, 2 / height
+    out[0, 0] = 2 / width
+    out[1, 1] = 2 / height
     middle = 2 * x / width, 2 * y / height
     depth = far - near
     if camera.projection is ORTHOGRAPHIC:

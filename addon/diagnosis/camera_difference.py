@@ -92,7 +92,7 @@ class CameraDifference:
 
 @np.errstate(invalid="ignore", divide="ignore", over="ignore")  # of points behind a camera
 def difference(own: Camera, other: Camera) -> CameraDifference:
-    """Compare another camera with the scene's own, whose picture is as large.
+    """Compare another camera with the scene's own; both pictures have one size.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ def _camera(frame: int) -> SceneCamera:
     corner = np.array([[camera.region.x0], [camera.region.y0]])
     camera = part(camera)
     points = known_points(camera)
-    if not camera.projection.is_linear:  # of which Blender has no matrix
+    if not camera.projection.is_linear:  # Blender has no matrix for it
         return SceneCamera.of(camera, f"{frame:04d}.png")
     film = film_of_blender(scene, depsgraph, points) - corner
     return SceneCamera(

@@ -66,7 +66,8 @@ class REFERENCE_TRACER_OT_export_camera(  # type: ignore[misc]  # Blender's own 
         ending = Path(CONVENTIONS[self.convention].file).suffix
         before = self.filepath
         path = Path(before)
-        if path.suffix in ("", *(Path(c.file).suffix for c in CONVENTIONS.values())):
+        endings = {Path(c.file).suffix for c in CONVENTIONS.values()}
+        if not path.suffix or path.suffix in endings:
             self.filepath = str(path.with_suffix(ending))
         return self.filepath != before
 

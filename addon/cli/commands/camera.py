@@ -92,7 +92,7 @@ def add(parser: Parser) -> None:
         "--centers",
         choices=CENTERS,
         help="where the centre of the first pixel is: half, at (0.5, 0.5), or integer, at (0, 0), "
-        "of which the file then says so (default half)",
+        "and the file then says so (default half)",
     )
     parser.add_argument(
         "--frames", metavar="FRAMES", help="all these frames: 1-250, 1-250:5, 7, or all"

@@ -114,7 +114,7 @@ def add(parser: Parser) -> None:
         type=parser.path,
         metavar="DIR",
         help="also write a mask of each object that is seen, as PNG and in coco.json, where its "
-        "whole extent is, too, of which others hide a part",
+        "whole extent is, too, also where others hide a part of it",
     )
     parser.add_argument(
         "--top-down",
