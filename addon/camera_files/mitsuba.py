@@ -184,7 +184,7 @@ def _half_tangent(own: _Values, width: float, height: float) -> float:
 
 
 def _to_world(transform: ElementTree.Element, own: _Values) -> Floats:
-    """Return the matrix (4, 4) of a transform: the product of its parts, the first applied first."""
+    """Return the matrix (4, 4) of a transform, whatever its parts: the first is applied first."""
     matrix = np.eye(4)
     for part in transform:
         given = {key: own.filled(text) for key, text in part.attrib.items()}
