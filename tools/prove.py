@@ -81,12 +81,12 @@ def claims() -> list[tuple[str, str]]:
     return [(name, " ".join(words.split())) for words, name in _CLAIM.findall(text)]
 
 
-def run(*command: str) -> str:
-    """Return what a command says; the whole program ends where it fails."""
+def run(*command: str) -> subprocess.CompletedProcess[str]:
+    """Return what a command says, on both streams; the whole program ends where it fails."""
     done = subprocess.run(command, cwd=PROOFS, text=True, capture_output=True)
     if done.returncode:
         sys.exit(f"{done.stdout[-4000:]}{done.stderr[-4000:]}\n{' '.join(command)}: failed")
-    return done.stdout
+    return done
 
 
 def assumptions(theorems: list[str]) -> set[str]:
@@ -96,7 +96,7 @@ def assumptions(theorems: list[str]) -> set[str]:
         every = ", ".join(f"@{name}" for name in theorems)
         text = f"From Reftrace Require Claims.\nDefinition every := ({every}).\n"
         path.write_text(f"{text}Print Assumptions every.\n", encoding="utf-8")
-        said = run("coqc", "-Q", ".", "Reftrace", str(path))
+        said = run("coqc", "-Q", ".", "Reftrace", str(path)).stdout
     _, found, listed = said.partition("Axioms:")
     if not found:  # what is about real numbers rests on some
         sys.exit(f"Coq's answer is not understood:\n{said}")
@@ -126,7 +126,8 @@ def main() -> None:
         print(f"{name}\n    {words}")
     if others := (assumed := assumptions([name for name, _ in every])) - AXIOMS:
         sys.exit(f"assumed beyond Coq's real numbers: {', '.join(sorted(others))}")
-    again = checked(run("coqchk", "-silent", "-o", "-Q", ".", "Reftrace", "Reftrace.Claims"))
+    asked = run("coqchk", "-silent", "-o", "-Q", ".", "Reftrace", "Reftrace.Claims")
+    again = checked(asked.stdout + asked.stderr)  # its summary is on the second, in Coq 8.16
     if not again <= AXIOMS:
         sys.exit(f"coqchk names other axioms: {', '.join(sorted(again - AXIOMS))}")
     texts = [path.read_text(encoding="utf-8") for path in listed()]

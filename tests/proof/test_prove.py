@@ -1,6 +1,7 @@
 """`make prove` would notice a proof with a hole; Coq itself is asked by CI, not here."""
 
 import re
+import sys
 
 import prove
 import pytest
@@ -123,6 +124,13 @@ def test_what_coqchk_says_is_understood():
     other = "    Reftrace.Claims.hole\n\n* Constants/Inductives relying on type"
     found = prove.checked(CHECKED.replace("\n* Constants/Inductives relying on type", other, 1))
     assert "Claims.hole" in found - prove.AXIOMS
+
+
+def test_what_a_command_says_on_either_stream_is_kept():
+    """Coq 8.16's coqchk prints its summary with its errors."""
+    says = "import sys; print('out'); print('err', file=sys.stderr)"
+    done = prove.run(sys.executable, "-c", says)
+    assert (done.stdout, done.stderr) == ("out\n", "err\n")
 
 
 @pytest.mark.parametrize("said", ["", CHECKED.replace("assumed: <none>", "assumed: Some.type")])
