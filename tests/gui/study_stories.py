@@ -18,6 +18,7 @@ from story import (
     render_result,
     result,
     running,
+    scaled,
     screenshot,
     settings,
     show_panel,
@@ -44,12 +45,13 @@ def show_study(name, picture):
     show_panel()
     yield
     yield from open_tab()
-    subprocess.run(["xdotool", "mousemove", *PANELS[name], "click", "1"], check=True)
+    place = (str(scaled(pixels)) for pixels in PANELS[name])
+    subprocess.run(["xdotool", "mousemove", *place, "click", "1"], check=True)
     yield
     screenshot(picture)
 
 
-PANELS = {"trade": ("1100", "547"), "extremes": ("1100", "574")}  # headers, both closed
+PANELS = {"trade": (1100, 547), "extremes": (1100, 574)}  # headers, both closed
 
 
 def images():
