@@ -33,7 +33,8 @@ class Blender:
 
     def __init__(self):
         shutil.rmtree(OUT, ignore_errors=True)
-        OUT.mkdir(parents=True)
+        # Where the folder is not there, Blender takes the preferences of the home, which stays.
+        (OUT / "user").mkdir(parents=True)
 
     def run(self, *arguments, timeout=300):
         """Run `blender` with these arguments; returns the finished process, its output as text."""

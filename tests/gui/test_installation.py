@@ -30,7 +30,7 @@ def test_it_is_installed_from_an_address_as_the_document_says(blender):
     [package] = (PROJECT / "dist").glob("reference_tracer-*.zip")
     out = blender.out / "installation"
     shutil.rmtree(out, ignore_errors=True)
-    out.mkdir()
+    (out / "user").mkdir(parents=True)  # else it has the repositories of all earlier runs, too
     shutil.copy(package, out)
     folder = f"/project/out/gui/{out.name}"
     scene = "/project/sample_scenes/exercise_triangle.blend"
@@ -43,6 +43,7 @@ def test_it_is_installed_from_an_address_as_the_document_says(blender):
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
     assert re.search(r"reference_tracer.*\[installed\]", done.stdout), done.stdout
+    assert "Reference Tracer.001" not in done.stdout
     assert "verdict: agree" in done.stdout and "Traceback" not in done.stdout + done.stderr
     assert (out / "compared" / "page.html").exists()
 
