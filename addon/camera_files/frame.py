@@ -22,6 +22,8 @@ from ..tracer.camera import pixel_size
 OPENCV = np.diag((1.0, -1.0, -1.0, 1.0))
 # PyTorch3D's and Mitsuba's has +X left, +Y up, +Z forward.
 LEFT_UP = np.diag((-1.0, 1.0, -1.0, 1.0))
+# Takes Blender's world, with Z up, to one with Y up: (x, y, z) is (x, z, -y) there.
+Y_UP_FROM_Z_UP = np.array(((1.0, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 # Where a file says no clip range: nothing but what is in the eye itself is left out.
 _UNCLIPPED = 1e-6, 1e12
 # How far rounding may leave the last row of a matrix from 0 0 0 1, in its own numbers.
