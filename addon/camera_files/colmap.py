@@ -185,9 +185,7 @@ def _image(words: list[str], where: str, lenses: dict[str, _Lens]) -> View:
     if words[8] not in lenses:
         raise SceneError(f"{where}: there is no camera {words[8]} in {CAMERAS}")
     pose = _numbers(words[1:8], where)
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation(pose[:4])
-    matrix[:3, 3] = pose[4:]
+    matrix = frame.pose(rotation(pose[:4]), pose[4:])
     k, size = lenses[words[8]]
     name = words[9].strip()
     return View(frame.pinhole(k, matrix, size, None, name), name, is_clipped=False)

@@ -15,7 +15,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import Floats
 from ..checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS
 from ..scene import Camera, SceneError
@@ -58,9 +57,8 @@ def body_of(camera: Camera, offset: float = 0.0) -> Content:
     offset : float
         What is added to the principal point, pixels.
     """
-    fx, fy, cx, cy = frame.intrinsics(camera)
     matrix = frame.camera_from_world(camera)
-    k = frame.matrix_of(fx, fy, cx + offset, cy + offset)
+    k = frame.k_of(camera, offset)
     if np.linalg.det(matrix[:3, :3]) < 0:  # mirrored: R stays a rotation, and u counts backwards
         k[0, 0] *= -1
         matrix[0] *= -1
@@ -84,18 +82,16 @@ def _read(source: Source) -> list[View]:
 
 
 def _view(body: Content, where: str, center: float, source: Source) -> View:
-    matrix = np.eye(4)
-    matrix[:3, :3] = numbers(body, "R", where, (3, 3))
-    matrix[:3, 3] = flat(body, "t", where, 3)
-    k: Floats = numbers(body, "K", where, (3, 3))
-    k[:2, 2] += 0.5 - center
+    k = numbers(body, "K", where, (3, 3))
+    matrix = frame.pose(numbers(body, "R", where, (3, 3)), flat(body, "t", where, 3))
     if _named(body, "up", where, ("z", "y")) == "y":
         matrix = matrix @ frame.Y_UP_FROM_Z_UP
     kind = _named(body, "projection", where, (PERSPECTIVE.name, ORTHOGRAPHIC.name))
     clip = clip_of(body, where, _CLIP)
     size = source.whole_size(body, ("width", "height"), where)
     name = str(body.get("name", ""))
-    camera = frame.pinhole(k, matrix, size, clip, name, projection=PROJECTIONS[kind])
+    projection = PROJECTIONS[kind]
+    camera = frame.pinhole(k, matrix, size, clip, name, projection=projection, center=center)
     return view_of(body, camera, is_clipped=clip is not None)
 
 
