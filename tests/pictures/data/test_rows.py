@@ -21,7 +21,7 @@ def _shown(kind, scene):
     away = frame.position - scene.camera.origin
     hit = (frame.object_index >= 0)[..., None]
     positions = np.where(hit, away @ scene.camera.world_from_camera[:3, :3], 0)
-    return {"depth": frame.t, "positions": positions}[kind]
+    return {"depth": frame.t, "positions": positions, "ids": frame.object_index}[kind]
 
 
 @pytest.mark.parametrize(
@@ -31,6 +31,8 @@ def _shown(kind, scene):
         ("depth", 0.0, ["rows", "mirrored_y"], ["rows", "mirrored_y"]),
         ("depth", 0.1, ["rows"], ["mirrored_y"]),
         ("positions", 0.0, ["rows"], ["mirrored_y"]),
+        # Which id is whose is told of the rows as they are or turned over, and of no other camera.
+        ("ids", 0.1, ["rows"], []),
     ],
 )
 def test_what_only_rows_explain_is_rows_and_what_only_a_mirrored_camera_does_is_not(
