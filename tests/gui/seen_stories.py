@@ -74,8 +74,6 @@ def panel():
     size = window().width, window().height
     for name, shown, width, kind, language in (
         ("properties", 1, size[0], PROPERTIES, "en_US"),
-        ("sidebar", 1, size[0], SIDEBAR, "en_US"),
-        ("large", 2, size[0], SIDEBAR, "en_US"),
         ("narrow_properties", 1, 1280, PROPERTIES, "en_US"),
         ("narrow_german", 1, 1280, PROPERTIES, "de_DE"),
         ("german", 1, 1280, SIDEBAR, "de_DE"),
