@@ -52,9 +52,11 @@ def _sensor(view: View) -> list[str]:
     width, height = camera.width, camera.height
     matrix = camera.world_from_camera @ frame.LEFT_UP
     floats = {"near_clip": camera.clip_start, "far_clip": camera.clip_end}
+    axis = []
     if parallel:
         matrix[:3, :2] *= camera.window.size[0] / 2
     else:
+        axis = ['    <string name="fov_axis" value="x"/>']
         floats |= {
             "fov": float(np.degrees(2 * np.arctan(width / 2 / fx))),
             "principal_point_offset_x": 0.5 - cx / width,
@@ -66,7 +68,7 @@ def _sensor(view: View) -> list[str]:
         '    <transform name="to_world">',
         f'      <matrix value="{numbers}"/>',
         "    </transform>",
-        *([] if parallel else ['    <string name="fov_axis" value="x"/>']),
+        *axis,
         *(f'    <float name="{name}" value="{value!r}"/>' for name, value in floats.items()),
         f'    <film type="{_FILM}">',
         f'      <integer name="width" value="{width}"/>',

@@ -212,7 +212,8 @@ class Comparison:
         """Ask for the commonest reason why most surfaces differ, where no fault was found."""
         surfaces = self.causes.cause[self.frame.object_index != NOTHING]
         most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
-        if most and not (self.diagnosis and self.diagnosis.told):
+        of_colors = self.case.picture.data is None
+        if most and of_colors and not (self.diagnosis and self.diagnosis.told):
             yield "most surfaces have other colours: was it drawn with light, or in others?"
             yield "           Draw each flat, in those that --colors-out writes"
 

@@ -75,10 +75,11 @@ class Noting:
         self.layout.prop(owner, name, text=text, **options)
         known = owner.bl_rna.properties[name]
         if known.type == "ENUM":
-            longest = max((item.name for item in known.enum_items), key=len)
-            self.note("choice", longest, "DOWNARROW_HLT", CHOICE)
+            longest = max((_shown(item.name) for item in known.enum_items), key=len)
+            self.note("choice", longest, "DOWNARROW_HLT", 1.0 if text == "" else CHOICE)
 
     def note(self, kind, text, icon, share=1.0):
+        text = _shown(text)
         entry = {"kind": kind, "text": text, "icon": icon, "room": self.width * share}
         if self.shared and kind == "button":
             self.items.append(entry)
@@ -87,6 +88,11 @@ class Noting:
         self.found.setdefault("drawn", []).append(entry)
         blf.size(0, bpy.context.preferences.ui_styles[0].widget.points * scale())
         entry["width"] = blf.dimensions(0, text)[0] + (ICON * scale() if icon != "NONE" else 0)
+
+
+def _shown(text):
+    """A text in the language that Blender has."""
+    return bpy.app.translations.pgettext(text)
 
 
 def scale():

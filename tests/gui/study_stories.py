@@ -1,12 +1,12 @@
 """What a user does with the two studies, played in its window: see `play.py`."""
 
-import subprocess
 import time
 from pathlib import Path
 from urllib.parse import urlparse
 from urllib.request import url2pathname
 
 import bpy
+from hands import on_screen, xdotool
 from story import (
     data_blocks,
     ended,
@@ -20,7 +20,6 @@ from story import (
     running,
     screenshot,
     settings,
-    show_panel,
     until,
     window,
 )
@@ -38,18 +37,19 @@ def note_changes(before):
     noted["render_result_kept"] = before[2] == after[2]
 
 
-def show_study(name, picture):
-    """Open a panel of our tab by its header."""
-    window().scene.render.engine = "REFERENCE_TRACER"
-    show_panel()
-    yield
+def show_study(name):
+    """Show a panel of our tab by its name, over the middle of the tab: it may be folded there."""
     yield from open_tab()
-    subprocess.run(["xdotool", "mousemove", *PANELS[name], "click", "1"], check=True)
+    area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
+    region = next(r for r in area.regions if r.type == "UI")
+    xdotool("mousemove", *on_screen(region, region.width / 2, region.height / 2))
     yield
-    screenshot(picture)
-
-
-PANELS = {"trade": ("1100", "547"), "extremes": ("1100", "574")}  # headers, both closed
+    with bpy.context.temp_override(window=window(), area=area, region=region):
+        bpy.ops.wm.call_panel(name=f"VIEW3D_PT_reference_tracer_{name}")
+    yield
+    screenshot(name)
+    xdotool("key", "Escape")
+    yield
 
 
 def images():
@@ -80,7 +80,7 @@ def study(name, kind, **options):
     page = Path(url2pathname(urlparse(result(kind).page).path))  # what the panel's button opens
     noted["plots"] = page.read_text(encoding="utf-8").count("<svg")
     noted["in_add_on"] = Path(module("blender.ui.results").__file__).parents[2] in page.parents
-    yield from show_study(name, name)
+    yield from show_study(name)
 
 
 def trade():

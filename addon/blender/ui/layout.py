@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -13,6 +13,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ...methods import Method
 
 _NAMES = 0.56  # the names' share of a list of facts
+_CHOICE = 0.58  # that of a choice beside its name
 # In pixels at a scale of 1: what a panel's frame, and a box in it, take of a region's width.
 _SIDE = 66  # a sidebar's, which has tabs, too
 _MARGINS = {"WINDOW": 50}
@@ -65,15 +66,44 @@ def folded(layout: Any, key: str, title: str) -> Any:
     return body
 
 
-def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE") -> None:
-    """Draw a sentence in as many lines as the panel's width needs."""
+def choice(layout: Any, context: Any, owner: Any, name: str) -> None:
+    """Draw a choice beside its name, or below it where an item has no room there."""
+    known = owner.bl_rna.properties[name]
+    if fit(context, [item.name for item in known.enum_items], _CHOICE):
+        layout.prop(owner, name)
+        return
+    column = layout.column(align=True)
+    column.use_property_split = False
+    column.label(text=known.name)
+    column.prop(owner, name, text="")
+
+
+def beside(layout: Any, context: Any, texts: Sequence[str]) -> Any:
+    """Return a row for buttons of these texts, or a column where they have no room in a row."""
+    return (layout.row if fit(context, texts, 1 / len(texts)) else layout.column)(align=True)
+
+
+def fit(context: Any, texts: Iterable[str], share: float) -> bool:
+    """Return whether each text, beside an icon, is one line in a share of the panel's width."""
+    size, width = _measured(context, share, _ICON)
+    return all(len(lines(iface_(text), width, size)) == 1 for text in texts)
+
+
+def _measured(context: Any, share: float, icon: float) -> tuple[float, float]:
+    """Return the size of the font, and the width of a share of the panel less an icon, pixels."""
     preferences = context.preferences
     scale = preferences.system.ui_scale
-    points = preferences.ui_styles[0].widget.points
-    taken = _MARGINS.get(context.region.type, _SIDE) + (_ICON if icon != "NONE" else 0)
+    taken = _MARGINS.get(context.region.type, _SIDE)
+    width = (context.region.width - taken * scale) * share - icon * scale
+    return preferences.ui_styles[0].widget.points * scale, width
+
+
+def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE") -> None:
+    """Draw a sentence in as many lines as the panel's width needs."""
+    size, width = _measured(context, 1.0, _ICON if icon != "NONE" else 0)
     column = layout.column(align=True)
     column.scale_y = 0.8
-    for line in lines(iface_(text), context.region.width - taken * scale, points * scale):
+    for line in lines(iface_(text), width, size):
         column.label(text=line, icon=icon, translate=False)
         icon = "BLANK1" if icon != "NONE" else icon
 

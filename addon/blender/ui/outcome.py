@@ -40,6 +40,8 @@ def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
     from ...diagnosis import self_check
 
     draw_facts(layout, _measured(comparison))
+    other = iface_(label_of(comparison.case.picture.source))
+    wrapped(layout, context, f"{iface_('Compared with')} {other}")
     for row in comparison.methods:
         wrong = "unknown" if row.wrong_pixels is None else f"{row.wrong_pixels:,} px"
         facts = [
@@ -74,7 +76,6 @@ def _measured(comparison: Comparison) -> Facts:
     yield "PSNR", f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"
     yield "SSIM", f"{metrics.ssim:.6f}"
     if metrics.rmse:
-        yield "Largest difference", f"{largest.value:.3g}"
+        yield "Max. difference", f"{largest.value:.3g}"
         yield "At pixel", "{}, {}".format(*largest.pixel)
-    yield "Compared with", label_of(comparison.case.picture.source)
     yield "Traced in", f"{comparison.frame.statistics.seconds:.2f} s"

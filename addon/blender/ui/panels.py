@@ -13,7 +13,7 @@ from ...methods import Method
 from ..drawing.judges import JUDGES
 from ..engine import ENGINE
 from . import operators, results, samples
-from .layout import Part, both, draw_facts, folded, wrapped
+from .layout import Part, both, choice, draw_facts, fit, folded, wrapped
 from .menus import REFERENCE_TRACER_PT_presets
 from .outcome import draw_figures, draw_outcome
 from .results import Kind
@@ -51,7 +51,9 @@ class _Main(Part):
             layout.operator(operators.REFERENCE_TRACER_OT_frame_all.bl_idname, icon="CAMERA_DATA")
         button = layout.row()
         button.scale_y = 1.4
-        button.operator(operators.REFERENCE_TRACER_OT_compare.bl_idname, icon="RENDER_STILL")
+        compare = operators.REFERENCE_TRACER_OT_compare
+        has_room = fit(context, [compare.bl_label], 1.0)
+        button.operator(compare.bl_idname, icon="RENDER_STILL" if has_room else "NONE")
         comparison = results.content(Kind.COMPARISON, context.scene)
         if comparison:
             draw_outcome(layout, context, comparison)
@@ -64,7 +66,7 @@ class _Main(Part):
             button.data_path = "scene.reference_tracer.method"
             button.value = "textbook"
         if body := folded(layout, "settings", "Settings"):
-            _draw_settings(body, stored)
+            _draw_settings(body, context, stored)
         if comparison and (body := folded(layout, "figures", "Figures")):
             draw_figures(body, context, comparison)
         if body := folded(layout, "more", "More Comparisons"):
@@ -73,7 +75,7 @@ class _Main(Part):
             samples.draw_scenes(body.column(align=True))
 
 
-def _draw_settings(layout: Any, stored: Any) -> None:
+def _draw_settings(layout: Any, context: Any, stored: Any) -> None:
     layout.use_property_split = True
     layout.use_property_decorate = False
     greyed = {
@@ -85,7 +87,10 @@ def _draw_settings(layout: Any, stored: Any) -> None:
         for name in names:
             row = column.row()
             row.enabled = not greyed.get(name)
-            row.prop(stored, name)
+            if stored.bl_rna.properties[name].type == "ENUM":
+                choice(row, context, stored, name)
+            else:
+                row.prop(stored, name)
             if name == "judge":
                 stored.draw_given(column)
 
