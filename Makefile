@@ -11,6 +11,8 @@ PYTEST := $(PYTHON_IN_VENV) -m pytest
 SHARED = -n $(WORKERS) --no-loadscope-reorder
 # Bytecode is kept, also where the machine says no: else each of hundreds of processes compiles anew.
 export PYTHONDONTWRITEBYTECODE :=
+# Workers share the cores: numpy's library starts no threads in each of their hundreds of processes.
+check test: export OPENBLAS_NUM_THREADS := 1
 
 .PHONY: help demo check test set-up-tests all-tests test-matrix prove test-browser test-gui test-gpu \
 	cameras torture bench docs lessons lesson-tools lint style types extension release clean
