@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,8 +20,7 @@ from ..causes.excused import COMPARABLE, Excused
 from ..causes.explain import BY_NUMBER, CAUSES
 from ..certainty import Certainty
 from ..certified.rounding import rounding
-from ..diagnosis.diagnosis import Diagnosis
-from ..diagnosis.self_check import FaultRow, table
+from ..diagnosis.fault_rows import FaultRow, table
 from ..manifest import Effect, Manifest
 from ..pictures.identity import Identity
 from ..pictures.metrics import Metrics
@@ -30,6 +30,9 @@ from ..tracer.hits import NOTHING
 from ..wording import count_of
 from .methods import MethodRow
 from .verdict import Verdict
+
+if TYPE_CHECKING:
+    from ..diagnosis.diagnosis import Diagnosis
 
 SCHEMA = "reference_tracer.comparison/1"
 

@@ -37,7 +37,7 @@ def draw_outcome(layout: Any, context: Any, comparison: Comparison) -> None:
 
 def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
     """Draw the metrics, and what each method needed and got wrong."""
-    from ...diagnosis import self_check
+    from ...diagnosis.fault_rows import table
 
     draw_facts(layout, _measured(comparison))
     other = iface_(label_of(comparison.case.picture.source))
@@ -50,7 +50,7 @@ def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
             ("Ambiguous", f"{row.ambiguous:,} px"),
         ]
         draw_facts(layout.box(), facts)
-    for line in (*comparison.required, *self_check.table(comparison.self_check)[:1]):
+    for line in (*comparison.required, *table(comparison.self_check)[:1]):
         wrapped(layout, context, line)
 
 
