@@ -18,35 +18,33 @@ Proof.
     split; [assumption|]. rewrite (IZR_Zpower radix2), bpow_opp by lia.
     generalize (bpow_gt_0 radix2 k). intros. field. lra.
 Qed.
-Lemma float_is_fraction x k : is_float x -> exists q, is_ratio (bpow radix2 k) (Finite x) q.
+Lemma float_is_fraction x : is_float x -> exists q, is_ratio (Finite x) q.
 Proof.
-  intros F. destruct (power_is_fraction (exponent x - 53 - k)) as ([n m] & P & E). cbn [fst snd] in *.
+  intros F. destruct (power_is_fraction (exponent x - 53)) as ([n m] & P & E). cbn [fst snd] in *.
   exists (digits x * n, m)%Z. cbn [is_ratio fst snd]. split; [exact P|]. rewrite mult_IZR.
   replace (IZR (digits x) * IZR n / IZR m) with (IZR (digits x) * (IZR n / IZR m)) by (unfold Rdiv; ring).
-  rewrite E. transitivity (IZR (digits x) * bpow radix2 (exponent x - 53)); [|now rewrite <- digits_exact].
-  rewrite Rmult_assoc, <- bpow_plus. f_equal. f_equal. lia.
+  rewrite E. now rewrite <- digits_exact.
 Qed.
 
-Definition everything (origin direction : floats) (scene : list surface) : batch :=
-  Batch (components (reals origin) ++ flat_map lengths_of scene) (components (reals direction)).
+Definition everything (origin direction : floats) (scene : list surface) : list R :=
+  (components (reals origin) ++ components (reals direction)) ++ flat_map all_of scene.
 Theorem given_is_possible origin direction start end_ floats_of scene :
   (forall s, In s scene -> all_finite (floats_of s) /\ shape_of s = shape_stored (floats_of s)) ->
   (forall s s', In s scene -> In s' scene -> called s = called s' -> s = s') ->
+  (forall s, In s scene -> called s <> Leaf.NOWHERE) ->
   BinarySingleNaN.is_nan end_ = false -> end_ <> BinarySingleNaN.B754_infinity true ->
-  exists first last scale,
+  less (Finite (BinarySingleNaN.B2R start)) (number_of end_) = true ->
+  exists first last,
     given (Leaf.Pixel origin direction start end_ floats_of (everything origin direction scene)
-      first last scale Given.divided) scene.
+      first last Given.divided) scene.
 Proof.
-  intros S N A B. set (unit := shift_in (everything origin direction scene)).
-  destruct (float_is_fraction (BinarySingleNaN.B2R start) unit (B2R_is_float start)) as [first First].
-  assert (exists last, is_ratio (bpow radix2 unit) (number_of end_) last) as [last Last].
+  intros S N W A B L.
+  destruct (float_is_fraction (BinarySingleNaN.B2R start) (B2R_is_float start)) as [first First].
+  assert (exists last, is_ratio (number_of end_) last) as [last Last].
   { destruct (number_of end_) as [|e|] eqn:E; [now exists (-1, 0)%Z | | now exists (1, 0)%Z].
     apply number_of_float in E. destruct E as [_ <-]. apply float_is_fraction, B2R_is_float. }
-  destruct (power_is_fraction unit) as [scale Scale].
-  exists first, last, scale. constructor; auto.
-  - intros s I x X. cbn [Leaf.origin Leaf.together everything lengths] in *.
-    apply in_app_or in X. apply in_or_app. destruct X as [X|X]; [now left | right].
-    apply in_flat_map. eauto.
-  - intros x X. exact X.
+  exists first, last. constructor; auto.
+  - intros x X. apply in_or_app. now left.
+  - intros s I x X. apply in_or_app. right. apply in_flat_map. eauto.
   - intros n d _. reflexivity.
 Qed.

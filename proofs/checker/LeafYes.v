@@ -23,7 +23,7 @@ Notation a := (by_leaf p).
 
 (** ** [sees] of hits is what a contest of surfaces makes of them *)
 
-Definition no_hit : Leaf.Met := Leaf.MakeMet Leaf.NOWHERE 0 0 ZERO [] [] 0 ZERO.
+Definition no_hit : Leaf.Met := Leaf.MakeMet Leaf.NOWHERE 0 0 ZERO [] ZERO.
 Definition met_at (s : surface) : Leaf.Met :=
   match Leaf.exact_hit p s with Some h => h | None => no_hit end.
 Definition is_met (s : surface) : Prop := Leaf.exact_hit p s = Some (met_at s).
@@ -38,19 +38,13 @@ Proof.
   - apply met_or_not in H. rewrite H. cbn [map app]. now rewrite <- IH.
   - simpl in H. unfold asked in H. destruct (Leaf.exact_hit p s); [discriminate|]. exact IH.
 Qed.
-Lemma met_line s : is_met s -> exists h, line_hit (as_inputs p) (Leaf.together p) s = Some h /\
-  denominator_ h <> 0%Z /\ met_at s = met_of (called s) h.
-Proof.
-  unfold is_met. rewrite exact_hit_line. destruct (line_hit _ _ s) as [h|]; [|discriminate].
-  destruct (Z.eqb_spec (denominator_ h) 0) as [|N]; [discriminate|]. cbv zeta.
-  destruct (Leaf.clipped _ _ _ _); [discriminate|]. intros [= E]. eauto.
-Qed.
 Lemma named_met s : is_met s -> Leaf.named (met_at s) = called s.
 Proof.
-  intros M. destruct (met_line s M) as (h & _ & _ & ->).
-  now destruct (met_of_turned (called s) h) as (_ & _ & _ & -> & _).
+  unfold is_met, Leaf.exact_hit, Leaf.hit.
+  destruct (match shape_of s with Triangular _ => _ | _ => _ end) as [[T n] m].
+  destruct (_ =? 0)%Z; [discriminate|]. destruct (Leaf.mixed _); [discriminate|].
+  destruct ((_ =? _)%Z && _)%bool; [discriminate|]. now intros [= <-].
 Qed.
-
 Lemma on_edge_is s : is_met s -> on_edge a s = Leaf.on_edge (met_at s).
 Proof. intros M. simpl. unfold asked. now rewrite M. Qed.
 Lemma gap_is s s' : is_met s -> is_met s' -> gap a s s' = Leaf.compare_at (met_at s) (met_at s').
@@ -87,38 +81,52 @@ Proof.
     rewrite E. apply IH; auto. intros x X. apply H. now right. }
   apply (E None). discriminate.
 Qed.
-Lemma inside_is l : (forall s, In s l -> is_met s) ->
-  filter (fun h => negb (Leaf.on_edge h)) (map met_at l) = map met_at (filter (fun s => negb (on_edge a s)) l).
+Notation inside l := (filter (fun s => negb (on_edge a s)) l).
+Lemma inside_is l : (forall s, In s l -> is_met s) -> Leaf.inside (map met_at l) = map met_at (inside l).
 Proof.
-  induction l as [|s l IH]; intros H; [reflexivity|]. cbn [map filter].
+  unfold Leaf.inside. induction l as [|s l IH]; intros H; [reflexivity|]. cbn [map filter].
   rewrite (on_edge_is s) by (apply H; now left). rewrite IH by (intros; apply H; now right).
   now destruct (Leaf.on_edge (met_at s)).
 Qed.
-Lemma least_is l : (forall s, In s l -> is_met s) ->
-  Leaf.least_at (map met_at l) = option_map met_at (least_by_gap a l) /\
-  match least_by_gap a l with Some s => In s l | None => l = [] end.
+
+(** Fractions are ordered as real numbers are. *)
+Definition at_ (s : surface) : R := IZR (Leaf.top (met_at s)) / IZR (Leaf.bottom (met_at s)).
+Lemma bottom_not_0 s : is_met s -> Leaf.bottom (met_at s) <> 0%Z.
 Proof.
-  unfold Leaf.least_at, least_by_gap. intros H.
-  set (f := fun (best : option Leaf.Met) h => _). set (g := fun (best : option surface) s => _).
-  assert (E : forall rest best, (forall s, In s rest -> is_met s) -> is_met best ->
-    fold_left f (map met_at rest) (Some (met_at best)) = option_map met_at (fold_left g rest (Some best)) /\
-    match fold_left g rest (Some best) with Some s => In s (best :: rest) | None => False end).
-  { induction rest as [|s rest IH]; intros best R B; [simpl; auto|]. cbn [map fold_left].
-    assert (M : is_met s) by (apply R; now left).
-    assert (R' : forall x, In x rest -> is_met x) by (intros; apply R; now right).
-    unfold f at 2, g at 2 4. cbv beta. rewrite (gap_is s best M B).
-    destruct (Leaf.compare_at (met_at s) (met_at best)).
-    - destruct (IH best R' B) as [-> K]. split; [reflexivity|].
-      destruct (fold_left g rest (Some best)); [simpl in *; tauto | exact K].
-    - destruct (IH s R' M) as [-> K]. split; [reflexivity|].
-      destruct (fold_left g rest (Some s)); [simpl in *; tauto | exact K].
-    - destruct (IH best R' B) as [-> K]. split; [reflexivity|].
-      destruct (fold_left g rest (Some best)); [simpl in *; tauto | exact K]. }
-  destruct l as [|x l]; [split; reflexivity|]. cbn [map fold_left].
-  destruct (E l x) as [E1 E2]; [intros; apply H; now right | apply H; now left |].
-  split; [exact E1|].
-  change (match fold_left g l (Some x) with Some s => In s (x :: l) | None => x :: l = [] end).
-  destruct (fold_left g l (Some x)); [exact E2 | destruct E2].
+  unfold is_met, Leaf.exact_hit, Leaf.hit.
+  destruct (match shape_of s with Triangular _ => _ | _ => _ end) as [[T n] m].
+  destruct (Z.eqb_spec (_dot (Leaf.whole p (reals (Leaf.direction p))) n) 0) as [|N]; [discriminate|].
+  destruct (Leaf.mixed _); [discriminate|]. destruct ((_ =? _)%Z && _)%bool; [discriminate|].
+  now intros [= <-].
+Qed.
+Lemma gap_at s s' : is_met s -> is_met s' -> gap a s s' = Rcompare (at_ s) (at_ s').
+Proof. intros M M'. rewrite gap_is by assumption. apply compare_ratios_right; now apply bottom_not_0. Qed.
+Lemma least_is l : (forall s, In s l -> is_met s) ->
+  match least_by_gap a l with Some w => In w l /\ forall s, In s l -> at_ w <= at_ s | None => l = [] end.
+Proof.
+  intros H. unfold least_by_gap. destruct l as [|x l]; [reflexivity|]. cbn [fold_left].
+  set (f := fun (best : option surface) s => _).
+  assert (E : forall rest best done, (forall s, In s rest -> is_met s) -> is_met best ->
+    In best done -> (forall s, In s done -> at_ best <= at_ s) ->
+    match fold_left f rest (Some best) with
+    | Some w => In w (done ++ rest) /\ forall s, In s (done ++ rest) -> at_ w <= at_ s
+    | None => False
+    end).
+  { induction rest as [|s rest IH]; intros best done R B I L; cbn [fold_left].
+    - rewrite app_nil_r. now split.
+    - replace (done ++ s :: rest) with ((done ++ [s]) ++ rest) by now rewrite <- app_assoc.
+      assert (M : is_met s) by (apply R; now left).
+      assert (R' : forall y, In y rest -> is_met y) by (intros; apply R; now right).
+      unfold f at 2. rewrite (gap_at s best M B).
+      case Rcompare_spec; intros C; apply IH; auto; try (apply in_or_app; simpl; tauto);
+        intros y Y; apply in_app_or in Y; destruct Y as [Y|[Y|[]]]; subst; try lra; specialize (L y Y); lra. }
+  change (match fold_left f l (Some x) with
+    | Some w => In w (x :: l) /\ forall s, In s (x :: l) -> at_ w <= at_ s | None => x :: l = [] end).
+  specialize (E l x [x]). destruct (fold_left f l (Some x)) as [w|].
+  - apply E; [intros; apply H; now right | apply H; now left | now left |].
+    intros y [->|[]]. lra.
+  - exfalso. apply E; [intros; apply H; now right | apply H; now left | now left |].
+    intros y [->|[]]. lra.
 Qed.
 Lemma filter_is {A B} (f : A -> B) (P : B -> bool) (Q : A -> bool) l :
   (forall x, In x l -> P (f x) = Q x) -> filter P (map f l) = map f (filter Q l).
@@ -126,48 +134,49 @@ Proof.
   induction l as [|x l IH]; intros H; [reflexivity|]. cbn [map filter].
   rewrite (H x) by now left. rewrite IH by (intros; apply H; now right). now destruct (Q x).
 Qed.
-Lemma front_is l : (forall s, In s l -> is_met s) ->
-  Leaf.front (map met_at l) = map met_at (front a l).
+Lemma front_is l : (forall s, In s l -> is_met s) -> Leaf.front (map met_at l) = map met_at (front a l).
 Proof.
   intros H. unfold Leaf.front, front. rewrite inside_is by exact H.
-  set (inside := filter _ l).
-  assert (I : forall s, In s inside -> is_met s) by (intros s S; apply H; now apply filter_In in S).
-  destruct (least_is inside I) as [-> K]. destruct (least_by_gap a inside) as [w|]; [|reflexivity].
-  cbn [option_map]. apply filter_is. intros s S. now rewrite gap_is by auto.
+  assert (I : forall s, In s (inside l) -> is_met s) by (intros s S; apply H; now apply filter_In in S).
+  assert (K := least_is (inside l) I).
+  destruct (least_by_gap a (inside l)) as [w|].
+  - destruct K as [W L]. apply filter_is. intros s S. apply eq_iff_eq_true. rewrite forallb_forall.
+    rewrite gap_at by auto. split.
+    + intros A. specialize (A (met_at w) (in_map met_at _ _ W)). unfold Leaf.not_behind in A.
+      rewrite <- gap_is, gap_at in A by auto. now destruct (Rcompare (at_ s) (at_ w)).
+    + intros A m M. apply in_map_iff in M. destruct M as (o & <- & O). unfold Leaf.not_behind.
+      rewrite <- gap_is, gap_at by auto. specialize (L o O). revert A.
+      case Rcompare_spec; case Rcompare_spec; intros; try reflexivity; lra || discriminate.
+  - rewrite K. cbn [map forallb]. clear. induction l as [|s l IH]; [reflexivity|]. cbn [map filter].
+    now rewrite IH.
 Qed.
 
+(** Where there are no ties, what is seen is the first in front; it will be the first of all. *)
+Definition seen_of (l : list surface) : option surface :=
+  if no_ties a l then match front a l with s :: _ => Some s | [] => None end else first a l.
 Theorem sees_is l : (forall s, In s l -> is_met s) ->
-  Leaf.sees (map met_at l) = (option_map met_at (first a l), negb (no_ties a l)).
+  Leaf.sees (map met_at l) = (option_map met_at (seen_of l), negb (no_ties a l)).
 Proof.
-  intros H.
-  assert (Among : Leaf.sees_among (map met_at l) = (option_map met_at (first a l), negb (no_ties a l))).
-  { unfold Leaf.sees_among. rewrite first_is, front_is, inside_is by exact H. apply f_equal.
-    unfold no_ties, front. set (inside := filter (fun s => negb (on_edge a s)) l).
-    assert (I : forall s, In s inside -> In s l /\ on_edge a s = false).
-    { intros s S. apply filter_In in S. destruct S as [S E]. split; [exact S|]. now apply negb_true_iff. }
-    destruct (least_is inside) as [_ K]; [intros s S; apply H; now apply I|].
-    destruct (least_by_gap a inside) as [w|].
-    - destruct (I w K) as [W E]. set (those := filter _ l).
-      assert (In w those) as T.
-      { apply filter_In. split; [exact W|]. rewrite gap_is by auto. unfold Leaf.compare_at.
-        now rewrite Z.compare_refl. }
-      destruct inside as [|x inside]; [destruct K|].
-      destruct those as [|s [|s' those]]; [reflexivity | | reflexivity].
-      destruct T as [->|[]]. cbn [map]. now rewrite E.
-    - rewrite K. destruct l as [|s [|s' l]]; [reflexivity | | reflexivity]. cbn [map].
-      assert (E : on_edge a s = true); [|now rewrite E].
-      destruct (on_edge a s) eqn:E; [reflexivity|]. exfalso.
-      assert (In s inside) as S by (apply filter_In; rewrite E; split; [now left | reflexivity]).
-      rewrite K in S. destruct S. }
-  destruct l as [|s [|s' l]]; [exact Among | | exact Among]. cbn [map] in *. unfold Leaf.sees.
-  assert (M : is_met s) by (apply H; now left). rewrite <- (on_edge_is s M).
-  destruct (on_edge a s) eqn:E; [exact Among|].
-  unfold no_ties, front. cbn [filter]. rewrite E. cbn [negb least_by_gap fold_left filter].
-  rewrite gap_is by exact M. unfold Leaf.compare_at at 1. rewrite Z.compare_refl, E.
-  unfold first. cbn [fold_left]. unfold nearer_of. rewrite is_crossed_is by exact M.
-  replace (Leaf.is_crossed Leaf.AXES (met_at s)) with true; [reflexivity|]. symmetry.
-  destruct (met_line s M) as (h & L & N & Q). rewrite (on_edge_is s M) in E. rewrite Q, on_edge_met in E.
-  rewrite Q, is_crossed_right; [| eapply line_is_hit, L | exact N]. unfold Hits.is_crossed. now rewrite E.
+  intros H. unfold Leaf.sees, seen_of, no_ties. rewrite first_is, front_is, inside_is by exact H.
+  set (those := front a l). unfold front in those. revert those.
+  assert (I : forall s, In s (inside l) -> In s l /\ on_edge a s = false).
+  { intros s S. apply filter_In in S. destruct S as [S E]. split; [exact S|]. now apply negb_true_iff. }
+  assert (K : match least_by_gap a (inside l) with Some w => In w (inside l) | None => inside l = [] end).
+  { generalize (least_is (inside l) (fun s S => H s (proj1 (I s S)))).
+    destruct (least_by_gap a (inside l)); [now intros [L _] | easy]. }
+  destruct (least_by_gap a (inside l)) as [w|]; intros those.
+  - destruct (I w K) as [W E].
+    assert (T : In w those).
+    { apply filter_In. split; [exact W|]. now rewrite gap_at, Rcompare_Eq by auto. }
+    destruct (inside l) as [|x rest]; [destruct K|].
+    destruct those as [|s [|s' those]]; [reflexivity | | reflexivity].
+    destruct T as [->|[]]. cbn [map]. now rewrite E.
+  - unfold those. clear those. rewrite K.
+    destruct l as [|s [|s' l]]; [reflexivity | | reflexivity]. cbn [map].
+    assert (E : on_edge a s = true); [|now rewrite E].
+    destruct (on_edge a s) eqn:E; [reflexivity|]. exfalso.
+    assert (S : In s (inside [s])) by (apply filter_In; rewrite E; split; [now left | reflexivity]).
+    rewrite K in S. destruct S.
 Qed.
 
 (** And that is what [plain] makes of them, if all is left to integers. *)
@@ -185,7 +194,8 @@ Proof.
     rewrite N. assert (Low : forall s, low a start s = MinusInfinity).
     { intros s. unfold low, high. cbn [interval_low interval_high by_leaf is_finite].
       now destruct (behind start). }
-    assert (K : forall l, filter (fun s => negb (outside a start end_ s) && less_eq (low a start s) Infinity) l = l).
+    assert (K : forall l,
+      filter (fun s => negb (outside a start end_ s) && less_eq (low a start s) Infinity) l = l).
     { induction l as [|s l IH]; [reflexivity|]. cbn [filter]. rewrite IH, Low. unfold outside, high.
       cbn [interval_low interval_high by_leaf less]. destruct end_; reflexivity. }
     rewrite K. unfold found. cbn [farthest Contest.kept app].
@@ -243,25 +253,35 @@ Qed.
 
 (** ** The theorem *)
 
-Lemma found_is kept : Leaf.found p kept =
+Lemma seen_in l s : seen_of l = Some s -> In s l.
+Proof.
+  unfold seen_of. destruct (no_ties a l).
+  - destruct (front a l) as [|x rest] eqn:F; [discriminate|]. intros [= <-].
+    assert (In x (front a l)) as I by (rewrite F; now left). revert I. unfold front.
+    destruct (least_by_gap a _); [|easy]. intros I. now apply filter_In in I.
+  - unfold first. assert (K : forall l' best, (forall x, best = Some x -> In x l) -> incl l' l ->
+      forall x, fold_left (nearer_of a) l' best = Some x -> In x l).
+    { induction l' as [|y l' IH]; intros best B I x; [apply B|]. cbn [fold_left]. apply IH.
+      - unfold nearer_of. intros z. destruct (is_crossed a y); [|apply B].
+        assert (Y : In y l) by (apply I; now left).
+        destruct best as [c|]; [|now intros [= <-]].
+        destruct (sign_of_difference a y c); [destruct (before y c)| |]; intros [= <-]; auto.
+      - intros z Z. apply I. now right. }
+    apply K; [discriminate | apply incl_refl].
+Qed.
+Lemma found_is kept said : Leaf.found p kept = Some said ->
   let hits := filter (hit a) kept in
-  (match first a hits with Some s => called s | None => Leaf.NOWHERE end,
-   match first a hits with Some s => computed_t a s | None => Infinity end,
-   negb (no_ties a hits)).
+  said = (match seen_of hits with Some s => called s | None => Leaf.NOWHERE end,
+          match seen_of hits with Some s => computed_t a s | None => Infinity end,
+          negb (no_ties a hits)).
 Proof.
   assert (M : forall s, In s (filter (hit a) kept) -> is_met s).
   { intros s S. apply filter_In in S. now apply met_or_not. }
   unfold Leaf.found. rewrite hits_are, sees_is by exact M. cbv zeta.
-  destruct (first a (filter (hit a) kept)) as [s|] eqn:F; [|reflexivity]. cbn [option_map].
-  assert (S : is_met s).
-  { revert F. unfold first.
-    assert (K : forall l best, (forall x, In x l -> is_met x) -> (forall x, best = Some x -> is_met x) ->
-      forall x, fold_left (nearer_of a) l best = Some x -> is_met x).
-    { induction l as [|y l IH]; intros best L B x; [apply B|]. cbn [fold_left]. apply IH.
-      - intros z Z. apply L. now right.
-      - apply nearer_is; [apply L; now left | exact B]. }
-    apply K; [exact M | discriminate]. }
-  rewrite (named_met s S). simpl computed_t. unfold asked. now rewrite S.
+  destruct (seen_of (filter (hit a) kept)) as [s|] eqn:F; [|now intros [= <-]]. cbn [option_map].
+  assert (S : is_met s) by now apply M, seen_in.
+  rewrite (named_met s S). simpl computed_t. unfold asked, t_of. rewrite S.
+  destruct (Leaf.division p _ _); [|discriminate]. now intros [= <-].
 Qed.
 
 Section Yes.
@@ -276,30 +296,8 @@ Proof.
   destruct G. constructor; auto.
 Qed.
 
-(** In [plain]'s words, of whatever scene that is all in a list. *)
-Lemma by_plain scene' l : given p scene' -> NoDup l -> incl l scene' ->
-  (forall s, met r start end_ scene' s -> In s l) ->
-  let seen := first a (filter (hit a) l) in
-  Nearby.soon (fun by_ => moved_sees r (Nearby.moved_ray r by_) start end_ scene' seen) /\
-  (if no_ties a (filter (hit a) l) then clearly_sees r start end_ scene' seen
-   else forall answer, ~ clearly_sees r start end_ scene' answer) /\
-  match seen with Some s => computed_t a s = nearest_float (t r s) | None => True end.
-Proof.
-  intros G' O I A seen.
-  assert (C : concat [l] = l) by apply app_nil_r.
-  assert (F : ray_facts r start end_ scene' [l] a)
-    by (apply (leaf_ray_facts p G'); rewrite C; assumption).
-  destruct (Nearby.plain_is_right_by_the_rule r start end_ scene' [l] a F (leaf_rule_facts p G'))
-    as (M & K & T).
-  destruct (plain_is l) as (E1 & E2 & E3). cbv zeta in M, K, T, E1, E2, E3.
-  rewrite E1 in M, K, T, E2. fold seen in M, K, T, E2. split; [exact M|]. split.
-  - destruct (no_ties a (filter (hit a) l)).
-    + destruct (certain _); [exact K | exact K |]. destruct E3 as [_ E3]. now specialize (E3 eq_refl).
-    + now rewrite (proj1 E3 eq_refl) in K.
-  - rewrite E2 in T. destruct seen; [now injection T | constructor].
-Qed.
-
-Lemma clear_once o o' : clearly_sees r start end_ scene o -> clearly_sees r start end_ scene o' -> o = o'.
+Lemma clear_once scene' o o' : clearly_sees r start end_ scene' o ->
+  clearly_sees r start end_ scene' o' -> o = o'.
 Proof.
   destruct o as [s|], o' as [s'|]; simpl; try reflexivity.
   - intros (M & _ & A) (M' & _ & A'). destruct (classic (s = s')) as [->|N]; [reflexivity|].
@@ -307,24 +305,98 @@ Proof.
   - intros [M _] N. now specialize (N s).
   - intros N [M _]. now specialize (N s').
 Qed.
+(** The first in front is the one that is seen, if that is clear. *)
+Lemma front_is_clear scene' l o : given p scene' -> (forall s, In s l -> met r start end_ scene' s) ->
+  (forall s, o = Some s -> In s l) -> no_ties a l = true ->
+  clearly_sees r start end_ scene' o -> seen_of l = o.
+Proof.
+  intros G' M O N C. unfold seen_of. rewrite N.
+  assert (I : forall s, In s l -> is_met s).
+  { intros s S. destruct (met_hit p G' s (M s S)) as (h & _ & E & _). unfold is_met, met_at. now rewrite E. }
+  destruct o as [w|].
+  - destruct C as (_ & _ & A). assert (Iw : In w l) by now apply O.
+    assert (Q : In w (front a l)).
+    { unfold front. assert (K : match least_by_gap a (inside l) with Some v => In v l | None => True end).
+      { assert (J : forall s, In s (inside l) -> In s l) by (intros s S; now apply filter_In in S).
+        generalize (least_is (inside l) (fun s S => I s (J s S))).
+        destruct (least_by_gap a (inside l)); [|easy]. intros [L _]. now apply J. }
+      destruct (least_by_gap a _) as [v|]; [|exact Iw]. assert (V : In v l) by exact K.
+      apply filter_In. split; [exact Iw|]. simpl. unfold compared.
+      destruct (met_hit p G' w (M w Iw)) as (k & _ & -> & Nk & _ & Tk & _).
+      destruct (met_hit p G' v (M v V)) as (k' & _ & -> & Nk' & _ & Tk' & _).
+      rewrite compare_right by assumption. case Rcompare_spec; try reflexivity. intros L. exfalso.
+      destruct (classic (v = w)) as [->|D']; [lra|]. specialize (A v (M v V) D'). lra. }
+    unfold no_ties in N. destruct (front a l) as [|x [|y rest]]; [destruct Q | | discriminate].
+    destruct Q as [->|[]]. reflexivity.
+  - destruct l as [|s l]; [reflexivity|]. destruct (C s). apply M. now left.
+Qed.
 
+(** In [plain]'s words, of whatever scene that is all in a list. *)
+Lemma by_plain scene' l : given p scene' -> NoDup l -> incl l scene' ->
+  (forall s, met r start end_ scene' s -> In s l) ->
+  let hits := filter (hit a) l in
+  let seen := seen_of hits in
+  Nearby.soon (fun by_ => moved_sees r (Nearby.moved_ray r by_) start end_ scene' seen) /\
+  (if no_ties a hits then clearly_sees r start end_ scene' seen
+   else forall answer, ~ clearly_sees r start end_ scene' answer) /\
+  match seen with Some s => computed_t a s = nearest_float (t r s) | None => True end.
+Proof.
+  intros G' O I A hits.
+  assert (C : concat [l] = l) by apply app_nil_r.
+  assert (F : ray_facts r start end_ scene' [l] a)
+    by (apply (leaf_ray_facts p G'); rewrite C; assumption).
+  destruct (Nearby.plain_is_right_by_the_rule r start end_ scene' [l] a F (leaf_rule_facts p G'))
+    as (M & K & T).
+  destruct (plain_is l) as (E1 & E2 & E3). cbv zeta in M, K, T, E1, E2, E3. fold hits in E1, E3.
+  rewrite E1 in M, K, T, E2.
+  assert (K' : if no_ties a hits then clearly_sees r start end_ scene' (first a hits)
+    else forall answer, ~ clearly_sees r start end_ scene' answer).
+  { destruct (no_ties a hits).
+    - destruct (certain _); [exact K | exact K |]. destruct E3 as [_ E3]. now specialize (E3 eq_refl).
+    - now rewrite (proj1 E3 eq_refl) in K. }
+  assert (S : seen_of hits = first a hits).
+  { destruct (no_ties a hits) eqn:N; [|unfold seen_of; now rewrite N].
+    apply (front_is_clear scene'); auto.
+    - intros s S. apply filter_In in S. destruct S as [S H]. now apply (hit_right F s (I s S)).
+    - intros s S. assert (Q := K'). rewrite S in Q. destruct Q as [Q _]. apply filter_In.
+      split; [now apply A | now apply (hit_right F s (proj1 Q))]. }
+  cbv zeta. rewrite S. split; [exact M|]. split; [exact K'|].
+  rewrite E2 in T. destruct (first a hits); [now injection T | constructor].
+Qed.
+
+(** A surface of the scene, or nothing, by its name in the file: there is one at most. *)
+Definition has_name (name : Contest.name) (answer : option surface) : Prop :=
+  match answer with Some s => In s scene /\ called s = name | None => name = Leaf.NOWHERE end.
+Lemma one_of_a_name name o o' : has_name name o -> has_name name o' -> o' = o.
+Proof.
+  destruct o as [s|], o' as [s'|]; simpl; try reflexivity.
+  - intros [I <-] [I' E]. f_equal. now apply (different_names p _ G).
+  - intros [I <-] E. now apply (not_nowhere p _ G) in E.
+  - intros -> [I E]. now apply (not_nowhere p _ G) in E.
+Qed.
 Theorem yes_is_right said :
   (* of all that the stored ray meets in the clip range, floats have kept what is not beyond [far] *)
   (forall s, met r start end_ scene s -> not_beyond (t r s) (far said) -> In s kept) ->
   (* yes: the file's name, t and whether there are ties are those that are found *)
-  Leaf.found p kept = said ->
+  Leaf.found p kept = Some said ->
   let '(name, t_said, ties) := said in
   exists answer,
-    name = match answer with Some s => called s | None => Leaf.NOWHERE end /\
+    has_name name answer /\ (forall other, has_name name other -> other = answer) /\
     Nearby.soon (fun by_ => moved_sees r (Nearby.moved_ray r by_) start end_ scene answer) /\
     (if ties then forall other, ~ clearly_sees r start end_ scene other
      else clearly_sees r start end_ scene answer) /\
     t_said = match answer with Some s => nearest_float (T r s / D r s) | None => Infinity end.
 Proof.
-  destruct said as [[name t_said] ties]. intros Kept. rewrite found_is. cbv zeta.
-  set (seen := first a (filter (hit a) kept)).
-  remember (no_ties a (filter (hit a) kept)) as clear eqn:NT. intros [= Name T_ Ties].
-  exists seen. split; [now rewrite <- Name|].
+  destruct said as [[name t_said] ties]. intros Kept Found. apply found_is in Found. revert Found. cbv zeta.
+  set (seen := seen_of (filter (hit a) kept)).
+  remember (no_ties a (filter (hit a) kept)) as clear eqn:NT.
+  intros Found. symmetry in Found. injection Found as Name T_ Ties.
+  exists seen.
+  assert (H : has_name name seen).
+  { unfold has_name. rewrite <- Name. destruct seen as [s|] eqn:Seen; [|reflexivity]. split; [|reflexivity].
+    apply kept_some. assert (J : In s (filter (hit a) kept)) by now apply seen_in.
+    now apply filter_In in J. }
+  split; [exact H|]. split; [intros o; now apply one_of_a_name|]. clear H Name.
   assert (All : (forall s, met r start end_ scene s -> In s kept) ->
     Nearby.soon (fun by_ => moved_sees r (Nearby.moved_ray r by_) start end_ scene seen) /\
     (if ties then forall other, ~ clearly_sees r start end_ scene other
@@ -342,7 +414,7 @@ Proof.
   (* clear: what has been dropped is farther *)
   clear All. change (computed_t a s = t_said) in T_.
   destruct (by_plain kept kept given_kept kept_once (incl_refl _)) as (_ & C & Q); [now intros x [X _]|].
-  change (first a (filter (hit a) kept)) with seen in C, Q. rewrite Seen in C, Q.
+  change (seen_of (filter (hit a) kept)) with seen in C, Q. rewrite Seen in C, Q.
   rewrite <- NT in C. destruct clear; [|discriminate Ties].
   destruct C as (M & W & A).
   assert (Ms : met r start end_ scene s) by (destruct M as (X & Y); split; [now apply kept_some | exact Y]).
@@ -355,7 +427,7 @@ Proof.
     - destruct (after (least t_said end_)) as [|f|]; simpl in B, Near; [easy | lra | now destruct B]. }
   destruct (by_plain scene scene G scene_once (incl_refl _)) as (M' & K & _); [now intros x [X _]|].
   destruct (no_ties a (filter (hit a) scene)); [|now apply K in Clear].
-  rewrite (clear_once _ _ K Clear) in M'.
+  rewrite (clear_once _ _ _ K Clear) in M'.
   split; [exact M'|]. split; [exact Clear|]. rewrite <- T_. exact Q.
 Qed.
 End Yes.

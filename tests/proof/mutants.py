@@ -4,6 +4,7 @@
 
 - *expressions*: `tools/record_trees.py --check`, of the expressions of floats;
 - *integers*: the same, of whole functions of integers;
+- *checker*: the same, of the checker of certificates;
 - *judge*: small scenes, whose rays meet edges, corners and several surfaces at once, by the sweep
   and by `plain`; owner, certainty, t and ties against `tests/oracle.py` and `tests/moved.py`, which
   share nothing with the tracer's own exact path.
@@ -22,6 +23,16 @@ from typing import NamedTuple
 from ..copied import TOOLS, copied, run
 
 ROOT = str(Path(__file__).resolve().parents[2])
+WHOLE = """
+import sys
+sys.path.append({tools!r})
+import record_trees
+from recorder import coq
+from recorder.records import WHOLE
+found = [record.output() for record in WHOLE[{file!r}][0]]
+if changed := coq.differences({file!r}, record_trees.proven(), found):
+    sys.exit("\\n\\n".join(changed))
+"""
 CHECKS = {
     "expressions": f"""
 import sys
@@ -30,16 +41,8 @@ sys.argv = ["record_trees.py", "--check"]
 import record_trees
 record_trees.main()
 """,
-    "integers": f"""
-import sys
-sys.path.append({TOOLS!r})
-import record_trees
-from recorder import coq
-from recorder.records.integers import INTEGERS
-found = [record.output() for record in INTEGERS]
-if changed := coq.differences("RecordedIntegers", record_trees.proven(), found):
-    sys.exit("\\n\\n".join(changed))
-""",
+    "integers": WHOLE.format(tools=TOOLS, file="RecordedIntegers"),
+    "checker": WHOLE.format(tools=TOOLS, file="RecordedChecker"),
     "judge": f"""
 import sys
 sys.path.append({ROOT!r})
@@ -176,6 +179,26 @@ _TABLE = {
             "gap(m, least) <= 0",
             "gap(m, least) < 0",
         ),
+    ),
+    # The checker of certificates.
+    *(
+        Mutant(what, "../reference_tracer_verify/verify.py", old, new, "checker")
+        for what, old, new in (
+            ("an edge is no hit", "min(signs) < 0 <", "min(signs) <= 0 <"),
+            ("where the ray begins is a hit", " or top == start == 0", ""),
+            ("before the clip start is a hit", "below - start", "below + start"),
+            ("after the clip end is a hit", "bottom - top * above", "bottom + top * above"),
+            ("n has the other sign", "minus(b, a), minus(c, a)", "minus(c, a), minus(b, a)"),
+            ("crossed from before alone", "self.bottom * moved(*", "moved(*"),
+            ("the sign of D1 D2 is no matter", " * self.bottom * other.bottom", ""),
+            ("the higher name is before", "self.name < other", "self.name > other"),
+            ("the origin moves, too", "if not any(m)", "if m"),
+            ("the origin moves one way", "for along in (d, *moves)", "for along in (d,)"),
+            ("as near is not in front of the inside", "hit.at <= other.at", "hit.at < other.at"),
+            ("alone at an edge is clear", "min(1, len(inside))", "1"),
+            ("the ray moves along y first", "((1, 0, 0), (0, 1, 0),", "((0, 1, 0), (1, 0, 0),"),
+            ("the last that is crossed is first", "b if b.is_before(a, moves) else a", "b"),
+        )
     ),
     # What no theorem notices: settling, ties, candidates.
     "judge": (
