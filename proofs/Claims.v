@@ -3,6 +3,7 @@ From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed 
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
 From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
 From Reftrace Require Import CodeRange IntegersCode TwoTriangles.
+From Reftrace Require Import LeafYes LeafGiven.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
     underflow included; k counts the roundings along its longest path. *)
@@ -164,3 +165,10 @@ Check IntegersCode.no_ties_2_is.
 (** An example: of two triangles, Coq computes that the near one's interval ends before the far one's
     begins. *)
 Check TwoTriangles.near_is_nearer.
+(** The checker of certificates: where what it finds of a pixel is what the file says, and floats have
+    kept all that the stored ray meets up to the farthest t that matters, the file's owner is the nearest
+    of the moved ray, by name in one plane; where the file has no ties, it is the one nearest of the
+    stored ray, and else there is none; t is its exact T / D, rounded once. *)
+Check LeafYes.yes_is_right.
+(** The checker of certificates: of every scene of finite floats, the premises about numbers can be met. *)
+Check LeafGiven.given_is_possible.

@@ -22,7 +22,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from xml.etree import ElementTree
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -44,6 +43,8 @@ def _write(views: Sequence[View], centers: str) -> Files:
 
 
 def _sensor(view: View) -> list[str]:
+    from xml.sax.saxutils import quoteattr  # late: it imports urllib, ssl and http
+
     camera = view.camera
     parallel = camera.projection is ORTHOGRAPHIC
     camera = frame.centred(camera) if parallel else camera

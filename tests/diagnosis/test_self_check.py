@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.causes import explain as causes
-from reference_tracer.causes.case import Alternative, without
+from reference_tracer.causes.case import Alternative
 from reference_tracer.causes.cause import Causes, Hidden
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.diagnosis import self_check as self_checking
@@ -19,6 +19,7 @@ from reference_tracer.diagnosis.trial import same_shapes, traced_anew
 from reference_tracer.manifest import Effect, ObjectEntry, Unmodelled
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
+from reference_tracer.scene import without
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 

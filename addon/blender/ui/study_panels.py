@@ -89,8 +89,9 @@ def _numbers(layout: Any, test: Any) -> None:
         exact = quantity.exact(0)
         for name, kind in (("f32", Arithmetic.FLOAT32), ("f64", Arithmetic.FLOAT64)):
             value = quantity.values[kind][0]
-            shown = marked(value, exact).with_wrong("[{}]")
-            _number(column, name, shown, off_text(ulps(value, exact)))
+            off = ulps(value, exact)
+            shown = marked(value, exact, off).with_wrong("[{}]")
+            _number(column, name, shown, off_text(off))
         _number(column, "exact", "undefined" if exact is None else exact_text(exact, _DIGITS), "")
 
 
