@@ -146,14 +146,18 @@ def of_frames(views: Sequence[View], frames: Sequence[int]) -> dict[int, View]:
     if not any(number is not None for number in numbers):
         if len(views) != len(frames):
             has, of = count_of(len(views), "camera"), count_of(len(frames), "frame")
-            raise SceneError(f"it has {has} without numbers for {of}; there are {_names(views)}")
+            raise SceneError(
+                f"the file of --camera has {has} without numbers for {of}: {_names(views)}"
+            )
         return dict(zip(frames, views, strict=True))
     found = {}
     for frame in frames:
         own = [view for view, number in zip(views, numbers, strict=True) if number == frame]
         if len(own) != 1:
             has = count_of(len(own), "camera") if own else "no camera"
-            raise SceneError(f"it has {has} for frame {frame}; there are {_names(views)}")
+            raise SceneError(
+                f"the file of --camera has {has} for frame {frame}; there are {_names(views)}"
+            )
         found[frame] = own[0]
     return found
 

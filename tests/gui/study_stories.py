@@ -6,7 +6,7 @@ from urllib.parse import urlparse
 from urllib.request import url2pathname
 
 import bpy
-from hands import on_screen, xdotool
+from hands import click, command_under, found
 from story import (
     data_blocks,
     ended,
@@ -37,19 +37,22 @@ def note_changes(before):
     noted["render_result_kept"] = before[2] == after[2]
 
 
+COMPARE = "reference_tracer.compare("
+# Pixels from the lower end of *Trace and Compare* down to the header of a folded panel, where
+# nothing is compared yet; and from there to the panel's button.
+FOLDED, BUTTON = {"trade": 151, "extremes": 177}, 27
+
+
 def show_study(name):
-    """Show a panel of our tab by its name, over the middle of the tab: it may be folded there."""
+    """Unfold a panel of our tab by its header, and look at it."""
     yield from open_tab()
     area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
-    region = next(r for r in area.regions if r.type == "UI")
-    xdotool("mousemove", *on_screen(region, region.width / 2, region.height / 2))
-    yield
-    with bpy.context.temp_override(window=window(), area=area, region=region):
-        bpy.ops.wm.call_panel(name=f"VIEW3D_PT_reference_tracer_{name}")
-    yield
+    region, x, y = yield from found(area, COMPARE, kind="UI")
+    while COMPARE in (yield from command_under(area, region, x, y)):
+        y -= 4
+    yield from click(region, x, y - FOLDED[name])
+    noted["button"] = yield from command_under(area, region, x, y - FOLDED[name] - BUTTON)
     screenshot(name)
-    xdotool("key", "Escape")
-    yield
 
 
 def images():
@@ -70,10 +73,10 @@ def study(name, kind, **options):
     ]
     screenshot(f"{name}_running")
 
-    def found():
+    def measured():
         return result(kind)
 
-    yield from until(found, 900)
+    yield from until(measured, 900)
     yield
     note_changes(before)
     noted["lines"] = list(result(kind).lines)

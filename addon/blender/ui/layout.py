@@ -13,7 +13,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ...methods import Method
 
 _NAMES = 0.56  # the names' share of a list of facts
-_CHOICE = 0.58  # that of a choice beside its name
+_NAME, _VALUE = 0.37, 0.58  # those of a setting's name and of what stands beside it
 # In pixels at a scale of 1: what a panel's frame, and a box in it, take of a region's width.
 _SIDE = 66  # a sidebar's, which has tabs, too
 _MARGINS = {"WINDOW": 50}
@@ -66,16 +66,25 @@ def folded(layout: Any, key: str, title: str) -> Any:
     return body
 
 
-def choice(layout: Any, context: Any, owner: Any, name: str) -> None:
-    """Draw a choice beside its name, or below it where an item has no room there."""
+def setting(layout: Any, context: Any, owner: Any, name: str) -> None:
+    """Draw a setting beside its name, or below it where either has no room there."""
     known = owner.bl_rna.properties[name]
-    if fit(context, [item.name for item in known.enum_items], _CHOICE):
+    is_box = known.type == "BOOLEAN"  # whose name is beside it, and there is no other
+    values = [known.name] if is_box else [item.name for item in getattr(known, "enum_items", ())]
+    if fit(context, values, _VALUE) and (is_box or fit(context, [known.name], _NAME, 0)):
         layout.prop(owner, name)
         return
     column = layout.column(align=True)
     column.use_property_split = False
-    column.label(text=known.name)
-    column.prop(owner, name, text="")
+    if not is_box:
+        column.label(text=known.name)
+    column.prop(owner, name, text=None if is_box else "")
+
+
+def button(layout: Any, context: Any, operator: Any, icon: str) -> None:
+    """Draw an operator's button, with an icon where there is room for both."""
+    has_room = fit(context, [operator.bl_label], 1.0)
+    layout.operator(operator.bl_idname, icon=icon if has_room else "NONE")
 
 
 def beside(layout: Any, context: Any, texts: Sequence[str]) -> Any:
@@ -83,9 +92,9 @@ def beside(layout: Any, context: Any, texts: Sequence[str]) -> Any:
     return (layout.row if fit(context, texts, 1 / len(texts)) else layout.column)(align=True)
 
 
-def fit(context: Any, texts: Iterable[str], share: float) -> bool:
+def fit(context: Any, texts: Iterable[str], share: float, icon: float = _ICON) -> bool:
     """Return whether each text, beside an icon, is one line in a share of the panel's width."""
-    size, width = _measured(context, share, _ICON)
+    size, width = _measured(context, share, icon)
     return all(len(lines(iface_(text), width, size)) == 1 for text in texts)
 
 

@@ -76,6 +76,6 @@ def _measured(comparison: Comparison) -> Facts:
     yield "PSNR", f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"
     yield "SSIM", f"{metrics.ssim:.6f}"
     if metrics.rmse:
-        yield "Max. difference", f"{largest.value:.3g}"
+        yield "Max. diff.", f"{largest.value:.3g}"
         yield "At pixel", "{}, {}".format(*largest.pixel)
     yield "Traced in", f"{comparison.frame.statistics.seconds:.2f} s"
