@@ -18,6 +18,7 @@ from story import (
     render_result,
     result,
     running,
+    scaled,
     screenshot,
     settings,
     until,
@@ -49,9 +50,10 @@ def show_study(name):
     area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
     region, x, y = yield from found(area, COMPARE, kind="UI")
     while COMPARE in (yield from command_under(area, region, x, y)):
-        y -= 4
-    yield from click(region, x, y - FOLDED[name])
-    noted["button"] = yield from command_under(area, region, x, y - FOLDED[name] - BUTTON)
+        y -= scaled(4)
+    y -= scaled(FOLDED[name])
+    yield from click(region, x, y)
+    noted["button"] = yield from command_under(area, region, x, y - scaled(BUTTON))
     screenshot(name)
 
 
