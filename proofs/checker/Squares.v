@@ -36,7 +36,8 @@ Qed.
 Theorem range_right middle half f g r : is_form middle half f g -> in_box middle half r ->
   within (range middle half f) (g r).
 Proof.
-  intros F B. specialize (F r B). destruct B as (X & Y & Z). unfold within, range, dot, vabs in *. cbn [fst snd vx vy vz].
+  intros F B. specialize (F r B). destruct B as (X & Y & Z).
+  unfold within, range, dot, vabs in *. cbn [fst snd vx vy vz].
   apply (product_within (vx (slope f))) in X. apply (product_within (vy (slope f))) in Y.
   apply (product_within (vz (slope f))) in Z.
   apply both_sides in F, X, Y, Z. apply Rabs_le. lra.
@@ -75,7 +76,8 @@ Variables (numerator_ denominator_ : form) (edges besides : list form).
 Hypothesis numerator_is : is_form middle half numerator_ (fun r => T (ray_of r) s).
 Hypothesis denominator_is : is_form middle half denominator_ (fun r => D (ray_of r) s).
 Hypothesis edges_are : Forall2 (fun f g => is_form middle half f (fun r => g (ray_of r))) edges (edges_of s).
-Hypothesis besides_are : Forall2 (fun f g => is_form middle half f (fun r => g (ray_of r))) besides (besides_of q s).
+Hypothesis besides_are :
+  Forall2 (fun f g => is_form middle half f (fun r => g (ray_of r))) besides (besides_of q s).
 
 Notation ranged := (range middle half).
 Definition looked_at : list (R * R) :=
