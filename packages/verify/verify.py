@@ -54,7 +54,7 @@ ARRAYS = {  # type and shape of each
 }
 NOWHERE: Name = (-1, -1)
 # How much is in memory together: pixels with their rays; pairs of a square and a surface.
-PIXELS, PAIRS = 1 << 18, 1 << 15
+PIXELS, PAIRS = 1 << 18, 1 << 13
 
 
 class RefusedError(Exception):
@@ -91,8 +91,7 @@ class Certificate:
         self.clip = clip.tolist()
         demand(-np.inf < self.clip[0] < self.clip[1] < np.inf, "the clip range is empty or endless")
         self.x, self.y = (film(*side, *part) for side, part in zip(window, pixels, strict=True))
-        shape = len(self.y), len(self.x)
-        demand(self.seen.shape[:2] == self.t.shape == shape, "the answers are not the region's")
+        only("answers", [self.t.shape, self.seen.shape[:2]], [(len(self.y), len(self.x))])
         self.set_surfaces(*surfaces)
         self.ties: dict[int, set[Any]] = {}
         for pixel, *name in ties.tolist():
@@ -217,17 +216,18 @@ def forms(of: Certificate, is_parallel: bool, largest: float) -> Floats:
     return found
 
 
-def levels(r: Floats, far: Floats) -> list[Any]:
+def levels(r: Floats, far: Floats) -> list[Floats]:
     """Return squares of 2^k x 2^k pixels, from pixels to one square, of rays r (3, h, w).
 
-    Of each level: middles (3, h, w) of the boxes around their rays; halves, which no ray is farther
-    from there; and the farthest t, (h, w), of `far`.
+    Of each level, (7, h, w): three components of the middles of the boxes around their rays; three
+    halves, which no ray is farther from there; and the farthest t of `far` (h, w).
     """
     low = high = r
-    out: list[Any] = []
-    while not out or out[-1][2].size > 1:
+    out: list[Floats] = []
+    while not out or out[-1][0].size > 1:
         middle = low + (high - low) / 2
-        out.append((middle, np.maximum(high - middle, middle - low) * (1 + 2.0**-50), far))
+        half = np.maximum(high - middle, middle - low) * (1 + 2.0**-50)
+        out.append(np.concatenate((middle, half, far[None])))
         for axis in (-1, -2):
             pairs = np.arange(0, far.shape[axis], 2)
             low = np.minimum.reduceat(low, pairs, axis)
@@ -235,17 +235,18 @@ def levels(r: Floats, far: Floats) -> list[Any]:
     return out
 
 
-def candidates(of: Floats, squares: Sequence[Any], start: float, pairs: Any) -> Iterator[Any]:
+def candidates(of: Floats, squares: Sequence[Floats], start: float, pairs: Any) -> Iterator[Any]:
     """Yield y, x and surface, (3, n), of which floats do not show that they do not meet.
 
     `pairs` (3, n) are of the last of `squares`, and what is left of them is looked at in the ones
     before. `of` are the surfaces' `forms`. Surely they do not meet where two of T - start D,
     t D - T and the edges have different signs; or all corners are on one side of the ray and q.
     """
-    middle, half, far = (v[..., pairs[0], pairs[1]] for v in squares[-1])
+    place = pairs[0] * squares[-1].shape[2] + pairs[1]
+    *box, far = squares[-1].reshape(7, -1).take(place, axis=1)
     constant, *slope, error = of.take(pairs[2], axis=2)
-    value = constant + dot(slope, middle)
-    reach = error + dot(np.abs(slope), half)
+    value = constant + dot(slope, box[:3])
+    reach = error + dot(np.abs(slope), box[3:])
     value[:2] = value[0] - start * value[1], far * value[1] - value[0]
     reach[:2] = reach[0] + abs(start) * reach[1], np.abs(far) * reach[1] + reach[0]
     above, below = value > reach, value < -reach
@@ -257,7 +258,7 @@ def candidates(of: Floats, squares: Sequence[Any], start: float, pairs: Any) -> 
         return
     quarters = [pairs * [[2], [2], [1]] + [[y], [x], [0]] for y in (0, 1) for x in (0, 1)]
     pairs = np.concatenate(quarters, axis=1)
-    pairs = pairs[:, (pairs[:2].T < squares[-2][2].shape).all(axis=1)]
+    pairs = pairs[:, (pairs[:2].T < squares[-2][0].shape).all(axis=1)]
     for part in np.split(pairs, range(PAIRS, pairs.shape[1], PAIRS), axis=1):
         yield from candidates(of, squares[:-1], start, part)
 
@@ -330,7 +331,7 @@ class Exact:
         self.clip = [limit.as_integer_ratio() for limit in of.clip]
         self.of = of
         self.corners = cache(lambda number: integers(of.corners[..., number].T, self.unit))
-        self.surface = lru_cache(1 << 16)(self.surface_from)
+        self.surface = lru_cache(1 << 14)(self.surface_from)
 
     def surface_from(self, origin: int, number: int) -> Any:
         """Return T, n, and m and edge of each edge, of a surface from an origin."""
@@ -338,7 +339,7 @@ class Exact:
         if number >= self.of.triangles:
             return dot(a, self.corners(number)[1]), self.corners(number)[1], []
         edges = [(cross(p, q), minus(p, q)) for p, q in ((a, b), (b, c), (c, a))]
-        normal = cross(minus(b, a), minus(c, a))
+        normal = cross(edges[0][1], edges[1][1])
         return dot(a, normal), normal, edges
 
     def hit(self, pixel: int, number: int) -> Hit | None:
@@ -346,9 +347,10 @@ class Exact:
         top, normal, sides = self.surface(pixel % len(self.origins), number)
         d = self.directions[pixel % len(self.directions)]
         bottom = dot(d, normal)
-        edges = [(dot(d, m), m, side) for m, side in sides]
+        values = [dot(d, m) for m, _ in sides]
+        edges = [(e, *side) for e, side in zip(values, sides, strict=True)]
         (start, below), (end, above) = self.clip
-        signs = [top * below - start * bottom, end * bottom - top * above, *(e for e, *_ in edges)]
+        signs = [*values, top * below - start * bottom, end * bottom - top * above]
         if not bottom or min(signs) < 0 < max(signs) or top == start == 0:
             return None  # at 0 a ray begins, if clip start is 0
         return Hit(self.of.names[number], top, bottom, normal, edges, d)
@@ -356,8 +358,8 @@ class Exact:
 
 def sees(hits: Sequence[Hit]) -> tuple[Hit | None, set[Name]]:
     """Return what a ray sees, and if it is ambiguous all that it may see: docs/certificate.md."""
-    inside = [hit for hit in hits if all(e for e, *_ in hit.edges)]
-    front = [hit for hit in hits if all(hit is other or hit.at <= other.at for other in inside)]
+    inside = [hit for hit in hits if all(e for e, _, _ in hit.edges)]
+    front = [h for h in hits if len(hits) == 1 or all(h.at <= other.at for other in inside)]
     if len(front) <= min(1, len(inside)):
         return next(iter(front), None), set()
     seen = first(hits, ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
@@ -392,17 +394,17 @@ def ways(hits: Sequence[Hit]) -> Iterator[Vector]:
 
 
 @np.errstate(all="ignore")
-def left(of: Certificate, origins: Floats, directions: Floats, far: Floats) -> list[list[int]]:
+def left(of: Certificate, origins: Floats, directions: Floats, far: Floats) -> dict[int, list[int]]:
     """Return the surfaces that floats do not drop, of each pixel."""
     is_parallel = directions.shape[1] == 1
     whole = np.outer((0, 0, 1), np.arange(len(of.names)))  # all surfaces, in the one square
     r = origins - of.eye if is_parallel else directions
     squares = levels(r.reshape(3, *far.shape), far)
-    found: list[list[int]] = [[] for _ in range(far.size)]
+    found: dict[int, list[int]] = {}
     every = forms(of, is_parallel, np.abs(r).max())
     for pairs in candidates(every, squares, of.clip[0], whole):
         for y, x, surface in zip(*pairs.tolist(), strict=True):
-            found[y * far.shape[1] + x].append(surface)
+            found.setdefault(y * far.shape[1] + x, []).append(surface)
     return found
 
 
@@ -417,7 +419,7 @@ def check(of: Certificate, rows: Sequence[int]) -> None:
         near = left(of, *rays, far[part])
         here = zip(*(v[part].ravel().tolist() for v in told), strict=True)
         for k, (number, instance, triangle, t) in enumerate(here):
-            seen, ties = sees([hit for s in near[k] if (hit := exact.hit(k, s))])
+            seen, ties = sees([hit for s in near.get(k, ()) if (hit := exact.hit(k, s))])
             found = (seen.name, seen.top / seen.bottom, ties) if seen else (NOWHERE, np.inf, ties)
             said = (instance, triangle), t, of.ties.get(number, set())
             if found != said:
@@ -429,8 +431,7 @@ def check_arithmetic() -> None:
     """Refuse to check where float64 is not rounded to nearest, or loses its least numbers."""
     steps, least = np.array([1, 1.5, -0.5, -0.75]) * 2.0**-53, np.full(4, 2.0**-1022)
     is_near = np.ones(4) + steps - 1 == np.array([0, 2, 0, -1]) * 2.0**-53
-    is_kept = least / 4 * 4 == least
-    demand(all(is_near & is_kept), "this process does not compute as IEEE 754 prescribes")
+    demand(all(is_near & (least / 4 * 4 == least)), "floats here are not those of IEEE 754")
 
 
 def verified(file: str, sample: int | None = None) -> str:

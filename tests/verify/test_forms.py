@@ -58,12 +58,12 @@ def test_the_bound_holds(make, tmp_path):
             y, x = divmod(pixel, of.t.shape[1])
             o, d = (exact(v[:, pixel % v.shape[1]]) for v in (origins, directions))
             true = truth(of, surface, o, d)
-            for k, (middle, half, _) in enumerate(squares):
-                at = y >> k, x >> k
+            for k, square in enumerate(squares):
+                middle, half = square[:6, y >> k, x >> k].reshape(2, 3)
                 constant, *slope, error = functions[..., surface]
                 with np.errstate(all="ignore"):
-                    value = constant + dot(slope, middle[:, *at])
-                    reach = dot(np.abs(slope), half[:, *at]) + error
+                    value = constant + dot(slope, middle)
+                    reach = dot(np.abs(slope), half) + error
                 known = np.isfinite(value) & np.isfinite(reach)
                 for n in np.flatnonzero(known).tolist():
                     off = abs(true[n] - Fraction(value[n]))

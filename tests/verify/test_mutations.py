@@ -90,7 +90,7 @@ def a_matrix(a, scene, rng):
 
 
 def an_instance(a, scene, rng):
-    changed(a, "instances", (rng.integers(len(a["instances"])), 1), len(a["triangles"]) - 1)
+    changed(a, "instances", (k := rng.integers(len(a["instances"])), 0), a["instances"][k, 0] + 1)
 
 
 def the_camera(a, scene, rng):
