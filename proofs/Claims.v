@@ -3,7 +3,7 @@ From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed 
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
 From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
 From Reftrace Require Import CodeRange IntegersCode TwoTriangles.
-From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped.
+From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped Squares.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
     underflow included; k counts the roundings along its longest path. *)
@@ -176,6 +176,9 @@ Check LeafGiven.given_is_possible.
 (** The checker of certificates: if exact signs rule out, from clip start to some t, each surface that is
     not kept, then all that is met up to that t is kept. *)
 Check Dropped.dropped_is_not_met.
+(** The checker of certificates: what is dropped from a square of pixels is so ruled out for each ray in
+    its box, if T, D, the edges and the rest are linear there but for an error that is known. *)
+Check Squares.gone_is_ruled_out.
 (** The checker of certificates, as recorded: a triangle's T, n and edges are the model's. *)
 Check LeafCode.triangle_is.
 (** Likewise a plane's. *)

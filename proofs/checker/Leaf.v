@@ -54,7 +54,7 @@ Definition compare_at (h other : Met) : comparison :=
 
 Definition of_triangle (o a b c : Integers) : Z * Integers * list (Integers * Integers) :=
   let a := _sub a o in let b := _sub b o in let c := _sub c o in
-  let n := _cross (_sub b a) (_sub c a) in
+  let n := _cross (_sub a b) (_sub b c) in
   (_dot a n, n, [(_cross a b, _sub a b); (_cross b c, _sub b c); (_cross c a, _sub c a)]).
 Definition of_plane (o p n : Integers) : Z * Integers * list (Integers * Integers) :=
   (_dot (_sub p o) n, n, []).

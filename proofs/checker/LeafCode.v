@@ -90,12 +90,12 @@ Proof. unfold check_first_of_2. follow. Qed.
 Theorem first_of_3_is : check_first_of_3 moves h0 h1 h2 = first moves [h0; h1; h2].
 Proof. unfold check_first_of_3. follow. Qed.
 End First.
-Lemma not_behind_itself h : not_behind h h = true.
-Proof. unfold not_behind, compare_at, compare_ratios. now rewrite Z.compare_refl. Qed.
+Lemma same_ratio T D : compare_ratios T D T D = Eq.
+Proof. apply Z.compare_refl. Qed.
 Ltac follow :=
   unfold sees, front, inside; cbn [filter];
   repeat match goal with |- context [on_edge ?h] => ask (on_edge h) end;
-  cbn [forallb]; rewrite ?not_behind_itself; unfold not_behind, compare_at;
+  cbn [forallb]; unfold not_behind, compare_at; rewrite ?same_ratio; cbn [is_gt andb];
   repeat (match goal with
     | |- context [compare_ratios (top ?h) (bottom ?h) (top ?g) (bottom ?g)] =>
         ask (compare_ratios (top h) (bottom h) (top g) (bottom g))

@@ -143,7 +143,7 @@ Proof.
     unfold hit, of_triangle, Integers.hit, _triangle. cbn [map].
     set (a' := _sub a o). set (b' := _sub b o). set (c' := _sub c o). clearbody a' b' c'.
     set (n := _add (_add (_cross a' b') (_cross b' c')) (_cross c' a')).
-    assert (E : _cross (_sub b' a') (_sub c' a') = n).
+    assert (E : _cross (_sub a' b') (_sub b' c') = n).
     { unfold n, _cross, _sub, _add. cbn [ix iy iz]. f_equal; ring. }
     rewrite E. set (v := [_dot d (_cross a' b'); _dot d (_cross b' c'); _dot d (_cross c' a')]).
     assert (T : _dot a' n = _dot a' (_cross b' c')).
