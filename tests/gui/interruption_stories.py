@@ -112,6 +112,7 @@ def wake():
 
 def undone(found):
     """Undo and redo."""
+    window().scene.render.resolution_percentage = 50  # else it may end before the redo
     window().scene.objects["Suzanne"].location.x += 0.001
     with bpy.context.temp_override(window=window()):
         bpy.ops.ed.undo_push(message="moved")
@@ -119,10 +120,12 @@ def undone(found):
     with bpy.context.temp_override(window=window()):
         bpy.ops.ed.undo()
         yield
+        assert running(), "it ended before the redo"
         bpy.ops.ed.redo()
     yield from until(ended, 60)
     yield
     window().scene.objects["Suzanne"].location.x -= 0.001
+    window().scene.render.resolution_percentage = 20
 
 
 def saved(found):
