@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import signal
 from collections.abc import Iterator
 
@@ -12,6 +13,9 @@ from reference_tracer.certified import arithmetic
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
 
+from .report.browser import chromium
+
+__all__ = ["chromium"]  # a fixture
 COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
 
 
@@ -86,6 +90,11 @@ def pytest_collection_modifyitems(items):
         for folder, mark in MARKED.items():
             if item.nodeid.startswith(folder):
                 item.add_marker(mark)
+
+
+def pytest_collection_finish():
+    """Have Python's collector pass over the half a million objects that stay until the end."""
+    gc.freeze()
 
 
 class Make:
