@@ -181,8 +181,8 @@ _TABLE = {
         ),
     ),
     # The checker of certificates.
-    *(
-        Mutant(what, "../reference_tracer_verify/verify.py", old, new, "checker")
+    "checker": tuple(
+        (what, "../reference_tracer_verify/verify.py", old, new)
         for what, old, new in (
             ("an edge is no hit", "min(signs) < 0 <", "min(signs) <= 0 <"),
             ("where the ray begins is a hit", " or top == start == 0", ""),
