@@ -19,13 +19,12 @@ from reference_tracer.tracer.settings import Settings
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
 
 
-def shell(*argv: object, cwd: Path | None = None) -> subprocess.CompletedProcess:
+def shell(*argv: object) -> subprocess.CompletedProcess:
     return subprocess.run(
         [sys.executable, "-m", "reference_tracer.cli.main", *map(str, argv)],
         capture_output=True,
         text=True,
         timeout=300,
-        cwd=cwd,
     )
 
 
@@ -73,8 +72,9 @@ def test_a_file_without_a_camera(small, tmp_path, reftrace):
     assert camera.projection.shares_direction and camera.origin.tolist() == [4, -4, 3]
 
 
-def test_compare_warns_by_its_exit_code(tmp_path):
-    done = shell("compare", SAMPLES / "far_away.blend", "--out", "out", cwd=tmp_path)
+def test_compare_warns_by_its_exit_code(tmp_path, reftrace, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = reftrace("compare", SAMPLES / "far_away.blend", "--out", "out", "--width", "240")
     assert done.returncode == 1, done.stderr
     assert "not decidable" in done.stdout
     assert (tmp_path / "out" / "comparison.json").is_file()  # beside where the shell is
@@ -104,8 +104,8 @@ def test_trace_shows_the_colour_that_the_file_stores(small, tmp_path, export, re
     np.testing.assert_array_equal(found, to_display(frame.color))
 
 
-def test_an_exported_scene_is_the_open_one(small, tmp_path, export):
-    assert shell("export", small, "--out", tmp_path / "scene.npz").returncode == 0
+def test_an_exported_scene_is_the_open_one(small, tmp_path, export, reftrace):
+    assert reftrace("export", small, "--out", tmp_path / "scene.npz").returncode == 0
     found, expected = load_scene(tmp_path / "scene.npz"), export.render()[0]
     first, second = render(found), render(expected)
     for name, values in first.passes().items():
@@ -202,7 +202,7 @@ def test_too_large_a_picture(reftrace):
     assert "choose a smaller size" in done.stderr and "Traceback" not in done.stderr
 
 
-def test_explain_prints_markdown_and_nothing_else(tmp_path):
+def test_explain_prints_markdown_and_nothing_else(tmp_path, reftrace):
     """What is exported, and what Blender says, goes elsewhere: `> pixel.md` holds the page."""
     again = tmp_path / "pixel.json"
     scene = SAMPLES / "exercise_triangle.blend"
@@ -210,7 +210,7 @@ def test_explain_prints_markdown_and_nothing_else(tmp_path):
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("# The ray through pixel (320, 180) of exercise_triangle.blend")
     assert "objects exported" in done.stderr
-    assert shell("explain", again).stdout == done.stdout
+    assert reftrace("explain", again).stdout == done.stdout
 
 
 def test_a_file_of_a_newer_blender(tmp_path, monkeypatch, reftrace):

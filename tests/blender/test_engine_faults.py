@@ -157,6 +157,7 @@ def test_the_next_render_works(scene, tmp_path):
     assert (tmp_path / "out" / "picture.png").is_file()
 
 
+LONG = pytest.mark.torture  # each is a Blender of its own
 SCRIPT = """
 import bpy, reference_tracer
 reference_tracer.register()
@@ -174,8 +175,8 @@ reference_tracer.unregister()
     ("fault", "message"),
     [
         ("", None),
-        ("scene.camera.data.type = 'PANO'", "is of type fisheye"),
-        ("scene.camera = None", "no camera"),
+        pytest.param("scene.camera.data.type = 'PANO'", "is of type fisheye", marks=LONG),
+        pytest.param("scene.camera = None", "no camera", marks=LONG),
         ("from reference_tracer.blender.reading import export; export.export = None", "TypeError"),
     ],
     ids=["none", "panoramic", "no camera", "exporter"],

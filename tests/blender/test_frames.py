@@ -316,13 +316,21 @@ def test_the_operator_goes_back_to_the_users_frame(moving, out):
     assert path == out / "animation.html" and rows[0].frame == 3
 
 
-def test_reftrace_goes_on_where_it_ended(moving, out):
+def test_reftrace_goes_on_where_it_ended(moving, out, reftrace):
     """As a user's shell runs it; where the work is done makes no other frames."""
-    argv = [sys.executable, "-m", "reference_tracer.cli.main", "compare", bpy.data.filepath]
-    argv += ["--out", str(out), "--no-identity", "--frames"]
-    elsewhere = "--scheduler", "local:1"
-    for frames, place, told in (("2", (), [2]), ("1-3", elsewhere, [1, 3]), ("1-3", (), [])):
-        ended = subprocess.run([*argv, frames, *place], capture_output=True, text=True, timeout=300)
+    argv = ["compare", bpy.data.filepath, "--out", str(out), "--no-identity", "--frames"]
+
+    def elsewhere(*argv):
+        command = [sys.executable, "-m", "reference_tracer.cli.main", *argv]
+        command += "--scheduler", "local:1"
+        return subprocess.run(command, capture_output=True, text=True, timeout=300)
+
+    for frames, run, told in (
+        ("2", reftrace, [2]),
+        ("1-3", elsewhere, [1, 3]),
+        ("1-3", reftrace, []),
+    ):
+        ended = run(*argv, frames)
         assert ended.returncode == (frames != "2"), ended.stderr
         assert [int(n) for n in re.findall(r"^frame (\d):", ended.stderr, re.M)] == told
     assert not (out / "comparison.json").exists()

@@ -1,6 +1,6 @@
 """SHA-256 of certified pictures, in any Python with numpy: no test, no Blender.
 
-    python digest.py FOLDER    # prints what it runs on, and the digest of each scene in FOLDER
+    python digest.py SCENE...    # prints what it runs on, and the digest of each scene
 
 With `NPY_DISABLE_CPU_FEATURES=all` numpy is told to do without whatever it could use of this CPU.
 """
@@ -57,7 +57,7 @@ def features() -> list[str]:
     return [name for name in __cpu_dispatch__ if __cpu_features__[name]]
 
 
-def main(folder: Path) -> None:
+def main(scenes: list[Path]) -> None:
     """Print what this runs on, and the digests."""
     if os.environ.get(OFF) == "all":  # numpy wants their names, and reads them when it is imported
         os.environ[OFF] = " ".join(features())
@@ -66,10 +66,10 @@ def main(folder: Path) -> None:
         "python": "{}.{}".format(*sys.version_info),
         "numpy": np.__version__,
         "features": features(),
-        "pictures": {p.stem: of_picture(load_scene(p)) for p in sorted(folder.glob("*.npz"))},
+        "pictures": {p.stem: of_picture(load_scene(p)) for p in scenes},
     }
     print(json.dumps(found, indent=1))
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main([Path(p) for p in sys.argv[1:]])

@@ -67,7 +67,7 @@ def test_pieces_are_the_whole(make, rng, monkeypatch):
         assert names == [s.seen for s in truth] and len(expected.ties) > 12
         for k, tied in expected.ties.items():
             assert names[k] in tied and may(truth[k]) <= tied <= touched(truth[k])
-        for room in (5, 100):
+        for room in (24, 100):
             with monkeypatch.context() as patch:
                 patch.setattr(sweep, "_FRAGMENTS", room)
                 patch.setattr(sweep, "sweep", lambda *a, **k: calls.append(a[1]) or in_one(*a, **k))

@@ -23,8 +23,8 @@ from ...tracer.hostile_scenes import hostile_scene, offsets, scaled
 from .test_sweep import assert_same, swept
 
 FIELDS = ("instance_index", "triangle_index", "t", "barycentrics", "certainty", "color")
-PARTS = [0, *(pytest.param(part, marks=pytest.mark.torture) for part in range(1, 16))]
-SEEDS = 60  # in a part
+PARTS = [0, *(pytest.param(part, marks=pytest.mark.torture) for part in range(1, 48))]
+SEEDS = 20  # in a part
 CERTIFIED = Settings("certified")
 
 
@@ -109,7 +109,7 @@ def test_hostile_scenes_look_the_same(make, monkeypatch, part, dense):
             memory = 300 if seed % 8 == 1 else 1 << 30  # then a chunk may begin within a cluster
             assert_same(work(memory=memory), whole, seed)
         seen += (whole.triangle >= 0).sum()
-    assert seen > 500
+    assert seen > 160
 
 
 @pytest.mark.parametrize("orthographic", [False, True])
