@@ -66,6 +66,24 @@ def test_on_small_integers(make, tmp_path):
     assert rays > 800 and ambiguous > 150
 
 
+def test_corners_are_rounded_in_the_order_of_the_page(make, tmp_path):
+    """Turned and scaled instances, of which two have a corner that is not finite."""
+    rng = np.random.default_rng(5)
+    corners = rng.uniform(-1, 1, (12, 3))
+    corners[[0, 4]] = 1e308
+    mesh = Mesh(corners, np.arange(12).reshape(4, 3))
+    scene = make.scene(make.camera(12, 8), mesh, mesh, mesh)
+    matrices = [np.eye(4), np.eye(4), np.eye(4)]
+    for matrix in matrices:
+        matrix[:3, :3] = rng.uniform(-2.5, 2.5, (3, 3))
+        matrix[:3, 3] = *rng.uniform(-0.3, 0.3, 2), -4
+    placed = zip(scene.instances, matrices, strict=True)
+    instances = tuple(replace(i, world_from_object=m) for i, m in placed)
+    answers = certified(replace(scene, instances=instances), tmp_path / "c.npz")
+    assert not refusal(tmp_path / "c.npz")
+    assert len(np.unique(answers["seen"].reshape(-1, 2), axis=0)) > 4
+
+
 @pytest.mark.parametrize("depth", [4.0, 0.0])
 def test_surfaces_that_intersect_where_a_ray_meets_them(depth, make, tmp_path):
     """Three planes behind a half that ends there; or those where the ray begins, in any order."""
