@@ -66,6 +66,17 @@ def test_on_small_integers(make, tmp_path):
     assert rays > 800 and ambiguous > 150
 
 
+def test_what_is_seen_through_a_narrow_gap_is_a_tie(make, tmp_path):
+    """The ray meets a corner; around it, but for less than a degree, there are triangles."""
+    around = (0, 0, -2), (8, 0, -2), (-8, 8, -2), (-8, -8, -2), (8, -0.1, -2)
+    fan = Mesh(np.array(around) * 1.0, [[0, 1, 2], [0, 2, 3], [0, 3, 4]])
+    behind = Mesh(np.array([(-8, -8, -3), (8, -8, -3), (0, 8, -3)]) * 1.0, [[0, 1, 2]])
+    camera = Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 1, 1, ORTHOGRAPHIC)
+    answers = certified(make.scene(camera, fan, behind), tmp_path / "c.npz")
+    assert not refusal(tmp_path / "c.npz")
+    assert answers["ties"].tolist() == [[0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 1, 0]]
+
+
 def test_corners_are_rounded_in_the_order_of_the_page(make, tmp_path):
     """Turned and scaled instances, of which two have a corner that is not finite."""
     rng = np.random.default_rng(5)
