@@ -14,8 +14,8 @@ export PYTHONDONTWRITEBYTECODE :=
 # Workers share the cores: numpy's library starts no threads in each of their hundreds of processes.
 check test: export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help demo check test set-up-tests test-matrix prove test-browser test-gui test-gpu cameras torture bench docs lessons lesson-tools lint \
-	extension release clean
+.PHONY: help demo check test set-up-tests all-tests test-matrix prove test-browser test-gui test-gpu \
+	cameras torture bench docs lessons lesson-tools lint style types extension release clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -31,8 +31,12 @@ check: lint ## check the style, run the fast tests that need neither Blender nor
 # What the tests in a browser and in a window need, only root can install, and other Pythons have to
 # be there: where that is not possible they are skipped, the run says so and is still a success.
 # A whole Blender is set up by the first tests that need it, while others run.
+# The types take one core for most of a minute: they are checked while the first tests run.
 test: .venv/.stamp ## run all tests, those in a browser and in a window too where that is possible
-	@$(MAKE) --no-print-directory --jobs 2 lint set-up-tests
+	@$(MAKE) --no-print-directory --jobs 2 style set-up-tests
+	@$(MAKE) --no-print-directory --jobs 2 types all-tests
+
+all-tests:
 	$(PYTEST) $(SHARED) -rs -m "not torture"
 
 set-up-tests: extension
@@ -96,9 +100,13 @@ lesson-tools: .venv/.stamp
 	$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --no-build-isolation \
 		--editable '.[lessons]'
 
-lint: .venv/.stamp ## check the style of all code, its format, and the types that it names
+lint: style types ## check the style of all code, its format, and the types that it names
+
+style: .venv/.stamp
 	$(PYTHON_IN_VENV) -m ruff check .
 	$(PYTHON_IN_VENV) -m ruff format --check .
+
+types: .venv/.stamp
 	$(PYTHON_IN_VENV) -m mypy
 
 extension: .venv/.stamp ## build and validate dist/reference_tracer-<version>.zip

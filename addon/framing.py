@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -118,8 +118,9 @@ class Choice:
     view_layer: str | None = None
     frame: int | None = None
     camera: str | None = None  # the name of one that is there
-    # The camera of a file.
+    # The camera of a file, or those of its frames: what is made of one depends on its own alone.
     seen_by: View | None = None
+    views: Sequence[View] = field(default=(), repr=False)
     # A new camera: one that frames all, or one that is placed.
     frame_all: bool = False
     eye: Sequence[float] | None = None  # metres; up is as in :func:`framing`

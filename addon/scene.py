@@ -7,7 +7,7 @@ World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from copy import copy
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cached_property
@@ -445,6 +445,16 @@ def _colors(value: object, what: str) -> Colors:
     """Return a copy of one linear RGBA or more, (k, 4), read-only."""
     colors = np.array(value, np.float32, ndmin=1)
     return _shaped(colors, (max(1, len(colors)), 4), f"The linear RGBA of {what}")
+
+
+def without(scene: Scene, names: Collection[str]) -> Scene:
+    """Return a scene without some objects."""
+    numbers = {n for n, name in enumerate(scene.objects) if name in names}
+    return replace(
+        scene,
+        instances=tuple(i for i in scene.instances if i.object not in numbers),
+        planes=tuple(p for p in scene.planes if p.object not in numbers),
+    )
 
 
 def alike(first: Any, second: Any) -> bool:

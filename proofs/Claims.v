@@ -3,6 +3,7 @@ From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed 
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
 From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
 From Reftrace Require Import CodeRange IntegersCode TwoTriangles.
+From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped Squares.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
     underflow included; k counts the roundings along its longest path. *)
@@ -164,3 +165,37 @@ Check IntegersCode.no_ties_2_is.
 (** An example: of two triangles, Coq computes that the near one's interval ends before the far one's
     begins. *)
 Check TwoTriangles.near_is_nearer.
+(** The checker of certificates: where what it finds of a pixel is what the file says, and floats have
+    kept all that the stored ray meets up to the farthest t that matters, the file's name is that of one
+    surface, or nothing; this is the nearest of the moved ray, by name in one plane; where the file has no
+    ties, it is the one nearest of the stored ray, and else there is none; t is its exact T / D, rounded
+    once. *)
+Check LeafYes.yes_is_right.
+(** The checker of certificates: of every scene of finite floats, the premises about numbers can be met. *)
+Check LeafGiven.given_is_possible.
+(** The checker of certificates: if exact signs rule out, from clip start to some t, each surface that is
+    not kept, then all that is met up to that t is kept. *)
+Check Dropped.dropped_is_not_met.
+(** The checker of certificates: what is dropped from a square of pixels is so ruled out for each ray in
+    its box, if T, D, the edges and the rest are linear there but for an error that is known. *)
+Check Squares.gone_is_ruled_out.
+(** The checker of certificates, as recorded: a triangle's T, n and edges are the model's. *)
+Check LeafCode.triangle_is.
+(** Likewise a plane's. *)
+Check LeafCode.plane_is.
+(** Likewise the hit of a ray on a triangle, within the clip range. *)
+Check LeafCode.hit_is.
+(** Likewise on an infinite plane. *)
+Check LeafCode.plane_hit_is.
+(** Likewise what has the sign for the moved ray. *)
+Check LeafCode.moved_is.
+(** Likewise whether the moved ray crosses a triangle. *)
+Check LeafCode.is_crossed_is.
+(** Likewise which of two hits is before the other. *)
+Check LeafCode.is_before_is.
+(** Likewise which of three hits is crossed first. *)
+Check LeafCode.first_of_3_is.
+(** Likewise what is seen of three hits, and whether there are ties. *)
+Check LeafCode.sees_3_is.
+(** An example: of two triangles, Coq computes that the checker sees the near one, at the float t. *)
+Check TwoTriangles.checker_agrees.

@@ -13,6 +13,9 @@ from reference_tracer.certified import arithmetic
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
 
+from .report.browser import chromium
+
+__all__ = ["chromium"]  # a fixture
 COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
 
 

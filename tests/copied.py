@@ -8,12 +8,17 @@ import sys
 from pathlib import Path
 
 ADDON = Path(__file__).parent.parent / "addon"
+CHECKER = ADDON.parent / "packages" / "verify"
 TOOLS = str(ADDON.parent / "tools")
 
 
 def copied(folder: Path) -> Path:
-    """Copy the add-on into a folder; return the copy, the package `reference_tracer`."""
+    """Copy the add-on into a folder; return the copy, the package `reference_tracer`.
+
+    Beside it is the checker of certificates, which is recorded, too.
+    """
     ignored = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(CHECKER, folder / "reference_tracer_verify", ignore=ignored)
     return shutil.copytree(ADDON, folder / "reference_tracer", ignore=ignored)
 
 

@@ -11,11 +11,10 @@ root, Chromium, and the extension in dist/).
 from __future__ import annotations
 
 import argparse
-import os
+import io
 import shlex
 import shutil
-import subprocess
-import sys
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
 
@@ -32,6 +31,7 @@ from documents import (
     subjects,
 )
 from documents.markers import MARKED, Command, refreshed
+from reference_tracer.cli import main as reftrace
 
 PROJECT = Path(__file__).resolve().parents[1]
 DOCS = PROJECT / "docs"
@@ -46,20 +46,19 @@ def documents() -> list[Path]:
 
 @cache  # lessons in two languages have the same commands, of which one writes a file only once
 def printed(text: str) -> str:
-    """Run a command in the project's folder; returns what it prints."""
+    """Run a command in the project's folder, in this process; returns what it prints.
+
+    A process for each would start Blender anew, which takes longer than most commands.
+    """
     name, *arguments = shlex.split(text)
     if name != "reftrace":
         raise SystemExit(f"documents run reftrace, not '{name}'")
-    done = subprocess.run(
-        [sys.executable, "-m", "reference_tracer.cli.main", *arguments],
-        cwd=PROJECT,
-        capture_output=True,
-        text=True,
-        env=os.environ | {"COLUMNS": "100"},
-    )
-    if done.returncode not in (0, 1, 2):  # agree, warnings, differences: what it found
-        raise SystemExit(f"{text}\n{done.stdout}{done.stderr}")
-    return done.stdout
+    said, wrong = io.StringIO(), io.StringIO()
+    with chdir(PROJECT), redirect_stdout(said), redirect_stderr(wrong):
+        code = reftrace.main(arguments)
+    if code not in (0, 1, 2):  # agree, warnings, differences: what it found
+        raise SystemExit(f"{text}\n{said.getvalue()}{wrong.getvalue()}")
+    return said.getvalue()
 
 
 def run(command: Command) -> str:

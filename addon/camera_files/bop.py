@@ -13,8 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from ..checked_json import Content, part
 from ..scene import SceneError
 from . import frame
@@ -53,10 +51,9 @@ def _number(view: View, place: int) -> int:
 
 
 def _body(view: View, offset: float) -> Content:
-    fx, fy, cx, cy = frame.intrinsics(view.camera)
     pose = frame.camera_from_world(view.camera)
     return {
-        "cam_K": frame.matrix_of(fx, fy, cx + offset, cy + offset).reshape(-1).tolist(),
+        "cam_K": frame.k_of(view.camera, offset).reshape(-1).tolist(),
         "cam_R_w2c": pose[:3, :3].reshape(-1).tolist(),
         "cam_t_w2c": (_MILLIMETRES * pose[:3, 3]).tolist(),
         "depth_scale": 1.0,
@@ -99,12 +96,11 @@ def _view(number: str, body: Content, center: float, size: tuple[int, int]) -> V
             f"{where}cam_R_w2c is missing, as in scenes without a world: their poses are of objects"
         )
     k = flat(body, "cam_K", where, 9).reshape(3, 3)
-    k = k + (0.5 - center) * np.array(((0, 0, 1), (0, 0, 1), (0, 0, 0)))
-    pose = np.eye(4)
-    pose[:3, :3] = flat(body, "cam_R_w2c", where, 9).reshape(3, 3)
-    pose[:3, 3] = flat(body, "cam_t_w2c", where, 3) / _MILLIMETRES
+    rotation = flat(body, "cam_R_w2c", where, 9).reshape(3, 3)
+    pose = frame.pose(rotation, flat(body, "cam_t_w2c", where, 3) / _MILLIMETRES)
     name = f"{int(number):06d}.png" if number.isdigit() else number
-    return View(frame.pinhole(k, pose, size, None, name), name, is_clipped=False)
+    camera = frame.pinhole(k, pose, size, None, name, center=center)
+    return View(camera, name, is_clipped=False)
 
 
 BOP = Convention(

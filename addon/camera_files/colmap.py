@@ -113,35 +113,38 @@ def _read(source: Source) -> list[View]:
         raise SceneError(
             f"it has no {CAMERAS}: `colmap model_converter --output_type TXT` writes it of a binary"
         )
-    lenses = dict(_camera(words, n) for n, words in _lines(folder / CAMERAS))
-    lines = list(_lines(folder / IMAGES, every=2))
-    return [_image(words, n, lenses) for n, words in lines]
+    lines = _lines(folder / CAMERAS)
+    lenses = dict(_camera(line.split(), where) for where, line in lines if line.strip())
+    images = _first_of_two(_lines(folder / IMAGES))
+    return [_image(line.split(None, 9), where, lenses) for where, line in images if line.strip()]
 
 
-def _lines(path: Path, every: int = 1) -> list[tuple[str, list[str]]]:
-    """Return the words of lines that are no comments, with what messages call them.
+_Line = tuple[str, str]  # what messages call it, and its text
 
-    Of `every` such lines the first: an image's second line, which may be empty, has its points.
+
+def _lines(path: Path) -> list[_Line]:
+    """Return the lines that are no comments."""
+    text = path.read_bytes().decode("utf-8-sig", errors="replace")
+    numbered = enumerate(text.splitlines(), 1)
+    return [(f"{path.name}, line {n}", line) for n, line in numbered if not line.startswith("#")]
+
+
+def _first_of_two(lines: list[_Line]) -> list[_Line]:
+    """Return the first line of each image; the second, which may be empty, has its points.
 
     Raises
     ------
     SceneError
-        If an image's second line has none.
+        If a second line has none.
     """
-    text = path.read_bytes().decode("utf-8-sig", errors="replace")
-    numbered = enumerate(text.splitlines(), 1)
-    kept = [(f"{path.name}, line {n}", line) for n, line in numbered if not line.startswith("#")]
-    if every == 1:
-        kept = [(where, line) for where, line in kept if line.strip()]
-    else:
-        while kept and not kept[0][1].strip():
-            del kept[0]
-    for where, line in (own for n in range(1, every) for own in kept[n::every]):
+    while lines and not lines[0][1].strip():
+        del lines[0]
+    for where, line in lines[1::2]:
         if len(line.split()) % _POINT:
             raise SceneError(
                 f"{where}: an image's second line has its points, three numbers each, or is empty"
             )
-    return [(where, line.split(None, 9)) for where, line in kept[::every] if line.strip()]
+    return lines[::2]
 
 
 def _numbers(words: Sequence[str], where: str) -> Floats:
@@ -159,7 +162,6 @@ _Lens = tuple[Floats, tuple[int, int]]
 
 def _camera(words: list[str], where: str) -> tuple[str, _Lens]:
     """Return a camera's number, its K and its size."""
-    words = " ".join(words).split()
     model = words[1] if len(words) > 1 else ""
     if model not in _MODELS:
         raise SceneError(f"{where}: the model '{model}' is none of {', '.join(_MODELS)}")
@@ -183,9 +185,7 @@ def _image(words: list[str], where: str, lenses: dict[str, _Lens]) -> View:
     if words[8] not in lenses:
         raise SceneError(f"{where}: there is no camera {words[8]} in {CAMERAS}")
     pose = _numbers(words[1:8], where)
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation(pose[:4])
-    matrix[:3, 3] = pose[4:]
+    matrix = frame.pose(rotation(pose[:4]), pose[4:])
     k, size = lenses[words[8]]
     name = words[9].strip()
     return View(frame.pinhole(k, matrix, size, None, name), name, is_clipped=False)

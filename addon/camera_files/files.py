@@ -134,6 +134,34 @@ def chosen(views: Sequence[View], which: str | None) -> View:
     return named[0]
 
 
+def of_frames(views: Sequence[View], frames: Sequence[int]) -> dict[int, View]:
+    """Return the view of each frame: by its number, or in order where no view has one.
+
+    Raises
+    ------
+    SceneError
+        If a frame has no view, or more than one.
+    """
+    numbers = [number_of(view) for view in views]
+    if not any(number is not None for number in numbers):
+        if len(views) != len(frames):
+            has, of = count_of(len(views), "camera"), count_of(len(frames), "frame")
+            raise SceneError(
+                f"the file of --camera has {has} without numbers for {of}: {_names(views)}"
+            )
+        return dict(zip(frames, views, strict=True))
+    found = {}
+    for frame in frames:
+        own = [view for view, number in zip(views, numbers, strict=True) if number == frame]
+        if len(own) != 1:
+            has = count_of(len(own), "camera") if own else "no camera"
+            raise SceneError(
+                f"the file of --camera has {has} for frame {frame}; there are {_names(views)}"
+            )
+        found[frame] = own[0]
+    return found
+
+
 def number_of(view: View) -> int | None:
     """Return the frame of a view, or the number at the end of its image's name."""
     if view.frame is not None:

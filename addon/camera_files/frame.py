@@ -22,6 +22,8 @@ from ..tracer.camera import pixel_size
 OPENCV = np.diag((1.0, -1.0, -1.0, 1.0))
 # PyTorch3D's and Mitsuba's has +X left, +Y up, +Z forward.
 LEFT_UP = np.diag((-1.0, 1.0, -1.0, 1.0))
+# Takes Blender's world, with Z up, to one with Y up: (x, y, z) is (x, z, -y) there.
+Y_UP_FROM_Z_UP = np.array(((1.0, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 # Where a file says no clip range: nothing but what is in the eye itself is left out.
 _UNCLIPPED = 1e-6, 1e12
 # How far rounding may leave the last row of a matrix from 0 0 0 1, in its own numbers.
@@ -37,6 +39,20 @@ def intrinsics(camera: Camera) -> tuple[float, float, float, float]:
 def matrix_of(fx: float, fy: float, cx: float, cy: float) -> Floats:
     """Return K, (3, 3)."""
     return np.array([(fx, 0.0, cx), (0.0, fy, cy), (0.0, 0.0, 1.0)])
+
+
+def k_of(camera: Camera, offset: float = 0.0) -> Floats:
+    """Return a camera's K, (3, 3); `offset` is added to its principal point, pixels."""
+    fx, fy, cx, cy = intrinsics(camera)
+    return matrix_of(fx, fy, cx + offset, cy + offset)
+
+
+def pose(rotation: Floats, translation: Floats) -> Floats:
+    """Return the matrix (4, 4) that rotates, (3, 3), and then moves, (3,)."""
+    out = np.eye(4)
+    out[:3, :3] = rotation
+    out[:3, 3] = translation
+    return out
 
 
 def camera_from_world(camera: Camera, axes: Floats = OPENCV) -> Floats:
@@ -66,20 +82,22 @@ def pinhole(
     name: str,
     axes: Floats = OPENCV,
     projection: Projection = PERSPECTIVE,
+    center: float = 0.5,
 ) -> Camera:
     """Return the camera of K (3, 3) and a matrix (4, 4) into a camera space.
 
-    A negative focal length or a skew is applied: the camera's axes are mirrored or sheared by it.
+    K has the centre of the first pixel at (center, center). A negative focal length or a skew is
+    applied: the camera's axes are mirrored or sheared by it.
 
     Raises
     ------
     SceneError
         If K is none, or the matrix has no inverse.
     """
-    k = k / k[2, 2] if k[2, 2] else k
+    k = k / (k[2, 2] or 1.0)
     if k[1, 0] or k[2, 0] or k[2, 1] or not (k[0, 0] and k[1, 1] and k[2, 2]):
         raise SceneError("its K is not of the form [[fx, skew, cx], [0, fy, cy], [0, 0, 1]]")
-    fx, fy, (cx, cy) = abs(k[0, 0]), abs(k[1, 1]), k[:2, 2]
+    fx, fy, (cx, cy) = abs(k[0, 0]), abs(k[1, 1]), k[:2, 2] + (0.5 - center)
     plain = np.eye(4)
     plain[:2, :2] = k[:2, :2] / ((fx,), (fy,))
     width, height = size

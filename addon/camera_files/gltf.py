@@ -32,9 +32,6 @@ from .convention import Convention, Files, Source, View
 from .features import PARALLEL
 from .json_files import dumped
 
-# Takes glTF's world to Blender's.
-_Z_UP = np.array(((1.0, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
-
 
 def _write(views: Sequence[View], centers: str) -> Files:
     numbers = range(len(views))
@@ -42,21 +39,23 @@ def _write(views: Sequence[View], centers: str) -> Files:
         "asset": {"version": "2.0", "generator": "Reference Tracer"},
         "scene": 0,
         "scenes": [{"nodes": [*numbers]}],
-        "nodes": [_node(view, number) for view, number in zip(views, numbers, strict=True)],
-        "cameras": [_camera(view) for view in views],
+        "nodes": [node_of(view, number) for view, number in zip(views, numbers, strict=True)],
+        "cameras": [camera_of(view) for view in views],
     }
     return {"": dumped(content)}
 
 
-def _node(view: View, number: int) -> Content:
+def node_of(view: View, number: int) -> Content:
+    """Return the node of a view, whose camera has a number."""
     camera = view.camera
     if camera.projection is ORTHOGRAPHIC:
         camera = frame.centred(camera)
-    matrix = _Z_UP.T @ camera.world_from_camera
+    matrix = frame.Y_UP_FROM_Z_UP @ camera.world_from_camera
     return {"name": view.name, "camera": number, "matrix": matrix.T.reshape(-1).tolist()}
 
 
-def _camera(view: View) -> Content:
+def camera_of(view: View) -> Content:
+    """Return a camera that glTF can say."""
     camera = view.camera
     width, height = camera.window.size
     if camera.projection is ORTHOGRAPHIC:
@@ -90,7 +89,7 @@ def _read(source: Source) -> list[View]:
         number = node.refers("camera")
         if number is not None:
             own = document.thing("cameras", number, node.label)
-            found.append(_view(own, node.name or own.name, _Z_UP @ world, source))
+            found.append(_view(own, node.name or own.name, frame.Y_UP_FROM_Z_UP.T @ world, source))
     if not found:
         raise SceneError("no node of it has a camera")
     return found

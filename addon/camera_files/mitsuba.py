@@ -22,7 +22,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from xml.etree import ElementTree
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -44,6 +43,8 @@ def _write(views: Sequence[View], centers: str) -> Files:
 
 
 def _sensor(view: View) -> list[str]:
+    from xml.sax.saxutils import quoteattr  # late: it imports urllib, ssl and http
+
     camera = view.camera
     parallel = camera.projection is ORTHOGRAPHIC
     camera = frame.centred(camera) if parallel else camera
@@ -51,9 +52,11 @@ def _sensor(view: View) -> list[str]:
     width, height = camera.width, camera.height
     matrix = camera.world_from_camera @ frame.LEFT_UP
     floats = {"near_clip": camera.clip_start, "far_clip": camera.clip_end}
+    axis = []
     if parallel:
         matrix[:3, :2] *= camera.window.size[0] / 2
     else:
+        axis = ['    <string name="fov_axis" value="x"/>']
         floats |= {
             "fov": float(np.degrees(2 * np.arctan(width / 2 / fx))),
             "principal_point_offset_x": 0.5 - cx / width,
@@ -65,7 +68,7 @@ def _sensor(view: View) -> list[str]:
         '    <transform name="to_world">',
         f'      <matrix value="{numbers}"/>',
         "    </transform>",
-        *([] if parallel else ['    <string name="fov_axis" value="x"/>']),
+        *axis,
         *(f'    <float name="{name}" value="{value!r}"/>' for name, value in floats.items()),
         f'    <film type="{_FILM}">',
         f'      <integer name="width" value="{width}"/>',

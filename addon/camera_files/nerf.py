@@ -9,8 +9,7 @@ The files do not say where a pixel's centre is. instant-ngp and nerfstudio trace
 half a pixel beside what its own pictures show.
 
 `x_fov` (degrees) comes before `fl_x` (pixels), and that before `camera_angle_x` (radians), as in
-instant-ngp; what says neither cx nor cy has them
-in the picture's middle.
+instant-ngp; what says neither cx nor cy has them in the picture's middle.
 """
 
 from __future__ import annotations
@@ -37,17 +36,20 @@ _MODELS = "OPENCV", "PINHOLE", "SIMPLE_PINHOLE"
 def _write(views: Sequence[View], centers: str) -> Files:
     lenses = [_lens(view, offset_of(centers)) for view in views]
     shared = all(lens == lenses[0] for lens in lenses)
-    frames = [
-        ({} if shared else lens)
-        | {
-            "file_path": f"images/{view.name}",
-            "transform_matrix": view.camera.world_from_camera.tolist(),
-        }
-        for view, lens in zip(views, lenses, strict=True)
-    ]
-    said = {} if centers == HALF else {CENTERS_KEY: centers}
-    head = {"camera_model": "PINHOLE", **said, **(lenses[0] if shared else {})}
+    head: Content = {"camera_model": "PINHOLE"}
+    if centers != HALF:
+        head[CENTERS_KEY] = centers
+    frames = [_pose(view) for view in views]
+    if shared:
+        head |= lenses[0]
+    else:
+        frames = [lens | pose for lens, pose in zip(lenses, frames, strict=True)]
     return {"": dumped(head | {"frames": frames})}
+
+
+def _pose(view: View) -> Content:
+    matrix = view.camera.world_from_camera
+    return {"file_path": f"images/{view.name}", "transform_matrix": matrix.tolist()}
 
 
 def _lens(view: View, offset: float) -> Content:

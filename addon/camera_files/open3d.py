@@ -14,8 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from ..checked_json import Content, part
 from . import frame
 from .convention import Convention, Files, Source, View
@@ -33,9 +31,8 @@ def _write(views: Sequence[View], centers: str) -> Files:
 
 
 def _body(view: View, centers: str) -> Content:
-    camera, offset = view.camera, offset_of(centers)
-    fx, fy, cx, cy = frame.intrinsics(camera)
-    k = frame.matrix_of(fx, fy, cx + offset, cy + offset)
+    camera = view.camera
+    k = frame.k_of(camera, offset_of(centers))
     return {
         "class_name": _ONE,
         "name": view.name,
@@ -65,11 +62,11 @@ def _read(source: Source) -> list[View]:
 def _view(body: Content, where: str, source: Source) -> View:
     lens: Content = part(body, "intrinsic", where, dict)
     k = flat(lens, "intrinsic_matrix", f"{where}intrinsic.", 9).reshape(3, 3).T
-    k = k + (0.5 - first_center(body)) * np.array(((0, 0, 1), (0, 0, 1), (0, 0, 0)))
     pose = flat(body, "extrinsic", where, 16).reshape(4, 4).T
     size = source.whole_size(lens, ("width", "height"), f"{where}intrinsic.")
     name = str(body.get("name", ""))
-    return View(frame.pinhole(k, pose, size, None, name), name, is_clipped=False)
+    camera = frame.pinhole(k, pose, size, None, name, center=first_center(body))
+    return View(camera, name, is_clipped=False)
 
 
 OPEN3D = Convention(

@@ -15,8 +15,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import Floats
 from ..checked_json import Content, numbers
+from ..projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS
+from ..scene import Camera, SceneError
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import ASPECT, MIRRORED, SHIFT
@@ -41,14 +42,23 @@ _CLIP = "clip_start", "clip_end"
 
 def _write(views: Sequence[View], centers: str) -> Files:
     head = {"convention": "opencv", "formula": _FORMULA, CENTERS_KEY: centers}
-    return written(head, views, lambda view: _body(view, offset_of(centers)))
+    return written(head, views, lambda view: body_of(view.camera, offset_of(centers)))
 
 
-def _body(view: View, offset: float) -> Content:
-    camera = view.camera
-    fx, fy, cx, cy = frame.intrinsics(camera)
+def body_of(camera: Camera, offset: float = 0.0) -> Content:
+    """Return K, R, t and the clip range.
+
+    Of an orthographic camera K is of pixels a metre, and x = K (X0, X1, 1) of R X + t: OpenCV has
+    no such camera, and the conformance kit's files say `projection`.
+
+    Parameters
+    ----------
+    camera : Camera
+    offset : float
+        What is added to the principal point, pixels.
+    """
     matrix = frame.camera_from_world(camera)
-    k = frame.matrix_of(fx, fy, cx + offset, cy + offset)
+    k = frame.k_of(camera, offset)
     if np.linalg.det(matrix[:3, :3]) < 0:  # mirrored: R stays a rotation, and u counts backwards
         k[0, 0] *= -1
         matrix[0] *= -1
@@ -68,19 +78,29 @@ def _is_of(source: Source) -> bool:
 def _read(source: Source) -> list[View]:
     content: Content = source.json
     center = first_center(content)
-    return [_view(body, where, center, source) for body, where in bodies(content)]
+    return [_view(content | body, where, center, source) for body, where in bodies(content)]
 
 
 def _view(body: Content, where: str, center: float, source: Source) -> View:
-    matrix = np.eye(4)
-    matrix[:3, :3] = numbers(body, "R", where, (3, 3))
-    matrix[:3, 3] = flat(body, "t", where, 3)
-    k: Floats = numbers(body, "K", where, (3, 3))
-    k[:2, 2] += 0.5 - center
+    k = numbers(body, "K", where, (3, 3))
+    matrix = frame.pose(numbers(body, "R", where, (3, 3)), flat(body, "t", where, 3))
+    if _named(body, "up", where, ("z", "y")) == "y":
+        matrix = matrix @ frame.Y_UP_FROM_Z_UP
+    kind = _named(body, "projection", where, (PERSPECTIVE.name, ORTHOGRAPHIC.name))
     clip = clip_of(body, where, _CLIP)
     size = source.whole_size(body, ("width", "height"), where)
-    camera = frame.pinhole(k, matrix, size, clip, str(body.get("name", "")))
+    name = str(body.get("name", ""))
+    projection = PROJECTIONS[kind]
+    camera = frame.pinhole(k, matrix, size, clip, name, projection=projection, center=center)
     return view_of(body, camera, is_clipped=clip is not None)
+
+
+def _named(body: Content, key: str, where: str, known: Sequence[str]) -> str:
+    """Return one of some words that a key may have, the first where it is not there."""
+    word = body.get(key, known[0])
+    if word not in known:
+        raise SceneError(f"{where}{key} is {word!r}; it must be {' or '.join(known)}")
+    return str(word)
 
 
 OPENCV = Convention(

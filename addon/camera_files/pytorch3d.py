@@ -81,8 +81,7 @@ def _read(source: Source) -> list[View]:
         if in_ndc:
             half = min(shape) / 2
             lens, point = half * lens, np.array((width, height)) / 2 - half * point
-        pose = np.eye(4)
-        pose[:3, :3], pose[:3, 3] = rotation.T, place
+        pose = frame.pose(rotation.T, place)
         k: Floats = frame.matrix_of(*map(float, (*lens, *point)))
         pixels = int(width), int(height)
         camera = frame.pinhole(k, pose, pixels, None, name, frame.LEFT_UP, projection)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -12,7 +12,7 @@ from ..arrays import Bools, Colors, Integers
 from ..manifest import Effect, Manifest
 from ..pictures.certificate import CameraCertificate
 from ..pictures.picture import Curve, Picture
-from ..scene import Scene
+from ..scene import Scene, without
 from ..tracer.coloring import Color
 from ..tracer.hits import NOTHING
 from ..tracer.render import Tracer
@@ -51,16 +51,6 @@ class Behind:
 
     case: Case
     left_out: frozenset[str]  # the objects
-
-
-def without(scene: Scene, names: Collection[str]) -> Scene:
-    """Return a scene without some objects."""
-    numbers = {n for n, name in enumerate(scene.objects) if name in names}
-    return replace(
-        scene,
-        instances=tuple(i for i in scene.instances if i.object not in numbers),
-        planes=tuple(p for p in scene.planes if p.object not in numbers),
-    )
 
 
 def without_colors(case: Case) -> Case:

@@ -100,7 +100,8 @@ def _add_which(group: _ActionsContainer, parser: Parser) -> None:
         type=name_or_path,
         metavar="NAME",
         help="use this camera of a .blend or a .glb; or a file's, as another program wrote it: "
-        "K, R and t in JSON, transforms.json, a folder of COLMAP's, and so on",
+        "K, R and t in JSON, transforms.json, a folder of COLMAP's, and so on; of a comparison's "
+        "--frames each has the one of its number",
     )
     group.add_argument(
         "--frame-all",
@@ -154,8 +155,8 @@ def check_kind(path: Path) -> None:
     raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(READERS)}{do}")
 
 
-def choice_from(given: Namespace, path: Path) -> Choice:
-    """Return what the options choose of a file.
+def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice:
+    """Return what the options choose of a file; of frames, each may have a camera of its own.
 
     Raises
     ------
@@ -175,37 +176,44 @@ def choice_from(given: Namespace, path: Path) -> Choice:
             refuse(given, CAMERA_OPTIONS, why)
     known = [field.name for field in fields(Choice) if field.name in given]
     chosen = {name: getattr(given, name) for name in known}
-    if view := _view(given, path if is_mesh else None):
-        for note in view.notes:
+    if views := _views(given, path if is_mesh else None, of_frames):
+        for note in dict.fromkeys(note for view in views for note in view.notes):
             print(f"{given.camera}: {note}", file=sys.stderr)
-        chosen |= {"camera": None, "seen_by": view}
+        many = len(views) > 1
+        chosen |= {"camera": None, **({"views": views} if many else {"seen_by": views[0]})}
     return Choice(**chosen)
 
 
-def _view(given: Namespace, mesh: Path | None) -> View | None:
-    """Return the camera of a file that is named; None if none is, but a camera of a .blend."""
+def _views(given: Namespace, mesh: Path | None, of_frames: bool) -> list[View]:
+    """Return the camera of a file that is named, or those of its frames.
+
+    There is none if no file is named, but a camera of a .blend.
+    """
     if given.camera is None:
         refuse(given, _OF_FILE, "is for a file of --camera")
-        return None
+        return []
     file, which = Path(given.camera), given.camera_view
     size = given.width, getattr(given, "height", None)
     is_file = file.suffix.lower() in _ENDINGS or (file.is_dir() and is_seen_to_be(file))
     if not (is_file or given.camera_convention or which):
         if mesh is None:
-            return None
+            return []
         file, which = mesh, given.camera
         if mesh.suffix.lower() not in (".glb", ".gltf"):
             raise SceneError(f"--camera {which} is no file, and '{mesh}' has no cameras")
         if given.up == "z":
             raise SceneError("--up z is for the meshes alone: a camera of glTF has Y up")
-    view = chosen_view(read(file, given.camera_convention, size), which)
-    own = view.camera.width, view.camera.height
-    if any(asked not in (None, has) for asked, has in zip(size, own, strict=True)):
-        raise SceneError(
-            f"--width and --height are for files that say no size: '{file}' has "
-            f"{own[0]} x {own[1]}, and so has the picture: leave them out"
-        )
-    return view
+    views = read(file, given.camera_convention, size)
+    if which is not None or not of_frames:
+        views = [chosen_view(views, which)]
+    for view in views:
+        own = view.camera.width, view.camera.height
+        if any(asked not in (None, has) for asked, has in zip(size, own, strict=True)):
+            raise SceneError(
+                f"--width and --height are for files that say no size: '{file}' has "
+                f"{own[0]} x {own[1]}, and so has the picture: leave them out"
+            )
+    return views
 
 
 def _refuse_without_camera(given: Namespace, is_mesh: bool) -> None:

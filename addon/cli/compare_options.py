@@ -80,7 +80,7 @@ class CompareOptions:
             scene=given.scene,
             out=given.out,
             settings=settings_from(given),
-            choice=choice_from(given, given.scene),
+            choice=choice_from(given, given.scene, given.frames is not None),
             judge=given.judge,
             as_is=given.as_is,
             colors=given.colors,

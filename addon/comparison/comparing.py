@@ -14,9 +14,7 @@ from ..causes.case import Case
 from ..causes.counts import count_pixels
 from ..causes.excused import excused
 from ..causes.explain import explain
-from ..diagnosis.diagnosis import diagnose
-from ..diagnosis.guessing import STEPS
-from ..diagnosis.self_check import FaultRow, self_check
+from ..diagnosis.fault_rows import FaultRow
 from ..mesh_diagnosis import diagnosed as with_mesh_faults
 from ..pictures.metrics import boundary, image_metrics
 from ..rendering import steps
@@ -112,19 +110,20 @@ def trace_and_compare(case: Case, literally: bool = False) -> Work[Comparison]:
 
 def diagnosed(
     comparison: Comparison,
-    steps: float = STEPS,
     told: Callable[[Comparison], object] = lambda found: None,
 ) -> Work[Comparison]:
     """Return a comparison with what accounts for its unexplained pixels, if it has any.
 
-    Yields the share of the work done. The verdict stays. No guess is begun after so many steps.
-    `told` hears of the comparison if it has any.
+    Yields the share of the work done. The verdict stays. `told` hears of the comparison if it has
+    any.
     """
     if not comparison.counts.unexplained:
         return comparison
+    from ..diagnosis.diagnosis import diagnose  # late: the faults take long to import
+
     told(comparison)
     case, frame, causes = comparison.case, comparison.frame, comparison.causes
-    work = diagnose(case, frame, causes, steps=steps)
+    work = diagnose(case, frame, causes)
     found = yield from called(work, "looking for what is wrong")
     return replace(comparison, diagnosis=found)
 
@@ -161,6 +160,8 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     yield rest
     checked: tuple[FaultRow, ...] = ()
     if case.self_check:
+        from ..diagnosis.self_check import self_check
+
         checking = self_check(case, frame, found.causes)
         checked = yield from scaled(checking, rest, _CHECKING)
     return Comparison(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,8 +20,7 @@ from ..causes.excused import COMPARABLE, Excused
 from ..causes.explain import BY_NUMBER, CAUSES
 from ..certainty import Certainty
 from ..certified.rounding import rounding
-from ..diagnosis.diagnosis import Diagnosis
-from ..diagnosis.self_check import FaultRow, table
+from ..diagnosis.fault_rows import FaultRow, table
 from ..manifest import Effect, Manifest
 from ..pictures.identity import Identity
 from ..pictures.metrics import Metrics
@@ -30,6 +30,9 @@ from ..tracer.hits import NOTHING
 from ..wording import count_of
 from .methods import MethodRow
 from .verdict import Verdict
+
+if TYPE_CHECKING:
+    from ..diagnosis.diagnosis import Diagnosis
 
 SCHEMA = "reference_tracer.comparison/1"
 
@@ -212,7 +215,8 @@ class Comparison:
         """Ask for the commonest reason why most surfaces differ, where no fault was found."""
         surfaces = self.causes.cause[self.frame.object_index != NOTHING]
         most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
-        if most and not (self.diagnosis and self.diagnosis.told):
+        of_colors = self.case.picture.data is None
+        if most and of_colors and not (self.diagnosis and self.diagnosis.told):
             yield "most surfaces have other colours: was it drawn with light, or in others?"
             yield "           Draw each flat, in those that --colors-out writes"
 

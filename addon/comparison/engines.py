@@ -12,7 +12,7 @@ from ..causes.checks.unmodelled import drawn_over
 from ..causes.counts import EXAMPLES, PixelCounts
 from ..causes.explain import BY_NUMBER, CAUSES
 from ..checked_json import Content
-from ..diagnosis.self_check import FaultRow
+from ..diagnosis.fault_rows import FaultRow
 from ..pictures.identity import NOTHING, UNKNOWN
 from .comparison import Comparison
 from .verdict import Verdict

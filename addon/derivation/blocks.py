@@ -61,7 +61,8 @@ def numbers(quantities: tuple[Quantity, ...]) -> Table:
             cells: list[Cell] = ["" if k else q.formula, Formula(part)]
             for kind in FLOATS:
                 value = q.values[kind][k]
-                cells += [marked(value, exact), off_text(ulps(value, exact))]
+                off = ulps(value, exact)
+                cells += [marked(value, exact, off), off_text(off)]
             cells.append(Parts("undefined" if exact is None else exact_text(exact)))
             rows.append(tuple(cells))
     return Table(("", "", "float32", "off", "float64", "off", "exact"), tuple(rows), "numbers")

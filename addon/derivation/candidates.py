@@ -22,6 +22,7 @@ from ..tracer.nearest import plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import UNPROVEN_SETTINGS, Settings
 from ..tracer.triangle import textbook
+from ..tracer.vector import transform_points
 from ..tracer.world import Pairs, WorldTriangles, refused
 from .pixel import Candidate, Pixel, answer, check_pixel
 
@@ -104,14 +105,11 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
 def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
     """Return the triangles whose boxes on the film hold the tile's one pixel, each once."""
     found: dict[Name, NDArray[np.float64]] = {}
-    corners = (np.array(np.meshgrid(*mesh.bounds.T, indexing="ij")) for mesh in scene.meshes)
-    cubes = tuple(Mesh(corner.reshape(3, 8).T, _CUBE) for corner in corners)
-    blank = tuple(Instance(i.mesh, i.object, i.world_from_object) for i in scene.instances)
-    boxes = replace(scene, meshes=cubes, instances=blank, planes=())
+    boxes, boxed, others = _boxes(scene)
     for camera in _both_ways(replace(scene.camera, region=tile)):
         # First the instances with a bounding box that the ray may meet.
-        met = (pairs.instance for pairs in _pairs(replace(boxes, camera=camera), 0.5))
-        near = np.unique(np.concatenate([np.zeros(0, np.intp), *met]))
+        met = (boxed[p.triangle // len(_CUBE)] for p in _pairs(replace(boxes, camera=camera), 0.5))
+        near = np.unique(np.concatenate([others, *met]))
         some = replace(scene, camera=camera, instances=tuple(scene.instances[k] for k in near))
         for pairs in _pairs(some, 0.0):
             names = zip(near[pairs.instance].tolist(), pairs.triangle.tolist(), strict=True)
@@ -120,6 +118,24 @@ def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
         return WorldTriangles.none()
     instance, triangle = np.array(list(found), np.int32).T
     return WorldTriangles(np.stack(list(found.values()), axis=2), instance, triangle)
+
+
+def _boxes(scene: Scene) -> tuple[Scene, Places, Places]:
+    """Return a scene of all instances' bounding boxes as one mesh, and whose each is.
+
+    At last the instances whose boxes are not finite in the world, as they overflow.
+    """
+    local = np.array([np.meshgrid(*mesh.bounds.T, indexing="ij") for mesh in scene.meshes])
+    local = local.reshape(-1, 3, 8)[scene.instance_meshes].swapaxes(0, 1)
+    with np.errstate(over="ignore", invalid="ignore"):
+        world = transform_points(scene.instance_matrices[..., None], local)
+    finite = np.isfinite(world).all(axis=(0, 2))
+    corners = world[:, finite].reshape(3, -1).T
+    cubes = 8 * np.arange(len(corners) // 8)[:, None, None] + _CUBE
+    mesh = Mesh(corners, cubes.reshape(-1, 3))
+    whole = (Instance(0, 0, np.eye(4)),) if len(corners) else ()
+    made = replace(scene, meshes=(mesh,), instances=whole, planes=())
+    return made, np.flatnonzero(finite), np.flatnonzero(~finite)
 
 
 def _both_ways(camera: Camera) -> list[Camera]:

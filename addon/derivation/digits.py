@@ -6,7 +6,7 @@ EXACT_DIGITS digits, and "…" where it has more.
 
 from __future__ import annotations
 
-from decimal import Decimal, localcontext
+from decimal import Context, Decimal, Inexact
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from .textbook import Number
 
 EXACT_DIGITS = 24  # significant: a float64 has 17
 _PLAIN = range(-4, 16)  # decimal exponents that are written without "e"
+_LIMITS = {kind: np.finfo(kind) for kind in (np.float32, np.float64)}  # numpy is slow to find them
 
 
 class Parts(NamedTuple):
@@ -48,10 +49,10 @@ def exact_text(value: Fraction, count: int = EXACT_DIGITS) -> str:
     """Return an exact number as a decimal, correctly rounded to so many digits, "…" if inexact."""
     if not value:
         return "0"
-    with localcontext() as context:
-        context.prec, context.Emax, context.Emin = count, 10**9, -(10**9)
-        decimal = (Decimal(value.numerator) / Decimal(value.denominator)).normalize()
-    more = "" if Fraction(decimal) == value else "…"
+    context = Context(prec=count, Emax=10**9, Emin=-(10**9))
+    quotient = context.divide(Decimal(value.numerator), Decimal(value.denominator))
+    more = "…" if context.flags[Inexact] else ""
+    decimal = quotient.normalize(context)
     sign, digits, exponent = decimal.as_tuple()
     place = len(digits) - 1 + int(exponent)
     if place in _PLAIN:
@@ -92,7 +93,7 @@ def _error(value: np.floating, exact: Fraction) -> tuple[int, int]:
 
 def last_place(exact: Fraction, kind: type[np.floating]) -> int:
     """Return the power of 2 between neighbouring floats of a type around a number that is not 0."""
-    limits = np.finfo(kind)
+    limits = _LIMITS[kind]
     top, bottom = abs(exact.numerator), exact.denominator
     power = top.bit_length() - bottom.bit_length()
     if bottom << max(power, 0) > top << max(-power, 0):
@@ -100,14 +101,13 @@ def last_place(exact: Fraction, kind: type[np.floating]) -> int:
     return max(power, int(limits.minexp)) - int(limits.nmant)
 
 
-def marked(value: np.floating, exact: Fraction | None) -> Parts:
-    """Return a float's text with its wrong digits apart.
+def marked(value: np.floating, exact: Fraction | None, off: float | None) -> Parts:
+    """Return a float's text with its wrong digits apart; `off` is its error, in ulp.
 
     A digit is wrong where the error is more than half of one in its place; none is in a number that
     is correctly rounded.
     """
     whole = digits_text(value)
-    off = ulps(value, exact)
     if exact is None or not np.isfinite(value) or (off is not None and off <= 0.5):
         return Parts(whole)
     mantissa, mark, power = whole.partition("e")

@@ -122,13 +122,15 @@ class Diagnosis:
     untried: tuple[str, ...] = ()  # faults that were not looked for to the end: it took too many
     left: int = 0  # pixels that nothing accounts for
     regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
+    silent: str = ""  # why no fault was looked for, without a full stop
 
     def lines(self) -> list[str]:
         """Return it as lines of text, the most important first."""
         out = [line for told in self.told for line in told.lines()]
         if not out:
             which = "fault that was tried" if self.untried else "known fault"
-            out = [f"diagnosis: no {which} accounts for the unexplained pixels"]
+            none = f"no {which} accounts for the unexplained pixels"
+            out = [f"diagnosis: {self.silent or none}"]
         if self.left:
             places = count_of(len(self.regions), "region")
             out.append(f"           {self.left:,} px are left, in {places}:")
@@ -154,6 +156,7 @@ class Diagnosis:
             "untried": list(self.untried),
             "left": self.left,
             "regions": [region.to_dict() for region in self.regions],
+            "silent": self.silent,
         }
 
 
@@ -180,8 +183,12 @@ def diagnose(
     if not evidence.unexplained.any() or frame.cancelled:
         return Diagnosis()
     began = time.monotonic()
-    if case.picture.data is not None:
-        faults = [fault for fault in faults if fault.name not in OF_COLORS]
+    silent = ""
+    if (data := case.picture.data) is not None:
+        silent = data.silent(frame)  # many a fault can empty a picture: none would be sure
+        known = [f for f in faults if f.name not in OF_COLORS and not silent]
+        # An array is turned over more often than a camera is mirrored: of two that do as well.
+        faults = sorted(known, key=lambda fault: fault.name != "rows")
     guessing = Guessing(faults, steps)
     evidence = yield from scaled(with_variants(evidence), 0.0, 0.0)
     at_first = evidence.unexplained
@@ -205,7 +212,7 @@ def diagnose(
     seconds = time.monotonic() - began
     untried = tuple(sorted(guessing.untried))
     work = guessing.guesses, guessing.steps, seconds, untried
-    return Diagnosis(tuple(told), *work, left, framed)
+    return Diagnosis(tuple(told), *work, left, framed, silent)
 
 
 def _regions(evidence: Evidence) -> tuple[Region, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..comparison.engines import EngineRow, to_dict
-from ..diagnosis.self_check import table
+from ..diagnosis.fault_rows import table
 from ..pictures.identity import NOTHING
 from .folders import replacing, write_json
 from .tables import columns

@@ -19,8 +19,8 @@ import numpy as np
 
 from .. import png
 from ..arrays import Bools
-from ..causes.case import without
 from ..rendering import trace
+from ..scene import without
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.settings import Settings

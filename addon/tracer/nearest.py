@@ -15,7 +15,7 @@ from ..arrays import Bools, Floats, Index, Places
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import PAIRS, Plan, candidates, cull
+from .candidates import PAIRS, Plan, Sampled, candidates, cull
 from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
@@ -51,7 +51,8 @@ def tracer(
     """
     made = yield from plan(scene, settings, reach)
     statistics.refused = made.refused
-    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics, literally)
+    sampled = Sampled(made) if reach else None
+    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics, literally, sampled)
 
 
 def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
@@ -66,12 +67,14 @@ def trace_tile(
     dy: float = 0.0,
     statistics: Statistics | None = None,
     literally: TakeHits | None = None,
+    sampled: Sampled | None = None,
 ) -> Work[Hits]:
     """Find the nearest hits of the rays of a tile, in small steps.
 
     Each ray passes its pixel's centre at (dx, dy), in pixels, at most `plan.reach`. The hits are
     those of the tile's pixels, row by row from the lowest. Pairs are counted in the statistics.
-    `literally` is as :func:`tracer` has it.
+    `literally` is as :func:`tracer` has it; `sampled` has the plan's candidates, if a tile is
+    asked for several times.
     """
     scene = plan.scene
     settings = plan.settings
@@ -82,7 +85,7 @@ def trace_tile(
     statistics.pairs_tested += len(scene.planes) * len(hits)
     test_planes(scene, rays, hits)
     printed = hits.take(np.arange(len(hits) if literally else 0))
-    for share, some in candidates(plan, tile):
+    for share, some in sampled.of(tile) if sampled else candidates(plan, tile):
         if some is not None:
             statistics.pairs_tested += len(some.pixel)
             seen, found = test_pairs(scene, settings, rays, some, hits)

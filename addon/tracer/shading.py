@@ -90,7 +90,7 @@ def positions(rays: Rays, hits: Hits) -> Vectors:
     """Return the positions of n hits in world space, (n, 3) metres; zero where nothing is hit."""
     hit = hits.instance != NOTHING
     points = rays.at(np.where(hit, hits.t, 0.0))
-    points[:, ~hit] = 0
+    np.copyto(points, 0, where=~hit)
     return points.T
 
 

@@ -16,7 +16,7 @@ from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.wording import count_of, say
-from reference_tracer_processes.running import SECONDS, Limits, words_of
+from reference_tracer_processes.running import SECONDS, Limits, check_starts, words_of
 from reference_tracer_processes.sandbox import sandbox
 
 from . import report
@@ -127,7 +127,7 @@ def _program(given: Namespace) -> Program:
     Raises
     ------
     SceneError
-        If there is none, or no place to write to, or the command names no file.
+        If there is none, or no place to write to, the command names no file, or cannot be run.
     """
     if not given.command or not given.out:
         raise SceneError("name the command and --out DIR, or --write DIR for the kit alone")
@@ -144,6 +144,10 @@ def _program(given: Namespace) -> Program:
         near = [] if name in (*FILES, OUT.strip("{}")) else get_close_matches(name, FILES, 1)
         if near:
             raise SceneError(f"the command names {{{name}}}; {{{near[0]}}} is the nearest")
+    try:
+        check_starts(words[0])
+    except ValueError as error:
+        raise SceneError(f"the command {given.command!r}: {error}") from error
     memory = int((given.memory_limit or 4) * 2**30)
     return Program(
         given.command,

@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 from reference_tracer.arrays import Array
-from reference_tracer.projections import PERSPECTIVE
+from reference_tracer.camera_files.convention import View
+from reference_tracer.camera_files.frame import Y_UP_FROM_Z_UP
+from reference_tracer.camera_files.gltf import GLTF, camera_of, node_of
 from reference_tracer.scene import Camera
 
-from .cameras import Y_UP_FROM_Z_UP
 from .scenes import PALETTE, KitScene, Move, Sheared
 from .shapes import Shape
 
@@ -35,22 +36,6 @@ def glb(kit: KitScene) -> bytes:
         writer.item(item.name, item.shape, item.moves, item.colors)
     writer.camera(kit.camera)
     return writer.packed()
-
-
-def gltf_camera(camera: Camera) -> dict[str, Any] | None:
-    """Return a camera as glTF has it; None for what it cannot say: a shift, pixels not square."""
-    w = camera.window
-    square = abs(w.right / camera.width - w.top / camera.height) < 1e-12 * w.right
-    if (w.left, w.bottom) != (-w.right, -w.top) or not square:
-        return None
-    clip = {"znear": camera.clip_start, "zfar": camera.clip_end}
-    if camera.projection == PERSPECTIVE:
-        yfov, ratio = 2 * np.arctan(w.top), camera.width / camera.height
-        return {
-            "type": "perspective",
-            "perspective": {"yfov": float(yfov), "aspectRatio": ratio, **clip},
-        }
-    return {"type": "orthographic", "orthographic": {"xmag": w.right, "ymag": w.top, **clip}}
 
 
 class _Writer:
@@ -87,14 +72,12 @@ class _Writer:
 
     def camera(self, camera: Camera) -> None:
         """Add the camera, if glTF can say it."""
-        said = gltf_camera(camera)
-        if said is None:
+        if GLTF.lacks(camera):
             del self._document["cameras"]
             return
-        matrix = Y_UP_FROM_Z_UP @ camera.world_from_camera
-        number = self._add("cameras", said)
-        node = {"name": "Camera", "camera": number, "matrix": matrix.T.reshape(-1).tolist()}
-        self._roots.append(self._add("nodes", node))
+        view = View(camera, "Camera")
+        number = self._add("cameras", camera_of(view))
+        self._roots.append(self._add("nodes", node_of(view, number)))
 
     def packed(self) -> bytes:
         """Return the file."""

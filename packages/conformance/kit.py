@@ -6,15 +6,18 @@ import json
 import subprocess
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
+from reference_tracer.camera_files.frame import Y_UP_FROM_Z_UP
+from reference_tracer.camera_files.opencv import body_of
 from reference_tracer.pictures import colors_file
 from reference_tracer.report.folders import write_json
-from reference_tracer.scene import SceneError
+from reference_tracer.scene import Camera, SceneError
 from reference_tracer.scene_files import save_scene
 
-from .cameras import opencv
 from .gltf_files import glb
 from .obj_files import mtl_text, obj_text
 from .scenes import KitScene
@@ -72,6 +75,19 @@ def write_kit(folder: Path, scenes: Sequence[KitScene], blends: bool | None = No
         raise SceneError("the kit's .blend files need bpy: pip install 'reference_tracer[blender]'")
     if has_blender if blends is None else blends:
         _write_blends([folder / kit.name for kit in scenes])
+
+
+def opencv(camera: Camera, y_up: bool = False) -> dict[str, Any]:
+    """Return a camera for JSON, as docs/conformance.md has it; y_up: in glTF's world."""
+    if y_up:
+        camera = replace(camera, world_from_camera=Y_UP_FROM_Z_UP @ camera.world_from_camera)
+    return {
+        "projection": camera.projection.name,
+        "width": camera.width,
+        "height": camera.height,
+        **body_of(camera),
+        "up": "y" if y_up else "z",
+    }
 
 
 def _write_blends(folders: Sequence[Path]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
+import shutil
 import signal
 import subprocess
 from collections.abc import Mapping, Sequence
@@ -49,6 +50,15 @@ def words_of(command: str) -> tuple[str, ...]:
     if not words:
         raise ValueError("there is no command")
     return words
+
+
+def check_starts(program: str) -> None:
+    """Raise a ValueError if the first word of a command is no program that can be executed."""
+    if shutil.which(program):
+        return
+    if os.path.exists(program):
+        raise ValueError(f"'{program}' cannot be executed: name its interpreter, or chmod +x it")
+    raise ValueError(f"there is no program '{program}': name one in the PATH, or its whole path")
 
 
 def filled(words: Sequence[str], names: Mapping[str, str]) -> list[str]:

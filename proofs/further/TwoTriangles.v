@@ -5,7 +5,7 @@
 Require Import ZArith List Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Reftrace Require Import Trees Pairs CodeAnswers CertifiedDepth.
-From Reftrace Require Contest Integers Hits Ties.
+From Reftrace Require Contest Integers Hits Ties Leaf.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -48,6 +48,30 @@ Theorem integers_agree :
   | Some f, Some n =>
       negb (Hits.on_edge f) && negb (Hits.on_edge n) && (Integers.gap n f <? 0) &&
       (Hits.sign_of_difference Ties.PERTURBATION n f <? 0)
+  | _, _ => false
+  end = true.
+Proof. vm_compute. reflexivity. Qed.
+
+(** The checker of certificates sees the near one, without ties, and its t is that float. *)
+Definition checked_far := Leaf.hit (1, 16) (100, 1) (0, 0) (Integers.I3 2 (-2) (-16))
+  (Leaf.of_triangle Integers.ZERO
+    (Integers.I3 (-17) (-15) (-83)) (Integers.I3 21 (-13) (-91)) (Integers.I3 3 22 (-78))).
+Definition checked_near := Leaf.hit (1, 16) (100, 1) (1, 0) (Integers.I3 2 (-2) (-16))
+  (Leaf.of_triangle Integers.ZERO
+    (Integers.I3 (-16) (-16) (-48)) (Integers.I3 32 (-16) (-53)) (Integers.I3 0 32 (-44))).
+Definition quotient n d : float :=
+  Bdiv mode_NE (binary_normalize prec emax _ _ mode_NE n 0 false)
+    (binary_normalize prec emax _ _ mode_NE d 0 false).
+Theorem checker_agrees :
+  match checked_far, checked_near with
+  | Some f, Some n =>
+      match Leaf.sees [f; n] with
+      | (Some seen, ties) =>
+          (fst (Leaf.named seen) =? 1) && negb ties &&
+          match Bcompare (quotient (Leaf.top seen) (Leaf.bottom seen)) t_of_near with
+          | Some Datatypes.Eq => true | _ => false end
+      | _ => false
+      end
   | _, _ => false
   end = true.
 Proof. vm_compute. reflexivity. Qed.

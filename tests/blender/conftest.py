@@ -40,7 +40,7 @@ def addon():
 
 @pytest.fixture(scope="session")
 def start_up_file(addon, tmp_path_factory) -> str:
-    """An empty file with one workspace: read in half the time of Blender's, with its eleven."""
+    """An empty file with one workspace: read in half the time of Blender's, which has eleven."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.data.batch_remove([w for w in bpy.data.workspaces if w.name != "Layout"])
     path = str(tmp_path_factory.mktemp("empty") / "empty.blend")

@@ -6,14 +6,20 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.jobs import compare as compare_module
+from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
+from reference_tracer.camera_files.convention import View
+from reference_tracer.camera_files.files import CONVENTIONS, texts
+from reference_tracer.camera_files.frame import part
 from reference_tracer.cli import in_blender
+from reference_tracer.scene import Region
 
 from . import hard_cases as hard
 from .test_hard_cases import own_picture
@@ -141,6 +147,61 @@ def test_a_frame_is_done_again_if_a_file_that_it_uses_is_another(kind, moving, r
     path.write_bytes(b"12")
     run("1")
     assert done(out) != before
+
+
+@pytest.fixture
+def seen_by(moving, out):
+    """Write transforms.json: a camera a name, each of a width of its own, so that one tells it."""
+    own = export_camera(moving)
+
+    def write(*names: str) -> str:
+        regions = [Region(0, 0, 24 + 4 * k, own.height) for k in range(len(names))]
+        cameras = [part(replace(own, region=region)) for region in regions]
+        views = [View(c, name) for c, name in zip(cameras, names, strict=True)]
+        path = out.parent / "transforms.json"
+        path.write_text(texts(views, CONVENTIONS["nerf"])[""], encoding="utf-8")
+        return str(path)
+
+    return write
+
+
+def widths(out) -> list[int]:
+    """Of the frames' pictures, whose height is that of the scene's."""
+    paths = sorted(out.glob("frame_*/comparison.json"))
+    found = [json.loads(path.read_text("utf-8")) for path in paths]
+    return [one["pixels"]["total"] // SIZE[1] for one in found]
+
+
+def test_each_frame_is_seen_by_its_own_camera_of_a_file(moving, run, out, seen_by):
+    """Its number is its image's; and a frame whose camera is another is done again."""
+    options = "--judge", "workbench", "--camera"
+    assert run("1-2", *options, seen_by("r_0.png", "r_1.png", "r_2.png")) == 0
+    assert widths(out) == [28, 32]
+    before = done(out)
+    assert run("1-2", *options, seen_by("r_2.png", "r_1.png", "r_3.png")) == 0
+    assert widths(out) == [28, 24]
+    assert [frame for frame, file in done(out).items() if before[frame] != file] == [2]
+    assert not any("transforms" in c.name or "r_" in c.name for c in bpy.data.cameras)
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (("r_1.png", "r_3.png"), "no camera for frame 2; there are r_1.png, r_3.png"),
+        (("a1.png", "b1.png"), "2 cameras for frame 1; there are a1.png, b1.png"),
+        (("a.png", "b.png", "c.png"), "3 cameras without numbers for 2 frames"),
+    ],
+)
+def test_a_frame_without_its_camera_is_refused_by_name(
+    names, said, moving, run, out, seen_by, capsys
+):
+    assert run("1-2", "--camera", seen_by(*names)) == 4
+    assert said in capsys.readouterr().err and not list(out.glob("frame_*"))
+
+
+def test_cameras_without_numbers_are_those_of_the_frames_in_order(moving, run, out, seen_by):
+    run("2-3", "--camera", seen_by("left.png", "right.png"))
+    assert widths(out) == [24, 28]
 
 
 def test_no_camera_is_said_once(moving, run, out, capsys):

@@ -48,6 +48,17 @@ def test_a_skew_is_applied(tmp_path):
     assert off[0].min() < -1 and off[0].max() > 1
 
 
+def test_a_k_of_any_scale_is_the_same_with_either_center(tmp_path):
+    """The principal point is moved by half a pixel, not by half of K's last number."""
+
+    def scaled(content):
+        content |= {"pixel_centers": "integer", "K": (3 * np.array(content["K"])).tolist()}
+
+    own, path = changed(tmp_path, "opencv", scaled)
+    (view,) = read(path)
+    assert np.allclose(moved(own, view.camera), [[0.5], [-0.5]], atol=1e-9)
+
+
 def test_a_matrix_with_a_scale_sees_the_same(tmp_path):
     def scaled(content):
         rows = content["frames"][0]["transform_matrix"]

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.causes.case import Alternative, without
+from reference_tracer.causes.case import Alternative
 from reference_tracer.causes.explain import UNEXPLAINED, explain
 from reference_tracer.pictures.metrics import boundary
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Mesh
+from reference_tracer.scene import Instance, Mesh, without
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import case_of, owners_of

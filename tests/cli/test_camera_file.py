@@ -155,3 +155,32 @@ def test_what_of_a_file_is_not_applied_is_said(own, ball, tmp_path, capsys):
     path.write_text(json.dumps(file), encoding="utf-8")
     seen(ball, "--camera", path)
     assert "applied_transform is not undone" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "changed", "code", "said"),
+    [
+        ("opencv", {}, 0, None),
+        ("opencv", {"clip_start": 0.5}, 2, "differ: its clip range is 0.5 to "),
+        ("opencv", {"clip_start": None, "clip_end": None}, 0, None),
+        ("nerf", {}, 0, None),
+        ("nerf", {"w": 320, "h": 180, "cx": 160, "cy": 90}, 2, "differ: its picture has 320 x 180"),
+    ],
+)
+def test_a_check_is_also_of_the_size_and_the_clip_range(
+    name, changed, code, said, own, tmp_path, exit_code, capsys
+):
+    """What a file does not say is no difference."""
+    window = own.window.moved(*(-n for n in own.window.centre))
+    own = replace(own, window=window)
+    save_scene(tmp_path / "scene.npz", Scene(own))
+    path = written(own, name, tmp_path / "written")
+    file = json.loads(path.read_text(encoding="utf-8")) | changed
+    if "w" in changed:
+        file |= {key: file[key] / 2 for key in ("fl_x", "fl_y")}
+    file = {key: value for key, value in file.items() if value is not None}
+    path.write_text(json.dumps(file), encoding="utf-8")
+    assert exit_code(["camera", str(tmp_path / "scene.npz"), "--check", str(path)]) == code
+    first, *rest = capsys.readouterr().out.splitlines()
+    assert "agree: points lie at most" in first
+    assert len(rest) == (said is not None) and all(said in line for line in rest)

@@ -188,16 +188,22 @@ def test_a_proven_method_takes_float64_whatever_is_stored():
             GivenSettings(method, "float32").over(Settings())
 
 
-@pytest.mark.parametrize("option", ["--help", "--version"])
-def test_what_is_short_imports_no_numpy(option):
-    """It is what one types first: 0.5 s, were all commands imported for it."""
-    code = f"""if True:
+def test_a_command_imports_what_it_needs_alone():
+    """What one types first takes 0.5 s, were all commands imported for it."""
+    code = """if True:
         import sys
         from reference_tracer.cli import main as cli
-        try:
-            cli.main(['{option}'])
-        except SystemExit:
-            print(sorted({{'numpy', 'reference_tracer.cli.arguments'}} & sys.modules.keys()))
+        for option in ("--help", "--version"):
+            try:
+                cli.main([option])
+            except SystemExit:
+                print(sorted({"numpy", "reference_tracer.cli.arguments"} & sys.modules.keys()))
+        cli.parser(["trace"])
+        needless = {"reference_tracer.causes", "reference_tracer.pictures", "ssl", "trimesh"}
+        print("numpy" in sys.modules, sorted(needless & sys.modules.keys()))
+        cli.parser(["compare"])
+        print([f"reference_tracer.{n}" in sys.modules for n in ("causes", "diagnosis.faults")])
     """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "[]"
+    said = done.stdout.splitlines()
+    assert said.count("[]") == 2 and said[-2:] == ["True []", "[True, False]"]

@@ -18,6 +18,12 @@ from reference_tracer_cluster.connection import connected
 
 SHARED = pytest.StashKey["Dask"]()
 WAIT = 60.0  # seconds for a process to begin, on a machine with more to do
+# What an idle process of Dask does all the time, which no test is about: less of it.
+QUIET = {
+    "DASK_DISTRIBUTED__ADMIN__SYSTEM_MONITOR__INTERVAL": "5s",
+    "DASK_DISTRIBUTED__ADMIN__TICK__INTERVAL": "1s",
+    "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False",
+}
 
 
 class Dask:
@@ -42,7 +48,7 @@ class Dask:
                     *self._tls,
                     *options,
                 ],
-                env=os.environ | env,
+                env=os.environ | QUIET | env,
                 stderr=log,
                 stdout=log,
             )

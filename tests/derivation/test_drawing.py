@@ -13,10 +13,6 @@ from reference_tracer.derivation.labels import Label, crosses, overlap, placed
 from reference_tracer.derivation.textbook import Arithmetic
 from reference_tracer.projections import PROJECTIONS
 
-from ..report.browser import chromium
-
-__all__ = ["chromium"]  # a fixture
-
 TRIANGLE = [(-1, -1, -4), (1.4, -0.8, -5), (-0.3, 1.6, -6)]
 OUTSIDE = [(-1, -1.2, -4), (2, -1, -4), (2, 1.8, -5)]  # beside the ray; its box is not
 

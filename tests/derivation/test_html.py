@@ -13,10 +13,7 @@ from reference_tracer.derivation.formulas import Formula
 from reference_tracer.derivation.mathml import math
 from reference_tracer.derivation.textbook import Arithmetic
 
-from ..report.browser import chromium
 from .printed import tables
-
-__all__ = ["chromium"]  # a fixture
 
 MATH = formulas.CAMERA | formulas.PLANE | formulas.TRIANGLE | formulas.COLOR
 VOID = {"meta"}

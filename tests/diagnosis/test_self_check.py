@@ -8,17 +8,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.causes import explain as causes
-from reference_tracer.causes.case import Alternative, without
+from reference_tracer.causes.case import Alternative
 from reference_tracer.causes.cause import Causes, Hidden
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.diagnosis import self_check as self_checking
+from reference_tracer.diagnosis.fault_rows import FaultRow, table
 from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.diagnosis.faults.fault import Example, Fault
-from reference_tracer.diagnosis.self_check import FaultRow, self_check, table
+from reference_tracer.diagnosis.self_check import self_check
 from reference_tracer.diagnosis.trial import same_shapes, traced_anew
 from reference_tracer.manifest import Effect, ObjectEntry, Unmodelled
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
+from reference_tracer.scene import without
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 

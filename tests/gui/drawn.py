@@ -6,10 +6,11 @@ import blf
 import bpy
 
 TABS = 44  # of a sidebar's width, in pixels at a scale of 1: its tabs and margins
-MARGINS = 28  # of another region's
+MARGINS = 43  # of another region's
 INSET = 12  # of a box
+HEAD = 29  # of a folded part's head: its arrow
 ICON = 21
-CHOICE = 0.58  # the share that a choice has of a line
+NAME, VALUE = 0.37, 0.58  # the shares that a setting's name and its value have of a line
 
 
 class Noting:
@@ -54,7 +55,7 @@ class Noting:
     def panel(self, idname, default_closed=False):
         head, body = self.layout.panel(idname, default_closed=default_closed)
         self.found.setdefault("folded", []).append(body is None)
-        return self.part(head, 40 * scale()), self.part(body or self.layout.column())
+        return self.part(head, HEAD * scale()), self.part(body or self.layout.column())
 
     def label(self, text="", icon="NONE", **options):
         self.layout.label(text=text, icon=icon, **options)
@@ -75,10 +76,16 @@ class Noting:
         self.layout.prop(owner, name, text=text, **options)
         known = owner.bl_rna.properties[name]
         if known.type == "ENUM":
-            longest = max((item.name for item in known.enum_items), key=len)
-            self.note("choice", longest, "DOWNARROW_HLT", CHOICE)
+            longest = max((_shown(item.name) for item in known.enum_items), key=len)
+            self.note("choice", longest, "DOWNARROW_HLT", 1.0 if text == "" else VALUE)
+        is_split, is_box = self.layout.use_property_split, known.type == "BOOLEAN"
+        if is_box:
+            self.note("box", known.name, "CHECKBOX_HLT", VALUE if is_split else 1.0)
+        elif is_split and text is None:
+            self.note("name", known.name, "NONE", NAME)
 
     def note(self, kind, text, icon, share=1.0):
+        text = _shown(text)
         entry = {"kind": kind, "text": text, "icon": icon, "room": self.width * share}
         if self.shared and kind == "button":
             self.items.append(entry)
@@ -87,6 +94,11 @@ class Noting:
         self.found.setdefault("drawn", []).append(entry)
         blf.size(0, bpy.context.preferences.ui_styles[0].widget.points * scale())
         entry["width"] = blf.dimensions(0, text)[0] + (ICON * scale() if icon != "NONE" else 0)
+
+
+def _shown(text):
+    """A text in the language that Blender has."""
+    return bpy.app.translations.pgettext(text)
 
 
 def scale():

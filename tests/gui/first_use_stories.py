@@ -83,10 +83,10 @@ def unticked():
     yield
     yield from click_on(properties(), COMPARE)
     noted["ran"] = running() != []
-    yield from click_on(area, "preferences.addon_disable(", across=0.04)
+    yield from click_on(area, "preferences.addon_disable(", across=0.046)
     noted["disabled"] = not enabled()
     screenshot("first_use_unticked")
-    yield from click_on(area, "preferences.addon_enable(", across=0.04)
+    yield from click_on(area, "preferences.addon_enable(", across=0.046)
     yield from until(enabled, 30)
     area.type = "VIEW_3D"
     yield from at_the_panel()

@@ -4,7 +4,7 @@ import ctypes
 import subprocess
 
 import bpy
-from story import window
+from story import scaled, window
 
 
 def xdotool(*words):
@@ -18,6 +18,7 @@ def on_screen(region, x, y):
 
 def click(region, x, y):
     """Click with the left button at a place of a region, as a hand does."""
+    last[click] = region, y
     for action in (("mousemove", *on_screen(region, x, y)), ("mousedown", 1), ("mouseup", 1)):
         xdotool(*action)
         yield
@@ -34,9 +35,12 @@ def command_under(area, region, x, y):
     return bpy.context.window_manager.clipboard
 
 
-def along(area, command, step=16):
+STEP = 16  # less than a button is high, at a scale of 1
+
+
+def along(area, command):
     """Go along an editor's header until the pointer is on a command's button; return where."""
-    region = next(r for r in area.regions if r.type == "HEADER")
+    region, step = next(r for r in area.regions if r.type == "HEADER"), scaled(STEP)
     for x in range(step, region.width, step):
         if command in (yield from command_under(area, region, x, region.height // 2)):
             return region, x, region.height // 2
@@ -44,13 +48,14 @@ def along(area, command, step=16):
 
 
 WHEEL = 24  # its clicks from the end of a panel to its top
-last = {}  # how high in its region each command's button was found last: it is looked for there
+last = {}  # how high in its region each command's button was found last, and what was clicked on
 
 
-def found(area, command, across=0.6, step=16, kind="WINDOW"):
-    """Go down an editor, scrolled if need be, until the pointer is on a command's button.
+def found(area, command, across=0.6, kind="WINDOW"):
+    """Look for a command's button in an editor, scrolled if need be, with the pointer.
 
-    So far across a region of it, as a share of its width. Returns where that is.
+    So far across a region of it, as a share of its width. Returns where that is. A button that was
+    not found before is first looked for near the last click.
 
     Raises
     ------
@@ -58,24 +63,32 @@ def found(area, command, across=0.6, step=16, kind="WINDOW"):
         If there is none.
     """
     region = next(r for r in area.regions if r.type == kind)
-    x = across * region.width
+    x, step = across * region.width, scaled(STEP)
+    downwards = range(region.height - step, step, -step)  # the edges are to be dragged
 
-    def is_under_the_pointer(y):
-        return command in (yield from command_under(area, region, x, y))
+    def among(heights):
+        for y in heights:
+            if command in (yield from command_under(area, region, x, y)):
+                last[command] = y
+                return region, x, y
 
     xdotool("mousemove", 0, 0)  # what was under the pointer is it no more
     yield 0.3
-    if command in last and (yield from is_under_the_pointer(last[command])):
-        return region, x, last[command]
+    if command in last:
+        near = [last[command]]
+    elif last.get(click, (None,))[0] == region:
+        near = sorted(downwards, key=lambda y: abs(y - last[click][1]))
+    else:
+        near = []
+    if there := (yield from among(near)):
+        return there
     # To the top, where a sidebar has something: else the wheel is for what is below it.
     top = on_screen(region, x, region.height - step)
     xdotool("mousemove", *top, "click", "--repeat", WHEEL, 4)
     for _ in range(4):
         yield
-        for y in range(region.height - step, 0, -step):
-            if (yield from is_under_the_pointer(y)):
-                last[command] = y
-                return region, x, y
+        if there := (yield from among(downwards)):
+            return there
         xdotool("click", "--repeat", 8, 5)  # the wheel
     raise LookupError(f"there is no button {command}")
 

@@ -87,7 +87,7 @@ def house():
     noted["formatted"] = module("blender.ui.panels").iface_("{} differ, {} open")
     view.language = before[1]
     bpy.app.translations.unregister("story")
-    view.ui_scale = 2.0
+    view.ui_scale = 2 * before[0]
     with over("PROPERTIES"):
         bpy.ops.screen.screen_full_area()
     yield

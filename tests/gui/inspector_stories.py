@@ -13,6 +13,7 @@ from story import (
     press_compare,
     result,
     running,
+    scaled,
     screenshot,
     settings,
     until,
@@ -20,6 +21,7 @@ from story import (
 )
 
 BUTTON = 44  # pixels from the top of the image editor's sidebar to the middle of our button
+HALF = 50  # percent: so that a pixel of the picture is about as large as one of the screen
 DERIVATION = "PIXEL"
 
 
@@ -74,6 +76,7 @@ def place_in_view(area, x, y):
 
 def in_images():
     """In the traced image, the difference, a render: each click is its pixel; Esc ends it."""
+    window().scene.render.resolution_percentage = HALF
     press_compare()
     yield from until(compared)
     comparison = result().content
@@ -83,14 +86,14 @@ def in_images():
     yield from open_tab(area)
     before = settings()
     sidebar = next(r for r in area.regions if r.type == "UI")
-    yield from click(sidebar, 0.4 * sidebar.width, sidebar.height - BUTTON)
+    yield from click(sidebar, 0.4 * sidebar.width, sidebar.height - scaled(BUTTON))
     noted["running"] = running()
     region = region_of(area)
-    for name, x, y in (("Traced", 470, 300), ("Difference", 400, 190), ("Blender", 600, 200)):
+    for name, x, y in (("Traced", 235, 150), ("Difference", 200, 95), ("Blender", 300, 100)):
         area.spaces.active.image = bpy.data.images[f"Reference Tracer {name}"]
         zoom(area, 2)
         yield
-        u, v = region.view2d.view_to_region((x + 0.5) / 960, (y + 0.5) / 540, clip=False)
+        u, v = region.view2d.view_to_region((x + 0.5) / 480, (y + 0.5) / 270, clip=False)
         yield from click(region, u, v)
         noted[name] = {"clicked": [x, y], "pixel": pixel()}
         frame = comparison.frame
@@ -143,6 +146,7 @@ def in_render():
 
 def in_view():
     """In the camera's view, with the ray drawn; undo and one button remove it."""
+    window().scene.render.resolution_percentage = HALF
     area = area_of("VIEW_3D")
     look_through_camera(area)
     yield
@@ -153,7 +157,7 @@ def in_view():
     noted["started"] = list(invoke("inspect"))
     region = region_of(area)
     noted["clicks"] = []
-    for x, y in ((480, 300), (597, 90)):
+    for x, y in ((240, 150), (298, 45)):
         yield from click(region, *place_in_view(area, x, y))
         noted["clicks"].append([[x, y], pixel()])
     screenshot("inspect_view")

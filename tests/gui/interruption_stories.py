@@ -14,6 +14,7 @@ from story import (
     ended,
     module,
     noted,
+    over_the_view,
     press_compare,
     result,
     running,
@@ -104,8 +105,9 @@ def still_running():
 
 def wake():
     """Move the pointer: Blender drops the handlers of what it ended with the next event."""
-    for x in ("500", "510"):
-        subprocess.run(["xdotool", "mousemove", x, "350"], check=True)
+    x, y = over_the_view()
+    for place in ((x, y), (x, "0"), (x, y)):
+        subprocess.run(["xdotool", "mousemove", *place], check=True)
 
 
 def undone(found):

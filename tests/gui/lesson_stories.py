@@ -19,6 +19,7 @@ from story import (
     opened,
     press,
     result,
+    scaled,
     screenshot,
     until,
     window,
@@ -61,7 +62,7 @@ def begun(lesson, scene):
     area("PROPERTIES").spaces.active.context = "RENDER"
     yield 0.5
     region, x, y = yield from found(area("PROPERTIES"), COMPARE)
-    yield from clicked(1, region, x, y - SAMPLES)
+    yield from clicked(1, region, x, y - scaled(SAMPLES))
     yield from clicked(1, *(yield from found(area("PROPERTIES"), f"{scene}.blend")))
     name = scene.replace("_", ": ").title()
 
@@ -192,7 +193,7 @@ def lesson_4():
     yield from begun("triangle", "exercise_triangle")
     scene = window().scene
     region, x, y = yield from found(area("PROPERTIES"), COMPARE)
-    yield from clicked(3, region, x, y - SETTINGS)
+    yield from clicked(3, region, x, y - scaled(SETTINGS))
     scene.reference_tracer.method = "textbook_literal"
     scene.reference_tracer.diagnose = False  # of so many holes: it takes its time
     yield 1

@@ -30,7 +30,7 @@ import seen_stories
 import stories
 import study_stories
 import viewport_stories
-from story import OUT, by_rounds, noted, resized, window
+from story import OUT, by_rounds, noted, resized, screenshot, window
 
 STORIES = {
     story.__name__: (module.SCENE, story)
@@ -54,10 +54,19 @@ STORIES = {
 }
 
 
-# Of the window, in pixels: most of the time goes into drawing it, in software.
-SMALL, LARGE = (1280, 720), (1600, 900)
-# Stories that look at all of a sidebar; those whose pictures are the lessons'.
-LARGE_ONES = "panel", "compared_images", "in_images", *(s.__name__ for s in lesson_stories.STORIES)
+# Of the window, in pixels, and the scale of all in it: most of the time goes into drawing it, in
+# software. What is half as large is laid out alike.
+LARGE = 1600, 900, 1.0
+SMALL_LARGE = 800, 450, 0.5
+SMALL = 640, 360, 0.5
+SIZES = {  # of other stories
+    "panel": LARGE,
+    **dict.fromkeys(("compared_images", "in_images"), SMALL_LARGE),
+    **dict.fromkeys(
+        (story.__name__ for story in lesson_stories.STORIES),
+        LARGE if lesson_stories.RECORDED else SMALL_LARGE,
+    ),
+}
 
 
 def played(names):
@@ -68,10 +77,13 @@ def played(names):
         noted.clear()
         try:
             yield from opened(scene)
-            yield from resized(*LARGE if name in LARGE_ONES else SMALL)
+            *size, bpy.context.preferences.view.ui_scale = SIZES.get(name, SMALL)
+            bpy.context.preferences.is_dirty = False
+            yield from resized(*size)
             yield from story()
         except Exception:
             noted["error"] = traceback.format_exc()
+            screenshot(f"{name}_error")
         took, cpu = time.monotonic() - began, time.process_time() - cpu
         print(f"story {name}: {took:.1f} s, {cpu:.1f} s of CPU", flush=True)
         (OUT / f"{name}.json").write_text(json.dumps(noted, indent=1))

@@ -69,19 +69,21 @@ def panel():
     yield from until(at_rest)
     yield from front()
     screenshot("panel_compared")
-    before = view.ui_scale, bpy.context.preferences.is_dirty
+    before = view.language, view.ui_scale, bpy.context.preferences.is_dirty
     noted["cut"] = {}
     size = window().width, window().height
-    for name, shown, width, kind in (
-        ("properties", 1, size[0], PROPERTIES),
-        ("sidebar", 1, size[0], SIDEBAR),
-        ("large", 2, size[0], SIDEBAR),
-        ("narrow", 1, 1280, SIDEBAR),
-        ("narrow_large", 2, 1280, SIDEBAR),
+    for name, shown, width, kind, language in (
+        ("properties", 1, size[0], PROPERTIES, "en_US"),
+        ("narrow_properties", 1, 1280, PROPERTIES, "en_US"),
+        ("narrow_german", 1, 1280, PROPERTIES, "de_DE"),
+        ("german", 1, 1280, SIDEBAR, "de_DE"),
+        ("narrow", 1, 1280, SIDEBAR, "en_US"),
+        ("narrow_large", 2, 1280, SIDEBAR, "en_US"),
     ):
         if window().width != width:
             yield from resized(width, 720)
         view.ui_scale = shown
+        view.language = language
         yield
         found = yield from drawn_anew(kind)
         screenshot(f"panel_{name}")
@@ -90,7 +92,7 @@ def panel():
         noted.setdefault("drawn", {})[name] = [len(found[kind]["drawn"]), round(scale(), 2)]
     icons = [e["icon"] for p in found.values() for e in p.get("drawn", ()) if e["kind"] == "button"]
     noted["icons"] = [i for i in icons if i != "NONE"]
-    view.ui_scale, bpy.context.preferences.is_dirty = before
+    view.language, view.ui_scale, bpy.context.preferences.is_dirty = before
     yield from resized(*size)
 
 

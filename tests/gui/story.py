@@ -41,17 +41,33 @@ def resized(width, height):
     yield
 
 
+def scaled(pixels):
+    """Return so many pixels of a window whose scale is 1, in this one."""
+    return round(pixels * bpy.context.preferences.view.ui_scale)
+
+
+def over_the_view():
+    """Return a place on the screen that is over the 3D view, as text."""
+    return str(scaled(500)), str(scaled(350))
+
+
 def press(key):
     """Press a key as a keyboard does, with the pointer over the 3D view."""
     key = KEYS.get(key, key)
-    subprocess.run(["xdotool", "mousemove", "500", "350", "key", key], check=True)
+    subprocess.run(["xdotool", "mousemove", *over_the_view(), "key", key], check=True)
 
 
-def screenshot(name, *options):
-    """Write what the screen shows, or the part that options of `import` say, into a PNG."""
+def screenshot(name, area=None):
+    """Write what the window shows, or an area of it, or the screen if it has more, into a PNG.
+
+    An area is left, top, width and height, in pixels.
+    """
+    first, *others = bpy.context.window_manager.windows
+    left, top, width, height = area or (0, 0, first.width, first.height)
+    part = [] if others else ["-crop", f"{width}x{height}+{left}+{top}", "+repage"]
     quick = ["-quality", "10"]  # by the default, it takes up to seconds
     path = str(OUT / f"{name}.png")
-    subprocess.run(["import", "-window", "root", *options, *quick, path], check=True)
+    subprocess.run(["import", "-window", "root", *part, *quick, path], check=True)
 
 
 def data_blocks():

@@ -1,12 +1,12 @@
 """What a user does with the two studies, played in its window: see `play.py`."""
 
-import subprocess
 import time
 from pathlib import Path
 from urllib.parse import urlparse
 from urllib.request import url2pathname
 
 import bpy
+from hands import click, command_under, found
 from story import (
     data_blocks,
     ended,
@@ -18,9 +18,9 @@ from story import (
     render_result,
     result,
     running,
+    scaled,
     screenshot,
     settings,
-    show_panel,
     until,
     window,
 )
@@ -38,18 +38,23 @@ def note_changes(before):
     noted["render_result_kept"] = before[2] == after[2]
 
 
-def show_study(name, picture):
-    """Open a panel of our tab by its header."""
-    window().scene.render.engine = "REFERENCE_TRACER"
-    show_panel()
-    yield
+COMPARE = "reference_tracer.compare("
+# Pixels from the lower end of *Trace and Compare* down to the header of a folded panel, where
+# nothing is compared yet; and from there to the panel's button.
+FOLDED, BUTTON = {"trade": 151, "extremes": 177}, 27
+
+
+def show_study(name):
+    """Unfold a panel of our tab by its header, and look at it."""
     yield from open_tab()
-    subprocess.run(["xdotool", "mousemove", *PANELS[name], "click", "1"], check=True)
-    yield
-    screenshot(picture)
-
-
-PANELS = {"trade": ("1100", "547"), "extremes": ("1100", "574")}  # headers, both closed
+    area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
+    region, x, y = yield from found(area, COMPARE, kind="UI")
+    while COMPARE in (yield from command_under(area, region, x, y)):
+        y -= scaled(4)
+    y -= scaled(FOLDED[name])
+    yield from click(region, x, y)
+    noted["button"] = yield from command_under(area, region, x, y - scaled(BUTTON))
+    screenshot(name)
 
 
 def images():
@@ -70,17 +75,17 @@ def study(name, kind, **options):
     ]
     screenshot(f"{name}_running")
 
-    def found():
+    def measured():
         return result(kind)
 
-    yield from until(found, 900)
+    yield from until(measured, 900)
     yield
     note_changes(before)
     noted["lines"] = list(result(kind).lines)
     page = Path(url2pathname(urlparse(result(kind).page).path))  # what the panel's button opens
     noted["plots"] = page.read_text(encoding="utf-8").count("<svg")
     noted["in_add_on"] = Path(module("blender.ui.results").__file__).parents[2] in page.parents
-    yield from show_study(name, name)
+    yield from show_study(name)
 
 
 def trade():

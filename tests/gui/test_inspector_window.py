@@ -18,7 +18,7 @@ def test_clicks_in_the_comparisons_images(noted):
     assert noted["after_escape"] == []
     assert noted["changed"] == {}
     assert noted["texts"] == ["Reference Tracer Pixel"]
-    assert noted["text_begins"].startswith("# The ray through pixel (600, 200) of suzanne.blend")
+    assert noted["text_begins"].startswith("# The ray through pixel (300, 100) of suzanne.blend")
 
 
 @pytest.mark.story("in_render")

@@ -15,6 +15,7 @@ def assert_ran(noted, name):
     assert noted["new"] == {}
     assert noted["render_result_kept"]
     assert not noted["in_add_on"]
+    assert f"reference_tracer.{name}(" in noted["button"]
 
 
 @pytest.mark.story("trade")

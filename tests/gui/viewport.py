@@ -20,7 +20,7 @@ def prepared():
     for name in ("header", "tool_header", "toolbar", "ui", "hud"):
         setattr(space(), f"show_region_{name}", False)
     with bpy.context.temp_override(window=window(), area=area(), region=region()):
-        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.25)
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
     yield 0.05
     both = [a for a in window().screen.areas if a.type == "VIEW_3D"]
     max(both, key=lambda a: a.width).type = "TEXT_EDITOR"
@@ -92,8 +92,7 @@ def settled():
 def screen(name):
     """The view on the screen, (h, w, 3) from 0 to 255, row 0 at the bottom; a file keeps it."""
     r = region()
-    bottom = window().height - r.y - r.height
-    screenshot(name, "-crop", f"{r.width}x{r.height}+{r.x}+{bottom}", "+repage")
+    screenshot(name, (r.x, window().height - r.y - r.height, r.width, r.height))
     image = bpy.data.images.load(str(OUT / f"{name}.png"))
     image.colorspace_settings.name = "Non-Color"
     pixels = np.empty(r.width * r.height * 4, np.float32)

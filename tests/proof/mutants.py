@@ -4,6 +4,7 @@
 
 - *expressions*: `tools/record_trees.py --check`, of the expressions of floats;
 - *integers*: the same, of whole functions of integers;
+- *checker*: the same, of the checker of certificates;
 - *judge*: small scenes, whose rays meet edges, corners and several surfaces at once, by the sweep
   and by `plain`; owner, certainty, t and ties against `tests/oracle.py` and `tests/moved.py`, which
   share nothing with the tracer's own exact path.
@@ -22,6 +23,16 @@ from typing import NamedTuple
 from ..copied import TOOLS, copied, run
 
 ROOT = str(Path(__file__).resolve().parents[2])
+WHOLE = """
+import sys
+sys.path.append({tools!r})
+import record_trees
+from recorder import coq
+from recorder.records import WHOLE
+found = [record.output() for record in WHOLE[{file!r}][0]]
+if changed := coq.differences({file!r}, record_trees.proven(), found):
+    sys.exit("\\n\\n".join(changed))
+"""
 CHECKS = {
     "expressions": f"""
 import sys
@@ -30,16 +41,8 @@ sys.argv = ["record_trees.py", "--check"]
 import record_trees
 record_trees.main()
 """,
-    "integers": f"""
-import sys
-sys.path.append({TOOLS!r})
-import record_trees
-from recorder import coq
-from recorder.records.integers import INTEGERS
-found = [record.output() for record in INTEGERS]
-if changed := coq.differences("RecordedIntegers", record_trees.proven(), found):
-    sys.exit("\\n\\n".join(changed))
-""",
+    "integers": WHOLE.format(tools=TOOLS, file="RecordedIntegers"),
+    "checker": WHOLE.format(tools=TOOLS, file="RecordedChecker"),
     "judge": f"""
 import sys
 sys.path.append({ROOT!r})
@@ -61,156 +64,223 @@ class Mutant(NamedTuple):
     check: str
 
 
-MUTANTS = (
+# By check: what is changed, in which file, from which text to which.
+_TABLE = {
     # Floats.
-    *(
-        Mutant(what, f"certified/{file}.py", old, new, "expressions")
-        for what, file, old, new in (
-            ("t's error is half of it", "quotient", "_DOT = 2.0**-72", "_DOT = 2.0**-73"),
-            ("no room for the bounds' roundings", "quotient", "_LOOSE = 1.01", "_LOOSE = 1.0"),
-            ("likewise of t's interval", "bounds", "_LOOSE = 1 + 2.0**-48", "_LOOSE = 1.0"),
-            ("no error of t's own rounding", "bounds", "(error + U * np.abs(t))", "error"),
-            ("the sign of D1 D2 is forgotten", "order", "* columns[4]", "* np.abs(columns[4])"),
-            ("sure at the clip start", "ladder", "(low > start) & (", "(low >= start) & ("),
-            (
-                "a miss at the error itself",
-                "ladder",
-                "(low < -error) & (high > error)",
-                "(low <= -error) & (high >= error)",
-            ),
-            (
-                "what may be as near is dropped",
-                "ladder",
-                "& (low <= self._farthest[ray])",
-                "& (low < self._farthest[ray])",
-            ),
-            ("half of the rays' error", "sweep/film", "24 * _EPS", "12 * _EPS"),
-            ("a t that is not finite is taken", "measures", "& np.isfinite(t) ", ""),
-            (
-                "a fragment as near is dropped",
-                "sweep/depth_buffer",
-                "some.nearest < gather(self.nearness",
-                "some.nearest <= gather(self.nearness",
-            ),
-        )
+    "expressions": (
+        ("t's error is half of it", "certified/quotient.py", "_DOT = 2.0**-72", "_DOT = 2.0**-73"),
+        (
+            "no room for the bounds' roundings",
+            "certified/quotient.py",
+            "_LOOSE = 1.01",
+            "_LOOSE = 1.0",
+        ),
+        (
+            "likewise of t's interval",
+            "certified/bounds.py",
+            "_LOOSE = 1 + 2.0**-48",
+            "_LOOSE = 1.0",
+        ),
+        ("no error of t's own rounding", "certified/bounds.py", "(error + U * np.abs(t))", "error"),
+        (
+            "the sign of D1 D2 is forgotten",
+            "certified/order.py",
+            "* columns[4]",
+            "* np.abs(columns[4])",
+        ),
+        (
+            "sure at the clip start",
+            "certified/ladder.py",
+            "(low > start) & (",
+            "(low >= start) & (",
+        ),
+        (
+            "a miss at the error itself",
+            "certified/ladder.py",
+            "(low < -error) & (high > error)",
+            "(low <= -error) & (high >= error)",
+        ),
+        (
+            "what may be as near is dropped",
+            "certified/ladder.py",
+            "& (low <= self._farthest[ray])",
+            "& (low < self._farthest[ray])",
+        ),
+        ("half of the rays' error", "certified/sweep/film.py", "24 * _EPS", "12 * _EPS"),
+        ("a t that is not finite is taken", "certified/measures.py", "& np.isfinite(t) ", ""),
+        (
+            "a fragment as near is dropped",
+            "certified/sweep/depth_buffer.py",
+            "some.nearest < gather(self.nearness",
+            "some.nearest <= gather(self.nearness",
+        ),
     ),
     # Integers, and who is seen.
-    *(
-        Mutant(what, f"certified/{file}.py", old, new, "integers")
-        for what, file, old, new in (
-            (
-                "a component of n has another sign",
-                "exact",
-                "ab[1] + bc[1] + ca[1]",
-                "ab[1] + bc[1] - ca[1]",
-            ),
-            ("an edge is a miss", "exact", "min(edges) < 0 <", "min(edges) <= 0 <"),
-            ("the clip range is open", "exact", "abs(denominator)) < 0", "abs(denominator)) <= 0"),
-            ("no hit at t = 0", "exact", "if not numerator and self._open", "if not numerator"),
-            (
-                "the sign of D1 D2 is forgotten in `gap`",
-                "exact",
-                "return apart if (first.denominator > 0) == (second.denominator > 0) else -apart",
-                "return apart",
-            ),
-            (
-                "likewise for the moved ray",
-                "exact",
-                "return sign if (first.denominator > 0) == (second.denominator > 0) else -sign",
-                "return sign",
-            ),
-            ("the origin moves always", "exact", "if not value and m == ZERO", "if not value"),
-            ("crossed from one side alone", "exact", "signs in ({1}, {-1})", "signs == {1}"),
-            ("t by another power of two", "exact", "denominator <<= -self._shift", "pass"),
-            (
-                "w has another sign",
-                "order",
-                "by1 * b - by2 * a",
-                "by2 * a - by1 * b",
-            ),
-            ("the highest name is seen", "ties", "name < hits[best][0]", "name > hits[best][0]"),
-            ("what is as near is not in front", "ties", "gap(m, least) <= 0", "gap(m, least) < 0"),
+    "integers": (
+        (
+            "a component of n has another sign",
+            "certified/exact.py",
+            "ab[1] + bc[1] + ca[1]",
+            "ab[1] + bc[1] - ca[1]",
+        ),
+        ("an edge is a miss", "certified/exact.py", "min(edges) < 0 <", "min(edges) <= 0 <"),
+        (
+            "the clip range is open",
+            "certified/exact.py",
+            "abs(denominator)) < 0",
+            "abs(denominator)) <= 0",
+        ),
+        (
+            "no hit at t = 0",
+            "certified/exact.py",
+            "if not numerator and self._open",
+            "if not numerator",
+        ),
+        (
+            "the sign of D1 D2 is forgotten in `gap`",
+            "certified/exact.py",
+            "return apart if (first.denominator > 0) == (second.denominator > 0) else -apart",
+            "return apart",
+        ),
+        (
+            "likewise for the moved ray",
+            "certified/exact.py",
+            "return sign if (first.denominator > 0) == (second.denominator > 0) else -sign",
+            "return sign",
+        ),
+        (
+            "the origin moves always",
+            "certified/exact.py",
+            "if not value and m == ZERO",
+            "if not value",
+        ),
+        (
+            "crossed from one side alone",
+            "certified/exact.py",
+            "signs in ({1}, {-1})",
+            "signs == {1}",
+        ),
+        ("t by another power of two", "certified/exact.py", "denominator <<= -self._shift", "pass"),
+        (
+            "w has another sign",
+            "certified/order.py",
+            "by1 * b - by2 * a",
+            "by2 * a - by1 * b",
+        ),
+        (
+            "the highest name is seen",
+            "certified/ties.py",
+            "name < hits[best][0]",
+            "name > hits[best][0]",
+        ),
+        (
+            "what is as near is not in front",
+            "certified/ties.py",
+            "gap(m, least) <= 0",
+            "gap(m, least) < 0",
+        ),
+    ),
+    # The checker of certificates.
+    "checker": tuple(
+        (what, "../reference_tracer_verify/verify.py", old, new)
+        for what, old, new in (
+            ("an edge is no hit", "min(signs) < 0 <", "min(signs) <= 0 <"),
+            ("where the ray begins is a hit", " or top == start == 0", ""),
+            ("before the clip start is a hit", "below - start", "below + start"),
+            ("after the clip end is a hit", "bottom - top * above", "bottom + top * above"),
+            ("n has the other sign", "edges[0][1], edges[1][1]", "edges[1][1], edges[0][1]"),
+            ("crossed from before alone", "self.bottom * moved(*", "moved(*"),
+            ("the sign of D1 D2 is no matter", " * self.bottom * other.bottom", ""),
+            ("the higher name is before", "self.name < other", "self.name > other"),
+            ("the origin moves, too", "if not any(m)", "if m"),
+            ("the origin moves one way", "for along in (d, *moves)", "for along in (d,)"),
+            ("as near is not in front of the inside", "h.at <= other.at", "h.at < other.at"),
+            ("alone at an edge is clear", "min(1, len(inside))", "1"),
+            ("the ray moves along y first", "((1, 0, 0), (0, 1, 0),", "((0, 1, 0), (1, 0, 0),"),
+            ("the last that is crossed is first", "b if b.is_before(a, moves) else a", "b"),
         )
     ),
     # What no theorem notices: settling, ties, candidates.
-    *(
-        Mutant(what, file, old, new, "judge")
-        for what, file, old, new in (
-            (
-                "ties are called exact",
-                "certified/ladder.py",
-                "Certainty.AMBIGUOUS if ties else Certainty.EXACT",
-                "Certainty.EXACT",
-            ),
-            (
-                "who is alone is taken as sure",
-                "certified/ladder.py",
-                "return found, alone & (found.doubt == SURE), surfaces",
-                "return found, alone, surfaces",
-            ),
-            (
-                "the farther candidate wins",
-                "certified/ladder.py",
-                "nearer = result == order.FARTHER",
-                "nearer = result == order.NEARER",
-            ),
-            (
-                "likewise in a tournament",
-                "certified/sweep/tournament.py",
-                "beaten = result == FARTHER",
-                "beaten = result == -FARTHER",
-            ),
-            (
-                "candidates are not sorted by their names",
-                "certified/ladder.py",
-                "found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], "
-                "found.ray)))",
-                "found = found.take(np.lexsort((-found.surface, found.ray)))",
-            ),
-            (
-                "one edge function of one sign is a miss",
-                "certified/many.py",
-                "out[some] = low & high",
-                "out[some] = low | high",
-            ),
-            (
-                "intersections of planes are no lines of change",
-                "certified/ties.py",
-                "for other in planes[:k] if gap(hit, other) == 0]",
-                "for other in planes[:0]]",
-            ),
-            (
-                "only one side of each line is tried",
-                "certified/ties.py",
-                "for s in (1, -1)}",
-                "for s in (1,)}",
-            ),
-            (
-                "a float's last digit is lost in its integer",
-                "certified/integers.py",
-                "(mantissa * 2.0**53).astype(np.int64)",
-                "((mantissa * 2.0**53).astype(np.int64) & ~1)",
-            ),
-            (
-                "a clip limit is another power of two",
-                "certified/exact.py",
-                "self._shift + power.bit_length() - 1",
-                "self._shift + power.bit_length()",
-            ),
-            (
-                "the box begins a pixel later",
-                "tracer/candidates.py",
-                "bounds[2 * axis] = _pixel(first, low",
-                "bounds[2 * axis] = _pixel(first + 1, low",
-            ),
-            (
-                "triangles before the camera are culled",
-                "tracer/candidates.py",
-                "unseen = (farthest < camera.clip_start)",
-                "unseen = (nearest < camera.clip_start)",
-            ),
-        )
+    "judge": (
+        (
+            "ties are called exact",
+            "certified/ladder.py",
+            "Certainty.AMBIGUOUS if ties else Certainty.EXACT",
+            "Certainty.EXACT",
+        ),
+        (
+            "who is alone is taken as sure",
+            "certified/ladder.py",
+            "return found, alone & (found.doubt == SURE), surfaces",
+            "return found, alone, surfaces",
+        ),
+        (
+            "the farther candidate wins",
+            "certified/ladder.py",
+            "nearer = result == order.FARTHER",
+            "nearer = result == order.NEARER",
+        ),
+        (
+            "likewise in a tournament",
+            "certified/sweep/tournament.py",
+            "beaten = result == FARTHER",
+            "beaten = result == -FARTHER",
+        ),
+        (
+            "candidates are not sorted by their names",
+            "certified/ladder.py",
+            "found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], "
+            "found.ray)))",
+            "found = found.take(np.lexsort((-found.surface, found.ray)))",
+        ),
+        (
+            "one edge function of one sign is a miss",
+            "certified/many.py",
+            "out[some] = low & high",
+            "out[some] = low | high",
+        ),
+        (
+            "intersections of planes are no lines of change",
+            "certified/ties.py",
+            "for other in planes[:k] if gap(hit, other) == 0]",
+            "for other in planes[:0]]",
+        ),
+        (
+            "only one side of each line is tried",
+            "certified/ties.py",
+            "for s in (1, -1)}",
+            "for s in (1,)}",
+        ),
+        (
+            "a float's last digit is lost in its integer",
+            "certified/integers.py",
+            "(mantissa * 2.0**53).astype(np.int64)",
+            "((mantissa * 2.0**53).astype(np.int64) & ~1)",
+        ),
+        (
+            "a clip limit is another power of two",
+            "certified/exact.py",
+            "self._shift + power.bit_length() - 1",
+            "self._shift + power.bit_length()",
+        ),
+        (
+            "the box begins a pixel later",
+            "tracer/candidates.py",
+            "bounds[2 * axis] = _pixel(first, low",
+            "bounds[2 * axis] = _pixel(first + 1, low",
+        ),
+        (
+            "triangles before the camera are culled",
+            "tracer/candidates.py",
+            "unseen = (farthest < camera.clip_start)",
+            "unseen = (nearest < camera.clip_start)",
+        ),
     ),
+}
+MUTANTS = tuple(
+    Mutant(what, file, old, new, check)
+    for check, rows in _TABLE.items()
+    for what, file, old, new in rows
 )
 
 

@@ -46,3 +46,6 @@ def test_owner_and_t_are_what_coq_says(make):
 def test_the_integers_are_of_the_same_scene():
     for name in ("far", "near"):
         assert numbers(f"hit_{name}") == numbers("along") + numbers(name)
+        clip = [1, 16, 100, 1]  # from 1 / 16 to 100, as the scene's
+        named = [int(name == "near"), 0]
+        assert numbers(f"checked_{name}") == clip + named + numbers("along") + numbers(name)

@@ -20,7 +20,7 @@ SIZE = {"width": 1280, "height": 1300}  # the stage is whole in it
 NOT_BAD = ("data:", "blob:")  # addresses that are no network
 
 
-@pytest.fixture(scope="module")  # one at a time: Playwright cannot start twice in a process
+@pytest.fixture(scope="session")  # for tests/conftest.py: Playwright can't start twice in a process
 def chromium():
     from playwright.sync_api import sync_playwright
 

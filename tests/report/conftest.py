@@ -18,9 +18,9 @@ from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from .browser import chromium, show
+from .browser import show
 
-__all__ = ["chromium", "show"]  # fixtures
+__all__ = ["show"]  # a fixture
 
 HOSTILE = (
     '</script><script>window.hacked = "name"</script>',

@@ -163,7 +163,7 @@ def test_comparison_json_is_as_the_schema_says(differing, tmp_path):
 
 
 def test_every_result_of_the_self_check_is_in_the_schema(differing):
-    from reference_tracer.diagnosis.self_check import FaultRow
+    from reference_tracer.diagnosis.fault_rows import FaultRow
 
     rows = [
         FaultRow("a", "text", 5, 5, 5, 1),

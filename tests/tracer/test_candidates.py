@@ -12,6 +12,7 @@ from reference_tracer.tracer import candidates, world
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.candidates import pixel_bounds, vertex_bounds, within
 from reference_tracer.tracer.nearest import within_clip
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.world import batches, world_triangles, world_vertices
 
@@ -202,3 +203,22 @@ def test_boxes_are_those_of_the_corners(size, forest, monkeypatch):
             assert np.array_equal(shared, pixel_bounds(forest.camera, corners, 0.5))
             boxes.update(map(tuple, shared.T.tolist()))
     assert len(boxes) > 20
+
+
+@pytest.mark.parametrize("kept", [0, 200, candidates.SAMPLED])
+def test_candidates_are_the_same_for_each_sample(kept, forest, monkeypatch):
+    monkeypatch.setattr(candidates, "SAMPLED", kept)
+    monkeypatch.setattr(candidates, "PAIRS", 64)
+    made = result_of(candidates.cull(forest, np.dtype(float), 1 << 28, 0.5))
+    r = forest.camera.region
+    low, high = Region(r.x0, r.y0, r.x1, r.y1 // 2), Region(r.x0, r.y1 // 2, r.x1, r.y1)
+    sampled, gathered = candidates.Sampled(made), 0
+    for tile in (low, low, high, low, low):
+        pairs = zip(sampled.of(tile), candidates.candidates(made, tile), strict=True)
+        for (share, some), (own_share, own) in pairs:
+            assert share == own_share and (some is None) == (own is None)
+            if some is not None:
+                assert "corners" not in vars(some)  # nobody keeps them from sample to sample
+                assert (some.pixel == own.pixel).all() and (some.corners == own.corners).all()
+                gathered += len(some.pixel)
+    assert gathered > 1000

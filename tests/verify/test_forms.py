@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from reference_tracer.certificate_file import save_certificate
 from reference_tracer.rendering import render
-from reference_tracer_verify.verify import Certificate, Forms, candidates, cross, dot, levels
+from reference_tracer_verify.verify import Certificate, candidates, cross, dot, forms, levels
 
 from .certificates import scene_of
 
@@ -21,16 +21,26 @@ def minus(a, b) -> list[Fraction]:
 
 
 def truth(of: Certificate, surface: int, o, d) -> list[Fraction]:
-    """The eleven functions in fractions, from their definition; a plane has but T and D."""
-    corners = [minus(exact(c), o) for c in of.corners[..., surface]]
-    a, b, c = corners
-    if surface >= of.triangles:
-        normal = exact(of.normals[:, surface - of.triangles])
-        return [Fraction(0)] * 9 + [dot(a, normal), dot(d, normal)]
-    out = [dot(d, cross(exact(q), p)) for q in (of.right, of.up) for p in corners]
-    out += [dot(d, cross(p, minus(q, p))) for p, q in ((a, b), (b, c), (c, a))]
+    """The eight functions in fractions, from their definition; a plane has but T and D."""
+    corners = [exact(c) for c in of.corners[..., surface]]
+    a, b, c = (minus(corner, o) for corner in corners)
     normal = cross(minus(b, a), minus(c, a))
-    return [*out, dot(a, normal), dot(d, normal)]
+    if surface >= of.triangles:
+        normal = corners[1]
+    q = exact(of.right + 0.4 * of.up)
+    out = [dot(a, normal), dot(d, normal)]
+    out += [dot(d, cross(p, minus(q, p))) for p, q in ((a, b), (b, c), (c, a))]
+    return out + [dot(d, cross(p, q)) for p in (a, b, c)]
+
+
+def prepared(of: Certificate):
+    """Return the rays of all pixels, what of them varies, and the forms."""
+    origins, directions = of.rays(np.arange(len(of.t)))
+    is_parallel = directions.shape[1] == 1
+    r = origins - of.eye if is_parallel else directions
+    with np.errstate(all="ignore"):
+        functions = forms(of, is_parallel, np.abs(r).max())
+    return origins, directions, r.reshape(3, *of.t.shape), functions
 
 
 def test_the_bound_holds(make, tmp_path):
@@ -39,28 +49,21 @@ def test_the_bound_holds(make, tmp_path):
     for seed in range(40):
         save_certificate(tmp_path / "c.npz", render(scene_of(make, seed)))
         of = Certificate(str(tmp_path / "c.npz"))
-        rows = np.arange(of.shape[0])
-        origins, directions = of.rays(rows)
-        ahead = directions if directions.shape[1] == 1 else None
-        r = directions if ahead is None else origins - of.eye
-        surfaces = of.corners.shape[2]
-        with np.errstate(all="ignore"):
-            forms = Forms(of, slice(0, surfaces), ahead, np.abs(r).max())
-        squares = levels(r.reshape(3, *of.shape), of.t)
+        origins, directions, r, functions = prepared(of)
+        surfaces = len(of.names)
+        squares = levels(r, of.t)
         rng = np.random.default_rng(seed)
         for _ in range(12):
             pixel, surface = int(rng.integers(of.t.size)), int(rng.integers(surfaces))
-            y, x = divmod(pixel, of.shape[1])
+            y, x = divmod(pixel, of.t.shape[1])
             o, d = (exact(v[:, pixel % v.shape[1]]) for v in (origins, directions))
             true = truth(of, surface, o, d)
-            for k, (shape, middle, half, _) in enumerate(squares):
-                at = (y >> k) * shape[1] + (x >> k)
+            for k, square in enumerate(squares):
+                middle, half = square[:6, y >> k, x >> k].reshape(2, 3)
+                constant, *slope, error = functions[..., surface]
                 with np.errstate(all="ignore"):
-                    value = forms.constant[:, surface] + dot(
-                        forms.slope[..., surface].T, middle[:, at]
-                    )
-                    spread = dot(np.abs(forms.slope[..., surface]).T, half[:, at])
-                reach = spread + forms.error[:, surface]
+                    value = constant + dot(slope, middle)
+                    reach = dot(np.abs(slope), half) + error
                 known = np.isfinite(value) & np.isfinite(reach)
                 for n in np.flatnonzero(known).tolist():
                     off = abs(true[n] - Fraction(value[n]))
@@ -79,20 +82,18 @@ def test_what_is_met_is_left(make, tmp_path):
         scene = scene_of(make, seed)
         save_certificate(tmp_path / "c.npz", render(scene))
         of = Certificate(str(tmp_path / "c.npz"))
-        origins, directions = of.rays(np.arange(of.shape[0]))
-        ahead = directions if directions.shape[1] == 1 else None
-        r = directions if ahead is None else origins - of.eye
-        surfaces = of.corners.shape[2]
+        origins, directions, r, functions = prepared(of)
+        surfaces = len(of.names)
+        whole = np.outer((0, 0, 1), np.arange(surfaces))
         with np.errstate(all="ignore"):
-            forms = Forms(of, slice(0, surfaces), ahead, np.abs(r).max())
-            far = np.full(of.shape, of.clip[1])
-            left = list(candidates(forms, levels(r.reshape(3, *of.shape), far), of.clip[0]))
-        pairs = {pair for some in left for pair in zip(*(v.tolist() for v in some), strict=True)}
+            squares = levels(r, np.full(of.t.shape, of.clip[1]))
+            left = list(candidates(functions, squares, of.clip[0], whole))
+        pairs = {(y * of.t.shape[1] + x, s) for some in left for y, x, s in some.T.tolist()}
         rng = np.random.default_rng(seed)
         for pixel in rng.choice(of.t.size, min(10, of.t.size), replace=False).tolist():
             o, d = (exact(v[:, pixel % v.shape[1]]) for v in (origins, directions))
             for surface in range(surfaces):
-                *_, ab, bc, ca, top, bottom = truth(of, surface, o, d)
+                top, bottom, ab, bc, ca, *_ = truth(of, surface, o, d)
                 if not bottom or min(ab, bc, ca) < 0 < max(ab, bc, ca):
                     continue
                 t = top / bottom

@@ -20,13 +20,13 @@ import bpy
 import numpy as np
 
 from ...arrays import Colors, Floats
-from ...causes.case import Alternative, Case, without
+from ...causes.case import Alternative, Case
 from ...causes.checks.hidden import with_object
 from ...images import curve_undone
 from ...manifest import Manifest
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Curve, Picture
-from ...scene import Scene
+from ...scene import Scene, without
 from ...tracer.settings import Settings
 from ..drawing.drawings import Drawing, Plan, drawn_by_others
 from ..drawing.judges import AUTO, judge_named

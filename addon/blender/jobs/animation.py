@@ -6,13 +6,15 @@ What is simulated and not baked depends on the frames before: these are visited,
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
 
+from ...camera_files.convention import View
 from ...comparison.animation import FrameRow
 from ...errors import words
 from ...report import animation as report
@@ -22,6 +24,7 @@ from ..drawing.judges import OF_ONE_FRAME, STILLS
 from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..values import values_restored
+from .choice import seen_by
 from .compare import compare_open_file
 from .open_file import Choices
 from .stepping import visited
@@ -34,6 +37,7 @@ def compare_frames(
     frames: range,
     told: Callable[[list[FrameRow]], None],
     made_by: Any = None,
+    views: Mapping[int, View] | None = None,
     **choices: Any,
 ) -> Work[list[FrameRow]]:
     """Step the context's scene to each frame, compare it, and write the table of all so far.
@@ -50,6 +54,8 @@ def compare_frames(
     made_by : dict, optional
         What the comparisons depend on. Frames that are whole in the folder and were made by the
         same are not compared again.
+    views : mapping of int to View, optional
+        The camera of a file for each frame, in place of the scene's.
     **choices
         The fields of :class:`.compare.Choices`.
 
@@ -63,10 +69,12 @@ def compare_frames(
     if Choices.of(scene, choices).judge in STILLS:
         raise SceneError(f"{OF_ONE_FRAME}.")
     folder = made_folder(directory)
-    if not (scene.camera or any(marker.camera for marker in scene.timeline_markers)):
+    if not (views or scene.camera or any(marker.camera for marker in scene.timeline_markers)):
         export_camera(scene)  # says so once, not in each frame
     title = f"{bpy.path.basename(bpy.data.filepath)}, {scene.name}"
-    rows = [r for f in frames if (r := report.row_of_whole(folder, f, made_by))]
+    views = views or {}
+    made = {frame: _made_by(made_by, views.get(frame)) for frame in frames}
+    rows = [r for f in frames if (r := report.row_of_whole(folder, f, made[f]))]
     todo = sorted(set(frames) - {row.frame for row in rows})
     report.write(folder, title, frames, rows)
     before = scene.frame_current, scene.frame_subframe
@@ -77,7 +85,7 @@ def compare_frames(
                 share = sum(f < frame for f in todo) / len(todo)
                 yield share
                 if frame in todo:
-                    work = _compared(folder, frame, made_by, choices)
+                    work = _compared(folder, frame, made[frame], views.get(frame), choices)
                     work = mapped(work, partial(_of_frame, frame))
                     rows.append((yield from scaled(work, share, 1 / len(todo))))
                     report.write(folder, title, frames, rows)
@@ -92,13 +100,24 @@ def _of_frame(frame: int, share: float) -> Share:
     return Share(share, ": ".join(filter(None, (f"frame {frame}", doing(share)))))
 
 
-def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -> Work[FrameRow]:
+def _made_by(made_by: Any, view: View | None) -> Any:
+    """Return what a frame depends on: also its own camera, to the last digit."""
+    if made_by is None or view is None:
+        return made_by
+    with np.printoptions(precision=17):
+        return {**made_by, "camera": repr(view)}
+
+
+def _compared(
+    folder: Path, frame: int, made_by: Any, view: View | None, choices: dict[str, Any]
+) -> Work[FrameRow]:
     own = report.folder_of(folder, frame)
     try:
         # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
         choices = choices | {"diagnose": False, "literal": False}
-        work = compare_open_file(bpy.context, str(own), **choices)
-        comparison = yield from work
+        with seen_by(bpy.context.scene, view):
+            work = compare_open_file(bpy.context, str(own), **choices)
+            comparison = yield from work
     except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
         return FrameRow(frame, error=words(error))
     report.mark_whole(folder, frame, made_by)

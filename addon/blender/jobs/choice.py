@@ -53,7 +53,7 @@ def chosen(choice: Choice) -> Iterator[None]:
             for frame in visited(scene, [choice.frame]):
                 scene.frame_set(frame)
         _resize(scene.render, choice)
-        if choice.camera or choice.seen_by or choice.eye or choice.frame_all:
+        if choice.camera or choice.seen_by or choice.views or choice.eye or choice.frame_all:
             for marker in scene.timeline_markers:  # which would make its own the active one
                 marker.camera = None
             scene.camera = camera
@@ -65,6 +65,27 @@ def chosen(choice: Choice) -> Iterator[None]:
         elif choice.frame_all:
             frame_all(scene, layer, choice.angle or ANGLE)
         yield
+
+
+@contextmanager
+def seen_by(scene: Any, view: View | None) -> Iterator[None]:
+    """See a scene by the camera of a file for a while, or by its own.
+
+    Raises
+    ------
+    SceneError
+        If Blender has no such camera.
+    """
+    own = scene.camera
+    try:
+        if view:
+            _see_as(scene, view)
+        yield
+    finally:
+        made = scene.camera
+        if made != own:
+            scene.camera = own
+            bpy.data.cameras.remove(made.data)  # and the object with it
 
 
 def _see_as(scene: Any, view: View) -> None:

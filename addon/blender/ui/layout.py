@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -13,6 +13,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ...methods import Method
 
 _NAMES = 0.56  # the names' share of a list of facts
+_NAME, _VALUE = 0.37, 0.58  # those of a setting's name and of what stands beside it
 # In pixels at a scale of 1: what a panel's frame, and a box in it, take of a region's width.
 _SIDE = 66  # a sidebar's, which has tabs, too
 _MARGINS = {"WINDOW": 50}
@@ -65,15 +66,53 @@ def folded(layout: Any, key: str, title: str) -> Any:
     return body
 
 
-def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE") -> None:
-    """Draw a sentence in as many lines as the panel's width needs."""
+def setting(layout: Any, context: Any, owner: Any, name: str) -> None:
+    """Draw a setting beside its name, or below it where either has no room there."""
+    known = owner.bl_rna.properties[name]
+    is_box = known.type == "BOOLEAN"  # whose name is beside it, and there is no other
+    values = [known.name] if is_box else [item.name for item in getattr(known, "enum_items", ())]
+    if fit(context, values, _VALUE) and (is_box or fit(context, [known.name], _NAME, 0)):
+        layout.prop(owner, name)
+        return
+    column = layout.column(align=True)
+    column.use_property_split = False
+    if not is_box:
+        column.label(text=known.name)
+    column.prop(owner, name, text=None if is_box else "")
+
+
+def button(layout: Any, context: Any, operator: Any, icon: str) -> None:
+    """Draw an operator's button, with an icon where there is room for both."""
+    has_room = fit(context, [operator.bl_label], 1.0)
+    layout.operator(operator.bl_idname, icon=icon if has_room else "NONE")
+
+
+def beside(layout: Any, context: Any, texts: Sequence[str]) -> Any:
+    """Return a row for buttons of these texts, or a column where they have no room in a row."""
+    return (layout.row if fit(context, texts, 1 / len(texts)) else layout.column)(align=True)
+
+
+def fit(context: Any, texts: Iterable[str], share: float, icon: float = _ICON) -> bool:
+    """Return whether each text, beside an icon, is one line in a share of the panel's width."""
+    size, width = _measured(context, share, icon)
+    return all(len(lines(iface_(text), width, size)) == 1 for text in texts)
+
+
+def _measured(context: Any, share: float, icon: float) -> tuple[float, float]:
+    """Return the size of the font, and the width of a share of the panel less an icon, pixels."""
     preferences = context.preferences
     scale = preferences.system.ui_scale
-    points = preferences.ui_styles[0].widget.points
-    taken = _MARGINS.get(context.region.type, _SIDE) + (_ICON if icon != "NONE" else 0)
+    taken = _MARGINS.get(context.region.type, _SIDE)
+    width = (context.region.width - taken * scale) * share - icon * scale
+    return preferences.ui_styles[0].widget.points * scale, width
+
+
+def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE") -> None:
+    """Draw a sentence in as many lines as the panel's width needs."""
+    size, width = _measured(context, 1.0, _ICON if icon != "NONE" else 0)
     column = layout.column(align=True)
     column.scale_y = 0.8
-    for line in lines(iface_(text), context.region.width - taken * scale, points * scale):
+    for line in lines(iface_(text), width, size):
         column.label(text=line, icon=icon, translate=False)
         icon = "BLANK1" if icon != "NONE" else icon
 

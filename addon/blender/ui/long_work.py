@@ -137,6 +137,7 @@ class LongWork(Mixin):
             return {"RUNNING_MODAL"} if self.alone else {"PASS_THROUGH"}
         until = time.monotonic() + SECONDS_A_STEP
         try:
+            share = next(self._work)  # at least: a busy machine may be back after the time is over
             while time.monotonic() < until:
                 share = next(self._work)
         except StopIteration as stop:

@@ -37,9 +37,11 @@ def draw_outcome(layout: Any, context: Any, comparison: Comparison) -> None:
 
 def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
     """Draw the metrics, and what each method needed and got wrong."""
-    from ...diagnosis import self_check
+    from ...diagnosis.fault_rows import table
 
     draw_facts(layout, _measured(comparison))
+    other = iface_(label_of(comparison.case.picture.source))
+    wrapped(layout, context, f"{iface_('Compared with')} {other}")
     for row in comparison.methods:
         wrong = "unknown" if row.wrong_pixels is None else f"{row.wrong_pixels:,} px"
         facts = [
@@ -48,7 +50,7 @@ def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
             ("Ambiguous", f"{row.ambiguous:,} px"),
         ]
         draw_facts(layout.box(), facts)
-    for line in (*comparison.required, *self_check.table(comparison.self_check)[:1]):
+    for line in (*comparison.required, *table(comparison.self_check)[:1]):
         wrapped(layout, context, line)
 
 
@@ -74,7 +76,6 @@ def _measured(comparison: Comparison) -> Facts:
     yield "PSNR", f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"
     yield "SSIM", f"{metrics.ssim:.6f}"
     if metrics.rmse:
-        yield "Largest difference", f"{largest.value:.3g}"
+        yield "Max. diff.", f"{largest.value:.3g}"
         yield "At pixel", "{}, {}".format(*largest.pixel)
-    yield "Compared with", label_of(comparison.case.picture.source)
     yield "Traced in", f"{comparison.frame.statistics.seconds:.2f} s"

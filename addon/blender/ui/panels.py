@@ -13,7 +13,7 @@ from ...methods import Method
 from ..drawing.judges import JUDGES
 from ..engine import ENGINE
 from . import operators, results, samples
-from .layout import Part, both, draw_facts, folded, wrapped
+from .layout import Part, both, button, draw_facts, folded, setting, wrapped
 from .menus import REFERENCE_TRACER_PT_presets
 from .outcome import draw_figures, draw_outcome
 from .results import Kind
@@ -48,10 +48,10 @@ class _Main(Part):
         """Draw the button and what came of it; then, folded, settings and what else there is."""
         layout = self.layout
         if context.scene.camera is None:
-            layout.operator(operators.REFERENCE_TRACER_OT_frame_all.bl_idname, icon="CAMERA_DATA")
-        button = layout.row()
-        button.scale_y = 1.4
-        button.operator(operators.REFERENCE_TRACER_OT_compare.bl_idname, icon="RENDER_STILL")
+            button(layout, context, operators.REFERENCE_TRACER_OT_frame_all, "CAMERA_DATA")
+        row = layout.row()
+        row.scale_y = 1.4
+        button(row, context, operators.REFERENCE_TRACER_OT_compare, "RENDER_STILL")
         comparison = results.content(Kind.COMPARISON, context.scene)
         if comparison:
             draw_outcome(layout, context, comparison)
@@ -60,11 +60,11 @@ class _Main(Part):
         stored = context.scene.reference_tracer
         if stored.show == "WRONG" and Method(stored.method).is_proven:
             wrapped(layout, context, "No pixel of a proven method is wrong", "INFO")
-            button = layout.operator("wm.context_set_enum", text="Show the Textbook's Wrong Pixels")
-            button.data_path = "scene.reference_tracer.method"
-            button.value = "textbook"
+            show = layout.operator("wm.context_set_enum", text="Show the Textbook's Wrong Pixels")
+            show.data_path = "scene.reference_tracer.method"
+            show.value = "textbook"
         if body := folded(layout, "settings", "Settings"):
-            _draw_settings(body, stored)
+            _draw_settings(body, context, stored)
         if comparison and (body := folded(layout, "figures", "Figures")):
             draw_figures(body, context, comparison)
         if body := folded(layout, "more", "More Comparisons"):
@@ -73,7 +73,7 @@ class _Main(Part):
             samples.draw_scenes(body.column(align=True))
 
 
-def _draw_settings(layout: Any, stored: Any) -> None:
+def _draw_settings(layout: Any, context: Any, stored: Any) -> None:
     layout.use_property_split = True
     layout.use_property_decorate = False
     greyed = {
@@ -85,20 +85,19 @@ def _draw_settings(layout: Any, stored: Any) -> None:
         for name in names:
             row = column.row()
             row.enabled = not greyed.get(name)
-            row.prop(stored, name)
+            setting(row, context, stored, name)
             if name == "judge":
                 stored.draw_given(column)
 
 
 def _draw_more(layout: Any, context: Any) -> None:
-    layout.operator(operators.REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
+    button(layout, context, operators.REFERENCE_TRACER_OT_compare_all, "RENDERLAYERS")
     for row in results.content(Kind.ENGINES, context.scene) or ():
         box = layout.box()
         draw_facts(box, _of_engine(row))
         for line in filter(None, (row.error, *row.not_judged)):
             wrapped(box, context, line, "ERROR")
-    button = operators.REFERENCE_TRACER_OT_compare_animation.bl_idname
-    layout.operator(button, icon="RENDER_ANIMATION")
+    button(layout, context, operators.REFERENCE_TRACER_OT_compare_animation, "RENDER_ANIMATION")
     if found := results.content(Kind.FRAMES, context.scene):
         _draw_frames(layout.box(), context, *found)
 
@@ -125,8 +124,8 @@ def _draw_frames(layout: Any, context: Any, path: Path, rows: Sequence[FrameRow]
             row.explained + row.unexplained, row.unexplained
         )
         wrapped(layout, context, row.error or counts)
-    button = layout.operator("wm.url_open", text="Open Page of All Frames", icon="SEQUENCE")
-    button.url = path.resolve().as_uri()
+    page = layout.operator("wm.url_open", text="Open Page of All Frames", icon="SEQUENCE")
+    page.url = path.resolve().as_uri()
 
 
 class _Export(Part):

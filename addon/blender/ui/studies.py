@@ -58,7 +58,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
-    bl_label = "Find Where Methods Break"
+    bl_label = "Measure the Extremes"
     bl_description = (
         "Trace scenes that get harder and harder (far away, tiny, edge-on...) by every "
         "method, and find the first scale at which each differs from exact arithmetic"

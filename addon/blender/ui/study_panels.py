@@ -13,7 +13,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from . import explain, results, studies
 from .differing import IMAGE_PT_reference_tracer_shown
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .layout import Part, both, wrapped
+from .layout import Part, beside, both, wrapped
 from .results import Kind
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
@@ -34,7 +34,7 @@ class _Inspector(Part):
             depress=is_on,
         )
         layout.prop(context.window_manager.reference_tracer, "draw_ray")
-        row = layout.row(align=True)
+        row = beside(layout, context, ("Draw", "Remove", "Save"))
         row.operator(explain.REFERENCE_TRACER_OT_draw_ray.bl_idname, text="Draw", icon="LIGHT_SPOT")
         row.operator(explain.REFERENCE_TRACER_OT_remove_ray.bl_idname, text="Remove", icon="TRASH")
         row.operator(
@@ -89,8 +89,9 @@ def _numbers(layout: Any, test: Any) -> None:
         exact = quantity.exact(0)
         for name, kind in (("f32", Arithmetic.FLOAT32), ("f64", Arithmetic.FLOAT64)):
             value = quantity.values[kind][0]
-            shown = marked(value, exact).with_wrong("[{}]")
-            _number(column, name, shown, off_text(ulps(value, exact)))
+            off = ulps(value, exact)
+            shown = marked(value, exact, off).with_wrong("[{}]")
+            _number(column, name, shown, off_text(off))
         _number(column, "exact", "undefined" if exact is None else exact_text(exact, _DIGITS), "")
 
 

@@ -178,10 +178,13 @@ def _checked(options: CameraOptions, at: _At) -> int:
         difference(one.view.camera, _of_size(view.camera, one.view.camera))
         for view, one in zip(views, scene, strict=True)
     ]
+    agrees = True
     for view, one, its in zip(views, scene, found, strict=True):
-        for line in (*its.lines(), *_said(view, one.view)):
+        wrong = _other_than_points(view, one.view.camera)
+        agrees = agrees and its.agrees and not wrong
+        for line in (*its.lines(), *wrong, *_notes(view, one.view)):
             print(f"{view.name or options.check.name}: {line}")
-    return AGREE if all(one.agrees for one in found) else DIFFERENCES
+    return AGREE if agrees else DIFFERENCES
 
 
 def _of_size(camera: Camera, like: Camera) -> Camera:
@@ -190,22 +193,29 @@ def _of_size(camera: Camera, like: Camera) -> Camera:
     return replace(camera, width=like.width, height=like.height, region=whole)
 
 
-def _said(view: View, scenes: View) -> list[str]:
-    """Return what else is to be said of a file's camera, beside the scene's."""
-    said = list(view.notes)
-    own, other = scenes.camera, view.camera
-    if None not in (view.frame, scenes.frame) and view.frame != scenes.frame:
-        said.append(f"it is the camera of frame {view.frame}, and the scene is at {scenes.frame}")
+def _other_than_points(view: View, own: Camera) -> list[str]:
+    """Return how a file's camera differs from the scene's `own` but in where points are seen."""
+    out = []
+    other = view.camera
     if (other.width, other.height) != (own.width, own.height):
-        said.append(
-            f"its picture has {other.width} x {other.height} pixels, the scene's {own.width} x "
-            f"{own.height}: distances are in the scene's"
+        out.append(
+            f"differ: its picture has {other.width} x {other.height} pixels, the scene's "
+            f"{own.width} x {own.height}, in which distances are"
         )
     ends = (other.clip_start, other.clip_end), (own.clip_start, own.clip_end)
     if view.is_clipped and not np.allclose(*ends, rtol=1e-5, atol=0):
-        said.append(
-            "its clip range is {:.6g} to {:.6g} m, the scene's {:.6g} to {:.6g} m".format(
+        out.append(
+            "differ: its clip range is {:.6g} to {:.6g} m, the scene's {:.6g} to {:.6g} m".format(
                 *ends[0], *ends[1]
             )
         )
-    return said
+    return out
+
+
+def _notes(view: View, scenes: View) -> list[str]:
+    """Return what of a file is not applied, and that it is of another frame than the scene's."""
+    frames = view.frame, scenes.frame
+    if None in frames or frames[0] == frames[1]:
+        return [*view.notes]
+    other = f"it is the camera of frame {view.frame}, and the scene is at {scenes.frame}"
+    return [*view.notes, other]

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ... import images
+from ...camera_files.files import of_frames
 from ...causes.case import Case, without_colors
 from ...comparison import engines
 from ...comparison.animation import FrameRow, frames_named
@@ -131,6 +132,7 @@ def _frames(
     from ...blender.jobs.stepping import bake_bodies
 
     frames = frames_named(named) or frames_of(scene)
+    views = of_frames(options.choice.views, frames) if options.choice.views else {}
     bake_bodies(scene, frames[-1])
     begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
 
@@ -138,7 +140,7 @@ def _frames(
         print(begin + frames_report.line(rows[-1]), file=sys.stderr, flush=True)
 
     made_by = depends_on(options.of_a_frame())
-    work = compare_frames(str(options.out), frames, told, made_by, **chosen)
+    work = compare_frames(str(options.out), frames, told, made_by, views, **chosen)
     try:
         rows = result_of(work, progress)
     except KeyboardInterrupt:

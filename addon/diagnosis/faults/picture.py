@@ -82,7 +82,8 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         "rows",
         "the picture's rows are from top to bottom, or were turned once too often",
         "Blender and OpenGL begin with the lowest row, most files with the topmost.",
-        "Blender's row 0 is at the bottom, that of most files at the top",
+        "Blender's row 0 is at the bottom, that of most files at the top. A picture whose camera "
+        "is shifted up tells this from a camera that is mirrored",
         _upside_down,
         examples=(Example("rows", "the picture's rows from top to bottom"),),
     ),

@@ -130,8 +130,10 @@ def _film(scene: Scene) -> Array:
 
 def _ids(stored: StoredData, scene: Scene, hits: Hits) -> Data:
     numbers = ids.numbers_of(stored.values)
-    own, blank = ids.owners_of(scene, hits, numbers.reshape(-1))
-    values, empty = numbers[..., None], blank.reshape(numbers.shape)
+    ways = (1, -1)  # the rows as they are, and turned over, which is a fault of its own
+    found = [ids.owners_of(scene, hits, numbers[::way].reshape(-1)) for way in ways]
+    way, (own, blank, _) = max(zip(ways, found, strict=True), key=lambda one: one[1][2])
+    values, empty = numbers[..., None], blank.reshape(numbers.shape)[::way]
     return Data(ids.kind_of(own), values, empty, _film(scene), scene.camera, Step("float64"))
 
 

@@ -46,16 +46,18 @@ def kind_of(own: Mapping[str, float]) -> Kind:
     return Kind("ids", "ids of objects", 1, made, LAYERS, follows_t=False, empty=())
 
 
-def owners_of(scene: Scene, hits: Hits, ids: Floats) -> tuple[dict[str, float], Bools]:
+def owners_of(scene: Scene, hits: Hits, ids: Floats) -> tuple[dict[str, float], Bools, int]:
     """Return each object's id, as n hits and the ids (n,) say, and which pixels show none of them.
 
-    What is seen beside all objects has an id of its own, or none: its pixels are the second.
+    What is seen beside all objects has an id of its own, or none: its pixels are the second. The
+    third is how many pixels are right then.
     """
     seen = scene.instance_objects[hits.instance]
     values, value = np.unique(ids, return_inverse=True)
     pairs, count = np.unique(np.stack((seen, value.reshape(-1))), axis=1, return_counts=True)
     own: dict[str, float] = {}
     blank = np.zeros(len(ids), bool)
+    right = 0
     taken: set[int] = set()
     given: set[int] = set()
     for number in np.argsort(-count, kind="stable"):
@@ -64,8 +66,9 @@ def owners_of(scene: Scene, hits: Hits, ids: Floats) -> tuple[dict[str, float], 
             continue
         given.add(thing)
         taken.add(of)
+        right += int(count[number])
         if thing == NOTHING:
             blank = ids == values[of]
         else:
             own[scene.objects[thing]] = float(values[of])
-    return own, blank
+    return own, blank, right

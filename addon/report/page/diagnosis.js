@@ -21,7 +21,7 @@ function drawDiagnosis() {
   byId("diagnosis").hidden = !diagnosis;
   byId("told").hidden = !diagnosis?.told.length;
   if (!diagnosis) return;
-  const { told, guesses, regions, untried } = diagnosis;
+  const { told, guesses, regions, untried, silent } = diagnosis;
   const names = untried.map((name) => name.replaceAll("_", " ")).join(", ");
   const work =
     `${count(guesses)} guesses were tried in ${seconds(diagnosis.seconds)}` +
@@ -40,7 +40,9 @@ function drawDiagnosis() {
       { class: "muted" },
       told.length
         ? `${work} What is told was traced and compared again, pixel by pixel. The verdict stays.`
-        : `${work} None accounts for the unexplained pixels.`,
+        : silent
+          ? `${silent}.`
+          : `${work} None accounts for the unexplained pixels.`,
     ),
     ...told.map(faultOf),
     ...(regions.length ? [leftOf(diagnosis)] : []),

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.causes.case import Alternative, without
+from reference_tracer.causes.case import Alternative
 from reference_tracer.causes.cause import Hidden
 from reference_tracer.causes.checks.hidden import with_object
 from reference_tracer.causes.explain import HIDDEN, UNEXPLAINED
@@ -14,6 +14,7 @@ from reference_tracer.manifest import ObjectEntry
 from reference_tracer.pictures.identity import Owners
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
+from reference_tracer.scene import without
 from reference_tracer.tracer.progress import result_of
 
 from ...cases import find_causes, owners_of

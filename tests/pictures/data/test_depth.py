@@ -137,10 +137,6 @@ def test_among_all_faults_too(told, solids, traced, lengths, fault, of):
     assert told("depth", np.where(np.isfinite(traced.t), made, np.nan)) == [fault]
 
 
-def test_rows_upside_down(told, traced):
-    assert told("depth", traced.t[::-1], faults=SOME) == ["rows"]
-
-
 def test_depths_for_distances(told, traced):
     assert told("distance", traced.t, faults=SOME) == ["depth_for_distance"]
 

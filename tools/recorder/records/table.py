@@ -2,7 +2,19 @@
 
 from collections.abc import Iterator
 
-from . import bounds, boxes, camera, deciding, edges, film, integers, keeping, pixels, quotient
+from . import (
+    bounds,
+    boxes,
+    camera,
+    checker,
+    deciding,
+    edges,
+    film,
+    integers,
+    keeping,
+    pixels,
+    quotient,
+)
 from .record import Output, outputs
 
 FILES = {
@@ -17,12 +29,17 @@ FILES = {
     "RecordedBoxes": boxes.RECORDS,
 }
 RECORDS = tuple(record for records in FILES.values() for record in records)
-INTEGERS = "RecordedIntegers"  # the file of whole functions of integers
-NAMES = (*FILES, INTEGERS)
+# The files of whole functions of integers: what they have, and how they begin.
+WHOLE = {
+    "RecordedIntegers": (integers.INTEGERS, integers.HEAD),
+    "RecordedChecker": (checker.CHECKER, checker.HEAD),
+}
+NAMES = (*FILES, *WHOLE)
 
 
 def every_output() -> Iterator[tuple[str, list[Output]]]:
     """Record everything; yields each file's name and what it has."""
     for file, records in FILES.items():
         yield file, [output for record in records for output in outputs(record)]
-    yield INTEGERS, [record.output() for record in integers.INTEGERS]
+    for file, (whole, _) in WHOLE.items():
+        yield file, [record.output() for record in whole]
