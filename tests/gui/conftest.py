@@ -4,6 +4,8 @@ One start of it plays the stories of all tests that are to be run: `@pytest.mark
 """
 
 import json
+import re
+import shlex
 import shutil
 import subprocess
 from pathlib import Path
@@ -16,6 +18,14 @@ OUT = PROJECT / "out" / "gui"  # what a run leaves: screenshots, logs, pictures
 MODULE = "bl_ext.user_default.reference_tracer"
 
 
+def documented():
+    """The commands of installing that docs/button.md names: from disk, and from an address, two."""
+    text = (PROJECT / "docs" / "button.md").read_text(encoding="utf-8")
+    commands = re.findall(r"^ *(blender .*extension .*)$", text, re.M)
+    assert len(commands) == 3, commands
+    return commands
+
+
 class Blender:
     """Runs commands in the root folder; there the project lies at /project."""
 
@@ -23,7 +33,8 @@ class Blender:
 
     def __init__(self):
         shutil.rmtree(OUT, ignore_errors=True)
-        OUT.mkdir(parents=True)
+        # Where the folder is not there, Blender takes the preferences of the home, which stays.
+        (OUT / "user").mkdir(parents=True)
 
     def run(self, *arguments, timeout=300):
         """Run `blender` with these arguments; returns the finished process, its output as text."""
@@ -67,21 +78,17 @@ class Blender:
 
 @pytest.fixture(scope="session")
 def blender():
-    """Give the whole Blender, with the extension from dist/ installed by Blender itself."""
+    """Give the whole Blender, with the extension from dist/ installed as the document says."""
     check = subprocess.run([WHOLE_BLENDER, "check"], capture_output=True, text=True)
     if check.returncode:
         pytest.skip(check.stdout.strip())
     subprocess.run([WHOLE_BLENDER, "setup"], check=True)  # minutes, once
     [package] = (PROJECT / "dist").glob("reference_tracer-*.zip")
+    from_disk, *_ = documented()
+    assert from_disk.endswith(f" {package.name}")
     blender = Blender()
     done = blender.run(
-        "--command",
-        "extension",
-        "install-file",
-        "-r",
-        "user_default",
-        "--enable",
-        f"/project/dist/{package.name}",
+        *shlex.split(from_disk.replace(package.name, f"/project/dist/{package.name}"))[1:]
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return blender

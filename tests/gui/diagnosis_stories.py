@@ -48,7 +48,7 @@ def drawn_otherwise(owner, name, value):
 def diagnosis():
     """The panel, Esc in the midst, and the copy of the camera."""
     scene = window().scene
-    scene.render.resolution_percentage = 20
+    scene.render.resolution_percentage = 15
     scene.reference_tracer.identity = False
     yield
     lens = scene.camera.data.lens

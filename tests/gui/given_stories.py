@@ -103,6 +103,8 @@ def given_image():
     bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_perspective.blend")
     yield
     scene = window().scene
+    for other in [o for o in scene.objects if o.name.startswith(("Column", "Ico", "Torus"))]:
+        bpy.data.objects.remove(other)  # each would be looked for elsewhere, too
     yield from at_the_panel("IMAGE", 12)  # where it was moved is soon found
     moved = scene.objects["Cone"]
     with made_wrong(moved.location, "x", moved.location.x + 0.2):

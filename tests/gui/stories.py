@@ -137,7 +137,7 @@ def compare():
 def engines():
     """The other button: the viewport, Workbench and Cycles in one table; nothing is changed."""
     window().scene.render.engine = "REFERENCE_TRACER"
-    window().scene.render.resolution_percentage = 25
+    window().scene.render.resolution_percentage = 12
     show_panel()
     yield
     before = settings(), data_blocks()

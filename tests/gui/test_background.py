@@ -13,6 +13,7 @@ from .conftest import PROJECT
 pytestmark = pytest.mark.gui
 
 SCENE = "/project/sample_scenes/exercise_perspective.blend"
+TRIANGLE = "/project/sample_scenes/exercise_triangle.blend"  # few pixels and surfaces
 
 # Each makes the scene one that cannot be traced, and what the error names. Every day one that is
 # refused and one that is our own: tests/blender/test_engine_faults.py has them all in one process.
@@ -88,16 +89,14 @@ def test_operator_in_background(blender, folder):
         "--python-exit-code",
         "9",
         "--python-expr",
-        f"import bpy; bpy.ops.reference_tracer.compare(directory='{inside}')",
+        "import bpy; bpy.context.scene.render.resolution_percentage = 25; "
+        f"bpy.ops.reference_tracer.compare(directory='{inside}')",
     )
     assert done.returncode == 0, done.stdout + done.stderr
     check_files(path)
 
 
-@pytest.mark.parametrize(
-    "camera",
-    ["", "--frame-all --frame 2 --width 160", "--eye 3 -9 4 --ortho-scale 7 --width 160"],
-)
+@pytest.mark.parametrize("camera", ["", "--eye 3 -9 4 --ortho-scale 7 --frame 2 --width 160"])
 def test_command(camera, blender, folder):
     path, inside = folder
     command = "--command", "reference_tracer", "compare", "--out", inside
@@ -110,11 +109,10 @@ def test_command(camera, blender, folder):
 
 def test_command_for_frames(blender, folder):
     """Those that are whole are not done again."""
-    triangle = "/project/sample_scenes/exercise_triangle.blend"
     outside, inside = folder
-    argv = [triangle, "--command", "reference_tracer", "compare", "--out", inside, "--frames"]
+    argv = [TRIANGLE, "--command", "reference_tracer", "compare", "--out", inside, "--frames"]
     for frames, told in (("2", ["frame 2:"]), ("1-2", ["frame 1:"])):
-        done = blender.run(*argv, frames)
+        done = blender.run(*argv, frames, "--frame-all", "--width", "160")
         assert done.returncode == 0, done.stdout + done.stderr
         assert re.findall(r"^frame \d+:", done.stderr, re.M) == told
     assert len(json.loads((outside / "animation.json").read_text())["frames"]) == 2
@@ -123,7 +121,7 @@ def test_command_for_frames(blender, folder):
 def test_command_for_the_trade(blender, folder):
     path, inside = folder
     done = blender.run(
-        SCENE,
+        TRIANGLE,
         "--command",
         "reference_tracer",
         "trade",
