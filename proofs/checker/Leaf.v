@@ -1,7 +1,7 @@
 (** packages/verify/verify.py: what the checker of certificates decides of one pixel, in integers.
 
-    Names are those of the Python code, and so is the order of its steps. [LeafCode.v] proves that
-    these functions are the recorded ones, [LeafRight.v] that a yes is right. *)
+    Names are those of the Python code, most of them. [LeafCode.v] proves that these functions are the
+    recorded ones, [LeafYes.v] that a yes is right. *)
 Require Import ZArith Reals List Bool.
 From Flocq Require Import Core.
 From Flocq Require BinarySingleNaN.

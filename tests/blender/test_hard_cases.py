@@ -121,18 +121,20 @@ def evaluated_geometry() -> list:
     return sorted(out)
 
 
-def judged(every: int) -> list:
-    """Return each scene with each judge: with Cycles, one of so many every day."""
-    of_every_day = (*hard.ALL[::every], *NOT_OF_CYCLES, *OF_CYCLES_ALONE, *TOO_MUCH)
+def judged(scenes: tuple, with_cycles: tuple) -> list:
+    """Return each scene with each judge: with Cycles, those that are named every day."""
     return [
         pytest.param(make, judge, marks=() if daily else pytest.mark.torture)
-        for make in hard.ALL
+        for make in scenes
         for judge in JUDGES
-        for daily in [judge == "WORKBENCH" or make in of_every_day]
+        for daily in [judge == "WORKBENCH" or make in with_cycles]
     ]
 
 
-@pytest.mark.parametrize(("make", "judge"), judged(3), ids=id_of)
+OF_EVERY_DAY = (*hard.ALL[::6], *NOT_OF_CYCLES, *OF_CYCLES_ALONE, *TOO_MUCH)
+
+
+@pytest.mark.parametrize(("make", "judge"), judged(hard.ALL, OF_EVERY_DAY), ids=id_of)
 def test_no_false_alarm(make, judge, build, compare):
     make(build)
     found = compare(judge=judge)
@@ -154,7 +156,10 @@ def test_no_false_alarm(make, judge, build, compare):
 
 @pytest.mark.parametrize(
     ("make", "judge"),
-    [(m, "WORKBENCH") for m in MAY_BE_UPSET] + [(m, "CYCLES") for m in hard.SIMULATIONS],
+    [
+        *((make, "WORKBENCH") for make in (*hard.EDIT_MODE, *hard.HAIR)),
+        *judged(hard.SIMULATIONS, hard.SIMULATIONS[::3]),
+    ],
     ids=id_of,
 )
 def test_leaves_the_users_data_and_simulation_alone(make, judge, build, compare):

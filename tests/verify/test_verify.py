@@ -66,6 +66,35 @@ def test_on_small_integers(make, tmp_path):
     assert rays > 800 and ambiguous > 150
 
 
+def test_what_is_seen_through_a_narrow_gap_is_a_tie(make, tmp_path):
+    """The ray meets a corner; around it, but for less than a degree, there are triangles."""
+    around = (0, 0, -2), (8, 0, -2), (-8, 8, -2), (-8, -8, -2), (8, -0.1, -2)
+    fan = Mesh(np.array(around) * 1.0, [[0, 1, 2], [0, 2, 3], [0, 3, 4]])
+    behind = Mesh(np.array([(-8, -8, -3), (8, -8, -3), (0, 8, -3)]) * 1.0, [[0, 1, 2]])
+    camera = Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 1, 1, ORTHOGRAPHIC)
+    answers = certified(make.scene(camera, fan, behind), tmp_path / "c.npz")
+    assert not refusal(tmp_path / "c.npz")
+    assert answers["ties"].tolist() == [[0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 1, 0]]
+
+
+def test_corners_are_rounded_in_the_order_of_the_page(make, tmp_path):
+    """Turned and scaled instances, of which two have a corner that is not finite."""
+    rng = np.random.default_rng(5)
+    corners = rng.uniform(-1, 1, (12, 3))
+    corners[[0, 4]] = 1e308
+    mesh = Mesh(corners, np.arange(12).reshape(4, 3))
+    scene = make.scene(make.camera(12, 8), mesh, mesh, mesh)
+    matrices = [np.eye(4), np.eye(4), np.eye(4)]
+    for matrix in matrices:
+        matrix[:3, :3] = rng.uniform(-2.5, 2.5, (3, 3))
+        matrix[:3, 3] = *rng.uniform(-0.3, 0.3, 2), -4
+    placed = zip(scene.instances, matrices, strict=True)
+    instances = tuple(replace(i, world_from_object=m) for i, m in placed)
+    answers = certified(replace(scene, instances=instances), tmp_path / "c.npz")
+    assert not refusal(tmp_path / "c.npz")
+    assert len(np.unique(answers["seen"].reshape(-1, 2), axis=0)) > 4
+
+
 @pytest.mark.parametrize("depth", [4.0, 0.0])
 def test_surfaces_that_intersect_where_a_ray_meets_them(depth, make, tmp_path):
     """Three planes behind a half that ends there; or those where the ray begins, in any order."""
