@@ -22,6 +22,20 @@ TOOLS = str(PROJECT / "tools")
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]+)")
 
 
+@pytest.fixture(scope="module", autouse=True)
+def unregistered():
+    """A command registers the add-on by itself: tests with Blender may have done so before."""
+    import bpy
+    from reference_tracer.blender import registration
+
+    before = hasattr(bpy.types.Scene, "reference_tracer")
+    if before:
+        registration.unregister()
+    yield
+    if before:
+        registration.register()
+
+
 @pytest.fixture(scope="module")
 def tools():
     """The modules that make the documents, which are a script's own."""

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.causes.case import WHOLE, Variant
-from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
+from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option, Pair
 from reference_tracer.diagnosis.faults.picture import Rolled
@@ -19,7 +19,7 @@ from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import case_of
-from .diagnosing import BY_NAME, diagnosis_of, names, pictured
+from .diagnosing import BY_NAME, diagnosis_of, names, pictured, within
 
 SEED = 27
 
@@ -265,7 +265,7 @@ def test_colours_put_right_are_those_of_the_picture(solids):
     frame = render(solids)
     color = frame.color[..., [2, 1, 0, 3]]
     found = result_of(trace_and_compare(case_of(solids, Picture(color))))
-    [told] = result_of(diagnosed(found, np.inf)).diagnosis.told
+    [told] = within(found, np.inf).diagnosis.told
     assert told.fault.name == "channels"
     assert not np.array_equal(frame.color, color)
     np.testing.assert_array_equal(told.frame.color, color)

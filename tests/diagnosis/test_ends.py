@@ -14,7 +14,7 @@ from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import case_of
-from .diagnosing import BY_NAME, diagnosis_of, names, pictured
+from .diagnosing import BY_NAME, diagnosis_of, names, pictured, within
 
 
 def test_nothing_is_done_where_nothing_is_unexplained(solids):
@@ -38,10 +38,10 @@ def _known_by(found):
 def test_the_clock_changes_nothing_but_the_seconds(pair, monkeypatch):
     """It ends by steps of work: a machine a thousand times as slow gives the same answer."""
     before = result_of(trace_and_compare(case_of(pair, Picture(_salted(pair)), curves=())))
-    calm = result_of(diagnosed(before, 600))
+    calm = within(before, 600)
     clock = time.monotonic
     monkeypatch.setattr(time, "monotonic", lambda: 1000 * clock())
-    hurried = result_of(diagnosed(before, 600))
+    hurried = within(before, 600)
     assert calm.diagnosis.untried and _known_by(calm) == _known_by(hurried)
     whole = result_of(diagnosed(before))
     assert whole.diagnosis.steps > 600 and not whole.diagnosis.untried
@@ -58,7 +58,7 @@ def _salted(scene):
 def test_it_ends_inside_a_guess_and_says_what_was_not_looked_for(pair, steps):
     moved = pictured(pair, "pixel_offset", Numbers((0.4, 0.2)))
     before = result_of(trace_and_compare(case_of(pair, Picture(moved), curves=())))
-    found = result_of(diagnosed(before, steps)).diagnosis
+    found = within(before, steps).diagnosis
     assert found.steps == steps and "pixel_offset" in found.untried
     said = [line for line in found.lines() if "a limit of work ended" in line]
     assert len(said) == 1 and " more)" in said[0]
