@@ -40,9 +40,8 @@ all-tests:
 	$(PYTEST) $(SHARED) -rs -m "not torture"
 
 set-up-tests: extension
-	@for tool in browser others; do \
-		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
-	done
+	@if tools/browser.sh check; then tools/browser.sh setup; fi
+	@if tools/others.sh check; then tools/others.sh daily; fi
 
 prove: .venv/.stamp ## have Coq read the proofs: 6 minutes on two cores; root installs Coq if it is missing
 	tools/coq.sh setup
@@ -70,6 +69,7 @@ cameras: .venv/.stamp ## have the code of COLMAP, Mitsuba, OpenCV and pyrender r
 
 # What `make test` samples, at its full length.
 torture: extension lesson-tools ## run the long tests, too long for every day: the suites at their full size
+	@if tools/others.sh check; then tools/others.sh setup; fi
 	$(PYTEST) -m torture
 
 # OPTIONS=--quick: two minutes instead; or any other option of `reftrace bench`.

@@ -4,6 +4,7 @@
 #
 #   tools/others.sh check  exits 0 if there is one or it can be made, else says why not
 #   tools/others.sh setup  makes those that are not there: some seconds and 80 MB each, once
+#   tools/others.sh daily  likewise the oldest and the newest alone, which `make test` needs
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -74,9 +75,9 @@ check() {
     return 1
 }
 
-setup() {
+setup() { # NAME...
     local other python folder numpy trimesh
-    for other in "${others[@]}"; do
+    for other in "$@"; do
         folder=".venv/others/$other"
         if is_there "$other" || ! python="$(find_python "${other%%-*}")"; then continue; fi
         IFS=- read -r _ numpy trimesh <<<"$other"
@@ -90,7 +91,8 @@ setup() {
 
 case "${1:-}" in
     check) check ;;
-    setup) check >&2 && setup ;;
+    setup) check >&2 && setup "${others[@]}" ;;
+    daily) check >&2 && setup "${others[0]}" "${others[-1]}" ;;
     *)
         sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "$0" >&2
         exit 2

@@ -15,7 +15,7 @@ from reference_tracer.report.page.content import content
 from reference_tracer.tracer.progress import result_of
 
 BROWSER = Path(__file__).resolve().parents[2] / "tools" / "browser.sh"
-NAMES = "chromium", "chromium-browser", "google-chrome"
+NAMES = "chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"
 SIZE = {"width": 1280, "height": 1300}  # the stage is whole in it
 NOT_BAD = ("data:", "blob:")  # addresses that are no network
 

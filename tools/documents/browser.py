@@ -12,7 +12,7 @@ from pathlib import Path
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
-NAMES = "chromium", "chromium-browser", "google-chrome"
+NAMES = "chromium", "chromium-browser", "google-chrome", "chromium-headless-shell"
 READY = "html[data-ready]"  # what the page's script says when it is there
 _DRAWN = "() => new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))"
 
