@@ -35,7 +35,8 @@ def save_certificate(path: str | Path, frame: Frame) -> None:
 
 
 def _camera(scene: Scene) -> dict[str, Array]:
-    camera, window, region = scene.camera, scene.camera.window, scene.camera.region
+    camera = scene.camera
+    window, region = camera.window, camera.region
     return {
         "camera": np.array(camera.projection.name),
         "world_from_camera": camera.world_from_camera,

@@ -46,7 +46,7 @@ def _write(views: Sequence[View], centers: str) -> Files:
 
 
 def node_of(view: View, number: int) -> Content:
-    """Return the node of a view, whose camera has a number."""
+    """Return a view's node, which names its camera by the number."""
     camera = view.camera
     if camera.projection is ORTHOGRAPHIC:
         camera = frame.centred(camera)

@@ -29,7 +29,7 @@ from .json_files import CENTERS_KEY, dumped, first_center, has, objects, offset_
 _LENSES = "fl_x", "fl_y", "cx", "cy"
 _DISTORTIONS = "k1", "k2", "k3", "k4", "p1", "p2", "is_fisheye"
 # Of another projection if they are there at all, also as 0 or false.
-_PROJECTIONS = "ftheta_p0", "latlong", *(PROJECTIONS.keys() - {PERSPECTIVE.name})
+_OTHER_PROJECTIONS = {"ftheta_p0", "latlong"} | PROJECTIONS.keys() - {PERSPECTIVE.name}
 _MODELS = "OPENCV", "PINHOLE", "SIMPLE_PINHOLE"
 
 
@@ -89,7 +89,7 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     size = source.whole_size(body, ("w", "h"), where)
     model = body.get("camera_model", _MODELS[0])
     bent = [key for key in _DISTORTIONS if body.get(key)]
-    bent += [key for key in _PROJECTIONS if key in body]
+    bent += [key for key in sorted(_OTHER_PROJECTIONS) if key in body]
     if model not in _MODELS or bent:
         what = f"{bent[0]} = {body[bent[0]]}" if bent else f"camera_model = {model!r}"
         raise SceneError(

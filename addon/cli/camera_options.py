@@ -179,8 +179,11 @@ def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice
     if views := _views(given, path if is_mesh else None, of_frames):
         for note in dict.fromkeys(note for view in views for note in view.notes):
             print(f"{given.camera}: {note}", file=sys.stderr)
-        many = len(views) > 1
-        chosen |= {"camera": None, **({"views": views} if many else {"seen_by": views[0]})}
+        chosen["camera"] = None
+        if len(views) > 1:
+            chosen["views"] = views
+        else:
+            chosen["seen_by"] = views[0]
     return Choice(**chosen)
 
 
