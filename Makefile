@@ -31,12 +31,11 @@ check: lint ## check the style, run the fast tests that need neither Blender nor
 # What the tests in a browser and in a window need, only root can install, and other Pythons have to
 # be there: where that is not possible they are skipped, the run says so and is still a success.
 # A whole Blender is set up by the first tests that need it, while others run.
-# The types take one core for most of a minute: they are checked while the first tests run.
+# The types take one core for most of a minute: they are checked beside all else.
 test: .venv/.stamp ## run all tests, those in a browser and in a window too where that is possible
-	@$(MAKE) --no-print-directory --jobs 2 style set-up-tests
-	@$(MAKE) --no-print-directory --jobs 2 types all-tests
+	@$(MAKE) --no-print-directory --jobs 3 style types all-tests
 
-all-tests:
+all-tests: style set-up-tests
 	$(PYTEST) $(SHARED) -rs -m "not torture"
 
 set-up-tests: extension

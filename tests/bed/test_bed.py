@@ -11,6 +11,7 @@ from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.rendering import render as trace
 from reference_tracer.tracer.progress import result_of
 
+from ..sampled import daily
 from . import damage, shapes
 from .bridge import case_of, scene_of, window_of
 from .faults import FAULTS
@@ -245,7 +246,7 @@ def test_a_camera_with_a_scale_is_no_other_lens():
 # ---- damage
 
 
-@pytest.mark.parametrize("number", range(20))
+@pytest.mark.parametrize("number", daily(range(20)))
 def test_a_damaged_picture_differs_and_comes_again(number):
     kind, scene, picture = damage.damaged(number)
     base = right(scene).picture()

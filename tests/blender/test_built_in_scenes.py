@@ -15,6 +15,8 @@ from reference_tracer_grading.extremes import plain
 from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.picture import look
 
+from ..sampled import daily
+
 PROJECT = Path(__file__).parents[2]
 SCENES = sorted((PROJECT / "sample_scenes").glob("*.blend"))
 BUILT_IN = {name: scene for name, scene, _ in built_in()}
@@ -45,7 +47,7 @@ def test_as_exported(name):
     assert len(stored.planes) == len(fresh.planes) == (name == "exercise_plane")
 
 
-@pytest.mark.parametrize("path", SCENES, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", daily(SCENES), ids=lambda p: p.stem)
 def test_right_files_score_full_on_every_sample_scene(path):
     bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
     scene, _, _ = export_open_file(bpy.context)

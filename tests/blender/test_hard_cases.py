@@ -24,6 +24,7 @@ from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.pictures.palette import By
 from reference_tracer.tracer.progress import result_of
 
+from ..sampled import daily
 from . import hard_cases as hard
 from .test_unchanged import differences, snapshot, state
 
@@ -157,7 +158,7 @@ def test_no_false_alarm(make, judge, build, compare):
 @pytest.mark.parametrize(
     ("make", "judge"),
     [
-        *((make, "WORKBENCH") for make in (*hard.EDIT_MODE, *hard.HAIR)),
+        *daily((make, "WORKBENCH") for make in (*hard.EDIT_MODE, *hard.HAIR)),
         *judged(hard.SIMULATIONS, hard.SIMULATIONS[::3]),
     ],
     ids=id_of,
@@ -194,7 +195,7 @@ def own_picture() -> np.ndarray:
     return picture(scene, scene.view_layers[0].name, engine, export_camera(scene), True)
 
 
-@pytest.mark.parametrize("make", MAY_BE_UPSET, ids=name_of)
+@pytest.mark.parametrize("make", daily(MAY_BE_UPSET), ids=name_of)
 def test_compares_what_the_user_would_render(make, build, compare):
     make(build)
     found = compare(judge="WORKBENCH", colors=By.VIEWPORT).picture

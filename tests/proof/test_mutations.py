@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ..copied import copied
+from ..sampled import daily
 from .mutants import Mutant, checked
 
 pytestmark = pytest.mark.slow  # a Python of its own for each
@@ -94,7 +95,7 @@ def changed(copy, path, old, new):
     return checked(copy, Mutant("", path, old, new, "expressions"))
 
 
-@pytest.mark.parametrize("what", CHANGES)
+@pytest.mark.parametrize("what", daily(CHANGES))
 def test_a_change_breaks_the_bridge(copy, what):
     path, change, said = CHANGES[what]
     result = changed(copy, path, *change)

@@ -28,7 +28,7 @@ from reference_tracer.tracer.settings import Settings
 
 from ...moved import may, touched
 from ...oracle import scene_sights
-from ...sampled import sampled
+from ...sampled import daily, sampled
 from ...tracer.hostile_scenes import brute_force, hostile_scene, offsets, scaled
 from ...tracer.rational import t_of_pixels
 
@@ -171,7 +171,7 @@ def undivided(make, request):
     return out
 
 
-@pytest.mark.parametrize("division", DIVISIONS)
+@pytest.mark.parametrize("division", daily(DIVISIONS))
 def test_the_division_does_not_matter(undivided, division, monkeypatch):
     for module, name, value in DIVISIONS[division]:
         assert hasattr(module, name)
