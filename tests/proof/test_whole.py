@@ -125,9 +125,7 @@ LEFT_OUT_OF_THE_CHECKER = {
             "demand only film Certificate.__init__ Certificate.set_surfaces verified main"
         ),
         "the stored rays' roundings: test_verify.py": "Certificate.rays sine",
-        "drops, by a bound that is argued by hand at its head: test_forms.py": (
-            "most forms levels candidates left"
-        ),
+        "which pixels come into which square: test_forms.py": "left",
         "moves integers, transcribed by hand in Leaf.v: test_mutations.py": (
             "integers Exact.__init__ check"
         ),

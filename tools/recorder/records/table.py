@@ -8,6 +8,7 @@ from . import (
     camera,
     checker,
     deciding,
+    dropping,
     edges,
     film,
     integers,
@@ -27,6 +28,7 @@ FILES = {
     "RecordedPixels": pixels.RECORDS,
     "RecordedFilm": film.RECORDS,
     "RecordedBoxes": boxes.RECORDS,
+    "RecordedDropping": dropping.RECORDS,
 }
 RECORDS = tuple(record for records in FILES.values() for record in records)
 # The files of whole functions of integers: what they have, and how they begin.
