@@ -179,6 +179,15 @@ _TABLE = {
             "gap(m, least) <= 0",
             "gap(m, least) < 0",
         ),
+        *(
+            (what, "certified/many.py", old, new)
+            for what, old, new in (
+                ("one edge function of one sign is a miss", "low & high", "low | high"),
+                ("an edge function of zero is negative", "low |= e < 0", "low |= e <= 0"),
+                ("an edge is turned round", "(c, a)]", "(a, c)]"),
+                ("the origin has another sign", "v, normals = -o", "v, normals = o"),
+            )
+        ),
     ),
     # The checker of certificates.
     "checker": tuple(
@@ -232,12 +241,6 @@ _TABLE = {
             "found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], "
             "found.ray)))",
             "found = found.take(np.lexsort((-found.surface, found.ray)))",
-        ),
-        (
-            "one edge function of one sign is a miss",
-            "certified/many.py",
-            "out[some] = low & high",
-            "out[some] = low | high",
         ),
         (
             "intersections of planes are no lines of change",

@@ -41,7 +41,6 @@ LEFT_OUT = {
         EXACT: "Hit.weights turning IntegerBatch.__init__ IntegerBatch.of_first_ray "
         "IntegerBatch._limit",
     },
-    "many.py": {EXACT: "hits _miss _edges _columns"},
     "integers.py": {EXACT: "integers"},
     "order.py": {EXACT: "_scaled", WHICH: "applies"},
     "ladder.py": {

@@ -12,6 +12,7 @@ from . import (
     film,
     integers,
     keeping,
+    many,
     pixels,
     quotient,
 )
@@ -31,7 +32,7 @@ FILES = {
 RECORDS = tuple(record for records in FILES.values() for record in records)
 # The files of whole functions of integers: what they have, and how they begin.
 WHOLE = {
-    "RecordedIntegers": (integers.INTEGERS, integers.HEAD),
+    "RecordedIntegers": (integers.INTEGERS + many.MANY, integers.HEAD),
     "RecordedChecker": (checker.CHECKER, checker.HEAD),
 }
 NAMES = (*FILES, *WHOLE)
