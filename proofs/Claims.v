@@ -2,7 +2,7 @@
 From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
 From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
-From Reftrace Require Import CodeRange IntegersCode TwoTriangles.
+From Reftrace Require Import CodeRange IntegersCode ConversionsCode TwoTriangles.
 From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped Squares.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
@@ -167,6 +167,12 @@ Check IntegersCode.difference_parallel_is.
 Check IntegersCode.first_of_3_is.
 (** Integers: likewise whether two hits leave a tie. *)
 Check IntegersCode.no_ties_2_is.
+(** Integers: the code makes those integers of floats, with that power of two, that the model does. *)
+Check ConversionsCode.integers_is.
+(** Integers: by the code's clip limits the same hits are seen as by the model's. *)
+Check ConversionsCode.seen_by_ratios_is.
+(** Integers: an integer times a power of two becomes a float as in the model: rounded once. *)
+Check ConversionsCode.scaled_is.
 (** An example: of two triangles, Coq computes that the near one's interval ends before the far one's
     begins. *)
 Check TwoTriangles.near_is_nearer.
@@ -184,6 +190,8 @@ Check Dropped.dropped_is_not_met.
 (** The checker of certificates: what is dropped from a square of pixels is so ruled out for each ray in
     its box, if T, D, the edges and the rest are linear there but for an error that is known. *)
 Check Squares.gone_is_ruled_out.
+(** The checker of certificates, as recorded: each float is its integer times one power of two. *)
+Check ConversionsCode.check_exact.
 (** The checker of certificates, as recorded: a triangle's T, n and edges are the model's. *)
 Check LeafCode.triangle_is.
 (** Likewise a plane's. *)

@@ -7,6 +7,7 @@ from . import (
     boxes,
     camera,
     checker,
+    conversions,
     deciding,
     edges,
     film,
@@ -33,6 +34,7 @@ RECORDS = tuple(record for records in FILES.values() for record in records)
 # The files of whole functions of integers: what they have, and how they begin.
 WHOLE = {
     "RecordedIntegers": (integers.INTEGERS + many.MANY, integers.HEAD),
+    "RecordedConversions": (conversions.CONVERSIONS, conversions.HEAD),
     "RecordedChecker": (checker.CHECKER, checker.HEAD),
 }
 NAMES = (*FILES, *WHOLE)
