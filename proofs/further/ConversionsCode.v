@@ -1,7 +1,7 @@
-(** How floats become integers, and integers floats, as recorded: `integers.py`, `_limit` of `exact.py`,
-    `_scaled` of `order.py`, and the same of the checker of certificates ([RecordedConversions]). What
-    Integers.v and Clip.v say of them was written by hand from the Python; here a machine has compared
-    the two. Trusted are numpy's [frexp], and Python's integers and ratios. *)
+(** How floats become integers, and integers floats, as recorded: `integers.py`, the batches of `exact.py`
+    and their clip limits, `_scaled` of `order.py`, and the same of the checker of certificates
+    ([RecordedConversions]). What Integers.v and Clip.v say of them was written by hand from the Python;
+    here a machine has compared the two. Trusted are numpy's [frexp], and Python's integers and ratios. *)
 Require Import ZArith Reals Psatz List Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Reftrace Require Import Geometry Trees Rounding Magnitude Signs Integers Clip.
@@ -97,6 +97,14 @@ Corollary check_exact : let unit := check_unit x y z in
   V x y z = scaled unit (check_integers x y z unit).
 Proof. cbv zeta. apply check_integers_exact; apply check_unit_fits. Qed.
 End Vector.
+
+(** * A batch: lengths share a power of two, directions another; a plane's normal has its own *)
+
+Theorem batch_is o1 o2 d a1 a2 b1 b2 c1 c2 p n unit direction_unit start end_ :
+  whole_batch o1 o2 d a1 a2 b1 b2 c1 c2 p n unit direction_unit start end_ =
+  ([o1; o2], [d], [a1; a2], [b1; b2], [c1; c2], p, n, unit, shift unit direction_unit,
+   start, end_, Req_bool start 0).
+Proof. reflexivity. Qed.
 
 (** * [IntegerBatch._limit] *)
 

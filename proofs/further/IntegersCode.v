@@ -190,6 +190,19 @@ Proof.
   intros S. unfold kept, code_hit, line_hit. rewrite S. destruct (Integers.hit _ _ _ _ _); reflexivity.
 Qed.
 
+(** [IntegerBatch.of_first_ray] *)
+Theorem of_first_ray_is i b s :
+  let L := integers_of (lengths b) in let o := L (first_origin i) in let d := direction_in i b in
+  match Contest.shape_of s with
+  | Contest.Triangular x => let p := L (ca x) in let q := L (cb x) in let r := L (cc x) in
+      whole_of_first_ray (ix d) (iy d) (iz d) (ix o) (iy o) (iz o) (ix p) (iy p) (iz p)
+        (ix q) (iy q) (iz q) (ix r) (iy r) (iz r)
+  | Contest.Infinite p n => let p := L p in let n := integers_of (components n) n in
+      whole_of_first_ray_plane (ix d) (iy d) (iz d) (ix o) (iy o) (iz o) (ix p) (iy p) (iz p)
+        (ix n) (iy n) (iz n)
+  end = of_first_ray i b s.
+Proof. unfold of_first_ray. destruct (Contest.shape_of s); reflexivity. Qed.
+
 (** * [order._difference], of what [of_first_ray] returns of two surfaces *)
 Section Difference.
 Variables (i : inputs) (b : batch) (s s' : Contest.surface) (T1 D1 T2 D2 : Z) (n1 n2 : Integers).

@@ -187,6 +187,18 @@ _TABLE = {
             "self._shift + power.bit_length() - 1",
             "self._shift + power.bit_length()",
         ),
+        (
+            "t's power of two is a sum",
+            "certified/exact.py",
+            "= exponent - direction_exponent",
+            "= exponent + direction_exponent",
+        ),
+        (
+            "the last ray is taken as the first",
+            "certified/exact.py",
+            "dot(self.directions[0], n), n",
+            "dot(self.directions[-1], n), n",
+        ),
         ("an integer is halved as a float", "certified/order.py", "/ (1 <<", "/ (2 <<"),
         *(
             (what, "certified/integers.py", old, new)

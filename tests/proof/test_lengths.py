@@ -29,6 +29,7 @@ SHARED = "what all rays share is one column: other inputs, and each way is recor
 ONE_SHARED = dict.fromkeys(("o.shape[1] == 1", "d.shape[1] == 1"), SHARED)
 BATCH = "what all rays of a batch share, in integers: the numbers are the same"
 EMPTY = "of none there is nothing to do, or to return"
+KIND = "a plane or a triangle: each is recorded"
 FEW = "how the same numbers are fetched"
 # By function: what is found there, and why it may be.
 LISTED = {
@@ -36,9 +37,10 @@ LISTED = {
     "certified/exact.py IntegerBatch.hit": {
         "len(self.origins) > 1": BATCH,
         "len(self.directions) > 1": BATCH,
-        "surface < len(self.planes)": "a plane or a triangle: each is recorded",
+        "surface < len(self.planes)": KIND,
         "sum(edges)": "of three integers: any order is right",
     },
+    "certified/exact.py IntegerBatch.of_first_ray": {"surface < len(self.planes)": KIND},
     "certified/ladder.py Ladder._prepare": ONE_SHARED,
     "certified/many.py _miss": ONE_SHARED,
     "certified/measures.py Prepared.meet": {"len(self._edges.T)": EMPTY},

@@ -37,9 +37,7 @@ LEFT_OUT = {
         ),
     },
     "definition.py": {CALLS: "definition seen_by _surfaces"},
-    "exact.py": {
-        EXACT: "Hit.weights turning IntegerBatch.__init__ IntegerBatch.of_first_ray",
-    },
+    "exact.py": {EXACT: "Hit.weights turning"},
     "order.py": {WHICH: "applies"},
     "ladder.py": {
         CALLS: "Ladder.__init__ Ladder.of Ladder.test Ladder._test_plane Decisions.by_bound "

@@ -14,14 +14,17 @@ from unittest import mock
 
 import numpy as np
 from reference_tracer.certified import exact, integers, order
+from reference_tracer.certified.exact import IntegerBatch
+from reference_tracer.tracer.camera import Rays
 from reference_tracer_verify import verify
 
 from ..nodes import RefusedError, number
-from ..whole import Asked, Whole, folded, least, most, term, triple, whole
+from ..whole import Asked, Whole, folded, least, listed, most, term, triple, whole
 from .integers import WholeRecord, Z, batch
 from .record import numpy_with
 
 _R = "({} : R)"
+_VECTORS = "o1 o2 d a1 a2 b1 b2 c1 c2 p n"
 
 
 class _Mantissa:
@@ -85,6 +88,52 @@ def _integers(names: str, vectors: int) -> str:
     return f"([{'; '.join(map(triple, found))}], {term(unit)})"
 
 
+class _Limit:
+    """A clip limit: a Coq term of type R."""
+
+    __hash__ = None
+
+    def __init__(self, term: str) -> None:
+        self.term = term
+
+    def __eq__(self, zero: object) -> Asked:  # type: ignore[override]
+        return Asked(f"(Req_bool {self.term} 0)")
+
+
+def _batch() -> str:
+    """Of two origins, a direction, two triangles, a plane: each is known by a number.
+
+    A power of two has the names of all that share it.
+    """
+    names = dict(enumerate(_VECTORS.split()))
+
+    def converted(vectors) -> tuple[list[str], Whole]:
+        found = [names[int(k)] for k in vectors[0]]
+        return found, Whole("_".join(("unit", *found)))
+
+    def vectors(*wanted: str):
+        return np.array([[list(names.values()).index(name) for name in wanted]] * 3, float)
+
+    rays = Rays(vectors("o1", "o2"), vectors("d"))
+    corners = np.stack([vectors(f"{k}1", f"{k}2") for k in "abc"])
+    planes = [(vectors("p")[:, 0], vectors("n")[:, 0])]
+    with (
+        mock.patch.object(exact, "integers", converted),
+        mock.patch.object(IntegerBatch, "_limit", lambda _, limit: limit.term),
+    ):
+        own = IntegerBatch(rays, corners, planes, _Limit("start"), _Limit("end_"))
+    parts = (
+        *map(listed, (own.origins, own.directions, *own.corners)),
+        *own.planes[0],
+        term(own.unit),
+        term(own._shift),
+        own._start,
+        own._end,
+        own._open.term,
+    )
+    return f"({', '.join(parts)})"
+
+
 def _limit() -> str:
     """`as_integer_ratio` returns m / p."""
     value = SimpleNamespace(as_integer_ratio=lambda: whole("m p"))
@@ -134,6 +183,16 @@ CONVERSIONS = (
         lambda: _integers("x y", 2),
         "ConversionsCode.integers_of_two_is",
         "of two vectors along the first axis",
+    ),
+    WholeRecord(
+        "whole_batch",
+        "exact.IntegerBatch.__init__",
+        f"({_VECTORS} : Integers) (unit_o1_o2_a1_a2_b1_b2_c1_c2_p unit_d : Z) (start end_ : R)",
+        "list Integers * list Integers * list Integers * list Integers * list Integers * Integers "
+        "* Integers * Z * Z * R * R * bool",
+        _batch,
+        "ConversionsCode.batch_is",
+        "of two rays, two triangles and a plane: what shares a power of two",
     ),
     WholeRecord(
         "whole_limit",

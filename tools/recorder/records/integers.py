@@ -13,6 +13,7 @@ from unittest import mock
 
 from reference_tracer.certified import exact, order, ties
 from reference_tracer.certified.exact import PERTURBATION, Hit, IntegerBatch
+from reference_tracer.certified.integers import ZERO
 
 from ..whole import Asked, Whole, folded, least, listed, most, term, tree, triple, whole
 from .record import Output
@@ -86,6 +87,12 @@ def _hit_of(**known) -> str:
     own = batch(_clipped=lambda hit: hit, **known)
     with _python():
         return _option(own.hit(0, 0))
+
+
+def _of_first_ray(**known) -> str:
+    own = batch(origins=[whole(CORNERS[0]), ZERO], directions=[whole(RAY), ZERO], **known)
+    numerator, denominator, normal = own.of_first_ray(0)
+    return f"({term(numerator)}, {term(denominator)}, {triple(normal)})"
 
 
 def _one_hit(edges=(), sides=(), spans=(), number=1) -> Hit:
@@ -235,6 +242,7 @@ _SIGN = "value mx my mz sx sy sz dx dy dz"
 _LIMITS = "(a_n a_s b_n b_s : Z) (open : bool)"
 _EDGES = " ".join(f"{k}{n}{c}" for k in "ms" for n in "123" for c in "xyz")
 _PLANE = "px py pz nx ny nz"
+_PLANES = [(whole("px py pz"), whole("nx ny nz"))]
 
 INTEGERS = (
     WholeRecord(
@@ -259,9 +267,27 @@ INTEGERS = (
         "exact.IntegerBatch.hit",
         Z.format(f"{RAY} {CORNERS[0]} {_PLANE}"),
         "option Hit",
-        lambda: _hit_of(planes=[(whole("px py pz"), whole("nx ny nz"))]),
+        lambda: _hit_of(planes=_PLANES),
         "IntegersCode.plane_is",
         "of a plane, before the clip range",
+    ),
+    WholeRecord(
+        "whole_of_first_ray",
+        "exact.IntegerBatch.of_first_ray",
+        Z.format(" ".join((RAY, *CORNERS))),
+        "Z * Z * Integers",
+        _of_first_ray,
+        "IntegersCode.of_first_ray_is",
+        "of a triangle",
+    ),
+    WholeRecord(
+        "whole_of_first_ray_plane",
+        "exact.IntegerBatch.of_first_ray",
+        Z.format(f"{RAY} {CORNERS[0]} {_PLANE}"),
+        "Z * Z * Integers",
+        lambda: _of_first_ray(planes=_PLANES),
+        "IntegersCode.of_first_ray_is",
+        "of a plane",
     ),
     *(
         WholeRecord(
