@@ -64,7 +64,7 @@ def _each(make: Callable, *values) -> _Objects:
 @contextmanager
 def _floats(module: ModuleType, names: str) -> Iterator[list[float]]:
     """Let a module compute with the floats of these names; yields what they are known by."""
-    known = {float(k): name for k, name in enumerate(names.split(), 1)}
+    known = dict(zip(np.sqrt([2, 3, 5]).tolist(), names.split(), strict=False))
     given = [0.0 if Asked(f"(Req_bool {name} 0)") else k for k, name in known.items()]
 
     def frexp(values) -> tuple[_Objects, _Objects]:
