@@ -2,7 +2,7 @@
 From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
 From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
-From Reftrace Require Import CodeRange IntegersCode TwoTriangles.
+From Reftrace Require Import CodeRange IntegersCode ConversionsCode TwoTriangles.
 From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped Room Dropping Box Kept.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
@@ -142,6 +142,11 @@ Check CodeRange.taken_is_finite.
 Check IntegersCode.hit_is.
 (** Integers: likewise on an infinite plane. *)
 Check IntegersCode.plane_is.
+(** Integers: likewise which triangles are left out together for rays from one point: those whose hit is
+    None before the clip range. *)
+Check IntegersCode.many_from_point_is.
+(** Integers: likewise for parallel rays. *)
+Check IntegersCode.many_parallel_is.
 (** Integers: likewise whether a hit is in the clip range, with a start and an end. *)
 Check IntegersCode.clipped_both_is.
 (** Integers: likewise what is divided for t. *)
@@ -162,6 +167,12 @@ Check IntegersCode.difference_parallel_is.
 Check IntegersCode.first_of_3_is.
 (** Integers: likewise whether two hits leave a tie. *)
 Check IntegersCode.no_ties_2_is.
+(** Integers: the code makes those integers of floats, with that power of two, that the model does. *)
+Check ConversionsCode.integers_is.
+(** Integers: by the code's clip limits the same hits are seen as by the model's. *)
+Check ConversionsCode.seen_by_ratios_is.
+(** Integers: an integer times a power of two becomes a float as in the model: rounded once. *)
+Check ConversionsCode.scaled_is.
 (** An example: of two triangles, Coq computes that the near one's interval ends before the far one's
     begins. *)
 Check TwoTriangles.near_is_nearer.
@@ -195,6 +206,8 @@ Check Box.code_covers.
 (** The checker of certificates: if exact signs rule out, from clip start to some t, each surface that is
     not kept, then all that is met up to that t is kept. *)
 Check Dropped.dropped_is_not_met.
+(** The checker of certificates, as recorded: each float is its integer times one power of two. *)
+Check ConversionsCode.check_exact.
 (** The checker of certificates, as recorded: a triangle's T, n and edges are the model's. *)
 Check LeafCode.triangle_is.
 (** Likewise a plane's. *)

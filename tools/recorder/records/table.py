@@ -7,12 +7,14 @@ from . import (
     boxes,
     camera,
     checker,
+    conversions,
     deciding,
     dropping,
     edges,
     film,
     integers,
     keeping,
+    many,
     pixels,
     quotient,
 )
@@ -33,7 +35,8 @@ FILES = {
 RECORDS = tuple(record for records in FILES.values() for record in records)
 # The files of whole functions of integers: what they have, and how they begin.
 WHOLE = {
-    "RecordedIntegers": (integers.INTEGERS, integers.HEAD),
+    "RecordedIntegers": (integers.INTEGERS + many.MANY, integers.HEAD),
+    "RecordedConversions": (conversions.CONVERSIONS, conversions.HEAD),
     "RecordedChecker": (checker.CHECKER, checker.HEAD),
 }
 NAMES = (*FILES, *WHOLE)
