@@ -133,9 +133,9 @@ Definition middle_code l h := Add (Var l) (Div (Sub (Var h) (Var l)) (Num 1 1)).
 Definition half_code l h := Mul (Max (Sub (Var h) (middle_code l h)) (Sub (middle_code l h) (Var l)))
   (Num 1125899906842625 (-50)).
 Theorem box_is :
-  (box_middle_x, box_middle_y, box_middle_z) =
+  (square_middle_x, square_middle_y, square_middle_z) =
     (middle_code "lowx" "highx", middle_code "lowy" "highy", middle_code "lowz" "highz") /\
-  (box_half_x, box_half_y, box_half_z) =
+  (square_half_x, square_half_y, square_half_z) =
     (half_code "lowx" "highx", half_code "lowy" "highy", half_code "lowz" "highz").
 Proof. split; reflexivity. Qed.
 

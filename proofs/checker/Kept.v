@@ -37,8 +37,8 @@ Record describes (v : env) (cam : camera) (start : float) (q : square) (s : stor
   high_is : floats_at v "high" = high q;
   largest_is : of_var v "largest" = largest q;
   far_is : of_var v "far" = far_ q;
-  middle_is : floats_at v "middle" = F3 (eval v box_middle_x) (eval v box_middle_y) (eval v box_middle_z);
-  half_is : floats_at v "half" = F3 (eval v box_half_x) (eval v box_half_y) (eval v box_half_z);
+  middle_is : floats_at v "middle" = F3 (eval v square_middle_x) (eval v square_middle_y) (eval v square_middle_z);
+  half_is : floats_at v "half" = F3 (eval v square_half_x) (eval v square_half_y) (eval v square_half_z);
   surface_is : match s with
     | StoredTriangle a b c => floats_at v "a" = a /\ floats_at v "b" = b /\ floats_at v "c" = c
     | StoredPlane p n => floats_at v "a" = p /\ floats_at v "b" = n

@@ -69,7 +69,7 @@ ONE = "its record makes the arrays that it works on, of one column"
 ONE_COLUMN = {
     **dict.fromkeys(("unit_from_point", "around_directions", "around_origins", "pair"), ALL),
     **dict.fromkeys(("small", "small_one", "enter", "box", "are_small", "are_small_some"), ONE),
-    **dict.fromkeys(("plane_pixel_perspective", "plane_pixel_parallel"), ONE),
+    **dict.fromkeys(("plane_pixel_perspective", "plane_pixel_parallel", "square"), ONE),
 }
 
 

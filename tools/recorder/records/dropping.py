@@ -32,9 +32,10 @@ class _Pair(tuple):
         return self if isinstance(index, tuple) else super().__getitem__(index)
 
 
-def _gone(v: Inputs, is_parallel: bool, triangles: int) -> Kept:
-    corners = v.stacked([_vector(v, k) for k in ("abc" if triangles else "abb")])
+def _gone(v: Inputs, is_triangle: bool, is_parallel: bool):
+    corners = v.stacked([_vector(v, k) for k in ("abc" if is_triangle else "abb")])
     camera = {k: _vector(v, k) for k in ("eye", "back")}
+    triangles = v.columns if is_triangle else 0
     of = SimpleNamespace(corners=corners, triangles=triangles, aside=_vector(v, "q"), **camera)
     box = v.vector("middlex middley middlez halfx halfy halfz far").reshape(7, 1, -1)
     forms = verify.forms(of, is_parallel, v.shared_one("largest"))
@@ -65,12 +66,12 @@ def _box(v: Inputs) -> Kept:
     two = v.stacked([low, high])[..., 0, 0].T.reshape(3, 1, 2)
     with numpy_with(verify, minimum=ends(np.minimum, low), maximum=ends(np.maximum, high)):
         _, square = verify.levels(two, np.zeros((1, 2)))
-    names = [f"box_{k}_{axis}" for k in ("middle", "half") for axis in "xyz"]
+    names = [f"square_{k}_{axis}" for k in ("middle", "half") for axis in "xyz"]
     return dict(zip(names, square.reshape(7, 1), strict=False))
 
 
 _CASES = [
-    (f"gone_{shape}_{rays}", rays == "parallel", int(shape == "triangle"))
+    (f"gone_{shape}_{rays}", shape == "triangle", rays == "parallel")
     for shape in ("triangle", "plane")
     for rays in ("point", "parallel")
 ]
@@ -87,10 +88,10 @@ RECORDS = (
         for name, *how in _CASES
     ),
     Record(
-        "box",
+        "square",
         "verify.levels",
         _named(dict(low=(0.0, 0.25, -1.0), high=(0.5, 0.75, -1.0))) | dict(far=50.0),
         _box,
-        {f"box_{k}_{axis}": "Box.code_covers" for k in ("middle", "half") for axis in "xyz"},
+        {f"square_{k}_{axis}": "Box.code_covers" for k in ("middle", "half") for axis in "xyz"},
     ),
 )
