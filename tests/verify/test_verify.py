@@ -116,10 +116,11 @@ def test_surfaces_that_intersect_where_a_ray_meets_them(depth, make, tmp_path):
 
 
 def test_in_small_parts(make, tmp_path, monkeypatch):
-    """However few pixels or pairs are looked at together."""
-    for name, size in {"PIXELS": 30, "PAIRS": 5}.items():
-        monkeypatch.setattr(checker, name, size)
-    held(make, range(0, 12, 3), tmp_path / "c.npz")
+    """However few pixels or pairs are looked at together: fewer than a row has, too."""
+    monkeypatch.setattr(checker, "PAIRS", 5)
+    for pixels in (30, 5):
+        monkeypatch.setattr(checker, "PIXELS", pixels)
+        held(make, range(0, 12, 3), tmp_path / "c.npz")
 
 
 @pytest.mark.torture
@@ -323,6 +324,33 @@ def test_a_t_in_float32_hides_no_tie(make, tmp_path):
     assert refusal(path).startswith("pixel (1, 0): the file says")
     np.savez(path, **(answers | {"t": answers["t"].astype(np.float32)}))
     assert refusal(path).startswith("t is of f4 1 3")
+
+
+@pytest.mark.parametrize("arranged", [np.ascontiguousarray, np.asfortranarray])
+def test_a_t_in_another_order_hides_no_tie(arranged, make, tmp_path):
+    """Two halves end where the first ray passes, so that it may see what is behind both."""
+    near, half, behind = (
+        Mesh(np.array(corners, float), [[0, 1, 2]])
+        for corners in (
+            [(0.5, -9, -1), (0.5, 9, -1), (-9, 0.25, -1)],
+            [(0.5, 0.5, -2), (9, 0.5, -2), (0.5, 9, -2)],
+            [(-20, -20, -3), (20, -20, -3), (0, 40, -3)],
+        )
+    )
+    camera = Camera(np.eye(4), ViewWindow(0, 2, 0, 2), 2, 2, ORTHOGRAPHIC, clip_start=0.5)
+    path = tmp_path / "c.npz"
+    answers = certified(make.scene(camera, near, half, behind), path)
+    answers["t"] = arranged(answers["t"])
+    np.savez(path, **answers)
+    assert not refusal(path)
+    farthest = np.flatnonzero(answers["ties"][:, 1] == 2)
+    assert len(farthest)
+    for row in farthest.tolist():
+        ties = answers["ties"].copy()
+        ties[row, 1:] = -1
+        np.savez(path, **(answers | {"ties": ties}))
+        pixel = tuple(int(v) for v in divmod(ties[row, 0], 2)[::-1])
+        assert refusal(path).startswith(f"pixel {pixel}: the file says")
 
 
 def test_a_sample_of_no_rows_is_refused(stored):
