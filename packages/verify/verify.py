@@ -80,6 +80,7 @@ class Certificate:
         with np.load(path, allow_pickle=False) as file:
             only("schema", [str(file["certificate"])], ["reference_tracer.certificate/2"])
             only("array", file.files, ["certificate", "camera", *ARRAYS])
+            demand(len(file.files) == len(set(file.files)), "an array is in the file twice")
             self.kind = str(file["camera"])
             arrays = [file[name] for name in ARRAYS]
         only("camera", [self.kind], ["perspective", "orthographic", "equirectangular"])

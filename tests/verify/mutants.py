@@ -39,6 +39,7 @@ class Mutant(NamedTuple):
 MUTANTS = (
     # Reading.
     Mutant("what is not known passes", "if each not in known]:", "if False]:"),
+    Mutant("an array may come twice", "len(file.files) == len(set(file.files))", "True"),
     Mutant("a shape is read up to its end", "re.fullmatch(known", "re.match(known"),
     Mutant("an empty clip range", "< self.clip[1] <", "< np.inf or self.clip[1] <"),
     Mutant("pixels beside the picture", "0 <= begin < end <= count", "begin < end"),

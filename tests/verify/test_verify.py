@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+import zipfile
 from dataclasses import replace
 from itertools import permutations
 from pathlib import Path
@@ -263,6 +264,16 @@ def test_what_it_does_not_know_is_refused_by_name(stored):
     for pixel in (-1, arrays["t"].size):
         ties = np.array([(pixel, 0, 0)])
         assert said(ties=ties) == f"not covered: tie of pixel {pixel}"
+
+
+def test_an_array_that_is_there_twice_is_refused(stored):
+    """Which of the two is read would be the reader's choice."""
+    path, _ = stored
+    with zipfile.ZipFile(path) as file:
+        t = file.read("t.npy")
+    with zipfile.ZipFile(path, "a") as file, pytest.warns(UserWarning, match="Duplicate name"):
+        file.writestr("t.npy", t)
+    assert refusal(path) == "an array is in the file twice"
 
 
 def test_ranges_that_are_empty_or_endless_are_refused(stored):
