@@ -88,8 +88,9 @@ class Tree:
     def pairs(self, rays: Rays, start: float, end: float) -> Iterator[Pairs]:
         """Yield all pairs of n rays and a triangle that may meet with start <= t <= end."""
         seen = _Seen.of(rays, start, end)
-        ray, node = np.arange(rays.count), np.zeros(rays.count if self.levels else 0, np.intp)
-        ray = ray[: len(node)]
+        # Without a direction a ray meets nothing, not even a box.
+        ray = np.flatnonzero(~seen.still.all(axis=0) & bool(self.levels))
+        node = np.zeros_like(ray)
         for boxes in self.levels:
             kept = [_children(seen, boxes, ray[some], node[some]) for some in _some(ray)]
             ray, node = (np.concatenate(each) for each in zip(*kept, strict=True))
