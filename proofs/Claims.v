@@ -36,7 +36,8 @@ Check Forms.plane_D.
 Check Pairs.sides_sure_right.
 (** Sides: what it does not call possible is outside of one edge and inside of another. *)
 Check Pairs.sides_impossible_right.
-(** The interval of t, as computed in binary64, contains the exact T / D. *)
+(** The interval of t, as computed in binary64, contains the exact T / D, if that is not negative or the
+    upper end is a number; a number there says that D is not 0. *)
 Check Pairs.interval_right.
 (** Order: where order.py knows which of two surfaces is nearer, the sign that decides is right. *)
 Check Nearer.order_sign.
@@ -52,7 +53,8 @@ Check Hits.order_0.
 Check Fans.shared_edge.
 (** Ties: of a fan that goes once round a corner, a ray through the corner meets exactly one. *)
 Check Fans.fan_rule.
-(** Ties: a closed surface is met an even number of times. *)
+(** Ties: a closed surface is met an even number of times along the whole line, before any hit is left
+    out for D = 0 or the clip range. *)
 Check Closed.closed_surface_rule.
 (** Integers: every float of a batch is its integer times one power of two. *)
 Check Integers.integers_exact.
@@ -79,7 +81,7 @@ Check CameraRays.parallel_box.
 (** The whole, from facts about single surfaces: the owner is the nearest of the moved ray; if
     certain by a bound or by integers, it is the one nearest of the stored ray; t is rounded once. *)
 Check Nearby.plain_is_right_by_the_rule.
-(** The whole: in whatever order the work is done, the result is the same. *)
+(** The whole: in whatever order pairs come, the result is the same. *)
 Check Batches.order_does_not_matter.
 (** The film: of a stored perspective ray and the stored vertices, p, q and w are off by no more than
     film.py says, rays' errors included. *)

@@ -1,7 +1,7 @@
 """Proposes the pairs of a ray and a triangle that may meet, by a tree of boxes: for any rays.
 
-What is dropped certainly misses, whatever is rounded. What is left is decided by `ladder.py`, so
-that a tree changes nothing that is seen, no t and no tie.
+What is dropped certainly misses, whatever is rounded: that is argued here, by hand. What is left is
+decided by `ladder.py`, so that a tree changes nothing that is seen, no t and no tie.
 
 - **A box** holds its triangles' corners as they are: nothing of it is rounded. A ray is within it
   for the t between near and far, (side - o) / d along each axis. The quotients are off by three
