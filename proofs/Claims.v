@@ -1,7 +1,8 @@
 (** The theorems of the claim, in the words of docs/proof.md: tools/prove.py asks what they assume. *)
 From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
-From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
+From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven FilmLinked.
+From Reftrace Require Beginning RecordedBoxes. (* so that coqchk reads these, too *)
 From Reftrace Require Import CodeRange IntegersCode TwoTriangles.
 From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped Squares.
 
@@ -97,6 +98,19 @@ Check Orthographic.vertex_near'.
 Check Orthographic.box_holds'.
 (** The film, orthographic: likewise the nearest. *)
 Check Orthographic.nearest_seen'.
+(** The film, as recorded: a perspective ray, its error, the bounds and what is surely ahead are those of
+    these theorems, if each record begins with what another one has ended with. *)
+Check FilmLinked.perspective_recorded.
+(** Likewise the box of a vertex; perspective. *)
+Check FilmLinked.perspective_recorded_vertex.
+(** Likewise what the edge functions begin with; perspective. *)
+Check FilmLinked.perspective_recorded_stored.
+(** Likewise the ray, its error and the bounds; orthographic. *)
+Check FilmLinked.parallel_recorded.
+(** Likewise the box of a vertex; orthographic. *)
+Check FilmLinked.parallel_recorded_vertex.
+(** Likewise what the edge functions begin with; orthographic. *)
+Check FilmLinked.parallel_recorded_stored.
 (** The sweep: what set_up and a pixel's edge functions call sure is met by the stored ray, inside and
     before the eye; perspective. *)
 Check Fit.surely_inside.

@@ -1,6 +1,6 @@
 (** The sweep's answer is right, too: what it drops surely is behind what it keeps.
 
-    The model is of one pixel, and follows depth_buffer.py, sweep.py and
+    The model is of one pixel, and follows depth_buffer.py, [Sweep.of_pairs] in sweep.py and
     resolve.py. [nearness] is any number that is less for what is farther. *)
 Require Import ZArith Reals Psatz List Bool.
 From Flocq Require Import Core.
