@@ -187,8 +187,8 @@ def forms(of: Certificate, is_parallel: bool, largest: float) -> Floats:
     the middle of a square's box is off by 5 u more; its range over the box, at most twice as large,
     by 8 u; the range's ends by 3 u; what becomes of T and D by 11 u. These are 37 u of the terms,
     222 u of `size`; `error` is 512 u. Each of some fifty products may lose 2^-1075 to underflow,
-    times 1 + |r| + |A|; `error` has 2^-1040 of that. Overflow makes it infinite or NaN, and
-    comparisons false, so that nothing is dropped.
+    times 1 + |r| + |A|; `error` has 2^-1040 of that. What overflows is infinite or NaN, and is not
+    asked for its sign.
 
     Returns
     -------
@@ -250,7 +250,8 @@ def candidates(of: Floats, squares: Sequence[Floats], start: float, pairs: Any) 
     reach = error + dot(np.abs(slope), box[3:])
     value[:2] = value[0] - start * value[1], far * value[1] - value[0]
     reach[:2] = reach[0] + abs(start) * reach[1], np.abs(far) * reach[1] + reach[0]
-    above, below = value > reach, value < -reach
+    known = np.isfinite(value)  # an infinite sum may have overflowed on its way to the other sign
+    above, below = known & (value > reach), known & (value < -reach)
     gone = above[5:].all(axis=0) | below[5:].all(axis=0)
     gone |= above[:5].any(axis=0) & below[:5].any(axis=0)
     pairs = pairs[:, ~gone]
@@ -348,10 +349,10 @@ class Exact:
         top, normal, sides = self.surface(pixel % len(self.origins), number)
         d = self.directions[pixel % len(self.directions)]
         bottom = dot(d, normal)
-        values = [dot(d, m) for m, _ in sides]
-        edges = [(e, *side) for e, side in zip(values, sides, strict=True)]
+        edges = [(dot(d, m), m, side) for m, side in sides]
         (start, below), (end, above) = self.clip
-        signs = [*values, top * below - start * bottom, end * bottom - top * above]
+        signs = [e for e, _, _ in edges]
+        signs += [top * below - start * bottom, end * bottom - top * above]
         if not bottom or min(signs) < 0 < max(signs) or top == start == 0:
             return None  # at 0 a ray begins, if clip start is 0
         return Hit(self.of.names[number], top, bottom, normal, edges, d)

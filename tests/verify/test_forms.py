@@ -9,7 +9,7 @@ from reference_tracer.certificate_file import save_certificate
 from reference_tracer.rendering import render
 from reference_tracer_verify.verify import Certificate, candidates, cross, dot, forms, levels
 
-from .certificates import scene_of
+from .certificates import refusal, scene_of
 
 
 def exact(vector) -> list[Fraction]:
@@ -101,3 +101,28 @@ def test_what_is_met_is_left(make, tmp_path):
                     met += 1
                     assert (pixel, surface) in pairs, (seed, pixel, surface)
     assert met > 40
+
+
+def test_what_overflows_has_no_sign(tmp_path):
+    """Sums overflow here to an infinity of the other sign: the triangle must not be dropped."""
+    size = 1.41 * 2.0**341
+    camera = np.eye(4)
+    camera[:3, 2] = np.array([-0.9, 1.0, -0.8]) * size
+    arrays = dict(
+        certificate="reference_tracer.certificate/2",
+        camera="perspective",
+        world_from_camera=camera,
+        window=np.array([[-1.0, 1.0], [-1.0, 1.0]]),
+        pixels=np.array([[0, 1, 1], [0, 1, 1]]),
+        clip=np.array([0.1, 2.0]),
+        vertices=np.array([[0.3, 0.0, 0.9], [-0.5, 0.7, 0.2], [0.6, -0.7, 0.4]]) * size,
+        triangles=np.array([[0, 1, 2]]),
+        instances=np.array([[0, 1]]),
+        world_from_object=np.eye(4)[None],
+        planes=np.empty((0, 2, 3)),
+        seen=np.full((1, 1, 2), -1),
+        t=np.full((1, 1), np.inf),
+        ties=np.empty((0, 3), int),
+    )
+    np.savez(tmp_path / "c.npz", **arrays)
+    assert "it sees ((0, 0), 0." in refusal(tmp_path / "c.npz")
