@@ -70,7 +70,7 @@ MUTANTS = (
     # What integers decide.
     Mutant("a float's last digit is lost", ".astype(np.int64)", ".astype(np.int64) & ~1"),
     Mutant("an edge is a miss", "min(signs) < 0 <", "min(signs) <= 0 <"),
-    Mutant("the clip range is open", "[*values, top", "[*values, *values, -1 + top"),
+    Mutant("the clip range is open", "signs += [top", "signs += [-1 + top"),
     Mutant("a hit at t = 0", " or top == start == 0", ""),
     Mutant("D = 0 is a hit", "if not bottom or ", "if "),
     Mutant("crossed from one side alone", "self.bottom * moved", "moved"),

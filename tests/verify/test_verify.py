@@ -29,6 +29,7 @@ from reference_tracer.tracer.settings import Settings
 from ..certified.test_definition import small
 from ..tracer.hostile_scenes import scene_of_integers
 from .certificates import arrays_of, certified, refusal, scene_of
+from .mutants import MUTANTS
 
 STORED = Path(__file__).parents[2] / "packages" / "grading" / "scenes"
 FILE = Path(checker.__file__)
@@ -216,6 +217,15 @@ def test_it_runs_alone(stored, tmp_path):
     np.savez(path, **arrays)
     done = subprocess.run(run, capture_output=True, text=True)
     assert done.returncode == 2 and "pixel (2, 1): the file says" in done.stderr, done
+
+
+def test_each_wrong_version_is_one_of_this_text():
+    """The list is run by itself (`tests.verify.mutants`); docs/certificate.md says how many."""
+    text = FILE.read_text("utf-8")
+    assert [m.what for m in MUTANTS if m.old not in text or m.new == m.old] == []
+    said = (STORED.parents[2] / "docs" / "certificate.md").read_text("utf-8")
+    wrong = sum(m.is_wrong for m in MUTANTS)
+    assert f"of the {len(MUTANTS)} in" in said and f"tests notice {wrong};" in said
 
 
 def test_it_imports_numpy_alone_and_is_short():
