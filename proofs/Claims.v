@@ -3,8 +3,8 @@ From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed 
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
 From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven FilmLinked.
 From Reftrace Require Beginning RecordedBoxes. (* so that coqchk reads these, too *)
-From Reftrace Require Import CodeRange IntegersCode TwoTriangles.
-From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped Squares.
+From Reftrace Require Import CodeRange IntegersCode ConversionsCode TwoTriangles.
+From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped Room Dropping Box Kept.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
     underflow included; k counts the roundings along its longest path. *)
@@ -158,6 +158,11 @@ Check CodeRange.taken_is_finite.
 Check IntegersCode.hit_is.
 (** Integers: likewise on an infinite plane. *)
 Check IntegersCode.plane_is.
+(** Integers: likewise which triangles are left out together for rays from one point: those whose hit is
+    None before the clip range. *)
+Check IntegersCode.many_from_point_is.
+(** Integers: likewise for parallel rays. *)
+Check IntegersCode.many_parallel_is.
 (** Integers: likewise whether a hit is in the clip range, with a start and an end. *)
 Check IntegersCode.clipped_both_is.
 (** Integers: likewise what is divided for t. *)
@@ -178,23 +183,49 @@ Check IntegersCode.difference_parallel_is.
 Check IntegersCode.first_of_3_is.
 (** Integers: likewise whether two hits leave a tie. *)
 Check IntegersCode.no_ties_2_is.
+(** Integers: the code makes those integers of floats, with that power of two, that the model does. *)
+Check ConversionsCode.integers_is.
+(** Integers: by the code's clip limits the same hits are seen as by the model's. *)
+Check ConversionsCode.seen_by_ratios_is.
+(** Integers: an integer times a power of two becomes a float as in the model: rounded once. *)
+Check ConversionsCode.scaled_is.
 (** An example: of two triangles, Coq computes that the near one's interval ends before the far one's
     begins. *)
 Check TwoTriangles.near_is_nearer.
-(** The checker of certificates: where what it finds of a pixel is what the file says, and floats have
-    kept all that the stored ray meets up to the farthest t that matters, the file's name is that of one
-    surface, or nothing; this is the nearest of the moved ray, by name in one plane; where the file has no
-    ties, it is the one nearest of the stored ray, and else there is none; t is its exact T / D, rounded
-    once. *)
-Check LeafYes.yes_is_right.
+(** The checker of certificates: where each surface that is not kept at a pixel was dropped by the recorded
+    code, from some square whose box has the ray's r between its ends, and what is found among those that
+    are kept is what the file says, the file's name is that of one surface, or nothing; this is the nearest
+    of the moved ray, by name in one plane; where the file has no ties, it is the one nearest of the stored
+    ray, and else there is none; t is its exact T / D, rounded once. *)
+Check Kept.checked_is_right.
 (** The checker of certificates: of every scene of finite floats, the premises about numbers can be met. *)
 Check LeafGiven.given_is_possible.
+(** Likewise those about the variables of the recorded code, of every square and surface. *)
+Check LeafGiven.can_be_described.
+(** The checker of certificates: likewise, if instead what is kept has all that the stored ray meets up to
+    the farthest t that matters. *)
+Check LeafYes.yes_is_right.
+(** The checker of certificates: a ray whose r is in the box of a square does not meet, from clip start to
+    far, a triangle that the recorded code drops from it. Of rays from a point. *)
+Check Dropping.triangle_point_ruled_out.
+(** Likewise of parallel rays. *)
+Check Dropping.triangle_parallel_ruled_out.
+(** Likewise an infinite plane, of rays from a point. *)
+Check Dropping.plane_point_ruled_out.
+(** Likewise of parallel rays. *)
+Check Dropping.plane_parallel_ruled_out.
+(** The checker of certificates: `error` has room for all roundings of a form, over a whole box. *)
+Check Room.form_near.
+(** The checker of certificates: the recorded box has all that is between its ends, component by
+    component. *)
+Check Box.code_covers.
 (** The checker of certificates: if exact signs rule out, from clip start to some t, each surface that is
     not kept, then all that is met up to that t is kept. *)
 Check Dropped.dropped_is_not_met.
-(** The checker of certificates: what is dropped from a square of pixels is so ruled out for each ray in
-    its box, if T, D, the edges and the rest are linear there but for an error that is known. *)
-Check Squares.gone_is_ruled_out.
+(** The checker of certificates, as recorded: its integers are those of the model. *)
+Check ConversionsCode.check_integers_is.
+(** Likewise its power of two, which is that of all numbers and 1/2. *)
+Check ConversionsCode.check_unit_is.
 (** The checker of certificates, as recorded: a triangle's T, n and edges are the model's. *)
 Check LeafCode.triangle_is.
 (** Likewise a plane's. *)

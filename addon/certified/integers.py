@@ -1,6 +1,6 @@
 """Vectors of Python's integers, and floats as such: an integer times a power of two is exact.
 
-Theorem: `Integers.integers_exact`.
+Theorems: `Integers.integers_exact`, `ConversionsCode.integers_is`.
 """
 
 from __future__ import annotations

@@ -6,6 +6,8 @@ not share, with integers as coefficients that belong to the triangle alone:
 
     e_ab = d . m_ab                                        one origin
     e_ab = A . w - o . w,  w = (B - A) x d                 one direction; A, B are not relative to o
+
+Theorems: `IntegersCode.many_from_point_is`, `.many_parallel_is`, `.many_hits_are`.
 """
 
 from __future__ import annotations

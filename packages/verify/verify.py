@@ -89,6 +89,7 @@ class Certificate:
             demand(re.fullmatch(known, is_of), f"{name} is of {is_of}, not {known}")
         camera, window, pixels, clip, *surfaces, self.seen, self.t, ties = arrays
         self.right, self.up, self.back, self.eye = camera[:3].T[..., None]
+        self.aside = self.right + 0.4 * self.up  # few edges are parallel to this
         self.clip = clip.tolist()
         demand(-np.inf < self.clip[0] < self.clip[1] < np.inf, "the clip range is empty or endless")
         self.x, self.y = (film(*side, *part) for side, part in zip(window, pixels, strict=True))
@@ -182,13 +183,11 @@ def forms(of: Certificate, is_parallel: bool, largest: float) -> Floats:
         d . (A x q), d . (B x q), d . (C x q)                      beside the plane of ray and q
 
     each (point + times r) . (v x w), of terms whose absolute values add up to 6 times `size`, the
-    product of the largest components, at most. With u = 2^-53, A and sides are off by u, a
-    component of a cross product by 5 u of its terms, a constant by 9 u, and r by u. The value in
-    the middle of a square's box is off by 5 u more; its range over the box, at most twice as large,
-    by 8 u; the range's ends by 3 u; what becomes of T and D by 11 u. These are 37 u of the terms,
-    222 u of `size`; `error` is 512 u. Each of some fifty products may lose 2^-1075 to underflow,
-    times 1 + |r| + |A|; `error` has 2^-1040 of that. What overflows is infinite or NaN, and is not
-    asked for its sign.
+    product of the largest components, at most. With u = 2^-53, the value in the middle of a box is
+    off by 60 u of `size`, the slopes, over the box, by 144 u, the range's ends by 192 u, what
+    becomes of T and D by 48 u; `error` is 512 u. Each of some fifty products may lose 2^-1075 to
+    underflow; `error` has 2^-1040. What overflows is infinite or NaN, and is not asked for its
+    sign. The proof, of these very operations: proofs/checker/Room.v and Dropping.v.
 
     Returns
     -------
@@ -202,9 +201,8 @@ def forms(of: Certificate, is_parallel: bool, largest: float) -> Floats:
     normal[:, plane] = of.corners[1][:, plane]
     size[plane] = most(normal[:, plane])
     a = of.corners - of.eye
-    q = of.right + 0.4 * of.up  # few edges are parallel to this
     terms = [(a[0], -is_parallel, normal, size), (ahead, 1 - is_parallel, normal, size)]
-    for p, side in zip([*a, *a], [*sides, q, q, q], strict=True):
+    for p, side in zip([*a, *a], [*sides, *[of.aside] * 3], strict=True):
         point, times, v, w = (p, -1, side, ahead) if is_parallel else (ahead, 1, p, side)
         terms.append((point, times, cross(v, w), most(v) * most(w)))
     found = np.empty((5, 8, len(size)))
@@ -250,7 +248,7 @@ def candidates(of: Floats, squares: Sequence[Floats], start: float, pairs: Any) 
     reach = error + dot(np.abs(slope), box[3:])
     value[:2] = value[0] - start * value[1], far * value[1] - value[0]
     reach[:2] = reach[0] + abs(start) * reach[1], np.abs(far) * reach[1] + reach[0]
-    known = np.isfinite(value)  # an infinite sum may have overflowed on its way to the other sign
+    known = np.isfinite(value - reach)  # an infinite sum may be on its way to the other sign
     above, below = known & (value > reach), known & (value < -reach)
     gone = above[5:].all(axis=0) | below[5:].all(axis=0)
     gone |= above[:5].any(axis=0) & below[:5].any(axis=0)

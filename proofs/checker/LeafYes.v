@@ -1,8 +1,7 @@
 (** The theorem of certificates: where the checker says yes to a pixel, the file is right about it.
 
-    The checker's integers are those of Leaf.v. Which surfaces floats have dropped before is a premise:
-    that what is met up to the farthest t that matters is kept, is argued by hand, at the head of
-    verify.py. *)
+    The checker's integers are those of Leaf.v. That floats have kept before all that is met up to the
+    farthest t that matters is a premise here: Kept.v proves it. *)
 Require Import ZArith Reals Psatz List Bool Classical.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Integers Clip.
@@ -374,11 +373,9 @@ Proof.
   - intros [I <-] E. now apply (not_nowhere p _ G) in E.
   - intros -> [I E]. now apply (not_nowhere p _ G) in E.
 Qed.
-Theorem yes_is_right said :
-  (* of all that the stored ray meets in the clip range, floats have kept what is not beyond [far] *)
-  (forall s, met r start end_ scene s -> not_beyond (t r s) (far said) -> In s kept) ->
-  (* yes: the file's name, t and whether there are ties are those that are found *)
-  Leaf.found p kept = Some said ->
+(** What the file says of a pixel is so: the name is that of one surface, or of nothing; the moved ray
+    sees it; without ties, the stored ray sees it clearly, and with ties nothing; t is rounded once. *)
+Definition is_so (said : Leaf.answer) : Prop :=
   let '(name, t_said, ties) := said in
   exists answer,
     has_name name answer /\ (forall other, has_name name other -> other = answer) /\
@@ -386,8 +383,13 @@ Theorem yes_is_right said :
     (if ties then forall other, ~ clearly_sees r start end_ scene other
      else clearly_sees r start end_ scene answer) /\
     t_said = match answer with Some s => nearest_float (T r s / D r s) | None => Infinity end.
+Theorem yes_is_right said :
+  (* of all that the stored ray meets in the clip range, floats have kept what is not beyond [far] *)
+  (forall s, met r start end_ scene s -> not_beyond (t r s) (far said) -> In s kept) ->
+  (* yes: the file's name, t and whether there are ties are those that are found *)
+  Leaf.found p kept = Some said -> is_so said.
 Proof.
-  destruct said as [[name t_said] ties]. intros Kept Found. apply found_is in Found. revert Found. cbv zeta.
+  unfold is_so. destruct said as [[name t_said] ties]. intros Kept Found. apply found_is in Found. revert Found. cbv zeta.
   set (seen := seen_of (filter (hit a) kept)).
   remember (no_ties a (filter (hit a) kept)) as clear eqn:NT.
   intros Found. symmetry in Found. injection Found as Name T_ Ties.

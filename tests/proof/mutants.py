@@ -29,9 +29,11 @@ sys.path.append({tools!r})
 import record_trees
 from recorder import coq
 from recorder.records import WHOLE
-found = [record.output() for record in WHOLE[{file!r}][0]]
-if changed := coq.differences({file!r}, record_trees.proven(), found):
-    sys.exit("\\n\\n".join(changed))
+proven, changed = record_trees.proven(), []
+for file in {files!r}:
+    found = [record.output() for record in WHOLE[file][0]]
+    changed += coq.differences(file, proven, found)
+sys.exit("\\n\\n".join(changed) or 0)
 """
 CHECKS = {
     "expressions": f"""
@@ -41,8 +43,8 @@ sys.argv = ["record_trees.py", "--check"]
 import record_trees
 record_trees.main()
 """,
-    "integers": WHOLE.format(tools=TOOLS, file="RecordedIntegers"),
-    "checker": WHOLE.format(tools=TOOLS, file="RecordedChecker"),
+    "integers": WHOLE.format(tools=TOOLS, files=("RecordedIntegers", "RecordedConversions")),
+    "checker": WHOLE.format(tools=TOOLS, files=("RecordedChecker", "RecordedConversions")),
     "judge": f"""
 import sys
 sys.path.append({ROOT!r})
@@ -114,6 +116,17 @@ _TABLE = {
             "some.nearest < gather(self.nearness",
             "some.nearest <= gather(self.nearness",
         ),
+        *(
+            (what, "../reference_tracer_verify/verify.py", old, new)
+            for what, old, new in (
+                ("a sixty-fourth of the checker's bound", "2.0**-44 *", "2.0**-50 *"),
+                ("no room for its underflow", " + 2.0**-1040 * (1 + reach)", ""),
+                ("its D has no error", "np.abs(far) * reach[1] + reach[0]", "reach[0]"),
+                ("what overflows has a sign", "np.isfinite(value - reach)", "True"),
+                ("boxes without their rounding", " * (1 + 2.0**-50)", ""),
+                ("one corner beside is enough", "above[5:].all(", "above[5:].any("),
+            )
+        ),
     ),
     # Integers, and who is seen.
     "integers": (
@@ -179,6 +192,43 @@ _TABLE = {
             "gap(m, least) <= 0",
             "gap(m, least) < 0",
         ),
+        (
+            "a clip limit is another power of two",
+            "certified/exact.py",
+            "self._shift + power.bit_length() - 1",
+            "self._shift + power.bit_length()",
+        ),
+        (
+            "t's power of two is a sum",
+            "certified/exact.py",
+            "= exponent - direction_exponent",
+            "= exponent + direction_exponent",
+        ),
+        (
+            "the last ray is taken as the first",
+            "certified/exact.py",
+            "dot(self.directions[0], n), n",
+            "dot(self.directions[-1], n), n",
+        ),
+        ("an integer is halved as a float", "certified/order.py", "/ (1 <<", "/ (2 <<"),
+        *(
+            (what, "certified/integers.py", old, new)
+            for what, old, new in (
+                ("a mantissa loses a digit", "mantissa * 2.0**53", "mantissa * 2.0**52"),
+                ("the power of two is doubled", "least - 53", "least - 52"),
+                ("the power of two is the first", "[~zero].min()", "[~zero][0]"),
+                ("zeros are shifted otherwise", "exponent[zero] = least", "exponent[zero] = 0"),
+            )
+        ),
+        *(
+            (what, "certified/many.py", old, new)
+            for what, old, new in (
+                ("one edge function of one sign is a miss", "low & high", "low | high"),
+                ("an edge function of zero is negative", "low |= e < 0", "low |= e <= 0"),
+                ("an edge is turned round", "(c, a)]", "(a, c)]"),
+                ("the origin has another sign", "v, normals = -o", "v, normals = o"),
+            )
+        ),
     ),
     # The checker of certificates.
     "checker": tuple(
@@ -198,6 +248,18 @@ _TABLE = {
             ("alone at an edge is clear", "min(1, len(inside))", "1"),
             ("the ray moves along y first", "((1, 0, 0), (0, 1, 0),", "((0, 1, 0), (1, 0, 0),"),
             ("the last that is crossed is first", "b if b.is_before(a, moves) else a", "b"),
+            ("a float's last digit is cut off", "mantissa * 2.0**53", "mantissa * 2.0**52"),
+            ("a float is doubled in its integer", "power - 53 - exponent", "power - 52 - exponent"),
+            (
+                "the common power of two is doubled",
+                ".min(initial=0)) - 53",
+                ".min(initial=0)) - 52",
+            ),
+            (
+                "the common power of two is the first",
+                "[1].min(initial=0)",
+                "[1][:1].min(initial=0)",
+            ),
         )
     ),
     # What no theorem notices: settling, ties, candidates.
@@ -234,12 +296,6 @@ _TABLE = {
             "found = found.take(np.lexsort((-found.surface, found.ray)))",
         ),
         (
-            "one edge function of one sign is a miss",
-            "certified/many.py",
-            "out[some] = low & high",
-            "out[some] = low | high",
-        ),
-        (
             "intersections of planes are no lines of change",
             "certified/ties.py",
             "for other in planes[:k] if gap(hit, other) == 0]",
@@ -256,12 +312,6 @@ _TABLE = {
             "certified/integers.py",
             "(mantissa * 2.0**53).astype(np.int64)",
             "((mantissa * 2.0**53).astype(np.int64) & ~1)",
-        ),
-        (
-            "a clip limit is another power of two",
-            "certified/exact.py",
-            "self._shift + power.bit_length() - 1",
-            "self._shift + power.bit_length()",
         ),
         (
             "the box begins a pixel later",

@@ -69,7 +69,7 @@ HAND = {
 ELSEWHERE = {
     "arithmetic": "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
     "reasons": "words for the user, of what integers have decided",
-    "integers": "frexp's mantissa has 53 digits, so that 2^53 of it are an integer",
+    "integers": "frexp's mantissa has 53 digits, so that 2^53 of it are an integer: `digits_is`",
     "rounding": "the roundings before the proof, which is about stored rays and corners: "
     "test_rounding.py holds their bounds against fractions",
     "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "

@@ -12,6 +12,9 @@ import ast
 import pytest
 from recorder.nodes import RefusedError
 from recorder.records import RECORDS, recorded
+from recorder.records.integers import CORNERS, batch
+from recorder.records.many import found
+from recorder.whole import tree, whole
 from reference_tracer.certified import bounds
 
 from .constants import FOLDER
@@ -23,8 +26,10 @@ SUMS = frozenset(
 )
 LENGTHS = frozenset({"shape", "size", "count", "ndim"})
 SHARED = "what all rays share is one column: other inputs, and each way is recorded"
+ONE_SHARED = dict.fromkeys(("o.shape[1] == 1", "d.shape[1] == 1"), SHARED)
 BATCH = "what all rays of a batch share, in integers: the numbers are the same"
 EMPTY = "of none there is nothing to do, or to return"
+KIND = "a plane or a triangle: each is recorded"
 FEW = "how the same numbers are fetched"
 # By function: what is found there, and why it may be.
 LISTED = {
@@ -32,12 +37,12 @@ LISTED = {
     "certified/exact.py IntegerBatch.hit": {
         "len(self.origins) > 1": BATCH,
         "len(self.directions) > 1": BATCH,
-        "surface < len(self.planes)": "a plane or a triangle: each is recorded",
+        "surface < len(self.planes)": KIND,
         "sum(edges)": "of three integers: any order is right",
     },
-    "certified/ladder.py Ladder._prepare": dict.fromkeys(
-        ("o.shape[1] == 1", "d.shape[1] == 1"), SHARED
-    ),
+    "certified/exact.py IntegerBatch.of_first_ray": {"surface < len(self.planes)": KIND},
+    "certified/ladder.py Ladder._prepare": ONE_SHARED,
+    "certified/many.py _miss": ONE_SHARED,
     "certified/measures.py Prepared.meet": {"len(self._edges.T)": EMPTY},
     "certified/order.py order_of": {"around.origins.shape[1] == 1": SHARED},
     "certified/quotient.py Quotients.__init__": dict.fromkeys(
@@ -64,7 +69,7 @@ ONE = "its record makes the arrays that it works on, of one column"
 ONE_COLUMN = {
     **dict.fromkeys(("unit_from_point", "around_directions", "around_origins", "pair"), ALL),
     **dict.fromkeys(("small", "small_one", "enter", "box", "are_small", "are_small_some"), ONE),
-    **dict.fromkeys(("plane_pixel_perspective", "plane_pixel_parallel"), ONE),
+    **dict.fromkeys(("plane_pixel_perspective", "plane_pixel_parallel", "square"), ONE),
 }
 
 
@@ -89,6 +94,26 @@ def test_nearly_all_results_of_a_ray_and_a_surface_are_as_many_as_the_columns():
         for _, value in recorded(record, record.values, 3)
     )
     assert wide > 200
+
+
+@pytest.mark.parametrize("shared", ["origins", "directions"])
+@pytest.mark.parametrize("own", range(3))
+def test_a_pair_of_three_is_left_out_as_it_is_alone(shared, own):
+    """Its ray, number `own`, and the next triangle are recorded; all else are numbers."""
+
+    def among(names, *others):
+        return [*others[:own], whole(names), *others[own:]]
+
+    of = {
+        "origins": among("r1 r2 r3", (2, 3, -1), (-4, 1, 6)),
+        "directions": among("r1 r2 r3", (1, -1, 8), (0, 2, 9)),
+        "corners": [among(names, (9, k, 2), (k, -8, 3)) for k, names in enumerate(CORNERS[1:])],
+    }
+    of["corners"] = [corners[-1:] + corners[:-1] for corners in of["corners"]]
+    of[shared] = [(5, -7, 11)]
+    alone = tree(lambda: found(batch(**of), [own], [(own + 1) % 3]))
+    of_three = tree(lambda: found(batch(**of), [1, 2, 0], [2, 0, 1], (own + 2) % 3))
+    assert alone == of_three != "found"
 
 
 def test_another_expression_in_some_column_is_refused(monkeypatch):

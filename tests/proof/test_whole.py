@@ -37,13 +37,8 @@ LEFT_OUT = {
         ),
     },
     "definition.py": {CALLS: "definition seen_by _surfaces"},
-    "exact.py": {
-        EXACT: "Hit.weights turning IntegerBatch.__init__ IntegerBatch.of_first_ray "
-        "IntegerBatch._limit",
-    },
-    "many.py": {EXACT: "hits _miss _edges _columns"},
-    "integers.py": {EXACT: "integers"},
-    "order.py": {EXACT: "_scaled", WHICH: "applies"},
+    "exact.py": {EXACT: "Hit.weights turning"},
+    "order.py": {WHICH: "applies"},
     "ladder.py": {
         CALLS: "Ladder.__init__ Ladder.of Ladder.test Ladder._test_plane Decisions.by_bound "
         "Decisions.by_order Decisions._compare Decisions._compare.<locals>.compare "
@@ -122,15 +117,11 @@ LEFT_OUT_OF_THE_CHECKER = {
     "command.py": {CALLS: "add verify"},
     "verify.py": {
         "reads and writes, and says so in words: test_verify.py": (
-            "demand only film Certificate.__init__ Certificate.set_surfaces verified main"
+            "only film Certificate.__init__ Certificate.set_surfaces verified main"
         ),
         "the stored rays' roundings: test_verify.py": "Certificate.rays sine",
-        "drops, by a bound that is argued by hand at its head: test_forms.py": (
-            "most forms levels candidates left"
-        ),
-        "moves integers, transcribed by hand in Leaf.v: test_mutations.py": (
-            "integers Exact.__init__ check"
-        ),
+        "which pixels come into which square: test_forms.py": "left",
+        "moves integers, transcribed by hand in Leaf.v: test_mutations.py": "check",
         "which other surfaces are ties: without a model, test_verify.py": "ways",
         "looks whether floats are IEEE 754's": "check_arithmetic",
     },

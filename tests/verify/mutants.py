@@ -52,7 +52,7 @@ MUTANTS = (
     # What floats drop.
     Mutant("a sixty-fourth of the bound", "2.0**-44 *", "2.0**-50 *"),
     Mutant("no room for underflow", " + 2.0**-1040 * (1 + reach)", ""),
-    Mutant("what overflows has a sign", "np.isfinite(value)", "True"),
+    Mutant("what overflows has a sign", "np.isfinite(value - reach)", "True"),
     Mutant("a plane has edges", "found[4, 2:, plane] = np.inf", "pass"),
     Mutant("D's error is forgotten", "np.abs(far) * reach[1] + reach[0]", "reach[0]"),
     Mutant("boxes that are too small", "(1 + 2.0**-50)", "0.9"),

@@ -27,7 +27,7 @@ def truth(of: Certificate, surface: int, o, d) -> list[Fraction]:
     normal = cross(minus(b, a), minus(c, a))
     if surface >= of.triangles:
         normal = corners[1]
-    q = exact(of.right + 0.4 * of.up)
+    q = exact(of.aside)
     out = [dot(a, normal), dot(d, normal)]
     out += [dot(d, cross(p, minus(q, p))) for p, q in ((a, b), (b, c), (c, a))]
     return out + [dot(d, cross(p, q)) for p in (a, b, c)]

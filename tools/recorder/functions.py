@@ -96,10 +96,14 @@ def _values(*args):
     return (v.values if isinstance(v, Recorded) else v for v in args)
 
 
+_RECORDED = "reference_tracer.", "reference_tracer_verify."  # whose modules record
 _OF_RECORDED: dict[str, Callable] = {
     "array": _array,
     "asarray": _array,
     "broadcast": lambda *some: np.broadcast(*_values(*some)),
+    "broadcast_arrays": lambda *some: [
+        call(np.broadcast_to, v, np.broadcast_shapes(*(each.shape for each in some))) for v in some
+    ],
     "broadcast_to": lambda some, shape: some._each(lambda v: np.broadcast_to(v, shape)),
     "clip": lambda some, low, high, out=None: apply(
         np.minimum,
@@ -111,6 +115,7 @@ _OF_RECORDED: dict[str, Callable] = {
     "concatenate": _joined(np.concatenate),
     "flatnonzero": lambda some: some.ravel().nonzero()[0],
     "hstack": _joined(np.hstack),
+    "roll": lambda some, by, axis: some._each(lambda v: np.roll(v, by, axis)),
     "result_type": lambda *some: np.result_type(*_values(*some)),
     "stack": _joined(np.stack),
     "vstack": _joined(np.vstack),
@@ -124,7 +129,7 @@ def recording() -> Iterator[Choices]:
     proxy, made = Numpy(), []
     with ExitStack() as stack:
         for name, module in list(sys.modules.items()):
-            if name.startswith("reference_tracer.") and getattr(module, "np", None) is np:
+            if name.startswith(_RECORDED) and getattr(module, "np", None) is np:
                 stack.enter_context(mock.patch.object(module, "np", proxy))
         stack.enter_context(mock.patch.object(vector, "_TAKE_IS_FAST", True))  # either way the same
         choices.append(made)

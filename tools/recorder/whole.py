@@ -83,6 +83,7 @@ class Whole:
     __radd__, __rsub__, __rmul__ = map(_made, ("({1} + {0})", "({1} - {0})", "({1} * {0})"))
     __neg__, __abs__ = map(_made, ("(- {})", "(Z.abs {})"))
     __lshift__, __truediv__ = map(_made, ("(Z.shiftl {} {})", "(division {} {})"))
+    __rlshift__ = _made("(Z.shiftl {1} {0})")
     bit_length = _made("(bit_length {})")
     __lt__, __le__ = map(_asked, ("({} <? {})", "({} <=? {})"))
     __gt__, __ge__ = map(_asked, ("({1} <? {0})", "({1} <=? {0})"))

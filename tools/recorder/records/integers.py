@@ -13,13 +13,14 @@ from unittest import mock
 
 from reference_tracer.certified import exact, order, ties
 from reference_tracer.certified.exact import PERTURBATION, Hit, IntegerBatch
+from reference_tracer.certified.integers import ZERO
 
 from ..whole import Asked, Whole, folded, least, listed, most, term, tree, triple, whole
 from .record import Output
 
-_Z = "({} : Z)"
-_CORNERS = tuple(f"{k}1 {k}2 {k}3" for k in "oabc")
-_RAY = "dx dy dz"
+Z = "({} : Z)"
+CORNERS = tuple(f"{k}1 {k}2 {k}3" for k in "oabc")
+RAY = "dx dy dz"
 _HITS = tuple(f"T{k} D{k} n{k}x n{k}y n{k}z" for k in (1, 2))
 
 
@@ -42,10 +43,11 @@ class WholeRecord:
         return Output(self.name, text, words, self.theorem)
 
 
-def _batch(**known) -> IntegerBatch:
+def batch(**known) -> IntegerBatch:
+    """Return a batch of one ray and one triangle, with what is `known` of it otherwise."""
     out = IntegerBatch.__new__(IntegerBatch)
-    given = dict(origins=[whole(_CORNERS[0])], directions=[whole(_RAY)], planes=[], _known={})
-    vars(out).update(given | dict(corners=[[whole(v)] for v in _CORNERS[1:]]) | known)
+    given = dict(origins=[whole(CORNERS[0])], directions=[whole(RAY)], planes=[], _known={})
+    vars(out).update(given | dict(corners=[[whole(v)] for v in CORNERS[1:]]) | known)
     return out
 
 
@@ -76,31 +78,37 @@ def _python():
 
 
 def _triangle() -> str:
-    numerator, normal, sides, spans = _batch()._triangle(whole(_CORNERS[0]), 0)
+    numerator, normal, sides, spans = batch()._triangle(whole(CORNERS[0]), 0)
     parts = term(numerator), triple(normal), *(listed(map(triple, v)) for v in (sides, spans))
     return f"({', '.join(parts)})"
 
 
 def _hit_of(**known) -> str:
-    own = _batch(_clipped=lambda hit: hit, **known)
+    own = batch(_clipped=lambda hit: hit, **known)
     with _python():
         return _option(own.hit(0, 0))
 
 
+def _of_first_ray(**known) -> str:
+    own = batch(origins=[whole(CORNERS[0]), ZERO], directions=[whole(RAY), ZERO], **known)
+    numerator, denominator, normal = own.of_first_ray(0)
+    return f"({term(numerator)}, {term(denominator)}, {triple(normal)})"
+
+
 def _one_hit(edges=(), sides=(), spans=(), number=1) -> Hit:
     t, d, *normal = whole(_HITS[number - 1])
-    return Hit(t, d, tuple(normal), edges, sides, spans, whole(_RAY))
+    return Hit(t, d, tuple(normal), edges, sides, spans, whole(RAY))
 
 
 def _clipped(start: bool, end: bool) -> str:
     limits = (whole(f"{k}_n {k}_s") if there else None for k, there in (("a", start), ("b", end)))
-    own = _batch(_open=Asked("open"))
+    own = batch(_open=Asked("open"))
     own._start, own._end = limits
     return "false" if own._clipped(_one_hit()) is None else "true"
 
 
 def _t() -> str:
-    return term(_batch(_shift=Whole("shift")).t(_one_hit()))
+    return term(batch(_shift=Whole("shift")).t(_one_hit()))
 
 
 @contextmanager
@@ -126,7 +134,7 @@ def _intersection() -> str:
 
 
 def _sign(moves) -> str:
-    m, span, d = map(whole, ("mx my mz", "sx sy sz", _RAY))
+    m, span, d = map(whole, ("mx my mz", "sx sy sz", RAY))
     return term(exact._sign(Whole("value"), m, span, d, moves))
 
 
@@ -228,18 +236,19 @@ def _settled(count: int) -> str:
     return "false" if found else "true"
 
 
-_ONE = _Z.format(f"{_HITS[0]} {_RAY}")
-_TWO = _Z.format(f"{' '.join(_HITS)} {_RAY}")
+_ONE = Z.format(f"{_HITS[0]} {RAY}")
+_TWO = Z.format(f"{' '.join(_HITS)} {RAY}")
 _SIGN = "value mx my mz sx sy sz dx dy dz"
 _LIMITS = "(a_n a_s b_n b_s : Z) (open : bool)"
 _EDGES = " ".join(f"{k}{n}{c}" for k in "ms" for n in "123" for c in "xyz")
 _PLANE = "px py pz nx ny nz"
+_PLANES = [(whole("px py pz"), whole("nx ny nz"))]
 
 INTEGERS = (
     WholeRecord(
         "whole_triangle",
         "exact.IntegerBatch._triangle",
-        _Z.format(" ".join(_CORNERS)),
+        Z.format(" ".join(CORNERS)),
         "Z * Integers * list Integers * list Integers",
         _triangle,
         "IntegersCode.triangle_is",
@@ -247,7 +256,7 @@ INTEGERS = (
     WholeRecord(
         "whole_hit",
         "exact.IntegerBatch.hit",
-        _Z.format(" ".join((_RAY, *_CORNERS))),
+        Z.format(" ".join((RAY, *CORNERS))),
         "option Hit",
         _hit_of,
         "IntegersCode.hit_is",
@@ -256,11 +265,29 @@ INTEGERS = (
     WholeRecord(
         "whole_plane",
         "exact.IntegerBatch.hit",
-        _Z.format(f"{_RAY} {_CORNERS[0]} {_PLANE}"),
+        Z.format(f"{RAY} {CORNERS[0]} {_PLANE}"),
         "option Hit",
-        lambda: _hit_of(planes=[(whole("px py pz"), whole("nx ny nz"))]),
+        lambda: _hit_of(planes=_PLANES),
         "IntegersCode.plane_is",
         "of a plane, before the clip range",
+    ),
+    WholeRecord(
+        "whole_of_first_ray",
+        "exact.IntegerBatch.of_first_ray",
+        Z.format(" ".join((RAY, *CORNERS))),
+        "Z * Z * Integers",
+        _of_first_ray,
+        "IntegersCode.of_first_ray_is",
+        "of a triangle",
+    ),
+    WholeRecord(
+        "whole_of_first_ray_plane",
+        "exact.IntegerBatch.of_first_ray",
+        Z.format(f"{RAY} {CORNERS[0]} {_PLANE}"),
+        "Z * Z * Integers",
+        lambda: _of_first_ray(planes=_PLANES),
+        "IntegersCode.of_first_ray_is",
+        "of a plane",
     ),
     *(
         WholeRecord(
@@ -314,7 +341,7 @@ INTEGERS = (
     WholeRecord(
         "whole_sign",
         "exact._sign",
-        _Z.format(_SIGN),
+        Z.format(_SIGN),
         "Z",
         lambda: _sign(PERTURBATION),
         "IntegersCode.sign_is",
@@ -323,7 +350,7 @@ INTEGERS = (
     WholeRecord(
         "whole_sign_one_way",
         "exact._sign",
-        _Z.format(f"{_SIGN} ux uy uz"),
+        Z.format(f"{_SIGN} ux uy uz"),
         "Z",
         lambda: _sign((whole("ux uy uz"),)),
         "IntegersCode.sign_one_way_is",
@@ -332,7 +359,7 @@ INTEGERS = (
     WholeRecord(
         "whole_is_crossed",
         "exact.Hit.is_crossed",
-        f"{_ONE} {_Z.format(f'e1 e2 e3 {_EDGES}')} (moves : list Integers)",
+        f"{_ONE} {Z.format(f'e1 e2 e3 {_EDGES}')} (moves : list Integers)",
         "bool",
         _is_crossed,
         "IntegersCode.is_crossed_is",
@@ -341,7 +368,7 @@ INTEGERS = (
         WholeRecord(
             f"whole_difference_{name}",
             "order._difference",
-            f"{_Z.format(' '.join(_HITS))} (unit : Z)",
+            f"{Z.format(' '.join(_HITS))} (unit : Z)",
             "float * floats * float",
             lambda shared=shared: _of_first(shared),
             f"IntegersCode.difference_{name}_is",

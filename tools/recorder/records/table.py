@@ -7,11 +7,14 @@ from . import (
     boxes,
     camera,
     checker,
+    conversions,
     deciding,
+    dropping,
     edges,
     film,
     integers,
     keeping,
+    many,
     pixels,
     quotient,
 )
@@ -27,11 +30,13 @@ FILES = {
     "RecordedPixels": pixels.RECORDS,
     "RecordedFilm": film.RECORDS,
     "RecordedBoxes": boxes.RECORDS,
+    "RecordedDropping": dropping.RECORDS,
 }
 RECORDS = tuple(record for records in FILES.values() for record in records)
 # The files of whole functions of integers: what they have, and how they begin.
 WHOLE = {
-    "RecordedIntegers": (integers.INTEGERS, integers.HEAD),
+    "RecordedIntegers": (integers.INTEGERS + many.MANY, integers.HEAD),
+    "RecordedConversions": (conversions.CONVERSIONS, conversions.HEAD),
     "RecordedChecker": (checker.CHECKER, checker.HEAD),
 }
 NAMES = (*FILES, *WHOLE)
