@@ -396,7 +396,7 @@ def ways(hits: Sequence[Hit]) -> Iterator[Vector]:
 @np.errstate(all="ignore")
 def left(of: Certificate, origins: Floats, directions: Floats, far: Floats) -> dict[int, list[int]]:
     """Return the surfaces that floats do not drop, of each pixel."""
-    is_parallel = directions.shape[1] == 1
+    is_parallel = of.kind == "orthographic"  # one pixel has one direction, too
     whole = np.outer((0, 0, 1), np.arange(len(of.names)))  # all surfaces, in the one square
     r = origins - of.eye if is_parallel else directions
     squares = levels(r.reshape(3, *far.shape), far)

@@ -36,7 +36,7 @@ def truth(of: Certificate, surface: int, o, d) -> list[Fraction]:
 def prepared(of: Certificate):
     """Return the rays of all pixels, what of them varies, and the forms."""
     origins, directions = of.rays(np.arange(len(of.t)))
-    is_parallel = directions.shape[1] == 1
+    is_parallel = of.kind == "orthographic"
     r = origins - of.eye if is_parallel else directions
     with np.errstate(all="ignore"):
         functions = forms(of, is_parallel, np.abs(r).max())

@@ -19,7 +19,7 @@ from reference_tracer.certified import ties
 from reference_tracer.certified.definition import definition
 from reference_tracer.certified.plain import plain
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR
-from reference_tracer.projections import ORTHOGRAPHIC
+from reference_tracer.projections import EQUIRECTANGULAR, ORTHOGRAPHIC, PROJECTIONS
 from reference_tracer.rendering import certified_tracer, render
 from reference_tracer.scene import Camera, Mesh, Region, ViewWindow
 from reference_tracer.scene_files import load_scene
@@ -372,6 +372,22 @@ def test_a_t_in_another_order_hides_no_tie(arranged, make, tmp_path):
         np.savez(path, **(answers | {"ties": ties}))
         pixel = tuple(int(v) for v in divmod(ties[row, 0], 2)[::-1])
         assert refusal(path).startswith(f"pixel {pixel}: the file says")
+
+
+@pytest.mark.parametrize("projection", PROJECTIONS.values(), ids=PROJECTIONS)
+def test_a_picture_of_one_pixel(projection, make, tmp_path):
+    """It has one direction, as parallel rays have, but not that of the camera's axis."""
+    mesh = Mesh(np.array([(4, 4, -5), (6, 4, -5), (5, 6, -5)]) * 1.0, [[0, 1, 2]])
+    reach = 10 if projection is ORTHOGRAPHIC else 2
+    camera = Camera(np.eye(4), ViewWindow(0, reach, 0, reach), 1, 1, projection)
+    if projection is EQUIRECTANGULAR:
+        camera = replace(camera, window=ViewWindow(0.6, 0.9, 0.5, 0.7))
+    path = tmp_path / "c.npz"
+    answers = certified(make.scene(camera, mesh), path)
+    assert answers["seen"].tolist() == [[[0, 0]]] and not refusal(path)
+    answers["seen"][:], answers["t"][:] = -1, np.inf
+    np.savez(path, **answers)
+    assert refusal(path).startswith("pixel (0, 0): the file says ((-1, -1)")
 
 
 def test_a_sample_of_no_rows_is_refused(stored):
