@@ -128,7 +128,8 @@ def _direction_and_size(v: Vectors) -> tuple[Vectors, Floats]:
     """Return unit vectors, and the lengths of `v` (3, ...); NaN where that is 0."""
     largest = np.abs(v).max(axis=0)
     v = v / largest  # whose squares neither over- nor underflow
-    return v / _length(v), largest * _length(v)
+    length = _length(v)
+    return v / length, largest * length
 
 
 def _length(v: Vectors) -> Floats:
