@@ -22,7 +22,7 @@ checker = types.ModuleType(name)
 checker.__file__ = sys.argv[1]
 sys.modules[name] = reference_tracer_verify.verify = checker
 exec(compile(sys.stdin.read(), sys.argv[1], "exec"), vars(checker))
-files = (f"tests/verify/test_{name}.py" for name in ("verify", "mutations", "forms"))
+files = (f"tests/verify/test_{name}.py" for name in ("verify", "brute", "mutations", "forms"))
 sys.exit(pytest.main([*files, "-x", "-q", "-p", "no:cacheprovider"]))
 """
 
@@ -42,6 +42,7 @@ MUTANTS = (
     Mutant("an array may come twice", "len(file.files) == len(set(file.files))", "True"),
     Mutant("a shape is read up to its end", "re.fullmatch(known", "re.match(known"),
     Mutant("an empty clip range", "< self.clip[1] <", "< np.inf or self.clip[1] <"),
+    Mutant("an instance may end first", "(instances[:, 0] <= instances[:, 1]).all()", "True"),
     Mutant("pixels beside the picture", "0 <= begin < end <= count", "begin < end"),
     Mutant("rays that are not finite", "np.isfinite(values).all(), ", "True, "),
     Mutant("another order of sums", "+ m[k, 1] * y + m[k, 2] * z", "+ (m[k, 1] * y + m[k, 2] * z)"),
