@@ -69,7 +69,8 @@ MUTANTS = (
     Mutant("a quarter is left out", "for x in (0, 1)]", "for x in (0,)]"),
     Mutant("the least component", "np.abs(v).max(axis=0)", "np.abs(v).min(axis=0)"),
     # What integers decide.
-    Mutant("a float's last digit is lost", ".astype(np.int64)", ".astype(np.int64) & ~1"),
+    Mutant("a float's last digit is lost", "(mantissa * 2.0**53).astype(np.int64)",
+           "((mantissa * 2.0**53).astype(np.int64) & ~1)"),
     Mutant("an edge is a miss", "min(signs) < 0 <", "min(signs) <= 0 <"),
     Mutant("the clip range is open", "signs += [top", "signs += [-1 + top"),
     Mutant("a hit at t = 0", " or top == start == 0", ""),
