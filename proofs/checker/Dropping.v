@@ -18,13 +18,9 @@ Notation known e := (BinarySingleNaN.is_finite (eval v e) = true).
 
 (** ** From binary64 to real numbers *)
 
-Definition plain e := (QuotientFloats.plain e && QuotientFloats.whole e)%bool = true.
+Definition plain e := QuotientFloats.plain e = true.
 Lemma plain_value e : plain e -> known e -> #e = fl w e.
-Proof.
-  intros P F. apply andb_prop in P. destruct P as [P W].
-  rewrite <- (QuotientFloats.run_eval v e W) in *.
-  apply (QuotientFloats.run_value v w e (QuotientFloats.real_agrees v) P F).
-Qed.
+Proof. exact (QuotientFloats.run_value v w e (QuotientFloats.real_agrees v)). Qed.
 Definition box_names := ["largest"; "middlex"; "middley"; "middlez"; "halfx"; "halfy"; "halfz"].
 Definition all_known := forall name, In name box_names -> BinarySingleNaN.is_finite (of_var v name) = true.
 Lemma form_known f : known (value_of f) -> known (reach_of f) -> all_known.

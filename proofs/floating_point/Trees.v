@@ -47,9 +47,21 @@ Definition fmin (a b : float) : float :=
   match Bcompare a b with Some Gt => b | Some _ => a | None => B754_nan end.
 Definition num (m e : Z) : float := binary_normalize prec emax _ _ mode_NE m e false.
 
+(** Bits masked away. Of 53 digits the n highest remain; also of what has fewer. Of inf all remains; of
+    NaN's bits the exponent alone is inf's, and more are NaN's. *)
+Definition keep (n : Z) (x : float) : float :=
+  match x with
+  | B754_finite s m e _ =>
+      let unit := (2 ^ (53 - n))%Z in
+      binary_normalize prec emax _ _ mode_NE (Z.quot (cond_Zopp s (Z.pos m)) unit * unit) e s
+  | B754_nan => if Z.eqb n 1 then B754_infinity false else B754_nan
+  | _ => x
+  end.
 
 Record env := Env { of_var : string -> float; of_given : string -> bool }.
 
+(** [CopySign] has no value here (NaN stands for that): it copies the sign of a NaN, too, and Flocq's NaN
+    has none. *)
 Fixpoint eval (v : env) (e : expr) : float :=
   match e with
   | Var name => of_var v name
@@ -65,8 +77,11 @@ Fixpoint eval (v : env) (e : expr) : float :=
   | Min a b => fmin (eval v a) (eval v b)
   | Next a => Bsucc (eval v a)
   | Prev a => Bpred (eval v a)
+  | Floor a => Bnearbyint mode_DN (eval v a)
+  | Ceil a => Bnearbyint mode_UP (eval v a)
+  | CopySign _ _ => B754_nan
+  | Keep n a => keep n (eval v a)
   | Where c a b => if holds v c then eval v a else eval v b
-  | _ => B754_nan
   end
 with holds (v : env) (c : test) : bool :=
   match c with
