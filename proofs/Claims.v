@@ -206,8 +206,10 @@ Check Box.code_covers.
 (** The checker of certificates: if exact signs rule out, from clip start to some t, each surface that is
     not kept, then all that is met up to that t is kept. *)
 Check Dropped.dropped_is_not_met.
-(** The checker of certificates, as recorded: each float is its integer times one power of two. *)
-Check ConversionsCode.check_exact.
+(** The checker of certificates, as recorded: its integers are those of the model. *)
+Check ConversionsCode.check_integers_is.
+(** Likewise its power of two, which is that of all numbers and 1/2. *)
+Check ConversionsCode.check_unit_is.
 (** The checker of certificates, as recorded: a triangle's T, n and edges are the model's. *)
 Check LeafCode.triangle_is.
 (** Likewise a plane's. *)

@@ -27,8 +27,9 @@ Proof.
   rewrite E. now rewrite <- digits_exact.
 Qed.
 
+(** All numbers, and 1/2: the code's power of two is theirs ([ConversionsCode.check_unit_is]). *)
 Definition everything (origin direction : floats) (scene : list surface) : list R :=
-  (components (reals origin) ++ components (reals direction)) ++ flat_map all_of scene.
+  / 2 :: (components (reals origin) ++ components (reals direction)) ++ flat_map all_of scene.
 Theorem given_is_possible origin direction start end_ floats_of scene :
   (forall s, In s scene -> all_finite (floats_of s) /\ shape_of s = shape_stored (floats_of s)) ->
   (forall s s', In s scene -> In s' scene -> called s = called s' -> s = s') ->
@@ -45,8 +46,8 @@ Proof.
   { destruct (number_of end_) as [|e|] eqn:E; [now exists (-1, 0)%Z | | now exists (1, 0)%Z].
     apply number_of_float in E. destruct E as [_ <-]. apply float_is_fraction, B2R_is_float. }
   exists first, last. constructor; auto.
-  - intros x X. apply in_or_app. now left.
-  - intros s I x X. apply in_or_app. right. apply in_flat_map. eauto.
+  - intros x X. right. apply in_or_app. now left.
+  - intros s I x X. right. apply in_or_app. right. apply in_flat_map. eauto.
   - intros n d _. reflexivity.
 Qed.
 

@@ -68,34 +68,25 @@ Corollary integers_exact : exists v unit,
   whole_integers x y z = ([v], unit) /\ V x y z = scaled unit v.
 Proof. eexists _, _. split; [apply integers_is|]. apply vscale_exact; simpl; auto. Qed.
 
-(** The checker's: the power of two is given, and no more than any of the three has. *)
-Definition fits unit v := v = 0%R \/ unit <= exponent v - 53.
-Lemma shifted_exact unit v : is_float v -> fits unit v ->
-  v = (IZR (if Req_bool v 0 then 0 else Z.shiftl (digits v) (Z.max (exponent v - 53 - unit) 0))
-       * bpow radix2 unit)%R.
+(** The checker's, where the power of two is given: those of whatever list has the three. *)
+Theorem check_integers_is xs : In x xs -> In y xs -> In z xs ->
+  check_integers x y z (least xs - 53) = integers_of xs (V x y z).
 Proof.
-  intros F H. destruct (Req_bool_spec v 0) as [->|N]; [ring|]. destruct H as [|H]; [easy|].
-  rewrite Z.max_l, Z.shiftl_mul_pow2, mult_IZR, (IZR_Zpower radix2), Rmult_assoc, <- bpow_plus by lia.
-  replace (exponent v - 53 - unit + unit) with (exponent v - 53) by lia. now apply digits_exact.
+  intros X Y Z. unfold check_integers, integers_of, shifted. rewrite !digits_is by assumption. cbn [vx vy vz].
+  assert (S : forall t, In t xs -> t <> 0%R -> Z.max (exponent t - 53 - (least xs - 53)) 0 = exponent t - least xs).
+  { intros t T N. generalize (shift_is_not_negative xs t T N). lia. }
+  destruct (Req_bool_spec x 0) as [->|Nx], (Req_bool_spec y 0) as [->|Ny], (Req_bool_spec z 0) as [->|Nz];
+    rewrite ?digits_0, ?Z.shiftl_0_l, ?(S x), ?(S y), ?(S z) by assumption; reflexivity.
 Qed.
-Theorem check_integers_exact unit : fits unit x -> fits unit y -> fits unit z ->
-  V x y z = scaled unit (check_integers x y z unit).
+(** That power of two is the one of all its numbers and 1/2, which has the exponent 0. *)
+Theorem check_unit_is : check_unit x y z = snd (integers [/ 2; x; y; z]%R).
 Proof.
-  intros X Y Z. apply shifted_exact in X, Y, Z; auto. unfold check_integers, scaled, vscale, real.
-  rewrite !digits_is by assumption. cbn [vx vy vz].
-  destruct (Req_bool x 0), (Req_bool y 0), (Req_bool z 0); cbn [ix iy iz]; rewrite ?Z.shiftl_0_l;
-    apply V_eq; (rewrite Rmult_comm; assumption).
+  assert (H : exponent (/ 2) = 0).
+  { unfold exponent. apply mag_unique. rewrite Rabs_pos_eq by lra. simpl. lra. }
+  unfold check_unit, integers, least, nonzero. cbn [snd filter]. rewrite (Req_bool_false (/ 2)) by lra.
+  repeat match goal with |- context [Req_bool ?x 0] => destruct (Req_bool_spec x 0) as [->|] end;
+    cbn [negb map min_ fold_right]; rewrite ?H; lia.
 Qed.
-Theorem check_unit_fits : let unit := check_unit x y z in fits unit x /\ fits unit y /\ fits unit z.
-Proof.
-  cbv zeta. unfold check_unit, fits.
-  repeat match goal with |- context [Req_bool ?x 0] => destruct (Req_bool_spec x 0) end;
-    repeat split; (left; assumption) || (right; lia).
-Qed.
-(** So each float is its integer times the power of two here, too. *)
-Corollary check_exact : let unit := check_unit x y z in
-  V x y z = scaled unit (check_integers x y z unit).
-Proof. cbv zeta. apply check_integers_exact; apply check_unit_fits. Qed.
 End Vector.
 
 (** * A batch: lengths share a power of two, directions another; a plane's normal has its own *)

@@ -116,6 +116,17 @@ _TABLE = {
             "some.nearest < gather(self.nearness",
             "some.nearest <= gather(self.nearness",
         ),
+        *(
+            (what, "../reference_tracer_verify/verify.py", old, new)
+            for what, old, new in (
+                ("a sixty-fourth of the checker's bound", "2.0**-44 *", "2.0**-50 *"),
+                ("no room for its underflow", " + 2.0**-1040 * (1 + reach)", ""),
+                ("its D has no error", "np.abs(far) * reach[1] + reach[0]", "reach[0]"),
+                ("what overflows has a sign", "np.isfinite(value - reach)", "True"),
+                ("boxes without their rounding", " * (1 + 2.0**-50)", ""),
+                ("one corner beside is enough", "above[5:].all(", "above[5:].any("),
+            )
+        ),
     ),
     # Integers, and who is seen.
     "integers": (

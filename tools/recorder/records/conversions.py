@@ -216,7 +216,7 @@ CONVERSIONS = (
         f"{_R.format('x y z')} {Z.format('unit')}",
         "Integers",
         _checkers,
-        "ConversionsCode.check_integers_exact",
+        "ConversionsCode.check_integers_is",
         "of one vector",
     ),
     WholeRecord(
@@ -225,7 +225,7 @@ CONVERSIONS = (
         _R.format("x y z"),
         "Z",
         _checkers_unit,
-        "ConversionsCode.check_unit_fits",
+        "ConversionsCode.check_unit_is",
         "the power of two of three numbers",
     ),
 )
