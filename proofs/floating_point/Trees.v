@@ -143,38 +143,21 @@ Definition real_env (v : env) : renv := REnv (fun name => B2R (of_var v name)) (
 
 (** ** The two agree where nothing overflows *)
 
-(** Sums, differences and products of numbers that are finite or not. *)
-Fixpoint arithmetic (e : expr) : bool :=
-  match e with
-  | Var _ | Num _ _ => true
-  | Add a b | Sub a b | Mul a b => arithmetic a && arithmetic b
-  | Abs a | Neg a => arithmetic a
-  | _ => false
-  end.
-
-(** The numbers that are written in the code are floats: [num] does not round. *)
-Fixpoint numbers_ok (e : expr) : Prop :=
-  match e with
-  | Num m e => (Rabs (IZR m * bpow radix2 e) < bpow radix2 emax) /\ is_float (IZR m * bpow radix2 e)
-  | Add a b | Sub a b | Mul a b => numbers_ok a /\ numbers_ok b
-  | Abs a | Neg a => numbers_ok a
-  | _ => True
-  end.
-
 Lemma rnd_round x : rnd x = round radix2 (SpecFloat.fexp prec emax) (round_mode mode_NE) x.
 Proof. reflexivity. Qed.
 
-Lemma float_of_num m e :
-  Rabs (IZR m * bpow radix2 e) < bpow radix2 emax -> is_float (IZR m * bpow radix2 e) ->
-  is_finite (num m e) = true /\ B2R (num m e) = IZR m * bpow radix2 e.
+(** The numbers that are written in the code are floats: [num] does not round. *)
+Lemma number_float m e : (Z.abs m < 2 ^ 53)%Z -> (-1074 <= e)%Z -> is_float (IZR m * bpow radix2 e).
+Proof. intros M E. apply generic_format_FLT. now exists (Float radix2 m e). Qed.
+Lemma int_float n : (Z.abs n < 2 ^ 53)%Z -> is_float (IZR n).
+Proof. intros H. rewrite <- (Rmult_1_r (IZR n)). now apply (number_float n 0). Qed.
+Lemma num_value m e : (Z.abs m < 2 ^ 53)%Z -> (-1074 <= e)%Z -> is_finite (num m e) = true ->
+  B2R (num m e) = IZR m * bpow radix2 e.
 Proof.
-  intros H F. unfold num.
-  generalize (binary_normalize_correct prec emax _ _ mode_NE m e false).
-  unfold F2R; simpl Fnum; simpl Fexp. fold emax prec.
-  change (round _ _ _ _) with (rnd (IZR m * bpow radix2 e)).
-  assert (E : rnd (IZR m * bpow radix2 e) = IZR m * bpow radix2 e).
-  { unfold rnd. apply round_generic; [apply valid_rnd_N | exact F]. }
-  rewrite E, Rlt_bool_true by exact H. intros [A [B _]]. now rewrite A, B.
+  intros M E. generalize (binary_normalize_correct prec emax _ _ mode_NE m e false). fold (num m e).
+  cbv zeta. change (F2R (Float radix2 m e)) with (IZR m * bpow radix2 e).
+  rewrite round_generic by (apply valid_rnd_N || now apply number_float).
+  case Rlt_bool; [now intros [V _]|]. generalize (num m e). intros [ | | | ]; discriminate.
 Qed.
 
 Lemma plus_finite x y : is_finite (Bplus mode_NE x y : float) = true ->
@@ -214,17 +197,4 @@ Proof.
   revert H. case Rlt_bool_spec; intros _ H; [exact (proj1 H)|].
   exfalso. revert F H. generalize (Bmult mode_NE x y).
   intros [ | | | ]; simpl; intros; discriminate.
-Qed.
-
-Theorem finite_value v e : arithmetic e = true -> numbers_ok e -> is_finite (eval v e) = true ->
-  B2R (eval v e) = fl (real_env v) e.
-Proof.
-  induction e; simpl; intros A N F; try discriminate; try reflexivity;
-    try (apply andb_prop in A; destruct A as [A1 A2]; destruct N as [N1 N2]).
-  - now apply float_of_num.
-  - destruct (plus_finite _ _ F). rewrite plus_value, IHe1, IHe2; auto.
-  - destruct (minus_finite _ _ F). rewrite minus_value, IHe1, IHe2; auto.
-  - destruct (mult_finite _ _ F). rewrite mult_value, IHe1, IHe2; auto.
-  - rewrite B2R_Babs, IHe; auto. revert F. now rewrite is_finite_Babs.
-  - rewrite B2R_Bopp, IHe; auto. revert F. now rewrite is_finite_Bopp.
 Qed.

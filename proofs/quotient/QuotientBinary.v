@@ -4,7 +4,7 @@
     of overflow. What the test needs was finite then, all the way back: so it is what the real
     numbers of [QuotientWhole.v] say. *)
 Require Import ZArith Reals Psatz String List Bool.
-From Reftrace Require Import Trees Rounding Digits ScalarProduct CrossProduct Ziv Quotient Overflow.
+From Reftrace Require Import Trees Rounding Finite Digits ScalarProduct CrossProduct Ziv Quotient Overflow.
 From Reftrace Require Import QuotientCode QuotientWhole QuotientFloats.
 From Reftrace Require RecordedQuotient Geometry.
 From Flocq Require Import Core BinarySingleNaN.
@@ -61,11 +61,11 @@ Lemma alike_xyz name v w : (is_finite (fx v) = true -> B2R (fx v) = px w) ->
 Proof. intros X Y Z. repeat constructor; assumption. Qed.
 Lemma alike_given name v : Forall2 alike (fxyz name v) (xyz name (real (vec_of v))).
 Proof. now apply alike_xyz. Qed.
-Lemma alike_three v w name x y z : agrees v w -> plain x = true -> plain y = true -> plain z = true ->
+Lemma alike_three v w name x y z : agrees v w -> arithmetic x = true -> arithmetic y = true -> arithmetic z = true ->
   Forall2 alike (fxyz name (eval3 v x y z)) (xyz name (fl3 w x y z)).
-Proof. intros. apply alike_xyz; now apply run_value. Qed.
-Lemma alike_one v w name e : agrees v w -> plain e = true -> alike (name, eval v e) (name, fl w e).
-Proof. intros. split; [reflexivity|]. now apply run_value. Qed.
+Proof. intros. apply alike_xyz; now apply finite_value. Qed.
+Lemma alike_one v w name e : agrees v w -> arithmetic e = true -> alike (name, eval v e) (name, fl w e).
+Proof. intros. split; [reflexivity|]. now apply finite_value. Qed.
 
 (** ** The first stages *)
 
@@ -122,13 +122,13 @@ Definition fcalled (v : env) (T1 T2 ET D1 D2 ED : expr) : env :=
   fstage [("T1", eval v T1); ("T2", eval v T2); ("ET", eval v ET); ("D1", eval v D1);
     ("D2", eval v D2); ("ED", eval v ED)].
 Lemma called_agrees v w T1 T2 ET D1 D2 ED : agrees v w ->
-  plain T1 = true -> plain T2 = true -> plain D1 = true -> plain D2 = true ->
+  arithmetic T1 = true -> arithmetic T2 = true -> arithmetic D1 = true -> arithmetic D2 = true ->
   (is_finite (eval v ET) = true -> B2R (eval v ET) = fl w ET) ->
   (is_finite (eval v ED) = true -> B2R (eval v ED) = fl w ED) ->
   agrees (fcalled v T1 T2 ET D1 D2 ED) (called w T1 T2 ET D1 D2 ED).
 Proof.
   intros G P1 P2 P3 P4 E1 E2. apply stage_agrees.
-  repeat constructor; try assumption; now apply run_value.
+  repeat constructor; try assumption; now apply finite_value.
 Qed.
 
 (** ** From one origin *)
@@ -159,7 +159,7 @@ Theorem binary_from_point s o d most :
 Proof.
   intros unit W v Q F r. set (runit := unit_of_directions (real (vec_of most))).
   assert (U : is_finite unit = true -> B2R unit = runit).
-  { apply run_value; [|reflexivity]. apply stage_agrees, alike_given. }
+  { apply finite_value; [|reflexivity]. apply stage_agrees, alike_given. }
   set (t := fcolumn_from_point s o unit). set (u := column_from_point (surface_of s) (real (vec_of o)) runit).
   assert (G : agrees t u) by exact (entered_agrees s o fzero unit runit U).
   assert (ET := error_value t u reach_tree size_tree G eq_refl eq_refl).
@@ -172,7 +172,7 @@ Proof.
     repeat apply Forall2_cons; try apply Forall2_nil;
       try (apply alike_one; [exact G | reflexivity]); split; [reflexivity| |reflexivity| |reflexivity|];
       [apply ET | apply ED | exact U]. }
-  assert (K : agrees v w) by (apply called_agrees; auto; now apply run_value).
+  assert (K : agrees v w) by (apply called_agrees; auto; now apply finite_value).
   destruct (quotient_value v w K Q F) as [Q' [-> V]].
   destruct ET as [ET1 [_ [_ ET2]]]; [apply (V "ET"); simpl; tauto|].
   destruct ED as [ED1 [_ [ED2 _]]]; [apply (V "ED"); simpl; tauto|].
@@ -209,7 +209,7 @@ Theorem binary_parallel s f o d most :
 Proof.
   intros unit W v Q F r. set (runit := unit_of_origins (real (vec_of most))).
   assert (U : is_finite unit = true -> B2R unit = runit).
-  { apply run_value; [|reflexivity]. apply stage_agrees, alike_given. }
+  { apply finite_value; [|reflexivity]. apply stage_agrees, alike_given. }
   set (t := fcolumn_parallel s f d unit).
   set (u := column_parallel (surface_of s) (real (vec_of f)) (real (vec_of d)) runit).
   assert (G : agrees t u) by exact (entered_agrees s f d unit runit U).
@@ -234,7 +234,7 @@ Proof.
     repeat apply Forall2_cons; try apply Forall2_nil;
       try (apply alike_one; [exact G | reflexivity]); split; [reflexivity| |reflexivity| |reflexivity|];
       [apply ET | apply ED | exact U]. }
-  assert (K : agrees v w) by (apply called_agrees; auto; now apply run_value).
+  assert (K : agrees v w) by (apply called_agrees; auto; now apply finite_value).
   destruct (quotient_value v w K Q F) as [Q' [-> V]].
   destruct ET as [[ET1 [ET2 ET3]] _]; [apply (V "ET"); simpl; tauto|].
   destruct ED as [ED1 _]; [apply (V "ED"); simpl; tauto|].
