@@ -32,7 +32,7 @@ check: lint ## check the style, run the fast tests that need neither Blender nor
 # be there: where that is not possible they are skipped, the run says so and is still a success.
 # A whole Blender is set up by the first tests that need it, while others run.
 # The types take one core for most of a minute: they are checked beside all else.
-test: .venv/.stamp ## run all tests, those in a browser and in a window too where that is possible
+test: .venv/.stamp ## run the tests but the long ones, those in a browser and in a window too where that is possible
 	@$(MAKE) --no-print-directory --jobs 3 style types all-tests
 
 all-tests: style set-up-tests

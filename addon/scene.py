@@ -23,6 +23,7 @@ _LONGEST = 2.0**200
 # Of a pixel on the view window: its inverse is finite, and where gradual underflow puts a ray, some
 # 2^-1075 beside its place, is less than 2^-54 of a pixel beside it, far below the bounds' 2^-45.
 _LEAST_PIXEL = 2.0**-1020
+_MOST_PIXELS = 1 << 28  # along a side: the numbers of eight rows' pixels are int32
 
 GREY = (0.8, 0.8, 0.8, 1.0)  # what Blender draws where a face has no material
 
@@ -381,7 +382,7 @@ class Scene:
 
 
 def check_size(width: int, height: int) -> None:
-    """Raise a SceneError if a picture of this size has no pixel, or part of one."""
+    """Raise a SceneError if a picture of this size has no pixel, part of one, or too many."""
     for name, value in (("width", width), ("height", height)):
         if not isinstance(value, (int, np.integer)):
             raise SceneError(f"The {name} of the picture is {value!r}; it must be an integer.")
@@ -389,6 +390,11 @@ def check_size(width: int, height: int) -> None:
         raise SceneError(
             f"The picture has {width} x {height} pixels: raise the resolution or its percentage, "
             "so that both are at least 1."
+        )
+    if max(width, height) > _MOST_PIXELS:
+        raise SceneError(
+            f"The picture has {width} x {height} pixels: lower the resolution, so that both are at "
+            f"most {_MOST_PIXELS}."
         )
 
 

@@ -1,7 +1,8 @@
 (** The theorems of the claim, in the words of docs/proof.md: tools/prove.py asks what they assume. *)
 From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
-From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
+From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven FilmLinked.
+From Reftrace Require Beginning RecordedBoxes. (* so that coqchk reads these, too *)
 From Reftrace Require Import CodeRange IntegersCode ConversionsCode TwoTriangles.
 From Reftrace Require Import LeafYes LeafGiven LeafCode Dropped Room Dropping Box Kept.
 
@@ -36,7 +37,8 @@ Check Forms.plane_D.
 Check Pairs.sides_sure_right.
 (** Sides: what it does not call possible is outside of one edge and inside of another. *)
 Check Pairs.sides_impossible_right.
-(** The interval of t, as computed in binary64, contains the exact T / D. *)
+(** The interval of t, as computed in binary64, contains the exact T / D, if that is not negative or the
+    upper end is a number; a number there says that D is not 0. *)
 Check Pairs.interval_right.
 (** Order: where order.py knows which of two surfaces is nearer, the sign that decides is right. *)
 Check Nearer.order_sign.
@@ -52,7 +54,8 @@ Check Hits.order_0.
 Check Fans.shared_edge.
 (** Ties: of a fan that goes once round a corner, a ray through the corner meets exactly one. *)
 Check Fans.fan_rule.
-(** Ties: a closed surface is met an even number of times. *)
+(** Ties: a closed surface is met an even number of times along the whole line, before any hit is left
+    out for D = 0 or the clip range. *)
 Check Closed.closed_surface_rule.
 (** Integers: every float of a batch is its integer times one power of two. *)
 Check Integers.integers_exact.
@@ -79,7 +82,7 @@ Check CameraRays.parallel_box.
 (** The whole, from facts about single surfaces: the owner is the nearest of the moved ray; if
     certain by a bound or by integers, it is the one nearest of the stored ray; t is rounded once. *)
 Check Nearby.plain_is_right_by_the_rule.
-(** The whole: in whatever order the work is done, the result is the same. *)
+(** The whole: in whatever order pairs come, the result is the same. *)
 Check Batches.order_does_not_matter.
 (** The film: of a stored perspective ray and the stored vertices, p, q and w are off by no more than
     film.py says, rays' errors included. *)
@@ -95,6 +98,19 @@ Check Orthographic.vertex_near'.
 Check Orthographic.box_holds'.
 (** The film, orthographic: likewise the nearest. *)
 Check Orthographic.nearest_seen'.
+(** The film, as recorded: a perspective ray, its error, the bounds and what is surely ahead are those of
+    these theorems, if each record begins with what another one has ended with. *)
+Check FilmLinked.perspective_recorded.
+(** Likewise the box of a vertex; perspective. *)
+Check FilmLinked.perspective_recorded_vertex.
+(** Likewise what the edge functions begin with; perspective. *)
+Check FilmLinked.perspective_recorded_stored.
+(** Likewise the ray, its error and the bounds; orthographic. *)
+Check FilmLinked.parallel_recorded.
+(** Likewise the box of a vertex; orthographic. *)
+Check FilmLinked.parallel_recorded_vertex.
+(** Likewise what the edge functions begin with; orthographic. *)
+Check FilmLinked.parallel_recorded_stored.
 (** The sweep: what set_up and a pixel's edge functions call sure is met by the stored ray, inside and
     before the eye; perspective. *)
 Check Fit.surely_inside.

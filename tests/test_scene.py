@@ -48,6 +48,7 @@ def scene(**changes):
 
 FAULTS = {
     "no columns": (camera, {"width": 0}, ["0 x 6", "resolution"]),
+    "too many rows": (camera, {"height": 2**28 + 1}, ["8 x 268435457", "most 268435456"]),
     "no rows": (camera, {"height": -3}, ["8 x -3", "resolution"]),
     "empty border": (camera, {"region": Region(3, 1, 3, 5)}, ["border", "3 to 3"]),
     "border outside": (camera, {"region": Region(0, 0, 9, 6)}, ["border", "0 to 9"]),

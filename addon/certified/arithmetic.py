@@ -2,8 +2,9 @@
 
 The error bounds hold for IEEE 754 doubles that round once, to nearest, and underflow gradually. A
 library or a host can switch that off at any time, for all that a thread does from then on. So small
-arrays are computed before and after each step that decides pixels (`sound`), by the functions that
-decide them, and compared bit by bit with what is right.
+arrays are computed before pixels are decided, by the functions of numpy that decide them (but for
+| |, and comparisons other than <), and compared bit by bit with what is right; and before and after
+each step a few sums and products of Python's are (`sound`, `sound_steps`).
 """
 
 from __future__ import annotations

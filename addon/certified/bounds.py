@@ -6,8 +6,8 @@ With the corners a, b, c, the normal n = (b - a) x (c - a), and for each edge a 
 
 The sign of a computed value is right where its magnitude is above E = BOUND P + SLACK (1 + |w|_1).
 P is the expression itself with | | on every product and + in place of -; w is the vector that the
-cross product is multiplied by. BOUND is 12 roundings, 2^-53 each: at most 10 occur along the
-longest path in any order of summation, and one each in P and E. SLACK covers gradual underflow. In
+cross product is multiplied by. BOUND is 12 roundings, 2^-53 each: at most 8 occur along the longest
+path, and with what P and E may lose to theirs it is less than 9. SLACK covers gradual underflow. In
 this form of e the error is relative to the length of an edge, not to the distance of the origin
 from it.
 

@@ -50,6 +50,8 @@ class Prepared:
         corners = surfaces.triangles.corners
         self._surfaces, self._names = surfaces, surfaces.names()
         self._planes = len(surfaces.planes)
+        # Of those that share nothing, a single one is asked for at times: its shape is no sign.
+        self._alone = min(rays.origins.shape[1], rays.directions.shape[1]) > 1
         with np.errstate(all="ignore"):  # what overflows is not sure
             self._quotients = Quotients.of(rays, corners, surfaces.planes)
             self._edges = _edges(rays, corners)
@@ -103,7 +105,7 @@ class Prepared:
         products, least = edges[:, 0], table[-1]
         if edges.shape[1] == 1:
             products *= rays.directions
-        elif rays.directions.shape[1] == 1:
+        elif not self._alone:
             products -= rays.origins
             products *= edges[:, 1]
         else:

@@ -1,7 +1,7 @@
 """Proposes the pairs of a ray and a triangle that may meet, by a tree of boxes: for any rays.
 
-What is dropped certainly misses, whatever is rounded. What is left is decided by `ladder.py`, so
-that a tree changes nothing that is seen, no t and no tie.
+What is dropped certainly misses, whatever is rounded: that is argued here, by hand. What is left is
+decided by `ladder.py`, so that a tree changes nothing that is seen, no t and no tie.
 
 - **A box** holds its triangles' corners as they are: nothing of it is rounded. A ray is within it
   for the t between near and far, (side - o) / d along each axis. The quotients are off by three
@@ -88,8 +88,9 @@ class Tree:
     def pairs(self, rays: Rays, start: float, end: float) -> Iterator[Pairs]:
         """Yield all pairs of n rays and a triangle that may meet with start <= t <= end."""
         seen = _Seen.of(rays, start, end)
-        ray, node = np.arange(rays.count), np.zeros(rays.count if self.levels else 0, np.intp)
-        ray = ray[: len(node)]
+        # Without a direction a ray meets nothing, not even a box.
+        ray = np.flatnonzero(~seen.still.all(axis=0) & bool(self.levels))
+        node = np.zeros_like(ray)
         for boxes in self.levels:
             kept = [_children(seen, boxes, ray[some], node[some]) for some in _some(ray)]
             ray, node = (np.concatenate(each) for each in zip(*kept, strict=True))

@@ -98,10 +98,13 @@ class Equirectangular(Projection):
         seen in two places has no bounds on that side.
         """
         left, right, bottom, top = edges
-        sizes = _length(xyz)
-        axis = (xyz / sizes).sum(axis=1)
+        largest = np.abs(xyz).max(axis=0)
+        toward = xyz / largest  # whose squares neither over- nor underflow
+        sizes = largest * _length(toward)
+        toward = toward / _length(toward)
+        axis = toward.sum(axis=1)
         axis = axis / _length(axis)
-        chord = _length(xyz / sizes - axis[:, None]).max(axis=0)
+        chord = _length(toward - axis[:, None]).max(axis=0)
         off = 512 * eps * (np.abs(edges).sum() + 6)
         turned = 4 * error / sizes.min(axis=0)
         wide = 2 * np.arcsin(chord / 2) + turned + off + _ANGLE

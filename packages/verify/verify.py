@@ -80,6 +80,7 @@ class Certificate:
         with np.load(path, allow_pickle=False) as file:
             only("schema", [str(file["certificate"])], ["reference_tracer.certificate/2"])
             only("array", file.files, ["certificate", "camera", *ARRAYS])
+            demand(len(file.files) == len(set(file.files)), "an array is in the file twice")
             self.kind = str(file["camera"])
             arrays = [file[name] for name in ARRAYS]
         only("camera", [self.kind], ["perspective", "orthographic", "equirectangular"])
@@ -410,9 +411,10 @@ def left(of: Certificate, origins: Floats, directions: Floats, far: Floats) -> d
 def check(of: Certificate, rows: Sequence[int]) -> None:
     """Check rows of the picture; raise a RefusedError that names the first pixel that is wrong."""
     far = np.nextafter(np.minimum(of.t, of.clip[1]), np.inf)
-    far.ravel()[list(of.ties)] = of.clip[1]
+    np.put(far, list(of.ties), of.clip[1])  # row by row, in whichever order the file has them
     told = np.arange(far.size).reshape(far.shape), of.seen[..., 0], of.seen[..., 1], of.t
-    for part in np.array_split(rows, 1 + len(rows) * far.shape[1] // PIXELS):
+    parts = min(len(rows), 1 + len(rows) * far.shape[1] // PIXELS)  # of a row at least
+    for part in np.array_split(rows, parts):
         rays = of.rays(part)
         exact = Exact(of, *rays)
         near = left(of, *rays, far[part])

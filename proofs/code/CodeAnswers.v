@@ -136,7 +136,7 @@ Definition direction_in : Integers.Integers := integers_of (directions b) (reals
 Definition unit_in : Z := exponent_of (lengths b).
 Definition shift_in : Z := Integers.shift unit_in (exponent_of (directions b)).
 
-(** [IntegerBatch.hit], before and after [_seen]. *)
+(** [IntegerBatch.hit], before and after [_clipped]. *)
 Definition line_hit (s : Contest.surface) : option Integers.Hit :=
   match Contest.shape_of s with
   | Contest.Triangular x => Integers.hit direction_in origin_in (L (ca x)) (L (cb x)) (L (cc x))

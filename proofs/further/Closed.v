@@ -191,7 +191,7 @@ Qed.
 
 (** * What the code leaves out of that: a triangle seen exactly edge-on, by a ray that begins in it
 
-    [_seen] takes no hit with D = 0, as it has no t. The moved ray can meet such a triangle only where
+    [IntegerBatch._clipped] takes no hit with D = 0, as it has no t. The moved ray can meet such a triangle only where
     the ray begins in its plane (T = 0); it then does at a t infinitely near 0. *)
 Theorem edge_on o d a b c h : d <> ZERO -> hit d o a b c = Some h -> denominator_ h = 0%Z ->
   numerator_ h = 0%Z.

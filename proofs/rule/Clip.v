@@ -17,7 +17,7 @@ Definition _limit (shift : Z) (value : option R) : option (Z * Z) :=
       Some (if (0 <=? shift)%Z then (mantissa, shift) else (Z.shiftl mantissa (- shift), 0%Z))
   end.
 
-(** [IntegerBatch._seen]; [side] is 1 for the start, -1 for the end. *)
+(** [IntegerBatch._clipped]; [side] is 1 for the start, -1 for the end. *)
 Definition out_of (limit : option (Z * Z)) (side numerator denominator : Z) : bool :=
   match limit with
   | None => false

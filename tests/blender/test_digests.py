@@ -21,10 +21,12 @@ import pytest
 from check_rounding import check_rounding
 from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.certainty import Certainty
+from reference_tracer.certificate_file import save_certificate
 from reference_tracer.rendering import render
 from reference_tracer.scene import Scene
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
+from reference_tracer_verify.verify import verified
 
 from .. import others
 from ..certified import digest
@@ -115,6 +117,13 @@ def test_no_owner_is_another_one_without_rounding(scenes):
         asked = int(re.search(r"\(([\d,]+) were", said)[1].replace(",", ""))
         ties = int((frame.certainty == Certainty.AMBIGUOUS).sum())
         assert said.startswith("0 of ") and ties <= asked <= 1.1 * ties, (name, said)
+
+
+@pytest.mark.torture
+def test_their_certificates_are_true(scenes, tmp_path):
+    for scene in scenes.values():
+        save_certificate(tmp_path / "c.npz", render(scene))
+        assert verified(str(tmp_path / "c.npz")).startswith("all ")
 
 
 def test_a_digest_is_of_every_bit(make):

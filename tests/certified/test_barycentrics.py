@@ -103,3 +103,13 @@ def test_where_digits_are_lost_each_is_rounded_once(make):
     names = [(0, int(k)) for k in frame.triangle_index.ravel()[seen]]
     found = frame.barycentrics.reshape(-1, 3)[seen].T
     assert max(errors(scene, found, rays, names)) <= Fraction(1, 2**54)
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_of_one_ray_among_those_that_share_nothing(make, first):
+    """It alone meets something."""
+    scene = make.scene(make.camera(), Mesh([(0, 0, -2), (4, 0, -2), (0, 4, -2)], [[0, 1, 2]]))
+    origins, directions = np.array([[(1, 0, 0), (5, 5, 0)], [(0, 0.5, -1), (0, 0, -1)]])
+    rays = Rays(np.roll(origins, first, axis=0).T, np.roll(directions, first, axis=0).T)
+    hits = trace(scene, Settings("certified"), rays=rays)
+    assert hits.triangle[first] == 0 and hits.s[:, first].tolist() == [0.5, 0.25, 0.25]

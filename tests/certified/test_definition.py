@@ -90,3 +90,19 @@ def test_on_hostile_scenes(make, name):
             counts += held(small(scene, 60), FINDERS[name])
     rays, seen, ambiguous = counts
     assert seen > 200 and ambiguous > 10 and rays > seen
+
+
+@pytest.mark.parametrize("name", FINDERS)
+@pytest.mark.parametrize("projection", [ORTHOGRAPHIC, PERSPECTIVE])
+def test_in_a_corner_of_the_largest_picture(projection, name):
+    """Half pixels are a lattice: rays meet corners and edges."""
+    size = 1 << 28
+    region = Region(size - 8, size - 8, size, size)
+    camera = Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), size, size, projection, region=region)
+    corners = np.ones((3 * 12, 3))
+    corners[:, :2] -= np.random.default_rng(1).integers(0, 16, (36, 2)) / size
+    depth = 4.0 if projection is PERSPECTIVE else 1.0
+    mesh = Mesh(corners * (depth, depth, -4), np.arange(36).reshape(12, 3))
+    scene = Scene(camera, (mesh,), (Instance(0, 0, np.eye(4)),), objects=("M",))
+    rays, seen, ambiguous = held(scene, FINDERS[name])
+    assert rays == 64 and seen > 30 and ambiguous > 10

@@ -6,13 +6,16 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from reference_tracer.certified.plain import plain
+from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError, ViewWindow
+from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, SceneError, ViewWindow
 from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.settings import Settings
 
 from ..oracle import scene_sights
 from ..tracer.rational import functions, rational, t_of_pixels, world_corners
+from .test_definition import held
 
 pytestmark = pytest.mark.filterwarnings("error")
 ENDS = (1020, 1015, 1000, 900, 700, 600, 540, 512, 500)
@@ -133,3 +136,18 @@ def test_axes_that_have_no_inverse_are_refused(make, size, wrong):
 def test_axes_of_any_other_length(make, size):
     axes = np.diag((1.0, size, 1))
     assert check(make.scene(make.camera(6, 5, axes=axes), make.quad(-9, 2, -9, size, -3)))
+
+
+@pytest.mark.parametrize("ends", [(511, 511), (-537, -537), (-700, -700), (400, 700)])
+def test_a_panorama_of_what_is_so_far_away(ends):
+    """Where the squares of lengths leave float64, cones round triangles are as wide."""
+    seen = 0
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        corners = rng.normal(size=(24, 3)) * 2.0 ** rng.uniform(*ends, (24, 1))
+        mesh = Mesh(corners, np.arange(24).reshape(8, 3))
+        window = ViewWindow(-3, 3, -1.5, 1.5)
+        camera = Camera(np.eye(4), window, 8, 4, EQUIRECTANGULAR, 2.0 ** (ends[0] - 20), 1e308)
+        scene = Scene(camera, (mesh,), (Instance(0, 0, np.eye(4)),), objects=("A",))
+        seen += held(scene, plain)[1]
+    assert seen > 60

@@ -51,7 +51,7 @@ def test_on_a_lattice(scale, clip, make):
     triangles = rng.integers(-2, 3, (45, 3, 3)) * scale
     origins = rng.integers(-3, 4, (3, 40)) * scale
     directions = rng.integers(-2, 3, (3, 40)) * scale
-    directions[:, ~directions.any(axis=0)] = scale
+    directions[:, 7] = 0  # it meets nothing
     every = check(scene_of(make, triangles), Rays(origins, directions), clip)
     assert sum(bool(s.ties) for s in every) > 3
 

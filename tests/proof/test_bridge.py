@@ -118,6 +118,26 @@ def test_a_theorem_that_is_said_to_be_proven_is_there(of_file):
         assert name in proven, f"{file}.v has no theorem {name}"
 
 
+# The theorem that is named beside these is about the same formula as people have read it.
+TRANSCRIBED = {
+    *(f"around_{name}_{k}" for name in ("reach", "low", "high") for k in "xyz"),
+    *("pair_enters", "pair_open_stays", "hidden_instance", "not_hidden_box", "not_hidden_fragment"),
+    *("film_perspective_finite", "film_parallel_finite"),
+}
+
+
+def test_a_proof_imports_what_is_recorded(of_file):
+    texts = (prove.without_comments(path.read_text(encoding="utf-8")) for path in prove.files())
+    words = {word for text in texts for word in re.findall(r"[\w']+", text)}
+    of_theorems = {
+        output.name
+        for some in of_file.values()
+        for output in some
+        if output.theorem not in ("", BY_HAND)
+    }
+    assert of_theorems - words == TRANSCRIBED
+
+
 def samples(record, rng):
     """The values of a record; some near them; and some of any size, and small integers."""
     values = record.values

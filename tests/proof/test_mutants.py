@@ -43,6 +43,11 @@ def test_the_code_as_it_is_passes(copy, check):
     assert not result.returncode, result.stderr
 
 
+def test_each_is_of_a_text_that_is_there(copy):
+    texts = {mutant.file: (copy / mutant.file).read_text("utf-8") for mutant in MUTANTS}
+    assert not [m.what for m in MUTANTS if m.old not in texts[m.file] or m.old == m.new]
+
+
 def test_the_document_has_all_of_them():
     text = (prove.PROOFS.parent / "docs" / "proof.md").read_text(encoding="utf-8")
     assert len({mutant.what for mutant in MUTANTS}) == len(MUTANTS)

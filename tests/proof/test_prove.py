@@ -56,6 +56,11 @@ def test_every_claim_is_a_theorem_in_words():
         ), name
 
 
+def test_the_claims_need_every_file():
+    """What is not needed, Coq is not asked what it assumes, nor does `coqchk` read it again."""
+    assert required("Claims") == set(prove.listed())
+
+
 def test_the_document_names_every_file():
     text = (prove.PROOFS.parent / "docs" / "proof.md").read_text(encoding="utf-8")
     for path in prove.files():

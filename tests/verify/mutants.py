@@ -39,6 +39,7 @@ class Mutant(NamedTuple):
 MUTANTS = (
     # Reading.
     Mutant("what is not known passes", "if each not in known]:", "if False]:"),
+    Mutant("an array may come twice", "len(file.files) == len(set(file.files))", "True"),
     Mutant("a shape is read up to its end", "re.fullmatch(known", "re.match(known"),
     Mutant("an empty clip range", "< self.clip[1] <", "< np.inf or self.clip[1] <"),
     Mutant("pixels beside the picture", "0 <= begin < end <= count", "begin < end"),
@@ -59,7 +60,9 @@ MUTANTS = (
     Mutant("t as the file rounds it", "np.nextafter(np.minimum(of.t, of.clip[1]), np.inf)",
            "np.minimum(of.t, of.clip[1])", False),
     Mutant("t is too near", "half, far[None]", "half, 0.9 * far[None]"),
-    Mutant("ties up to t alone", "far.ravel()[list(of.ties)] = of.clip[1]", "pass"),
+    Mutant("ties up to t alone", "np.put(far, list(of.ties), of.clip[1])", "pass"),
+    Mutant("ties up to t of a file by columns", "np.put(far, list(of.ties), of.clip[1])",
+           "far.ravel()[list(of.ties)] = of.clip[1]"),
     Mutant("one corner beside is enough", "above[5:].all(axis=0)", "above[5:].any(axis=0)"),
     Mutant("one sign is enough", ".any(axis=0) & below[:5]", ".any(axis=0) | below[:5]"),
     Mutant("a quarter is left out", "for x in (0, 1)]", "for x in (0,)]"),
@@ -67,7 +70,7 @@ MUTANTS = (
     # What integers decide.
     Mutant("a float's last digit is lost", ".astype(np.int64)", ".astype(np.int64) & ~1"),
     Mutant("an edge is a miss", "min(signs) < 0 <", "min(signs) <= 0 <"),
-    Mutant("the clip range is open", "[*values, top", "[*values, *values, -1 + top"),
+    Mutant("the clip range is open", "signs += [top", "signs += [-1 + top"),
     Mutant("a hit at t = 0", " or top == start == 0", ""),
     Mutant("D = 0 is a hit", "if not bottom or ", "if "),
     Mutant("crossed from one side alone", "self.bottom * moved", "moved"),

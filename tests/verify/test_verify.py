@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+import zipfile
 from dataclasses import replace
 from itertools import permutations
 from pathlib import Path
@@ -28,6 +29,7 @@ from reference_tracer.tracer.settings import Settings
 from ..certified.test_definition import small
 from ..tracer.hostile_scenes import scene_of_integers
 from .certificates import arrays_of, certified, refusal, scene_of
+from .mutants import MUTANTS
 
 STORED = Path(__file__).parents[2] / "packages" / "grading" / "scenes"
 FILE = Path(checker.__file__)
@@ -116,10 +118,11 @@ def test_surfaces_that_intersect_where_a_ray_meets_them(depth, make, tmp_path):
 
 
 def test_in_small_parts(make, tmp_path, monkeypatch):
-    """However few pixels or pairs are looked at together."""
-    for name, size in {"PIXELS": 30, "PAIRS": 5}.items():
-        monkeypatch.setattr(checker, name, size)
-    held(make, range(0, 12, 3), tmp_path / "c.npz")
+    """However few pixels or pairs are looked at together: fewer than a row has, too."""
+    monkeypatch.setattr(checker, "PAIRS", 5)
+    for pixels in (30, 5):
+        monkeypatch.setattr(checker, "PIXELS", pixels)
+        held(make, range(0, 12, 3), tmp_path / "c.npz")
 
 
 @pytest.mark.torture
@@ -216,6 +219,15 @@ def test_it_runs_alone(stored, tmp_path):
     assert done.returncode == 2 and "pixel (2, 1): the file says" in done.stderr, done
 
 
+def test_each_wrong_version_is_one_of_this_text():
+    """The list is run by itself (`tests.verify.mutants`); docs/certificate.md says how many."""
+    text = FILE.read_text("utf-8")
+    assert [m.what for m in MUTANTS if m.old not in text or m.new == m.old] == []
+    said = (STORED.parents[2] / "docs" / "certificate.md").read_text("utf-8")
+    wrong = sum(m.is_wrong for m in MUTANTS)
+    assert f"of the {len(MUTANTS)} in" in said and f"tests notice {wrong};" in said
+
+
 def test_it_imports_numpy_alone_and_is_short():
     text = FILE.read_text("utf-8")
     tree = ast.parse(text)
@@ -262,6 +274,16 @@ def test_what_it_does_not_know_is_refused_by_name(stored):
     for pixel in (-1, arrays["t"].size):
         ties = np.array([(pixel, 0, 0)])
         assert said(ties=ties) == f"not covered: tie of pixel {pixel}"
+
+
+def test_an_array_that_is_there_twice_is_refused(stored):
+    """Which of the two is read would be the reader's choice."""
+    path, _ = stored
+    with zipfile.ZipFile(path) as file:
+        t = file.read("t.npy")
+    with zipfile.ZipFile(path, "a") as file, pytest.warns(UserWarning, match="Duplicate name"):
+        file.writestr("t.npy", t)
+    assert refusal(path) == "an array is in the file twice"
 
 
 def test_ranges_that_are_empty_or_endless_are_refused(stored):
@@ -323,6 +345,33 @@ def test_a_t_in_float32_hides_no_tie(make, tmp_path):
     assert refusal(path).startswith("pixel (1, 0): the file says")
     np.savez(path, **(answers | {"t": answers["t"].astype(np.float32)}))
     assert refusal(path).startswith("t is of f4 1 3")
+
+
+@pytest.mark.parametrize("arranged", [np.ascontiguousarray, np.asfortranarray])
+def test_a_t_in_another_order_hides_no_tie(arranged, make, tmp_path):
+    """Two halves end where the first ray passes, so that it may see what is behind both."""
+    near, half, behind = (
+        Mesh(np.array(corners, float), [[0, 1, 2]])
+        for corners in (
+            [(0.5, -9, -1), (0.5, 9, -1), (-9, 0.25, -1)],
+            [(0.5, 0.5, -2), (9, 0.5, -2), (0.5, 9, -2)],
+            [(-20, -20, -3), (20, -20, -3), (0, 40, -3)],
+        )
+    )
+    camera = Camera(np.eye(4), ViewWindow(0, 2, 0, 2), 2, 2, ORTHOGRAPHIC, clip_start=0.5)
+    path = tmp_path / "c.npz"
+    answers = certified(make.scene(camera, near, half, behind), path)
+    answers["t"] = arranged(answers["t"])
+    np.savez(path, **answers)
+    assert not refusal(path)
+    farthest = np.flatnonzero(answers["ties"][:, 1] == 2)
+    assert len(farthest)
+    for row in farthest.tolist():
+        ties = answers["ties"].copy()
+        ties[row, 1:] = -1
+        np.savez(path, **(answers | {"ties": ties}))
+        pixel = tuple(int(v) for v in divmod(ties[row, 0], 2)[::-1])
+        assert refusal(path).startswith(f"pixel {pixel}: the file says")
 
 
 def test_a_sample_of_no_rows_is_refused(stored):

@@ -1,7 +1,7 @@
 (** The sweep's answer is right, too: what it drops surely is behind what it keeps.
 
     The model is of one pixel, and follows depth_buffer.py, [Sweep.of_pairs] in sweep.py and
-    verdict.py. [nearness] is any number that is less for what is farther. *)
+    resolve.py. [nearness] is any number that is less for what is farther. *)
 Require Import ZArith Reals Psatz List Bool.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Contest Facts Nearest Whole.
@@ -55,7 +55,7 @@ Definition happen (p : pixel) (e : event) : pixel :=
   end.
 Definition swept (events : list event) : pixel := fold_left happen events empty.
 
-(** [Verdict]: the winner without rivals is seen; else a contest decides who of all these is. *)
+(** [Resolver]: the winner without rivals is seen; else a contest decides who of all these is. *)
 Definition handed_over (p : pixel) : list surface :=
   match winner p with Some w => [of w] | None => [] end ++ map of (not_hidden p).
 Definition verdict (events : list event) (of_contest : result) : option surface * certainty :=
