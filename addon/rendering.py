@@ -152,8 +152,8 @@ def trace(
     if rays:
         if not (np.isfinite(rays.origins).all() and np.isfinite(rays.directions).all()):
             raise SceneError("a ray's origin or direction is not finite")
-        dtype = settings.precision.dtype
-        rays = Rays(rays.origins.astype(dtype), rays.directions.astype(dtype))
+        o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
+        rays = replace(rays, origins=o, directions=d)
         return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))
     trace_band = result_of(TRACERS[method](scene, settings, 0.0, statistics))
     found = [result_of(trace_band(band, 0.0, 0.0)) for band in bands(scene.camera, settings)]

@@ -144,7 +144,7 @@ def _weights(rays: Rays, corners: Array) -> tuple[Floats, Floats]:
     o, d = rays.origins, rays.directions
     v = corners - o[:, 0]
     i, j = np.roll(v, -1, axis=0), np.roll(v, -2, axis=0)
-    if o.shape[1] == 1:
+    if rays.one_origin:
         terms = np.cross(i, j) @ d
     else:
         terms = np.cross(i - j, d[:, 0]) @ (o - o[:, :1]) + (np.cross(i, j) @ d)

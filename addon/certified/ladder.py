@@ -160,15 +160,12 @@ class Ladder:
         self._found.append(found)
 
     def _prepare(self, corners: Floats) -> FromPoint | Parallel | None:
-        """Return the part of the edge test of triangles (3, 3, m) that all rays share, if any.
-
-        Vectors (3, 1) are one origin, or one direction, for all.
-        """
+        """Return the part of the edge test of triangles (3, 3, m) that all rays share, if any."""
         o, d = self._around.origins, self._around.directions
         with np.errstate(all="ignore"):
-            if o.shape[1] == 1:
+            if self._around.one_origin:
                 return FromPoint(o, np.abs(d).max(axis=1, keepdims=True), corners)
-            if d.shape[1] == 1:
+            if self._around.one_direction:
                 ends = o.min(axis=1, keepdims=True), o.max(axis=1, keepdims=True)
                 return Parallel(d, *ends, corners)
         return None

@@ -50,8 +50,7 @@ class Prepared:
         corners = surfaces.triangles.corners
         self._surfaces, self._names = surfaces, surfaces.names()
         self._planes = len(surfaces.planes)
-        # Of those that share nothing, a single one is asked for at times: its shape is no sign.
-        self._alone = min(rays.origins.shape[1], rays.directions.shape[1]) > 1
+        self._one_direction = rays.one_direction
         with np.errstate(all="ignore"):  # what overflows is not sure
             self._quotients = Quotients.of(rays, corners, surfaces.planes)
             self._edges = _edges(rays, corners)
@@ -105,7 +104,7 @@ class Prepared:
         products, least = edges[:, 0], table[-1]
         if edges.shape[1] == 1:
             products *= rays.directions
-        elif not self._alone:
+        elif self._one_direction:
             products -= rays.origins
             products *= edges[:, 1]
         else:
@@ -128,8 +127,7 @@ def _edges(rays: Rays, corners: Floats) -> Floats:
     The last row is what |D| must be above.
     """
     count = corners.shape[2]
-    one_origin, shared = rays.origins.shape[1] == 1, rays.directions.shape[1] == 1
-    columns = 1 if one_origin else 2
+    columns = 1 if rays.one_origin else 2
     out = np.empty((9 * columns + 1, count))
     edges = out[:-1].reshape(3, columns, 3, count)
     low, high = (end(axis=1, keepdims=True) for end in (rays.origins.min, rays.origins.max))
@@ -140,11 +138,11 @@ def _edges(rays: Rays, corners: Floats) -> Floats:
         arm = np.maximum(np.abs(firsts[0] - low), np.abs(firsts[0] - high))
         out[-1, part] = _least(arm, sides[0], sides[1], along)
         for own, first, side in zip(edges[..., part], firsts, sides, strict=True):
-            if one_origin:
+            if rays.one_origin:
                 cross(first - rays.origins, side, out=own[0])
                 continue
             own[0] = first
-            if shared:
+            if rays.one_direction:
                 cross(side, rays.directions, out=own[1])
             else:
                 own[1] = side

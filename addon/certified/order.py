@@ -34,9 +34,7 @@ UNDECIDED = 2
 
 def applies(rays: Rays, start: float) -> bool:
     """Return whether :func:`order_of` can decide the order of hits with t >= start of rays."""
-    if rays.origins.shape[1] == 1:
-        return start >= 0
-    return rays.directions.shape[1] == 1
+    return start >= 0 if rays.one_origin else rays.one_direction
 
 
 def order_of(
@@ -63,7 +61,7 @@ def order_of(
     """
     key = first * (np.max(second, initial=0) + 1) + second
     _, index, which = np.unique(key, return_index=True, return_inverse=True)
-    shared = around.origins.shape[1] == 1
+    shared = around.one_origin
     pairs = zip(first[index].tolist(), second[index].tolist(), strict=True)
     table = np.array([_difference(batch, *pair, shared) for pair in pairs]).reshape(-1, 5).T
     coplanar = ~table.any(axis=0)[which]

@@ -72,8 +72,8 @@ class Quotients:
     """
 
     def __init__(self, rays: Rays, count: int) -> None:
-        self._one_origin = rays.origins.shape[1] == 1
-        self._one_direction = rays.directions.shape[1] == 1
+        self._one_origin = rays.one_origin
+        self._one_direction = rays.one_direction
         self._origin = rays.origins[:, :1]
         self._direction = rays.directions[:, :1]
         apart = rays.directions if self._one_origin else rays.origins - self._origin

@@ -35,22 +35,34 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Rays:
-    """n rays: `origins` and `directions`, (3, n) each, or (3, 1) where all share it."""
+    """n rays: `origins` and `directions`, (3, n) each, or (3, 1) where all share it.
+
+    The shapes say what is shared, but not of one ray: that shares nothing, unless who makes it says
+    that it has the origin or the direction of others.
+    """
 
     origins: Vectors
     directions: Vectors
+    one_origin: bool = False
+    one_direction: bool = False
+
+    def __post_init__(self) -> None:
+        o, d = self.origins.shape[1] == 1, self.directions.shape[1] == 1
+        object.__setattr__(self, "one_origin", o and (self.one_origin or not d))
+        object.__setattr__(self, "one_direction", d and (self.one_direction or not o))
 
     @property
     def count(self) -> int:
         """How many rays there are."""
-        return max(self.origins.shape[1], self.directions.shape[1])
+        return (self.directions if self.one_origin else self.origins).shape[1]
 
     def take(self, index: Index) -> Rays:
         """Return the rays at `index`; what all share stays shared."""
-        origins, directions = self.origins, self.directions
         return Rays(
-            origins if origins.shape[1] == 1 else origins.take(index, axis=1),
-            directions if directions.shape[1] == 1 else directions.take(index, axis=1),
+            self.origins if self.one_origin else self.origins.take(index, axis=1),
+            self.directions if self.one_direction else self.directions.take(index, axis=1),
+            self.one_origin,
+            self.one_direction,
         )
 
     def at(self, t: Floats) -> Vectors:
@@ -109,7 +121,9 @@ def camera_rays(
         right, up, forward, origin = (
             cast(v)[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
         )
-        return Rays(*camera.projection.ray(origin, x, y, right, up, forward))
+        ray = camera.projection.ray(origin, x, y, right, up, forward)
+    parallel = camera.projection.shares_direction
+    return Rays(*ray, one_origin=not parallel, one_direction=parallel)
 
 
 def dual_axes(camera: Camera) -> Floats:

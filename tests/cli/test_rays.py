@@ -85,6 +85,20 @@ def test_one_origin_or_one_direction_for_all(scene, run):
     assert (one["t"] == all_["t"]).all() and (one["triangle"] == all_["triangle"]).all()
 
 
+def test_a_row_alone_and_none(scene, run):
+    """Alone a ray shares nothing, as among others: not even how it is decided is another."""
+    given = random_rays(4, seed=3)
+    _, many, _ = run(scene, **given)
+    assert (many["triangle"] >= 0).sum() > 1
+    for k in range(4):
+        _, one, _ = run(scene, **{name: rows[k : k + 1] for name, rows in given.items()})
+        for name in ("t", "instance", "triangle", "certainty", "barycentrics"):
+            assert one[name].tobytes() == many[name][k].tobytes(), (k, name)
+    for origins in (given["origins"][0], given["origins"][:0]):
+        code, none, _ = run(scene, origins=origins, directions=given["directions"][:0])
+        assert code == 0 and len(none["t"]) == 0
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [

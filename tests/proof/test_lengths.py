@@ -26,7 +26,6 @@ SUMS = frozenset(
 )
 LENGTHS = frozenset({"shape", "size", "count", "ndim"})
 SHARED = "what all rays share is one column: other inputs, and each way is recorded"
-ONE_SHARED = dict.fromkeys(("o.shape[1] == 1", "d.shape[1] == 1"), SHARED)
 BATCH = "what all rays of a batch share, in integers: the numbers are the same"
 EMPTY = "of none there is nothing to do, or to return"
 KIND = "a plane or a triangle: each is recorded"
@@ -41,19 +40,17 @@ LISTED = {
         "sum(edges)": "of three integers: any order is right",
     },
     "certified/exact.py IntegerBatch.of_first_ray": {"surface < len(self.planes)": KIND},
-    "certified/ladder.py Ladder._prepare": ONE_SHARED,
-    "certified/many.py _miss": ONE_SHARED,
+    "certified/many.py _miss": dict.fromkeys(("o.shape[1] == 1", "d.shape[1] == 1"), BATCH),
     "certified/measures.py Prepared.meet": {"len(self._edges.T)": EMPTY},
-    "certified/order.py order_of": {"around.origins.shape[1] == 1": SHARED},
-    "certified/quotient.py Quotients.__init__": dict.fromkeys(
-        ("rays.origins.shape[1] == 1", "rays.directions.shape[1] == 1"), SHARED
-    ),
     "certified/sweep/depth_buffer.py DepthBuffer.enter": {"len(pixel) or not fragments": EMPTY},
     "certified/sweep/edge_functions.py set_up": {"len(unsure)": EMPTY},
     "certified/sweep/small_boxes.py _pairs": {"len(edge_on)": EMPTY},
     "certified/ties.py seen_and_ties": dict.fromkeys(
         ("not front or (len(front) == 1 and (not front[0][1].on_edge))", "len(front) == 1"),
         "the rule itself: recorded with one hit, and with two",
+    ),
+    "tracer/camera.py Rays.__post_init__": dict.fromkeys(
+        ("self.origins.shape[1] == 1", "self.directions.shape[1] == 1"), SHARED
     ),
     "tracer/camera.py corner_rays": {
         "np.abs((camera.right, camera.up, camera.forward)).sum(axis=0)": "how far beyond the "

@@ -18,7 +18,8 @@ def test_each_is_an_edge_function_divided_by_the_sum(prefix, shared):
     def call(v: Inputs) -> Kept:
         rays = bounds.rays(v, shared)
         own = Prepared.__new__(Prepared)
-        own._alone, own._edges = False, _edges(rays, v.matrix(*bounds.CORNERS))
+        own._one_direction = rays.one_direction
+        own._edges = _edges(rays, v.matrix(*bounds.CORNERS))
         return dict(zip(NAMES, own._weights(rays, v.rows), strict=True))
 
     record = Record("weights", "measures.Prepared._weights", edges.values, call)

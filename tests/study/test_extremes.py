@@ -154,6 +154,12 @@ def truth():
     return scenario, result_of(truth_of(scenario.build(6.0, 16, 12)))
 
 
+def test_a_picture_of_one_pixel(make):
+    """Its ray is asked with both triangles at once: it meets their common edge."""
+    scene = make.scene(make.camera(1, 1), make.quad(-1, 1, -1, 1, -2))
+    assert result_of(truth_of(scene)).count.tolist() == [1]
+
+
 def judged_row(truth, frame=None, count=None, odd=True, judged=16):
     scenario, true = truth
     count = true.count if count is None else count

@@ -19,7 +19,8 @@ _PLANE = dict(px=0.3, py=0.2, pz=-9.0, nx=0.1, ny=0.2, nz=0.97)
 
 def rays(v: Inputs, shared: str = "") -> Rays:
     """Rays, in columns but for what they share: the origin `o`, or the direction `d`."""
-    return Rays(*((v.shared if k == shared else v.vector)(f"{k}x {k}y {k}z") for k in "od"))
+    vectors = ((v.shared if k == shared else v.vector)(f"{k}x {k}y {k}z") for k in "od")
+    return Rays(*vectors, one_origin=shared == "o", one_direction=shared == "d")
 
 
 def from_point(v: Inputs) -> FromPoint:

@@ -14,7 +14,6 @@ from reference_tracer.certified.sweep.depth_buffer import ClipRange, DepthBuffer
 from reference_tracer.certified.sweep.rasterise import Boxes
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from reference_tracer.scene import Region
-from reference_tracer.tracer.camera import Rays
 
 from . import edges
 from .bounds import FIRST
@@ -100,7 +99,7 @@ def _plane(v: Inputs, prefix: str, projection: Projection) -> Kept:
     )
     interval = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
     with (
-        mock.patch.object(sweep, "camera_rays", lambda *_: Rays(None, None)),
+        mock.patch.object(sweep, "camera_rays", lambda *_: None),
         mock.patch.object(sweep, "plane_fractions", lambda *_: interval),
     ):
         for _ in sweep.Sweep.enter_planes(this):

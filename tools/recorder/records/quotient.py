@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from unittest import mock
 
 from reference_tracer.certified import quotient
@@ -67,14 +68,14 @@ def _quotient(v: Inputs) -> Kept:
 def _unit(v: Inputs, prefix: str) -> Kept:
     """Of several rays it is the same of the largest components: here there is one."""
     origins = v.shared("qx qy qz" if "qx" in v else "ox oy oz")
-    own = Quotients(Rays(origins, v.vector("dx dy dz")), 1)
+    own = Quotients(Rays(origins, v.vector("dx dy dz"), one_origin=True), 1)
     return {prefix: own._unit}
 
 
 def _triangle(v: Inputs) -> Kept:
     """What is handed on of a triangle: its normal as high + low, and M."""
     kept = []
-    rays = Rays(v.shared("ox oy oz"), v.vector("dx dy dz"))
+    rays = Rays(v.shared("ox oy oz"), v.vector("dx dy dz"), one_origin=True)
     with mock.patch.object(Quotients, "_enter", lambda *some: kept.append(some)):
         Quotients.of(rays, v.matrix(*CORNERS))
     [(_, _, _, (high, low), size)] = kept
@@ -106,7 +107,7 @@ def _meet(v: Inputs, case: str) -> Kept:
     own._table = v.vector(" ".join(_columns(case)))
     origins = {"from_point": "", "parallel": "qx qy qz", "alone": "ox oy oz"}[case]
     direction = own._direction if case == "parallel" else v.vector("dx dy dz")
-    rays = Rays(v.vector(origins) if origins else None, direction)
+    rays = SimpleNamespace(origins=v.vector(origins) if origins else None, directions=direction)
     with locals_of(quotient._quotient) as local:
         own.meet(rays, v.rows)
     parts = *local["numerator"], *local["denominator"]
