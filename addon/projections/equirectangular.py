@@ -98,12 +98,8 @@ class Equirectangular(Projection):
         seen in two places has no bounds on that side.
         """
         left, right, bottom, top = edges
-        largest = np.abs(xyz).max(axis=0)
-        toward = xyz / largest  # whose squares neither over- nor underflow
-        sizes = largest * _length(toward)
-        toward = toward / _length(toward)
-        axis = toward.sum(axis=1)
-        axis = axis / _length(axis)
+        toward, sizes = _direction_and_size(xyz)
+        axis, _ = _direction_and_size(toward.sum(axis=1))
         chord = _length(toward - axis[:, None]).max(axis=0)
         off = 512 * eps * (np.abs(edges).sum() + 6)
         turned = 4 * error / sizes.min(axis=0)
@@ -126,6 +122,13 @@ def _direction(x: Array, y: Array) -> tuple[Array, Array, Array]:
     """Return what right, up and forward are multiplied by at longitudes x and latitudes y, (n,)."""
     level = sine(y, 1)
     return level * sine(x), sine(y), level * sine(x, 1)
+
+
+def _direction_and_size(v: Vectors) -> tuple[Vectors, Floats]:
+    """Return unit vectors, and the lengths of `v` (3, ...); NaN where that is 0."""
+    largest = np.abs(v).max(axis=0)
+    v = v / largest  # whose squares neither over- nor underflow
+    return v / _length(v), largest * _length(v)
 
 
 def _length(v: Vectors) -> Floats:

@@ -64,7 +64,7 @@ class RefusedError(Exception):
 def only(what: str, found: Any, known: Any) -> None:
     """Refuse what is not known."""
     if unknown := [str(each) for each in found if each not in known]:
-        raise RefusedError(f"not covered: {what} {', '.join(unknown)}")
+        raise RefusedError(f"not covered: {what} {', '.join(unknown[:9])}")
 
 
 def demand(true: Any, otherwise: str) -> None:
@@ -76,6 +76,7 @@ def demand(true: Any, otherwise: str) -> None:
 class Certificate:
     """A file's scene in world space, and its answers."""
 
+    @np.errstate(all="ignore")  # what overflows is looked at, or is not
     def __init__(self, path: str) -> None:
         with np.load(path, allow_pickle=False) as file:
             only("schema", [str(file["certificate"])], ["reference_tracer.certificate/2"])
@@ -92,8 +93,11 @@ class Certificate:
         self.aside = self.right + 0.4 * self.up  # few edges are parallel to this
         self.clip = clip.tolist()
         demand(-np.inf < self.clip[0] < self.clip[1] < np.inf, "the clip range is empty or endless")
+        for begin, end, count in pixels.tolist():
+            demand(0 <= begin < end <= count, "the region is empty, or not within the picture")
+        size = tuple(pixels[::-1, 1] - pixels[::-1, 0])  # before so many pixels are made
+        only("answers", [self.t.shape, self.seen.shape[:2]], [size])
         self.x, self.y = (film(*side, *part) for side, part in zip(window, pixels, strict=True))
-        only("answers", [self.t.shape, self.seen.shape[:2]], [(len(self.y), len(self.x))])
         self.set_surfaces(*surfaces)
         self.ties: dict[int, set[Any]] = {}
         for pixel, *name in ties.tolist():
@@ -108,11 +112,11 @@ class Certificate:
         instances, matrices, planes = placed
         only("vertex", np.unique(triangles).tolist(), range(len(vertices)))
         only("triangle", np.unique(instances).tolist(), range(len(triangles) + 1))
+        demand((instances[:, 0] <= instances[:, 1]).all(), "an instance ends before it begins")
         self.names, corners = [], []
         for number, (m, (begin, end)) in enumerate(zip(matrices, instances.tolist(), strict=True)):
             x, y, z = vertices[triangles[begin:end].T].transpose(2, 0, 1)
-            with np.errstate(all="ignore"):
-                world = [m[k, 0] * x + m[k, 1] * y + m[k, 2] * z + m[k, 3] for k in range(3)]
+            world = [m[k, 0] * x + m[k, 1] * y + m[k, 2] * z + m[k, 3] for k in range(3)]
             found = np.stack(world, axis=1)
             finite = np.flatnonzero(np.isfinite(found).all(axis=(0, 1)))  # others do not count
             self.names += [(number, k) for k in finite.tolist()]
@@ -137,7 +141,6 @@ class Certificate:
 
 def film(low: Any, high: Any, begin: Any, end: Any, count: Any) -> Floats:
     """Return the middles of some of the pixels from `low` to `high`."""
-    demand(0 <= begin < end <= count, "the region is empty, or not within the picture")
     return low + (np.arange(begin, end) + 0.5) * ((high - low) / count)
 
 
@@ -393,7 +396,6 @@ def ways(hits: Sequence[Hit]) -> Iterator[Vector]:
             yield move[0], move[1], move[2]
 
 
-@np.errstate(all="ignore")
 def left(of: Certificate, origins: Floats, directions: Floats, far: Floats) -> dict[int, list[int]]:
     """Return the surfaces that floats do not drop, of each pixel."""
     is_parallel = of.kind == "orthographic"  # one pixel has one direction, too
@@ -408,6 +410,7 @@ def left(of: Certificate, origins: Floats, directions: Floats, far: Floats) -> d
     return found
 
 
+@np.errstate(all="ignore")
 def check(of: Certificate, rows: Sequence[int]) -> None:
     """Check rows of the picture; raise a RefusedError that names the first pixel that is wrong."""
     far = np.nextafter(np.minimum(of.t, of.clip[1]), np.inf)

@@ -1,7 +1,7 @@
 (** `levels` of verify.py: the box around a square's rays has them in it, whatever is rounded. *)
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core Plus_error Mult_error BinarySingleNaN.
-From Reftrace Require Import Trees Rounding Magnitude.
+From Reftrace Require Import Trees Rounding Magnitude Finite.
 From Reftrace Require Import RecordedDropping.
 Open Scope R_scope.
 Open Scope string_scope.
@@ -172,10 +172,7 @@ Proof.
   assert (F2 : is_finite (Bminus mode_NE m (of_var v l) : float) = true).
   { apply minus_in_range; auto. rewrite E. apply R'. lra. }
   rewrite (mult_value _ _ F). unfold half_of. f_equal. f_equal.
-  - unfold fmax. rewrite (Bcompare_correct prec emax _ _ F1 F2), (minus_value _ _ F1), (minus_value _ _ F2),
-      E.
-    unfold Rmax. destruct Rle_dec; case Rcompare_spec; intros;
-      rewrite ?(minus_value _ _ F1), ?(minus_value _ _ F2), ?E; lra.
+  - now rewrite (proj2 (fmax_finite _ _ F1 F2)), (minus_value _ _ F1), (minus_value _ _ F2), E.
   - unfold wider. simpl. unfold F2R. simpl. lra.
 Qed.
 Theorem code_covers r L : is_float L -> - L <= low -> high <= L -> low <= r <= high ->

@@ -2,9 +2,8 @@
     each ray in the square's box, in binary64, whatever overflows. *)
 Require Import ZArith Reals Psatz String Bool List.
 From Flocq Require Import Core BinarySingleNaN.
-From Reftrace Require Import Geometry Trees Rounding Magnitude Signs.
+From Reftrace Require Import Geometry Trees Rounding Magnitude Finite Signs.
 From Reftrace Require Import RecordedDropping.
-From Reftrace Require QuotientFloats.
 From Reftrace Require Import Contest Facts Dropped RoomParts Room DroppingCode.
 Import ListNotations.
 Open Scope R_scope.
@@ -18,13 +17,6 @@ Notation known e := (BinarySingleNaN.is_finite (eval v e) = true).
 
 (** ** From binary64 to real numbers *)
 
-Definition plain e := (QuotientFloats.plain e && QuotientFloats.whole e)%bool = true.
-Lemma plain_value e : plain e -> known e -> #e = fl w e.
-Proof.
-  intros P F. apply andb_prop in P. destruct P as [P W].
-  rewrite <- (QuotientFloats.run_eval v e W) in *.
-  apply (QuotientFloats.run_value v w e (QuotientFloats.real_agrees v) P F).
-Qed.
 Definition box_names := ["largest"; "middlex"; "middley"; "middlez"; "halfx"; "halfy"; "halfz"].
 Definition all_known := forall name, In name box_names -> BinarySingleNaN.is_finite (of_var v name) = true.
 Lemma form_known f : known (value_of f) -> known (reach_of f) -> all_known.
@@ -60,11 +52,11 @@ Definition boxed (x y z : R) : Prop := all_known ->
   Rabs (x - fl w (X middle)) <= fl w (X half) + 2 * u * L /\
   Rabs (y - fl w (Y middle)) <= fl w (Y half) + 2 * u * L /\
   Rabs (z - fl w (Z' middle)) <= fl w (Z' half) + 2 * u * L.
-Lemma form_says f M x y z : good w f M -> plain (value_of f) -> plain (reach_of f) -> boxed x y z ->
+Lemma form_says f M x y z : good w f M -> arithmetic (value_of f) = true -> arithmetic (reach_of f) = true -> boxed x y z ->
   says_well (of_form f) (exact_at w f x y z).
 Proof.
   intros [] PV PR B F G. destruct (B (form_known f F G)) as (Hm & Hh & Hx & Hy & Hz).
-  cbn [fst snd of_form] in *. rewrite (plain_value _ PV F), (plain_value _ PR G).
+  cbn [fst snd of_form] in *. rewrite (finite_value v w _ (real_agrees v) PV F), (finite_value v w _ (real_agrees v) PR G).
   now apply (form_near w (real_env_floats v) f M).
 Qed.
 
@@ -274,7 +266,7 @@ Section Kinds.
 Variables (s : surface) (x y z last : R).
 Hypothesis box : boxed x y z.
 Hypothesis far_is : BinarySingleNaN.is_finite (of_var v "far") = true -> last = r_var w "far".
-Lemma form_is f M g : good w f M -> plain (value_of f) -> plain (reach_of f) -> g = exact_at w f x y z ->
+Lemma form_is f M g : good w f M -> arithmetic (value_of f) = true -> arithmetic (reach_of f) = true -> g = exact_at w f x y z ->
   says_well (of_form f) g.
 Proof. intros G P Q ->. now apply (form_says f M). Qed.
 Ltac atoms_here := first [apply atoms_zeros | apply atoms_sub | apply atoms_named | apply atoms_neg,

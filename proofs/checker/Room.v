@@ -116,11 +116,8 @@ Proof.
   destruct k_one as [Z|Z].
   - rewrite Z. apply k_zero in Z. rewrite Z. cbn [value]. rewrite !Rmult_0_l, rnd_0, Rminus_0_r, Rabs_R0. lra.
   - rewrite Z, Rmult_1_l. split.
-    + assert (F : is_float (IZR (times f) * bpow radix2 0)).
-      { cbn [bpow]. rewrite Rmult_1_r. destruct few as [-> | [-> | ->]]; apply generic_format_FLT;
-          [exists (Float radix2 0 0) | exists (Float radix2 1 0) | exists (Float radix2 (-1) 0)]; simpl;
-            try lia;
-          unfold F2R; simpl; lra. }
+    + assert (F : is_float (IZR (times f) * bpow radix2 0))
+        by (destruct few as [-> | [-> | ->]]; now apply number_float).
       assert (H := from_room (Mul (Num (times f) 0) (c n)) (5 + / 2) (3 * eta)).
       cbn [mag room ex value] in H. rewrite K0, Z, !Rmult_1_l in H.
       assert (Hm : (5 + / 2) * u * mag v (c n) <= (5 + / 2) * u * (2 * M)) by (apply Rmult_le_compat_l; lra).
@@ -157,11 +154,8 @@ Proof.
   - rewrite Z, Rmult_1_l.
     destruct vectors as ((Rx' & Dx' & Mx' & Ox') & (Ry' & Dy' & My' & Oy') & (Rz' & Dz' & Mz' & Oz')).
     assert (K0 : Rabs (IZR (times f) * bpow radix2 0) = 1) by (cbn [bpow]; now rewrite Rmult_1_r).
-    assert (F : is_float (IZR (times f) * bpow radix2 0)).
-    { cbn [bpow]. rewrite Rmult_1_r. destruct few as [-> | [-> | ->]]; apply generic_format_FLT;
-        [exists (Float radix2 0 0) | exists (Float radix2 1 0) | exists (Float radix2 (-1) 0)]; simpl;
-          try lia;
-        unfold F2R; simpl; lra. }
+    assert (F : is_float (IZR (times f) * bpow radix2 0))
+      by (destruct few as [-> | [-> | ->]]; now apply number_float).
     destruct middle_small as (m1 & m2 & m3).
     cbn [middle vector_named value X Y Z' fst snd append] in m1, m2, m3.
     assert (Nx := mag_pos v (X n)). assert (Ny := mag_pos v (Y n)). assert (Nz := mag_pos v (Z' n)).

@@ -5,7 +5,7 @@
     bound of Signs.v leaves room for that rounding, too. *)
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core BinarySingleNaN.
-From Reftrace Require Import Geometry Trees Rounding Magnitude Signs Forms Pairs RecordedDecisions.
+From Reftrace Require Import Geometry Trees Rounding Magnitude Finite Signs Forms Pairs RecordedDecisions.
 Open Scope R_scope.
 Open Scope string_scope.
 
@@ -56,15 +56,14 @@ Lemma order_numbers : is_finite (eval v (order_error x)) = true ->
 Proof.
   intros F.
   assert (VE : B2R (eval v (order_error x)) = fl (real_env v) (order_error x)).
-  { apply finite_value; auto; destruct x_is as [->| ->]; try reflexivity;
-      unfold order_error, apart, table; numbers. }
+  { apply finite_value; [easy | | exact F]. now destruct x_is as [->| ->]. }
   split; [exact VE|].
   assert (A : above (eval v (Add (Abs (Var "base")) (tdot (tabs x) (tabs table)))) (eval v (order_value x))).
   { destruct x_is as [->| ->]; unfold order_value, apart, table; names; by_above. }
   unfold order_error, tbound in F. cbn [eval] in F.
   destruct (plus_finite _ _ F) as [F1 _]. destruct (mult_finite _ _ F1) as [_ F2].
   destruct (proj2 A F2) as [Fv _]. split; [exact Fv|].
-  apply finite_value; auto; destruct x_is as [->| ->]; try reflexivity; unfold order_value, apart, table; numbers.
+  apply finite_value; [easy | | exact Fv]. now destruct x_is as [->| ->].
 Qed.
 
 (** The leaves were rounded, too. *)

@@ -4,7 +4,7 @@
     comparing them ([reflexivity]). *)
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core BinarySingleNaN.
-From Reftrace Require Import Geometry Trees Rounding Magnitude Signs Forms Interval IntervalCode
+From Reftrace Require Import Geometry Trees Rounding Magnitude Finite Signs Forms Interval IntervalCode
   RecordedBounds RecordedDecisions.
 Open Scope R_scope.
 Open Scope string_scope.
@@ -38,19 +38,6 @@ Definition given (of_var : string -> float) : env := Env of_var (fun _ => false)
 Definition nothing : string -> float := fun _ => B754_nan.
 
 (** ** [sides] *)
-
-Lemma fmin_finite (x y : float) : is_finite x = true -> is_finite y = true ->
-  is_finite (fmin x y) = true /\ B2R (fmin x y) = Rmin (B2R x) (B2R y).
-Proof.
-  intros Fx Fy. unfold fmin. rewrite (Bcompare_correct prec emax) by assumption.
-  unfold Rmin. case Rcompare_spec; intros; destruct Rle_dec; split; auto; lra.
-Qed.
-Lemma fmax_finite (x y : float) : is_finite x = true -> is_finite y = true ->
-  is_finite (fmax x y) = true /\ B2R (fmax x y) = Rmax (B2R x) (B2R y).
-Proof.
-  intros Fx Fy. unfold fmax. rewrite (Bcompare_correct prec emax) by assumption.
-  unfold Rmax. case Rcompare_spec; intros; destruct Rle_dec; split; auto; lra.
-Qed.
 
 Lemma less_finite (x y : float) : is_finite x = true -> is_finite y = true ->
   Bcompare x y = Some Datatypes.Lt -> B2R x < B2R y.

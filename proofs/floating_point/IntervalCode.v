@@ -51,16 +51,7 @@ Lemma finite_numbers :
   B2R (num 281474976710657 (-48)) = 1 + / 281474976710656 /\
   B2R (num 281474976710655 (-48)) = 1 - / 281474976710656.
 Proof.
-  assert (K : forall m e, (0 < m < 2 ^ 53)%Z -> (-1074 <= e <= 0)%Z ->
-    B2R (num m e) = IZR m * bpow radix2 e).
-  { intros m e [P M] [E E0]. apply float_of_num.
-    - rewrite Rabs_right.
-      + apply Rlt_le_trans with (bpow radix2 53 * bpow radix2 e).
-        * apply Rmult_lt_compat_r; [apply bpow_gt_0|]. change (bpow radix2 53) with (IZR (2 ^ 53)). now apply IZR_lt.
-        * rewrite <- bpow_plus. apply bpow_le. unfold emax. lia.
-      + apply Rle_ge, Rmult_le_pos; [apply IZR_le; lia | apply bpow_ge_0].
-    - apply generic_format_FLT. exists (Float radix2 m e); simpl; try lia; auto. }
-  repeat split; rewrite K by lia.
+  repeat split; rewrite num_value by easy.
   - unfold u. simpl. lra.
   - apply Rmult_1_l.
   - simpl. lra.

@@ -5,7 +5,7 @@
     or NaN: what is proven is that the tracer's comparison, where it turns out true, is right. *)
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core BinarySingleNaN.
-From Reftrace Require Import Geometry Trees Rounding Magnitude.
+From Reftrace Require Import Geometry Trees Rounding Magnitude Finite.
 Open Scope R_scope.
 
 (** ** Vectors of expressions, and what [vector.py] and [bounds.py] make of them *)
@@ -38,17 +38,11 @@ Proof.
 Qed.
 
 Lemma float_12u : is_float (3 * bpow radix2 (-51)).
-Proof.
-  apply generic_format_FLT. exists (Float radix2 3 (-51)); simpl; try lia. reflexivity.
-Qed.
+Proof. now apply number_float. Qed.
 Lemma float_slack : is_float (1 * bpow radix2 (-1060)).
-Proof.
-  apply generic_format_FLT. exists (Float radix2 1 (-1060)); simpl; try lia. reflexivity.
-Qed.
+Proof. now apply number_float. Qed.
 Lemma float_one : is_float (1 * bpow radix2 0).
-Proof.
-  apply generic_format_FLT. exists (Float radix2 1 0); simpl; try lia. reflexivity.
-Qed.
+Proof. now apply number_float. Qed.
 
 (** What makes the second part of the bound: a vector of absolute values of leaves, or differences. *)
 Definition plain_size (v : renv) (w : expr) : Prop :=
@@ -165,20 +159,9 @@ Proof.
   destruct (plus_finite _ _ F) as [F1 F2]. destruct (mult_finite _ _ F1) as [Fn Fp].
   destruct (mult_finite _ _ F2) as [Fs F3]. destruct (plus_finite _ _ F3) as [F4 Fz].
   destruct (plus_finite _ _ F4) as [F5 Fy]. destruct (plus_finite _ _ F5) as [Fo Fx].
-  assert (B12 : B2R (num 3 (-51)) = 12 * u).
-  { destruct (float_of_num 3 (-51)) as [_ ->]; [|apply float_12u|].
-    - rewrite Rabs_right by (generalize (bpow_ge_0 radix2 (-51)); lra).
-      apply Rlt_trans with (bpow radix2 4 * bpow radix2 (-51)); [|rewrite <- bpow_plus; now apply bpow_lt].
-      apply Rmult_lt_compat_r; [apply bpow_gt_0 | simpl; lra].
-    - unfold u. simpl. lra. }
-  assert (BS : B2R (num 1 (-1060)) = slack).
-  { destruct (float_of_num 1 (-1060)) as [_ ->]; [|apply float_slack|].
-    - rewrite Rmult_1_l, Rabs_right by apply Rle_ge, bpow_ge_0. now apply bpow_lt.
-    - apply Rmult_1_l. }
-  assert (B1 : B2R (num 1 0) = 1).
-  { destruct (float_of_num 1 0) as [_ ->]; [|apply float_one|].
-    - rewrite Rmult_1_l, Rabs_right by apply Rle_ge, bpow_ge_0. now apply bpow_lt.
-    - simpl. lra. }
+  assert (B12 : B2R (num 3 (-51)) = 12 * u) by (rewrite num_value by easy; unfold u; simpl; lra).
+  assert (BS : B2R (num 1 (-1060)) = slack) by (rewrite num_value by easy; apply Rmult_1_l).
+  assert (B1 : B2R (num 1 0) = 1) by (rewrite num_value by easy; simpl; lra).
   rewrite (plus_value _ _ F), (mult_value _ _ F1), (mult_value _ _ F2), (plus_value _ _ F3),
     (plus_value _ _ F4), (plus_value _ _ F5), B12, BS, B1.
   assert (V := not_negative_value _ Pp Fp). assert (Vx := not_negative_value _ Px Fx).
@@ -210,15 +193,15 @@ Qed.
 Lemma bounds_by v p w e one :
   dominates v p e -> not_negative (eval v (X w)) -> not_negative (eval v (Y w)) ->
   not_negative (eval v (Z' w)) -> dominates v (tbound p w) one -> arithmetic e = true ->
-  numbers_ok e -> arithmetic one = true -> numbers_ok one ->
+  arithmetic one = true ->
   Rabs (fl (real_env v) e - ex (real_env v) e) <= 3 / 4 * fl (real_env v) one ->
   bounds v (tbound p w) e.
 Proof.
-  intros [Pp De] Px Py Pz [P Do] Ae Ne Ao No H. split; [exact P|]. intros F.
+  intros [Pp De] Px Py Pz [P Do] Ae Ao H. split; [exact P|]. intros F.
   destruct (bound_least v p w Pp Px Py Pz F) as [F2 [L1 L2]].
   destruct (De F2) as [Fe Le]. destruct (Do F) as [Fo L]. split; [exact Fe|].
   split; [|split; [exact L1|]].
-  - rewrite (finite_value v e Ae Ne Fe). rewrite (finite_value v one Ao No Fo) in L.
+  - rewrite (finite_value v _ e (real_agrees v) Ae Fe). rewrite (finite_value v _ one (real_agrees v) Ao Fo) in L.
     generalize (Rle_abs (fl (real_env v) one)). lra.
   - eapply Rle_trans; [|exact L2]. apply Rmult_le_compat_l; [generalize u_pos; lra | exact Le].
 Qed.

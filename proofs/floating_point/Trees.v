@@ -47,9 +47,21 @@ Definition fmin (a b : float) : float :=
   match Bcompare a b with Some Gt => b | Some _ => a | None => B754_nan end.
 Definition num (m e : Z) : float := binary_normalize prec emax _ _ mode_NE m e false.
 
+(** Bits masked away. Of 53 digits the n highest remain; also of what has fewer. Of inf all remains; of
+    NaN's bits the exponent alone is inf's, and more are NaN's. *)
+Definition keep (n : Z) (x : float) : float :=
+  match x with
+  | B754_finite s m e _ =>
+      let unit := (2 ^ (53 - n))%Z in
+      binary_normalize prec emax _ _ mode_NE (Z.quot (cond_Zopp s (Z.pos m)) unit * unit) e s
+  | B754_nan => if Z.eqb n 1 then B754_infinity false else B754_nan
+  | _ => x
+  end.
 
 Record env := Env { of_var : string -> float; of_given : string -> bool }.
 
+(** [CopySign] has no value here (NaN stands for that): it copies the sign of a NaN, too, and Flocq's NaN
+    has none. *)
 Fixpoint eval (v : env) (e : expr) : float :=
   match e with
   | Var name => of_var v name
@@ -65,8 +77,11 @@ Fixpoint eval (v : env) (e : expr) : float :=
   | Min a b => fmin (eval v a) (eval v b)
   | Next a => Bsucc (eval v a)
   | Prev a => Bpred (eval v a)
+  | Floor a => Bnearbyint mode_DN (eval v a)
+  | Ceil a => Bnearbyint mode_UP (eval v a)
+  | CopySign _ _ => B754_nan
+  | Keep n a => keep n (eval v a)
   | Where c a b => if holds v c then eval v a else eval v b
-  | _ => B754_nan
   end
 with holds (v : env) (c : test) : bool :=
   match c with
@@ -128,38 +143,21 @@ Definition real_env (v : env) : renv := REnv (fun name => B2R (of_var v name)) (
 
 (** ** The two agree where nothing overflows *)
 
-(** Sums, differences and products of numbers that are finite or not. *)
-Fixpoint arithmetic (e : expr) : bool :=
-  match e with
-  | Var _ | Num _ _ => true
-  | Add a b | Sub a b | Mul a b => arithmetic a && arithmetic b
-  | Abs a | Neg a => arithmetic a
-  | _ => false
-  end.
-
-(** The numbers that are written in the code are floats: [num] does not round. *)
-Fixpoint numbers_ok (e : expr) : Prop :=
-  match e with
-  | Num m e => (Rabs (IZR m * bpow radix2 e) < bpow radix2 emax) /\ is_float (IZR m * bpow radix2 e)
-  | Add a b | Sub a b | Mul a b => numbers_ok a /\ numbers_ok b
-  | Abs a | Neg a => numbers_ok a
-  | _ => True
-  end.
-
 Lemma rnd_round x : rnd x = round radix2 (SpecFloat.fexp prec emax) (round_mode mode_NE) x.
 Proof. reflexivity. Qed.
 
-Lemma float_of_num m e :
-  Rabs (IZR m * bpow radix2 e) < bpow radix2 emax -> is_float (IZR m * bpow radix2 e) ->
-  is_finite (num m e) = true /\ B2R (num m e) = IZR m * bpow radix2 e.
+(** The numbers that are written in the code are floats: [num] does not round. *)
+Lemma number_float m e : (Z.abs m < 2 ^ 53)%Z -> (-1074 <= e)%Z -> is_float (IZR m * bpow radix2 e).
+Proof. intros M E. apply generic_format_FLT. now exists (Float radix2 m e). Qed.
+Lemma int_float n : (Z.abs n < 2 ^ 53)%Z -> is_float (IZR n).
+Proof. intros H. rewrite <- (Rmult_1_r (IZR n)). now apply (number_float n 0). Qed.
+Lemma num_value m e : (Z.abs m < 2 ^ 53)%Z -> (-1074 <= e)%Z -> is_finite (num m e) = true ->
+  B2R (num m e) = IZR m * bpow radix2 e.
 Proof.
-  intros H F. unfold num.
-  generalize (binary_normalize_correct prec emax _ _ mode_NE m e false).
-  unfold F2R; simpl Fnum; simpl Fexp. fold emax prec.
-  change (round _ _ _ _) with (rnd (IZR m * bpow radix2 e)).
-  assert (E : rnd (IZR m * bpow radix2 e) = IZR m * bpow radix2 e).
-  { unfold rnd. apply round_generic; [apply valid_rnd_N | exact F]. }
-  rewrite E, Rlt_bool_true by exact H. intros [A [B _]]. now rewrite A, B.
+  intros M E. generalize (binary_normalize_correct prec emax _ _ mode_NE m e false). fold (num m e).
+  cbv zeta. change (F2R (Float radix2 m e)) with (IZR m * bpow radix2 e).
+  rewrite round_generic by (apply valid_rnd_N || now apply number_float).
+  case Rlt_bool; [now intros [V _]|]. generalize (num m e). intros [ | | | ]; discriminate.
 Qed.
 
 Lemma plus_finite x y : is_finite (Bplus mode_NE x y : float) = true ->
@@ -199,17 +197,4 @@ Proof.
   revert H. case Rlt_bool_spec; intros _ H; [exact (proj1 H)|].
   exfalso. revert F H. generalize (Bmult mode_NE x y).
   intros [ | | | ]; simpl; intros; discriminate.
-Qed.
-
-Theorem finite_value v e : arithmetic e = true -> numbers_ok e -> is_finite (eval v e) = true ->
-  B2R (eval v e) = fl (real_env v) e.
-Proof.
-  induction e; simpl; intros A N F; try discriminate; try reflexivity;
-    try (apply andb_prop in A; destruct A as [A1 A2]; destruct N as [N1 N2]).
-  - now apply float_of_num.
-  - destruct (plus_finite _ _ F). rewrite plus_value, IHe1, IHe2; auto.
-  - destruct (minus_finite _ _ F). rewrite minus_value, IHe1, IHe2; auto.
-  - destruct (mult_finite _ _ F). rewrite mult_value, IHe1, IHe2; auto.
-  - rewrite B2R_Babs, IHe; auto. revert F. now rewrite is_finite_Babs.
-  - rewrite B2R_Bopp, IHe; auto. revert F. now rewrite is_finite_Bopp.
 Qed.

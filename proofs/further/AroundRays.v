@@ -3,7 +3,7 @@
     [_prepare] in ladder.py.) *)
 Require Import ZArith Reals Psatz List String Bool.
 From Flocq Require Import Core BinarySingleNaN.
-From Reftrace Require Import Trees Rounding Magnitude Signs Pairs RecordedChoices RecordedCamera.
+From Reftrace Require Import Trees Rounding Magnitude Finite Signs Pairs RecordedChoices RecordedCamera.
 From Reftrace Require Import CodeAnswers.
 Import ListNotations.
 Open Scope R_scope.
@@ -78,12 +78,7 @@ Definition in_picture : Prop :=
   0 <= B2R (camera "region_y") /\ B2R (camera "region_y") <= B2R (camera "height") - 1.
 
 Lemma half : B2R (num 1 (-1)) = / 2.
-Proof.
-  destruct (float_of_num 1 (-1)) as [_ ->].
-  - rewrite Rmult_1_l, Rabs_right by apply Rle_ge, bpow_ge_0. now apply bpow_lt.
-  - apply generic_format_FLT. exists (Float radix2 1 (-1)); simpl; try lia. reflexivity.
-  - simpl. lra.
-Qed.
+Proof. rewrite num_value by easy. simpl. lra. Qed.
 Lemma position_between (x size d : float) :
   let first := Bplus mode_NE (num 1 (-1)) d : float in
   let last := Bplus mode_NE (Bminus mode_NE size (num 1 (-1))) d : float in

@@ -21,16 +21,11 @@ Proof.
   rewrite <- Rabs_mult, <- digits_exact, <- bpow_plus by exact F.
   replace (53 + (exponent x - 53)) with (exponent x) by lia. apply bpow_mag_gt.
 Qed.
-Lemma integer_is_float n : Z.abs n < 2 ^ 53 -> is_float (IZR n).
-Proof.
-  intros H. apply generic_format_FLT.
-  exists (Float radix2 n 0); [unfold F2R; simpl; ring | exact H | easy].
-Qed.
 (** So the product, which is rounded, is exact, and nothing is cut off. *)
 Theorem digits_is x : is_float x -> Ztrunc (rnd (mantissa x * (IZR 1 * bpow radix2 53))) = digits x.
 Proof.
   intros F. replace (mantissa x * (IZR 1 * bpow radix2 53))%R with (IZR (digits x)).
-  - now rewrite rnd_id, Ztrunc_IZR by now apply integer_is_float, digits_fit.
+  - now rewrite rnd_id, Ztrunc_IZR by now apply int_float, digits_fit.
   - unfold mantissa. rewrite (digits_exact x F) at 2.
     rewrite Rmult_assoc, Rmult_1_l, Rmult_assoc, <- !bpow_plus.
     replace (exponent x - 53 + (- exponent x + 53)) with 0 by lia. simpl. ring.
@@ -178,5 +173,5 @@ Proof.
   - assert (E : IZR (Z.shiftl value shift) = (IZR value * bpow radix2 shift)%R)
       by (rewrite Z.shiftl_mul_pow2, mult_IZR, (IZR_Zpower radix2) by lia; reflexivity).
     rewrite I by now rewrite E. rewrite <- E in *. rewrite <- abs_IZR in S. apply (le_IZR _ 1) in S.
-    rewrite rnd_id; [easy|]. apply integer_is_float. lia.
+    rewrite rnd_id; [easy|]. apply int_float. lia.
 Qed.

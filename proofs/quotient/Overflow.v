@@ -87,20 +87,13 @@ Definition quotient64 (high low high_error under rest under_error : float) : flo
   let left := add left near in
   (left, same64 least left && less64 (num 1 (-950)) size).
 
+Lemma power_value k : (-1074 <= k)%Z -> is_finite (num 1 k) = true ->
+  is_finite (num 1 k) = true /\ B2R (num 1 k) = pow2 k.
+Proof. intros K F. split; [exact F|]. now rewrite num_value, Rmult_1_l. Qed.
 Lemma least_value : is_finite (num 1 (-950)) = true /\ B2R (num 1 (-950)) = pow2 (-950).
-Proof.
-  destruct (float_of_num 1 (-950)) as [A B].
-  - rewrite Rmult_1_l, Rabs_pos_eq by apply bpow_ge_0. apply bpow_lt. reflexivity.
-  - rewrite Rmult_1_l. now apply float_pow2.
-  - split; [exact A|]. now rewrite B, Rmult_1_l.
-Qed.
+Proof. now apply power_value. Qed.
 Lemma one_value : is_finite (num 1 0) = true /\ B2R (num 1 0) = 1.
-Proof.
-  destruct (float_of_num 1 0) as [A B].
-  - rewrite Rmult_1_l, Rabs_pos_eq by apply bpow_ge_0. apply (bpow_lt radix2 0 emax). reflexivity.
-  - rewrite Rmult_1_l. now apply (float_pow2 0).
-  - split; [exact A|]. rewrite B, Rmult_1_l. reflexivity.
-Qed.
+Proof. now apply (power_value 0). Qed.
 
 (** 1 / inf is 0, and so is then the first quotient: too small. *)
 Lemma inverse_value (x f : float) : is_finite (Bdiv mode_NE (num 1 0) x : float) = true ->
@@ -164,14 +157,7 @@ Proof.
   assert (Ffirst := keep_finite _ Fnear). assert (Funder := keep_finite _ Ftop).
   destruct (mult_finite _ _ Ffirst) as [Ff0 _].
   destruct (inverse_value i0 f0 Finverse Hl Ff0) as [Fi0 Vi]. fold inverse in Vi.
-  assert (N : forall m e, is_float (IZR m * bpow radix2 e) -> Rabs (IZR m * bpow radix2 e) < bpow radix2 emax ->
-    B2R (num m e) = IZR m * pow2 e) by (intros; now apply float_of_num).
-  assert (Vloose : B2R (num 4548635623644201 (-52)) = 4548635623644201 * pow2 (-52)).
-  { apply N.
-    - apply (multiple_float (-52)); [now exists 4548635623644201%Z| |lia].
-      change (pow2 (-52)) with (/ 4503599627370496). change (pow2 (-52 + 53)) with 2. rewrite Rabs_pos_eq; lra.
-    - apply Rlt_trans with (pow2 1); [|apply bpow_lt; reflexivity].
-      change (pow2 (-52)) with (/ 4503599627370496). simpl (pow2 1). rewrite Rabs_pos_eq; lra. }
+  assert (Vloose : B2R (num 4548635623644201 (-52)) = 4548635623644201 * pow2 (-52)) by now apply num_value.
   destruct least_value as [Fleast Vleast].
   assert (V0 := plus_value _ _ Fi0). assert (V1 := plus_value _ _ Ff0). assert (V2 := mult_value _ _ Ffirst).
   assert (V3 := keep_value _ Ffirst). assert (V4 := keep_value _ Funder).
@@ -204,14 +190,6 @@ Definition error64 (unit size : float) : float :=
   if less64 (num 1 (-950)) error && less64 error (num 1 1000) then mul error (num 1 (-72))
   else B754_infinity false.
 
-Lemma power_value k : (-1074 <= k < 1024)%Z -> is_finite (num 1 k) = true /\ B2R (num 1 k) = pow2 k.
-Proof.
-  intros K. destruct (float_of_num 1 k) as [A B].
-  - rewrite Rmult_1_l, Rabs_pos_eq by apply bpow_ge_0. apply bpow_lt, K.
-  - rewrite Rmult_1_l. now apply float_pow2.
-  - split; [exact A|]. now rewrite B, Rmult_1_l.
-Qed.
-
 Lemma less64_value a b : is_finite a = true -> is_finite b = true -> less64 a b = true -> B2R a < B2R b.
 Proof.
   unfold less64. intros A B. rewrite (Bcompare_correct _ _ _ _ A B).
@@ -222,8 +200,8 @@ Theorem error64_real unit size : is_finite (error64 unit size) = true ->
   in_range (B2R unit) (B2R size) /\ B2R (error64 unit size) = error_of (B2R unit) (B2R size).
 Proof.
   unfold error64, in_range, error_of. cbv zeta.
-  destruct (power_value (-950)) as [F1 V1]; [lia|]. destruct (power_value 1000) as [F2 V2]; [lia|].
-  destruct (power_value (-72)) as [F3 V3]; [lia|]. rewrite <- V1, <- V2, <- V3. clear V1 V2 V3.
+  destruct least_value as [F1 V1]. destruct (power_value 1000) as [F2 V2]; [easy..|].
+  destruct (power_value (-72)) as [F3 V3]; [easy..|]. rewrite <- V1, <- V2, <- V3. clear V1 V2 V3.
   generalize dependent (num 1 (-950)). generalize dependent (num 1 1000). generalize dependent (num 1 (-72)).
   intros s F3 m F2 l F1. destruct (less64 l (mul unit size)) eqn:L1; [|discriminate].
   destruct (less64 (mul unit size) m) eqn:L2; [|discriminate]. cbn [andb]. intros F.

@@ -4,7 +4,7 @@
     of overflow. What the test needs was finite then, all the way back: so it is what the real
     numbers of [QuotientWhole.v] say. *)
 Require Import ZArith Reals Psatz String List Bool.
-From Reftrace Require Import Trees Rounding Digits ScalarProduct CrossProduct Ziv Quotient Overflow.
+From Reftrace Require Import Trees Rounding Finite Digits ScalarProduct CrossProduct Ziv Quotient Overflow.
 From Reftrace Require Import QuotientCode QuotientWhole QuotientFloats.
 From Reftrace Require RecordedQuotient Geometry.
 From Flocq Require Import Core BinarySingleNaN.
@@ -45,7 +45,7 @@ Fixpoint ffind (l : list (string * float)) (name : string) : float :=
 Definition fstage (l : list (string * float)) : env := Env (ffind l) (fun _ => false).
 Definition fxyz (name : string) (v : fvec) : list (string * float) :=
   [(name ++ "x", fx v); (name ++ "y", fy v); (name ++ "z", fz v)].
-Definition run3 (v : env) (x y z : expr) : fvec := FVec (run v x) (run v y) (run v z).
+Definition eval3 (v : env) (x y z : expr) : fvec := FVec (eval v x) (eval v y) (eval v z).
 
 (** Two variables of the same name, and the same where the float is finite. *)
 Definition alike (a : string * float) (b : string * R) : Prop :=
@@ -61,11 +61,11 @@ Lemma alike_xyz name v w : (is_finite (fx v) = true -> B2R (fx v) = px w) ->
 Proof. intros X Y Z. repeat constructor; assumption. Qed.
 Lemma alike_given name v : Forall2 alike (fxyz name v) (xyz name (real (vec_of v))).
 Proof. now apply alike_xyz. Qed.
-Lemma alike_run v w name x y z : agrees v w -> plain x = true -> plain y = true -> plain z = true ->
-  Forall2 alike (fxyz name (run3 v x y z)) (xyz name (fl3 w x y z)).
-Proof. intros. apply alike_xyz; now apply run_value. Qed.
-Lemma alike_one v w name e : agrees v w -> plain e = true -> alike (name, run v e) (name, fl w e).
-Proof. intros. split; [reflexivity|]. now apply run_value. Qed.
+Lemma alike_three v w name x y z : agrees v w -> arithmetic x = true -> arithmetic y = true -> arithmetic z = true ->
+  Forall2 alike (fxyz name (eval3 v x y z)) (xyz name (fl3 w x y z)).
+Proof. intros. apply alike_xyz; now apply finite_value. Qed.
+Lemma alike_one v w name e : agrees v w -> arithmetic e = true -> alike (name, eval v e) (name, fl w e).
+Proof. intros. split; [reflexivity|]. now apply finite_value. Qed.
 
 (** ** The first stages *)
 
@@ -76,17 +76,17 @@ Proof. apply stage_agrees. repeat apply Forall2_app; apply alike_given. Qed.
 
 Definition fhigh (s : fsurface) : fvec :=
   match s with
-  | FCorners a b c => run3 (fcorners a b c) RecordedQuotient.normal_x RecordedQuotient.normal_y RecordedQuotient.normal_z
+  | FCorners a b c => eval3 (fcorners a b c) RecordedQuotient.normal_x RecordedQuotient.normal_y RecordedQuotient.normal_z
   | FPlane _ normal => normal
   end.
 Definition flow (s : fsurface) : fvec :=
   match s with
   | FCorners a b c =>
-      run3 (fcorners a b c) RecordedQuotient.normal_low_x RecordedQuotient.normal_low_y RecordedQuotient.normal_low_z
+      eval3 (fcorners a b c) RecordedQuotient.normal_low_x RecordedQuotient.normal_low_y RecordedQuotient.normal_low_z
   | FPlane _ _ => fzero
   end.
 Definition fM (s : fsurface) : float :=
-  match s with FCorners a b c => run (fcorners a b c) RecordedQuotient.normal_M | FPlane _ _ => nought end.
+  match s with FCorners a b c => eval (fcorners a b c) RecordedQuotient.normal_M | FPlane _ _ => nought end.
 Definition fpoint (s : fsurface) : fvec := match s with FCorners a _ _ => a | FPlane point _ => point end.
 
 Definition fentered (s : fsurface) (origin direction : fvec) (unit : float) : env :=
@@ -97,38 +97,38 @@ Lemma M_finite s : is_finite (fM s) = true ->
   finite_error (surface_of s) /\ B2R (fM s) = normal_error (surface_of s).
 Proof.
   destruct s as [a b c|p n]; [|easy]. intros F.
-  exact (normal_error_run _ _ (corners_agree a b c) F).
+  exact (normal_error_value _ _ (corners_agree a b c) F).
 Qed.
 
 Lemma entered_agrees s o d unit runit : (is_finite unit = true -> B2R unit = runit) ->
   agrees (fentered s o d unit) (entered (surface_of s) (real (vec_of o)) (real (vec_of d)) runit).
 Proof.
   intros U. apply stage_agrees. repeat apply Forall2_app; try apply alike_given.
-  - destruct s; [|apply alike_given]. apply alike_run; [apply corners_agree | reflexivity..].
-  - destruct s; [|now apply alike_xyz]. apply alike_run; [apply corners_agree | reflexivity..].
+  - destruct s; [|apply alike_given]. apply alike_three; [apply corners_agree | reflexivity..].
+  - destruct s; [|now apply alike_xyz]. apply alike_three; [apply corners_agree | reflexivity..].
   - destruct s; apply alike_given.
   - repeat constructor; [apply M_finite | exact U].
 Qed.
 
 (** Where an error is finite, so is M. *)
-Lemma size_finite s o d unit : is_finite (run (fentered s o d unit) size_tree) = true ->
+Lemma size_finite s o d unit : is_finite (eval (fentered s o d unit) size_tree) = true ->
   finite_error (surface_of s).
 Proof.
-  intros F. apply M_finite. unfold size_tree in F. cbn [run] in F. apply plus_finite in F.
+  intros F. apply M_finite. unfold size_tree in F. cbn [eval] in F. apply plus_finite in F.
   destruct F as [_ F]. apply mult_finite in F. apply F.
 Qed.
 
 Definition fcalled (v : env) (T1 T2 ET D1 D2 ED : expr) : env :=
-  fstage [("T1", run v T1); ("T2", run v T2); ("ET", run v ET); ("D1", run v D1);
-    ("D2", run v D2); ("ED", run v ED)].
+  fstage [("T1", eval v T1); ("T2", eval v T2); ("ET", eval v ET); ("D1", eval v D1);
+    ("D2", eval v D2); ("ED", eval v ED)].
 Lemma called_agrees v w T1 T2 ET D1 D2 ED : agrees v w ->
-  plain T1 = true -> plain T2 = true -> plain D1 = true -> plain D2 = true ->
-  (is_finite (run v ET) = true -> B2R (run v ET) = fl w ET) ->
-  (is_finite (run v ED) = true -> B2R (run v ED) = fl w ED) ->
+  arithmetic T1 = true -> arithmetic T2 = true -> arithmetic D1 = true -> arithmetic D2 = true ->
+  (is_finite (eval v ET) = true -> B2R (eval v ET) = fl w ET) ->
+  (is_finite (eval v ED) = true -> B2R (eval v ED) = fl w ED) ->
   agrees (fcalled v T1 T2 ET D1 D2 ED) (called w T1 T2 ET D1 D2 ED).
 Proof.
   intros G P1 P2 P3 P4 E1 E2. apply stage_agrees.
-  repeat constructor; try assumption; now apply run_value.
+  repeat constructor; try assumption; now apply finite_value.
 Qed.
 
 (** ** From one origin *)
@@ -137,11 +137,11 @@ Definition fcolumn_from_point (s : fsurface) (origin : fvec) (unit : float) : en
   fentered s origin fzero unit.
 Definition fmeeting_from_point (s : fsurface) (origin direction : fvec) (unit : float) : env :=
   let t := fcolumn_from_point s origin unit in
-  let high := run3 t RecordedQuotient.table_from_point_hx RecordedQuotient.table_from_point_hy RecordedQuotient.table_from_point_hz in
-  let low := run3 t RecordedQuotient.table_from_point_lx RecordedQuotient.table_from_point_ly RecordedQuotient.table_from_point_lz in
+  let high := eval3 t RecordedQuotient.table_from_point_hx RecordedQuotient.table_from_point_hy RecordedQuotient.table_from_point_hz in
+  let low := eval3 t RecordedQuotient.table_from_point_lx RecordedQuotient.table_from_point_ly RecordedQuotient.table_from_point_lz in
   fstage (fxyz "h" high ++ fxyz "l" low ++ fxyz "d" direction ++ [
-    ("T1", run t RecordedQuotient.table_from_point_T1); ("T2", run t RecordedQuotient.table_from_point_T2);
-    ("ET", run t RecordedQuotient.table_from_point_ET); ("ED", run t RecordedQuotient.table_from_point_ED); ("unit", unit)]).
+    ("T1", eval t RecordedQuotient.table_from_point_T1); ("T2", eval t RecordedQuotient.table_from_point_T2);
+    ("ET", eval t RecordedQuotient.table_from_point_ET); ("ED", eval t RecordedQuotient.table_from_point_ED); ("unit", unit)]).
 Definition fmet_from_point (s : fsurface) (origin direction : fvec) (unit : float) : env :=
   fcalled (fmeeting_from_point s origin direction unit)
     RecordedQuotient.meet_from_point_T1 RecordedQuotient.meet_from_point_T2 RecordedQuotient.meet_from_point_ET
@@ -149,31 +149,31 @@ Definition fmet_from_point (s : fsurface) (origin direction : fvec) (unit : floa
 
 (** [most]: the largest |d| of all rays, by component; of it only needs be true what is finite. *)
 Theorem binary_from_point s o d most :
-  let unit := run (fstage (fxyz "d" most)) RecordedQuotient.unit_from_point in
+  let unit := eval (fstage (fxyz "d" most)) RecordedQuotient.unit_from_point in
   (is_finite unit = true -> within_of (real (vec_of d)) (real (vec_of most))) ->
   let v := fmet_from_point s o d unit in
-  runs v RecordedQuotient.quotient_sure = true -> is_finite (run v RecordedQuotient.quotient_t) = true ->
+  holds v RecordedQuotient.quotient_sure = true -> is_finite (eval v RecordedQuotient.quotient_t) = true ->
   let r := ray_of o d in
   D0 r (surface_of s) <> 0 /\
-  B2R (run v RecordedQuotient.quotient_t) = rnd (T0 r (surface_of s) / D0 r (surface_of s)).
+  B2R (eval v RecordedQuotient.quotient_t) = rnd (T0 r (surface_of s) / D0 r (surface_of s)).
 Proof.
   intros unit W v Q F r. set (runit := unit_of_directions (real (vec_of most))).
   assert (U : is_finite unit = true -> B2R unit = runit).
-  { apply run_value; [|reflexivity]. apply stage_agrees, alike_given. }
+  { apply finite_value; [|reflexivity]. apply stage_agrees, alike_given. }
   set (t := fcolumn_from_point s o unit). set (u := column_from_point (surface_of s) (real (vec_of o)) runit).
   assert (G : agrees t u) by exact (entered_agrees s o fzero unit runit U).
-  assert (ET := error_run t u reach_tree size_tree G eq_refl eq_refl).
-  assert (ED := error_run t u (Var "unit") size_tree G eq_refl eq_refl).
+  assert (ET := error_value t u reach_tree size_tree G eq_refl eq_refl).
+  assert (ED := error_value t u (Var "unit") size_tree G eq_refl eq_refl).
   set (w := met_from_point (surface_of s) (real (vec_of o)) (real (vec_of d)) runit).
   assert (H : agrees (fmeeting_from_point s o d unit)
     (meeting_from_point (surface_of s) (real (vec_of o)) (real (vec_of d)) runit)).
   { apply stage_agrees. repeat apply Forall2_app; try apply alike_given;
-      try (apply alike_run; [exact G | reflexivity..]).
+      try (apply alike_three; [exact G | reflexivity..]).
     repeat apply Forall2_cons; try apply Forall2_nil;
       try (apply alike_one; [exact G | reflexivity]); split; [reflexivity| |reflexivity| |reflexivity|];
       [apply ET | apply ED | exact U]. }
-  assert (K : agrees v w) by (apply called_agrees; auto; now apply run_value).
-  destruct (quotient_run_real v w K Q F) as [Q' [-> V]].
+  assert (K : agrees v w) by (apply called_agrees; auto; now apply finite_value).
+  destruct (quotient_value v w K Q F) as [Q' [-> V]].
   destruct ET as [ET1 [_ [_ ET2]]]; [apply (V "ET"); simpl; tauto|].
   destruct ED as [ED1 [_ [ED2 _]]]; [apply (V "ED"); simpl; tauto|].
   refine (recorded_from_point _ r _ (surface_floats s) (ray_floats o d) (W ED2) _ Q').
@@ -186,12 +186,12 @@ Definition fcolumn_parallel (s : fsurface) (first direction : fvec) (unit : floa
   fentered s first direction unit.
 Definition fmeeting_parallel (s : fsurface) (first origin direction : fvec) (unit : float) : env :=
   let t := fcolumn_parallel s first direction unit in
-  let high := run3 t RecordedQuotient.table_parallel_hx RecordedQuotient.table_parallel_hy RecordedQuotient.table_parallel_hz in
-  let low := run3 t RecordedQuotient.table_parallel_lx RecordedQuotient.table_parallel_ly RecordedQuotient.table_parallel_lz in
+  let high := eval3 t RecordedQuotient.table_parallel_hx RecordedQuotient.table_parallel_hy RecordedQuotient.table_parallel_hz in
+  let low := eval3 t RecordedQuotient.table_parallel_lx RecordedQuotient.table_parallel_ly RecordedQuotient.table_parallel_lz in
   fstage (fxyz "h" high ++ fxyz "l" low ++ fxyz "q" origin ++ fxyz "o" first ++ [
-    ("T1", run t RecordedQuotient.table_parallel_T1); ("T2", run t RecordedQuotient.table_parallel_T2);
-    ("ET", run t RecordedQuotient.table_parallel_ET); ("D1", run t RecordedQuotient.table_parallel_D1);
-    ("D2", run t RecordedQuotient.table_parallel_D2); ("ED", run t RecordedQuotient.table_parallel_ED); ("unit", unit)]).
+    ("T1", eval t RecordedQuotient.table_parallel_T1); ("T2", eval t RecordedQuotient.table_parallel_T2);
+    ("ET", eval t RecordedQuotient.table_parallel_ET); ("D1", eval t RecordedQuotient.table_parallel_D1);
+    ("D2", eval t RecordedQuotient.table_parallel_D2); ("ED", eval t RecordedQuotient.table_parallel_ED); ("unit", unit)]).
 Definition fmet_parallel (s : fsurface) (first origin direction : fvec) (unit : float) : env :=
   fcalled (fmeeting_parallel s first origin direction unit)
     RecordedQuotient.meet_parallel_T1 RecordedQuotient.meet_parallel_T2 RecordedQuotient.meet_parallel_ET
@@ -199,29 +199,29 @@ Definition fmet_parallel (s : fsurface) (first origin direction : fvec) (unit : 
 
 (** [most]: of the rays' origins, less the first of them, the largest by component. *)
 Theorem binary_parallel s f o d most :
-  let unit := run (fstage (fxyz "v" most)) RecordedQuotient.power_above in
+  let unit := eval (fstage (fxyz "v" most)) RecordedQuotient.power_above in
   (is_finite unit = true -> within_of (apart (real (vec_of o)) (real (vec_of f))) (real (vec_of most))) ->
   let v := fmet_parallel s f o d unit in
-  runs v RecordedQuotient.quotient_sure = true -> is_finite (run v RecordedQuotient.quotient_t) = true ->
+  holds v RecordedQuotient.quotient_sure = true -> is_finite (eval v RecordedQuotient.quotient_t) = true ->
   let r := ray_of o d in
   D0 r (surface_of s) <> 0 /\
-  B2R (run v RecordedQuotient.quotient_t) = rnd (T0 r (surface_of s) / D0 r (surface_of s)).
+  B2R (eval v RecordedQuotient.quotient_t) = rnd (T0 r (surface_of s) / D0 r (surface_of s)).
 Proof.
   intros unit W v Q F r. set (runit := unit_of_origins (real (vec_of most))).
   assert (U : is_finite unit = true -> B2R unit = runit).
-  { apply run_value; [|reflexivity]. apply stage_agrees, alike_given. }
+  { apply finite_value; [|reflexivity]. apply stage_agrees, alike_given. }
   set (t := fcolumn_parallel s f d unit).
   set (u := column_parallel (surface_of s) (real (vec_of f)) (real (vec_of d)) runit).
   assert (G : agrees t u) by exact (entered_agrees s f d unit runit U).
-  assert (E1 := error_run t u reach_tree size_tree G eq_refl eq_refl).
-  assert (E2 := error_run t u (Var "unit") size_tree G eq_refl eq_refl).
-  assert (ED := error_run t u along_tree size_tree G eq_refl eq_refl).
-  assert (ET : is_finite (run t RecordedQuotient.table_parallel_ET) = true ->
+  assert (E1 := error_value t u reach_tree size_tree G eq_refl eq_refl).
+  assert (E2 := error_value t u (Var "unit") size_tree G eq_refl eq_refl).
+  assert (ED := error_value t u along_tree size_tree G eq_refl eq_refl).
+  assert (ET : is_finite (eval t RecordedQuotient.table_parallel_ET) = true ->
     (no_inf u RecordedQuotient.table_parallel_ET = true /\ is_finite unit = true /\ finite_error (surface_of s)) /\
-    B2R (run t RecordedQuotient.table_parallel_ET) = fl u RecordedQuotient.table_parallel_ET).
+    B2R (eval t RecordedQuotient.table_parallel_ET) = fl u RecordedQuotient.table_parallel_ET).
   { change RecordedQuotient.table_parallel_ET
       with (Add (error_tree reach_tree size_tree) (error_tree (Var "unit") size_tree)).
-    cbn [run]. intros S. assert (S' := plus_value _ _ S). apply plus_finite in S. destruct S as [S1 S2].
+    cbn [eval]. intros S. assert (S' := plus_value _ _ S). apply plus_finite in S. destruct S as [S1 S2].
     destruct (E1 S1) as [A1 [A2 [_ A3]]]. destruct (E2 S2) as [B1 [B2 [B3 _]]].
     rewrite S', A2, B2. cbn [no_inf]. split; [|reflexivity]. split; [|split; [exact B3|]].
     - apply andb_true_intro. split; [exact A1 | exact B1].
@@ -230,12 +230,12 @@ Proof.
   assert (H : agrees (fmeeting_parallel s f o d unit)
     (meeting_parallel (surface_of s) (real (vec_of f)) (real (vec_of o)) (real (vec_of d)) runit)).
   { apply stage_agrees. repeat apply Forall2_app; try apply alike_given;
-      try (apply alike_run; [exact G | reflexivity..]).
+      try (apply alike_three; [exact G | reflexivity..]).
     repeat apply Forall2_cons; try apply Forall2_nil;
       try (apply alike_one; [exact G | reflexivity]); split; [reflexivity| |reflexivity| |reflexivity|];
       [apply ET | apply ED | exact U]. }
-  assert (K : agrees v w) by (apply called_agrees; auto; now apply run_value).
-  destruct (quotient_run_real v w K Q F) as [Q' [-> V]].
+  assert (K : agrees v w) by (apply called_agrees; auto; now apply finite_value).
+  destruct (quotient_value v w K Q F) as [Q' [-> V]].
   destruct ET as [[ET1 [ET2 ET3]] _]; [apply (V "ET"); simpl; tauto|].
   destruct ED as [ED1 _]; [apply (V "ED"); simpl; tauto|].
   refine (recorded_parallel _ r _ _ (surface_floats s) (ray_floats o d) (floats_of f) (W ET2) _ Q').
@@ -247,11 +247,11 @@ Qed.
 Definition fcolumn_alone (s : fsurface) : env := fentered s fzero fzero nought.
 Definition fmeeting_alone (s : fsurface) (origin direction : fvec) : env :=
   let t := fcolumn_alone s in
-  let high := run3 t RecordedQuotient.table_alone_hx RecordedQuotient.table_alone_hy RecordedQuotient.table_alone_hz in
-  let low := run3 t RecordedQuotient.table_alone_lx RecordedQuotient.table_alone_ly RecordedQuotient.table_alone_lz in
-  let point := run3 t RecordedQuotient.table_alone_px RecordedQuotient.table_alone_py RecordedQuotient.table_alone_pz in
+  let high := eval3 t RecordedQuotient.table_alone_hx RecordedQuotient.table_alone_hy RecordedQuotient.table_alone_hz in
+  let low := eval3 t RecordedQuotient.table_alone_lx RecordedQuotient.table_alone_ly RecordedQuotient.table_alone_lz in
+  let point := eval3 t RecordedQuotient.table_alone_px RecordedQuotient.table_alone_py RecordedQuotient.table_alone_pz in
   fstage (fxyz "h" high ++ fxyz "l" low ++ fxyz "p" point ++ fxyz "o" origin ++ fxyz "d" direction ++ [
-    ("size", run t RecordedQuotient.table_alone_size)]).
+    ("size", eval t RecordedQuotient.table_alone_size)]).
 Definition fmet_alone (s : fsurface) (origin direction : fvec) : env :=
   fcalled (fmeeting_alone s origin direction)
     RecordedQuotient.meet_alone_T1 RecordedQuotient.meet_alone_T2 RecordedQuotient.meet_alone_ET
@@ -259,10 +259,10 @@ Definition fmet_alone (s : fsurface) (origin direction : fvec) : env :=
 
 Theorem binary_alone s o d :
   let v := fmet_alone s o d in
-  runs v RecordedQuotient.quotient_sure = true -> is_finite (run v RecordedQuotient.quotient_t) = true ->
+  holds v RecordedQuotient.quotient_sure = true -> is_finite (eval v RecordedQuotient.quotient_t) = true ->
   let r := ray_of o d in
   D0 r (surface_of s) <> 0 /\
-  B2R (run v RecordedQuotient.quotient_t) = rnd (T0 r (surface_of s) / D0 r (surface_of s)).
+  B2R (eval v RecordedQuotient.quotient_t) = rnd (T0 r (surface_of s) / D0 r (surface_of s)).
 Proof.
   intros v Q F r. set (t := fcolumn_alone s). set (u := column_alone (surface_of s)).
   assert (G : agrees t u) by exact (entered_agrees s fzero fzero nought 0 (fun _ => eq_refl)).
@@ -270,14 +270,14 @@ Proof.
   set (n := meeting_alone (surface_of s) (real (vec_of o)) (real (vec_of d))).
   assert (H : agrees m n).
   { apply stage_agrees. repeat apply Forall2_app; try apply alike_given;
-      try (apply alike_run; [exact G | reflexivity..]).
+      try (apply alike_three; [exact G | reflexivity..]).
     apply Forall2_cons; [|apply Forall2_nil]. apply alike_one; [exact G | reflexivity]. }
-  assert (ET := error_run m n reach_tree (Var "size") H eq_refl eq_refl).
-  assert (ED := error_run m n along_tree (Var "size") H eq_refl eq_refl).
+  assert (ET := error_value m n reach_tree (Var "size") H eq_refl eq_refl).
+  assert (ED := error_value m n along_tree (Var "size") H eq_refl eq_refl).
   set (w := met_alone (surface_of s) (real (vec_of o)) (real (vec_of d))).
   assert (K : agrees v w).
   { apply called_agrees; auto; [apply ET | apply ED]. }
-  destruct (quotient_run_real v w K Q F) as [Q' [-> V]].
+  destruct (quotient_value v w K Q F) as [Q' [-> V]].
   destruct ET as [ET1 [_ [_ ET2]]]; [apply (V "ET"); simpl; tauto|].
   destruct ED as [ED1 _]; [apply (V "ED"); simpl; tauto|].
   refine (recorded_alone _ r (surface_floats s) (ray_floats o d) _ Q').
@@ -292,11 +292,11 @@ Let s := FCorners (at_ (-17) (-15) (-83)) (at_ 21 (-13) (-91)) (at_ 3 22 (-78)).
 Let o := at_ 2 1 5.
 Let f := at_ 3 (-1) 4.
 Let d := at_ 1 2 (-16).
-Let passes v := runs v RecordedQuotient.quotient_sure && is_finite (run v RecordedQuotient.quotient_t).
+Let passes v := holds v RecordedQuotient.quotient_sure && is_finite (eval v RecordedQuotient.quotient_t).
 
 Theorem some_pass :
-  passes (fmet_from_point s o d (run (fstage (fxyz "d" d)) RecordedQuotient.unit_from_point)) &&
-  passes (fmet_parallel s f o d (run (fstage (fxyz "v" (at_ 1 2 1))) RecordedQuotient.power_above)) &&
+  passes (fmet_from_point s o d (eval (fstage (fxyz "d" d)) RecordedQuotient.unit_from_point)) &&
+  passes (fmet_parallel s f o d (eval (fstage (fxyz "v" (at_ 1 2 1))) RecordedQuotient.power_above)) &&
   passes (fmet_alone s o d) = true.
 Proof. vm_compute. reflexivity. Qed.
 End Example.

@@ -6,7 +6,7 @@
 Require Import ZArith Reals Psatz List Bool String.
 From Flocq Require Import Core.
 From Flocq Require BinarySingleNaN.
-From Reftrace Require Rounding QuotientWhole QuotientFloats QuotientBinary RecordedQuotient.
+From Reftrace Require Rounding QuotientWhole QuotientBinary RecordedQuotient.
 From Reftrace Require Import Geometry Trees Contest Facts Nearby.
 From Reftrace Require Clip Integers.
 From Reftrace Require Import CodeAnswers Certified Given.
@@ -33,10 +33,10 @@ Definition prepared_surface (s : stored) : QuotientBinary.fsurface :=
 
 (** The power of two above [most], as computed. *)
 Definition unit_of_directions (most : floats) : float :=
-  QuotientFloats.run (QuotientBinary.fstage (QuotientBinary.fxyz "d" (triple most)))
+  eval (QuotientBinary.fstage (QuotientBinary.fxyz "d" (triple most)))
     RecordedQuotient.unit_from_point.
 Definition unit_of_origins (most : floats) : float :=
-  QuotientFloats.run (QuotientBinary.fstage (QuotientBinary.fxyz "v" (triple most)))
+  eval (QuotientBinary.fstage (QuotientBinary.fxyz "v" (triple most)))
     RecordedQuotient.power_above.
 
 Section Recorded.
@@ -54,8 +54,8 @@ Definition arguments (s : surface) : env :=
       QuotientBinary.fmet_parallel plane (triple first) (triple o) (triple d) (unit_of_origins most)
   | ForAnyRays => QuotientBinary.fmet_alone plane (triple o) (triple d)
   end.
-Definition recorded_sure (s : surface) : bool := QuotientFloats.runs (arguments s) RecordedQuotient.quotient_sure.
-Definition recorded_t (s : surface) : float := QuotientFloats.run (arguments s) RecordedQuotient.quotient_t.
+Definition recorded_sure (s : surface) : bool := holds (arguments s) RecordedQuotient.quotient_sure.
+Definition recorded_t (s : surface) : float := eval (arguments s) RecordedQuotient.quotient_t.
 
 (** t, where the recorded test is true, and t finite; otherwise integers divide: measures.py,
     [Prepared.meet]. *)

@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from reference_tracer.certified.plain import plain
-from reference_tracer.projections import EQUIRECTANGULAR
+from reference_tracer.certified.sweep.sweep import sweep
+from reference_tracer.projections import EQUIRECTANGULAR, PERSPECTIVE
 from reference_tracer.rendering import render
-from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, SceneError, ViewWindow
+from reference_tracer.scene import (
+    Camera,
+    Instance,
+    Mesh,
+    Plane,
+    Region,
+    Scene,
+    SceneError,
+    ViewWindow,
+)
 from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.settings import Settings
 
@@ -151,3 +162,70 @@ def test_a_panorama_of_what_is_so_far_away(ends):
         scene = Scene(camera, (mesh,), (Instance(0, 0, np.eye(4)),), objects=("A",))
         seen += held(scene, plain)[1]
     assert seen > 60
+
+
+def test_a_panorama_from_next_to_a_triangle_around_the_eye():
+    """The corners' directions cancel, but for 2^-537: the square of that has no digit left."""
+    y = 0.714 * 2.0**-536 / 3
+    corners = [(2, y, 0), (-1, y, np.sqrt(3)), (-1, y, -np.sqrt(3))]
+    camera = Camera(np.eye(4), ViewWindow(-3, 3, -1.5, 1.5), 8, 8, EQUIRECTANGULAR, 1e-200, 1e300)
+    scene = Scene(
+        camera, (Mesh(corners, [[0, 1, 2]]),), (Instance(0, 0, np.eye(4)),), objects=("A",)
+    )
+    assert held(scene, plain)[1] == 32  # all that is above
+
+
+def test_instances_of_a_few_units_of_the_least_float():
+    """Corners of their boxes are projected with errors as large as they are."""
+    seen = 0
+    for seed in range(60, 70):
+        rng = np.random.default_rng(seed)
+        matrix = np.eye(4)
+        matrix[:3, :3] = axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        x, y = (int(v) for v in rng.integers(0, 14, 2))
+        meshes = []
+        for _ in range(12):
+            depth = rng.uniform(1, 6, 3)
+            along = rng.uniform(-0.7, 0.7, (2, 1)) * depth + 0.7 * rng.normal(size=(2, 3))
+            corners = np.round(axes @ (*along, -depth)).T * 5e-324
+            meshes.append(Mesh(corners, [[0, 1, 2]]))
+        region = Region(x, y, x + 2, y + 2)
+        window = ViewWindow(-0.6, 0.6, -0.6, 0.6)
+        camera = Camera(matrix, window, 16, 16, PERSPECTIVE, 5e-324, 1e300, region)
+        instances = [Instance(k, 0, np.eye(4)) for k in range(12)]
+        seen += held(Scene(camera, meshes, instances, objects=("A",)), sweep)[1]
+    assert seen > 5
+
+
+# Sheared axes whose inverse has elements of 8: sums of products overflow where the sums do not.
+SHEARED = (
+    np.array([[1, -1, 0], [1, 1, 2], [1, 1, -1]]).T
+    / np.sqrt([2, 6, 3])
+    @ (
+        (1.9, 0, 0.5),
+        (0, 1.9, 0),
+        (0, 0, 0.07),
+    )
+)
+
+
+@pytest.mark.parametrize("orthographic, half, seed", [(False, 0.5, 4), (True, 5e307, 6)])
+@pytest.mark.parametrize("plane", [False, True])
+def test_a_depth_that_overflows_in_its_first_terms(make, orthographic, half, seed, plane):
+    """Of a triangle before the clip end, or before a plane."""
+    rng = np.random.default_rng(seed)
+    camera = make.camera(
+        12,
+        12,
+        window=ViewWindow(-half, half, -half, half),
+        axes=SHEARED * (1, 1, -1),
+        orthographic=orthographic,
+        clip_start=1.0,
+        clip_end=np.inf if plane else 1.79e308,
+    )
+    spread = 0.5 * rng.normal(size=(3, 1)) * (1, -1, 0) + 0.2 * rng.normal(size=(3, 3))
+    scene = make.scene(camera, Mesh(1.3e307 * (1 + spread), [[0, 1, 2]]))
+    behind = np.array((1, 1, -1)) / np.sqrt(3)
+    if plane:
+        scene = replace(scene, planes=(Plane(0, 1.1e307 * behind, behind * 2.0**-300),))
+    assert held(scene, sweep)[1] == (144 if plane else 1)

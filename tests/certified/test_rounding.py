@@ -21,8 +21,9 @@ def test_bounds_hold(make, rng):
         off, camera = rounding(scene), scene.camera
         rays = camera_rays(camera, *film_positions(camera.region))
         count = camera.region.width * camera.region.height
-        both = rays.origins, rays.directions
-        origins, directions = (np.broadcast_to(v, (3, count)) for v in both)
+        origins, directions = (
+            np.broadcast_to(v, (3, count)) for v in (rays.origins, rays.directions)
+        )
         worst = [Fraction(0)] * 3
         dual = [[Fraction(x) for x in row] for row in dual_axes(camera)[:2].tolist()]
         for pixel in rng.integers(0, count, 8).tolist():

@@ -21,6 +21,7 @@ WORDS = "words for the user, of what is decided already"
 LEAST = "the least or the largest of numbers, which are not changed"
 SORTS = "sorts what is looked at first: any order is right"
 FLOAT32 = "float32 and a matrix product: Trees.v has no word for it (test_small_triangles.py)"
+BOXES = "boxes of whole instances, argued by hand: test_ends_of_float64.py, test_dropped.py"
 BY_HAND = "boxes of clusters, argued by hand at the head of clustered.py (test_clusters.py)"
 BOXES_BY_HAND = "bounds on what a ray misses, argued at the head of tree.py (test_tree.py)"
 WEIGHTS = "barycentrics, whose bound is argued by hand in measures.py (test_barycentrics.py)"
@@ -73,6 +74,7 @@ LEFT_OUT = {
         SORTS: "_neighbours _cuts _some",
     },
     "sweep/boxes.py": {
+        BOXES: "_corners_with_room",
         WHICH: "InstanceBoxes.in_region Boxed.of Boxed.seen Boxed.in_region",
         LEAST: "boxes_of",
         CALLS: "_mend",
@@ -99,7 +101,7 @@ LEFT_OUT = {
         LEAST: "DepthBuffer.refresh DepthBuffer.farthest DepthBuffer.farthest_in "
         "DepthBuffer.farthest_over DepthBuffer.farthest_around",
     },
-    "sweep/film.py": {CALLS: "Film.dual Film.is_sound", BY_HAND: "Film.rows"},
+    "sweep/film.py": {CALLS: "Film.dual Film.is_sound", BY_HAND: "Film.rows with_room"},
     "sweep/rasterise.py": {WHICH: "Boxes.size rasterised split cells"},
     "sweep/small_boxes.py": {CALLS: "small_pairs", WHICH: "_blocks _pixels"},
     "sweep/small_triangles.py": {

@@ -22,7 +22,7 @@ checker = types.ModuleType(name)
 checker.__file__ = sys.argv[1]
 sys.modules[name] = reference_tracer_verify.verify = checker
 exec(compile(sys.stdin.read(), sys.argv[1], "exec"), vars(checker))
-files = (f"tests/verify/test_{name}.py" for name in ("verify", "mutations", "forms"))
+files = (f"tests/verify/test_{name}.py" for name in ("verify", "brute", "mutations", "forms"))
 sys.exit(pytest.main([*files, "-x", "-q", "-p", "no:cacheprovider"]))
 """
 
@@ -42,6 +42,7 @@ MUTANTS = (
     Mutant("an array may come twice", "len(file.files) == len(set(file.files))", "True"),
     Mutant("a shape is read up to its end", "re.fullmatch(known", "re.match(known"),
     Mutant("an empty clip range", "< self.clip[1] <", "< np.inf or self.clip[1] <"),
+    Mutant("an instance may end first", "(instances[:, 0] <= instances[:, 1]).all()", "True"),
     Mutant("pixels beside the picture", "0 <= begin < end <= count", "begin < end"),
     Mutant("rays that are not finite", "np.isfinite(values).all(), ", "True, "),
     Mutant("another order of sums", "+ m[k, 1] * y + m[k, 2] * z", "+ (m[k, 1] * y + m[k, 2] * z)"),
@@ -68,7 +69,8 @@ MUTANTS = (
     Mutant("a quarter is left out", "for x in (0, 1)]", "for x in (0,)]"),
     Mutant("the least component", "np.abs(v).max(axis=0)", "np.abs(v).min(axis=0)"),
     # What integers decide.
-    Mutant("a float's last digit is lost", ".astype(np.int64)", ".astype(np.int64) & ~1"),
+    Mutant("a float's last digit is lost", "(mantissa * 2.0**53).astype(np.int64)",
+           "((mantissa * 2.0**53).astype(np.int64) & ~1)"),
     Mutant("an edge is a miss", "min(signs) < 0 <", "min(signs) <= 0 <"),
     Mutant("the clip range is open", "signs += [top", "signs += [-1 + top"),
     Mutant("a hit at t = 0", " or top == start == 0", ""),

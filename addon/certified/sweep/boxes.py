@@ -19,7 +19,7 @@ from ...tracer.vector import Vectors, gather, grouped, largest, parts, transform
 from ...tracer.world import world_corners
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
-from .film import Film, Vertices
+from .film import Film, Vertices, with_room
 
 BINS = 256  # intervals of nearness that the depth bins are made of
 _GROWTH = 1.2  # by how much each depth bin is larger than the one before
@@ -48,7 +48,7 @@ class InstanceBoxes:
     @np.errstate(all="ignore")
     def of(cls, scene: Scene, film: Film) -> InstanceBoxes:
         """Project the bounding boxes of all instances."""
-        corners, size = _corners(scene)
+        corners, size = _corners_with_room(scene)
         count = corners.shape[2]
         camera = film.camera
         region = camera.region
@@ -110,6 +110,12 @@ class InstanceBoxes:
         return self.nearest[instances] < np.array(farthest)
 
 
+def _corners_with_room(scene: Scene) -> tuple[Vectors, Floats]:
+    """Return what `_corners` does, with a bound that holds whatever under- or overflows."""
+    corners, size = _corners(scene)
+    return corners, with_room(size, size + np.abs(scene.camera.origin).max())
+
+
 def _corners(scene: Scene) -> tuple[Vectors, Floats]:
     """Return the corners of bounding boxes in world space, (3, 8, n).
 
@@ -142,6 +148,9 @@ def boxes_of(scene: Scene, film: Film, expanded: Expanded) -> tuple[Index, Index
     high = np.empty((2, count), kind)
     nearest = np.empty(count)
     ends = np.array([[film.camera.width - 1], [film.camera.height - 1]], kind)
+    overflown = ~np.isfinite(vertices.depth)
+    if overflown.any():  # maybe in a sum's first terms alone
+        vertices.nearest[overflown] = np.inf
     for part in parts(count, _TOGETHER):
         some = corners[:, part].astype(np.intp)
         box = reduce(np.minimum, [gather(packed, c).view(kind) for c in some]).reshape(-1, 4).T

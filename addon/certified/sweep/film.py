@@ -32,6 +32,16 @@ _HUGE = 2.0**900  # metres: nothing over- or underflows for certain vertices of 
 _OFF = 2  # pixels beyond the picture to which boxes are clipped
 
 
+def with_room(size: Floats, most: Floats, reach: Floats | float = 0.0) -> Floats:
+    """Return the size of what n instances have, with room for underflow; inf where it may overflow.
+
+    `most` (n,) is the largest |number| that is multiplied by the camera's axes. They may underflow
+    before they are multiplied by coordinates of at most `reach` (n,).
+    """
+    size = size + _TINY * (1 + reach)
+    return np.where(size + most < _HUGE, size, np.inf)
+
+
 @dataclass(frozen=True, eq=False)
 class Vertices:
     """v vertices on the film.
@@ -152,8 +162,10 @@ class Film:
         """
         camera = self.camera
         columns = scene.instance_matrices[:3].copy()  # (3, 4, n)
-        size = 1.01 * (reaches(scene).max(axis=0, initial=0) + np.abs(camera.origin).max()) + _TINY
+        size = 1.01 * (reaches(scene).max(axis=0, initial=0) + np.abs(camera.origin).max())
         columns[:, 3] -= camera.origin[:, None]
+        reach = np.abs([m.bounds for m in scene.meshes]).max(axis=(1, 2))[scene.instance_meshes]
+        size = with_room(size, np.abs(columns).max(axis=(0, 1)), reach)
         right, up, depth = (
             d[0] * columns[0] + d[1] * columns[1] + d[2] * columns[2] for d in self.dual
         )

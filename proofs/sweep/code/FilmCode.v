@@ -33,8 +33,7 @@ Lemma n_nearest : IZR 281474976710657 * bpow radix2 (-48) = rnd (1 + bpow radix2
 Proof.
   assert (E : IZR 281474976710657 * bpow radix2 (-48) = 1 + bpow radix2 (-48)).
   { change (bpow radix2 (-48)) with (/ 281474976710656). lra. }
-  rewrite <- E. symmetry. apply rnd_id. apply generic_format_FLT.
-  exists (Float radix2 281474976710657 (-48)); simpl; try lia; reflexivity.
+  rewrite <- E. symmetry. now apply rnd_id, number_float.
 Qed.
 #[local] Hint Rewrite n_0 n_1 n_2 n_m2 n_half n_1024 n_24 n_72 n_64 n_tiny n_nearest : numbers.
 

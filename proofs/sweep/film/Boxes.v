@@ -8,11 +8,6 @@ From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Rounding Camera Place.
 Open Scope R_scope.
 
-Lemma int_float n : (Z.abs n < 2 ^ 53)%Z -> is_float (IZR n).
-Proof.
-  intros H. apply generic_format_FLT. exists (Float radix2 n 0); simpl; try lia.
-  unfold F2R; simpl. ring.
-Qed.
 Lemma rnd_at_least x : 0 <= x -> x - u * x - eta <= rnd x.
 Proof. intros H. generalize (Rabs_le_inv _ _ (rnd_err x)). rewrite (Rabs_pos_eq x H). lra. Qed.
 Lemma rnd_at_most x : 0 <= x -> rnd x <= x + u * x + eta.

@@ -16,10 +16,11 @@ from reference_tracer.certified.sweep.clustered import Clustered
 from reference_tracer.certified.sweep.clusters import SIZE, Clusters, clusters_of
 from reference_tracer.certified.sweep.film import Film
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Mesh, Scene
+from reference_tracer.scene import Instance, Mesh, Region, Scene
 from reference_tracer.tracer.settings import Settings
 
 from ...tracer.hostile_scenes import hostile_scene, offsets, scaled
+from ..test_definition import held
 from .test_sweep import assert_same, swept
 
 FIELDS = ("instance_index", "triangle_index", "t", "barycentrics", "certainty", "color")
@@ -206,3 +207,22 @@ def test_what_overflows_is_not_left_out(make):
     assert clusters_of(mesh) is not None and (first.instance_index == 0).any()
     for name in FIELDS:
         assert getattr(first, name).tobytes() == getattr(second, name).tobytes(), name
+
+
+def test_a_matrix_that_underflows_drops_no_cluster(make, monkeypatch):
+    """Of 2^-1070, in front of a mesh of 2^1020: rows of the film have four digits left."""
+    always(monkeypatch, 1)
+    seen = 0
+    for seed in (2, 6, 12):
+        rng = np.random.default_rng(seed)
+        axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        region, unit = Region(52, 52, 60, 60), 2.0**-50
+        camera = make.camera(64, 64, axes=axes, region=region, clip_start=1e-3 * unit)
+        depth = rng.uniform(1, 6, (8, 1)) * np.ones((8, 3))
+        x, y = (rng.uniform(0.25, 0.5, (2, 8, 1)) + 0.04 * rng.normal(size=(2, 8, 3))) * depth
+        corners = unit * np.stack((x, y, -depth), axis=-1) @ axes.T
+        mesh = Mesh(corners.reshape(-1, 3) * 2.0**600 * 2.0**470, np.arange(24).reshape(8, 3))
+        matrix = np.diag((2.0**-1070, 2.0**-1070, 2.0**-1070, 1.0))
+        scene = Scene(camera, (mesh,), (Instance(0, 0, matrix),), objects=("A",))
+        seen += held(scene, sweep.sweep)[1]
+    assert seen > 20

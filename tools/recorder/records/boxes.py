@@ -40,7 +40,9 @@ def _instance(v: Inputs, prefix: str, projection: Projection) -> Kept:
     with (
         film.python(boxes),
         mock.patch.object(Film, "enter", enter),
-        mock.patch.object(boxes, "_corners", lambda _: (np.zeros((3, 8, 1)), v.one("size"))),
+        mock.patch.object(
+            boxes, "_corners_with_room", lambda _: (np.zeros((3, 8, 1)), v.one("size"))
+        ),
         numpy_with(boxes, nan_to_num=lambda depth: depth),  # it only sorts
     ):
         found = InstanceBoxes.of(None, own)
