@@ -97,6 +97,8 @@ class Certificate:
             demand(0 <= begin < end <= count, "the region is empty, or not within the picture")
         size = tuple(pixels[::-1, 1] - pixels[::-1, 0])  # before so many pixels are made
         only("answers", [self.t.shape, self.seen.shape[:2]], [size])
+        is_far = self.kind == "equirectangular" and np.abs(window).max() > 2**20
+        demand(not is_far, "an angle is beyond 2^20 radians")  # `sine` would be none
         self.x, self.y = (film(*side, *part) for side, part in zip(window, pixels, strict=True))
         self.set_surfaces(*surfaces)
         self.ties: dict[int, set[Any]] = {}

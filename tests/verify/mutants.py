@@ -44,6 +44,7 @@ MUTANTS = (
     Mutant("an empty clip range", "< self.clip[1] <", "< np.inf or self.clip[1] <"),
     Mutant("an instance may end first", "(instances[:, 0] <= instances[:, 1]).all()", "True"),
     Mutant("pixels beside the picture", "0 <= begin < end <= count", "begin < end"),
+    Mutant("angles that have no sine", "not is_far", "True"),
     Mutant("rays that are not finite", "np.isfinite(values).all(), ", "True, "),
     Mutant("another order of sums", "+ m[k, 1] * y + m[k, 2] * z", "+ (m[k, 1] * y + m[k, 2] * z)"),
     Mutant("triangles are counted anew", "for k in finite.tolist()", "for k in range(len(finite))"),

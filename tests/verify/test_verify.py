@@ -314,6 +314,18 @@ def test_a_refusal_is_short(stored):
     assert refusal(path).startswith("not covered: vertex 24, 25, ") and len(refusal(path)) < 99
 
 
+def test_a_panorama_of_too_many_turns_is_refused(make, tmp_path):
+    """Of such angles the series is no sine: at 10^22 radians a "sine" was 10^94."""
+    camera = Camera(np.eye(4), ViewWindow(0, 1, 0, 1), 2, 1, EQUIRECTANGULAR)
+    arrays = certified(make.scene(camera), tmp_path / "c.npz")
+    for far, said in ((2.0**20, ""), (2.0**21, "an angle is beyond 2^20 radians")):
+        for k in (0, 1):
+            arrays["window"][:] = (0, 1), (0, 1)
+            arrays["window"][k, 0] = -far
+            np.savez(tmp_path / "c.npz", **arrays)
+            assert refusal(tmp_path / "c.npz") == said, (far, k)
+
+
 @pytest.mark.filterwarnings("error")
 def test_numpy_does_not_warn_of_what_overflows(make, tmp_path):
     """Nothing is seen, without a clip end: what is above the largest float64?"""
