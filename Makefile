@@ -42,7 +42,7 @@ set-up-tests: extension
 	@if tools/browser.sh check; then tools/browser.sh setup; fi
 	@if tools/others.sh check; then tools/others.sh daily; fi
 
-prove: .venv/.stamp ## have Coq read the proofs: 6 minutes on two cores; root installs Coq if it is missing
+prove: .venv/.stamp ## have Coq read the proofs: 8 minutes on two cores; root installs Coq if it is missing
 	tools/coq.sh setup
 	$(PYTHON_IN_VENV) tools/prove.py
 
