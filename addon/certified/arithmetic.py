@@ -3,8 +3,8 @@
 The error bounds hold for IEEE 754 doubles that round once, to nearest, and underflow gradually. A
 library or a host can switch that off at any time, for all that a thread does from then on. So small
 arrays are computed before pixels are decided, by the functions of numpy that decide them (but for
-| |, and comparisons other than <), and compared bit by bit with what is right; and before and after
-each step a few sums and products of Python's are (`sound`, `sound_steps`).
+| |, and comparisons other than <), and compared bit by bit with what is right (`sound`). Before and
+after each step, a few of Python's sums and products are compared so (`sound_steps`).
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 (** Which signs rule out that a ray meets a surface: verify.py drops no surface for another reason.
 
-    That its floats know these signs, where it says that they do, is argued by hand, at the head of its
-    function `forms`. *)
+    [Dropping.v] proves that its floats know these signs, where it says that they do. *)
 Require Import Reals Psatz List Classical.
 From Reftrace Require Import Geometry.
 From Reftrace Require Import Contest Facts.

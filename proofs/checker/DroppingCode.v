@@ -79,8 +79,6 @@ Hypothesis floats_w : forall name, is_float (r_var w name).
 
 Lemma zero_float : is_float (IZR 0 * bpow radix2 0).
 Proof. simpl. rewrite Rmult_0_l. apply generic_format_0. Qed.
-Lemma atom_zero : atom w (Num 0 0).
-Proof. repeat split; auto. exact zero_float. Qed.
 Lemma atom_neg e : atom w e -> atom w (Neg e).
 Proof.
   intros (R & D & M & O). unfold atom. cbn [ring_expr depth mag room value].

@@ -113,9 +113,8 @@ Definition varying (cam : camera) : floats :=
 (** The ray is the camera's. *)
 Definition of_camera (cam : camera) : Prop :=
   if is_parallel cam then Leaf.direction p = opposite (back cam) else Leaf.origin p = eye cam.
-(** The square is around the ray: where [largest] is finite, which is no less than all components of
-    all r, these are, and the ray's r is between the least and the largest; and [far] is no nearer than
-    that of the pixel. *)
+(** The square is around the ray. [largest] is the largest |component| of all r: where it is finite, so is
+    the ray's r, and between the square's ends. [far] is no nearer than that of the pixel. *)
 Definition around (cam : camera) (q : square) (said : Leaf.answer) : Prop :=
   within (varying cam) q /\ (known (far_ q) -> forall x, not_beyond x (far p said) -> x <= real (far_ q)).
 

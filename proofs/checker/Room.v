@@ -3,8 +3,8 @@
     A form is (point + times r) . vector, of which the code computes constant + slope . middle, for the
     middle of the box around a square's rays r; half of the box moves it by |slope| . half at most. Here:
     for each r in the box, the exact value is off from what is computed by less than `reach` as computed,
-    in rounded real numbers ([form_near]). Of the 512 u of `error` some 450 u are used; 2^-1040 is some
-    2^32 times what underflow takes. *)
+    in rounded real numbers ([form_near]). Of the 512 u of `error` some 450 u are used; of 2^-1040,
+    some 2^-1067, and 2^-1045 is left for what becomes of T and D. *)
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Rounding Signs.
@@ -41,8 +41,6 @@ Lemma L_pos : 0 <= L. Proof. generalize (Rabs_pos (m X)). lra. Qed.
 Lemma k_one : Rabs k = 0 \/ Rabs k = 1.
 Proof. destruct few as [-> | [-> | ->]]; [left; apply Rabs_R0 | right; apply Rabs_R1 | right]. unfold Rabs.
 destruct Rcase_abs; lra. Qed.
-Lemma k_abs : Rabs (IZR (Z.abs (times f)) * bpow radix2 0) = Rabs k.
-Proof. rewrite abs_IZR. cbn [bpow]. rewrite Rmult_1_r. apply Rabs_Rabsolu. Qed.
 Lemma K_pos : 0 <= K.
 Proof. generalize (most_pos v p) L_pos (Rabs_pos k). intros.
 assert (0 <= Rabs k * L) by (apply Rmult_le_pos; lra). lra. Qed.

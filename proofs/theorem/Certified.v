@@ -25,7 +25,7 @@ Record given (i : inputs) (scene : list surface) (batches : list (list surface))
   end_not_nan : BinarySingleNaN.is_nan (clip_end i) = false;
   end_not_minus : clip_end i <> BinarySingleNaN.B754_infinity true;
   (** *** What rays share: this one is among those that bounds were computed for. Of the rays of a
-      camera that is proven: CameraRays.v. *)
+      camera that is proven, but for panoramas: CameraRays.v. *)
   among_the_rays : one_of_the_rays i;
   (** *** What is proposed: all surfaces that are met, none twice. That candidates.py does so is argued
       by hand. *)

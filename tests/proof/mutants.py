@@ -198,6 +198,7 @@ _TABLE = {
             "self._shift + power.bit_length() - 1",
             "self._shift + power.bit_length()",
         ),
+        ("the range is open at 1", "certified/exact.py", "start == 0", "start == 1"),
         (
             "t's power of two is a sum",
             "certified/exact.py",

@@ -1,8 +1,9 @@
-"""What certificates should say, by brute force in fractions: from docs/certificate.md alone.
+"""What certificates should say, by brute force in fractions: written from docs/certificate.md.
 
-Rays and corners are computed with Python's floats, and nothing is shared with the checker or with
-the tracer. What an ambiguous ray sees is found with whole polynomials in two infinitely small
-numbers: x moves the ray's direction, and y, smaller than any power of x, its origin.
+Rays and corners are computed with Python's floats, and no code is shared with the checker or with
+the tracer; the series of sines is that page's, which any program must follow. What an ambiguous ray
+sees is found with whole polynomials in two infinitely small numbers: x moves the ray's direction,
+and y, smaller than any power of x, its origin.
 """
 
 from __future__ import annotations

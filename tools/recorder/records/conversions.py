@@ -97,6 +97,8 @@ class _Limit:
         self.term = term
 
     def __eq__(self, zero: object) -> Asked:  # type: ignore[override]
+        if zero != 0:
+            raise RefusedError(f"a clip limit is compared with {zero}")
         return Asked(f"(Req_bool {self.term} 0)")
 
 
