@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from recorder.nodes import RefusedError
-from recorder.records.conversions import _floats
-from recorder.whole import term, tree
+from recorder.records.conversions import _floats, _Limit
+from recorder.whole import Asked, term, tree
 from reference_tracer.certified import integers
 
 
@@ -29,15 +29,23 @@ def test_a_mantissa_is_multiplied_and_then_rounded_and_cut_off():
 
 
 @pytest.mark.parametrize(
-    "convert",
+    ("error", "convert"),
     [
-        lambda numpy, values: (numpy.frexp(values)[0] * 2.0).astype(np.int32),
-        lambda numpy, values: numpy.frexp(values)[0] == 0.5,
-        lambda numpy, values: numpy.frexp(values)[0] + 1.0,
-        lambda numpy, values: np.rint(numpy.frexp(values)[0]),
-        lambda numpy, values: numpy.frexp(2 * values),
+        (RefusedError, lambda np_, v: (np_.frexp(v)[0] * 2.0).astype(np.int32)),
+        (RefusedError, lambda np_, v: np_.frexp(v)[0] == 0.5),
+        (TypeError, lambda np_, v: np_.frexp(v)[0] + 1.0),
+        (TypeError, lambda np_, v: np.rint(np_.frexp(v)[0])),
+        (KeyError, lambda np_, v: np_.frexp(2 * v)),
     ],
 )
-def test_anything_else_is_refused(convert):
-    with pytest.raises((RefusedError, TypeError, KeyError)):
+def test_anything_else_is_refused(error, convert):
+    """By the recorder in words, or because its numbers cannot do it."""
+    with pytest.raises(error, match=r"mantissa|_Mantissa|rint|2\.828"):
         of_one_float(convert)
+
+
+def test_a_clip_limit_is_compared_with_0_alone():
+    """Another number is another range, and not recorded as 0."""
+    assert isinstance(_Limit("start") == 0, Asked)
+    with pytest.raises(RefusedError, match="compared with 1"):
+        assert _Limit("start") == 1
