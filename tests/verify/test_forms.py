@@ -5,8 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
+import pytest
 from reference_tracer.certificate_file import save_certificate
 from reference_tracer.rendering import render
+from reference_tracer_verify import verify
 from reference_tracer_verify.verify import Certificate, candidates, cross, dot, forms, levels
 
 from .certificates import refusal, scene_of
@@ -126,3 +128,23 @@ def test_what_overflows_has_no_sign(tmp_path):
     )
     np.savez(tmp_path / "c.npz", **arrays)
     assert "it sees ((0, 0), 0." in refusal(tmp_path / "c.npz")
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 6), (8, 16), (17, 33)])
+def test_squares_have_their_pixels_and_lose_no_pair(shape, monkeypatch):
+    """All surfaces come to each pixel once, if none is dropped; boxes and far are of all pixels."""
+    monkeypatch.setattr(verify, "PAIRS", 50)
+    rng = np.random.default_rng(shape)
+    r, far = rng.normal(size=(3, *shape)), rng.uniform(1, 9, shape)
+    squares = levels(r, far)
+    for y, x in np.ndindex(shape):
+        for k, square in enumerate(squares):
+            middle, half = square[:6, y >> k, x >> k].reshape(2, 3)
+            assert (np.abs(r[:, y, x] - middle) <= half).all()
+            assert far[y, x] <= square[6, y >> k, x >> k]
+    unknown = np.zeros((5, 8, 3))
+    unknown[4] = np.inf
+    whole = np.outer((0, 0, 1), np.arange(3))
+    left = np.concatenate(list(candidates(unknown, squares, 0.1, whole)), axis=1)
+    every = [(y, x, s) for y, x in np.ndindex(shape) for s in range(3)]
+    assert sorted(map(tuple, left.T.tolist())) == every
