@@ -222,6 +222,7 @@ def meanwhile(words: str) -> Iterator[None]:
         yield
     finally:
         named.pop()
+        check()  # a handler of Blender's may have swallowed it
 
 
 @contextmanager

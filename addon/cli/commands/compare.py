@@ -230,9 +230,7 @@ def _blend(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Wo
 
         context = blender.context
         dither = DITHER * context.scene.render.dither_intensity
-        making = replace(
-            _making(options), default_dither=dither, engine=context.scene.render.engine
-        )
+        making = replace(_making(options), default_dither=dither)
         shown: Picture | Callable[[Any], Picture]
         if isinstance(picture, GivenData):
             data = picture  # which is read once the scene is there
