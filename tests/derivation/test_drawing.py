@@ -174,7 +174,7 @@ def test_labels_keep_off_one_another_and_off_lines():
 
 
 def test_rounding_moves_no_label():
-    """Processors round last bits differently: of places that are equally good the first is taken."""
+    """Processors round last bits differently: of places as good the first is taken."""
     rng = np.random.default_rng(7)
     for _ in range(40):
         points = rng.integers(2, 14, (5, 2)) * 25.0
