@@ -7,27 +7,23 @@ are those of the diagnosis of pictures.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import chain, islice, product
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arrays import Floats
-from ..causes.case import Case
-from ..manifest import Manifest
 from ..pictures.certificate import certify, known_points
-from ..pictures.picture import Picture
-from ..scene import Camera, Scene
+from ..scene import Camera
 from ..tracer.camera import film_of, pixel_size, project
-from ..tracer.progress import result_of
-from ..tracer.settings import Settings
 from .faults.camera import CAMERA_FAULTS
-from .faults.fault import AnyFault, Numbers, Values
+from .faults.fault import AnyFault, Numbers, Values, Ways
 from .faults.film import FOCAL, FOCALS, OFFSET, ROLL
 from .faults.fitting import Family
 from .faults.lens import LENS_FAULTS
+from .faults.matrices import MATRIX_FAULTS
 from .faults.stand import MOVED, TURNED
 
 # Pixels: what float32 moves in a large picture, and a file's digits may; less is no difference.
@@ -37,19 +33,33 @@ _IN_LINE = 1e-6  # of the distance from the origin
 _DIGITS = 6  # of an offset in pixels, so that half a pixel is one
 _PLACES = 12  # of a percentage, so that a rounding is none
 _NEGLIGIBLE = 1e-9  # of a number of the last resort: metres, degrees, percent, pixels
-_NO_MANIFEST = Manifest("", "", "", 0, "FILE", "")
-_NO_PICTURE: Any = None  # what has no numbers is guessed without one
 
+
+_SAME_AXES = 1e-2  # of unit axes: more than what is within any `allowed` differs by
+_MISTAKES: tuple[AnyFault, ...] = (*MATRIX_FAULTS, *LENS_FAULTS)
 
 Film = tuple[Floats, Floats, Floats]  # as `film_of` gives it
 
 
 class Step(NamedTuple):
-    """A fault, and the camera that has it."""
+    """A fault, the camera that has it, and how another one gets it."""
 
     fault: AnyFault
     guess: Any
     camera: Camera
+    change: Callable[[Camera], Camera | None]
+
+    def lines(self) -> list[str]:
+        """Return what is wrong, and what to do."""
+        out = [self.fault.sentence_of(self.guess), f"  {self.fault.advice_of(self.guess)}"]
+        if self.fault.name == "pixel_offset":
+            dx, dy = self.guess.values
+            out.append(f"  its principal point is off by ({-dx:+.3f}, {dy:+.3f}) px, rows down")
+        return out
+
+
+Steps = tuple[Step, ...]  # the second is of the camera with the first
+SeesAs = Callable[[Camera], bool]
 
 
 @dataclass(frozen=True)
@@ -61,8 +71,14 @@ class CameraDifference:
     at: tuple[float, float]  # the scene's film position of the point with the largest, pixels
     depth: float  # of that point, metres
     allowed: float  # pixels
-    steps: tuple[Step, ...] = ()  # the faults, the second of the camera with the first
+    # What makes the other camera, each by itself: faults, the second of the camera with the first.
+    explanations: tuple[Steps, ...] = ()
     unit: float | None = None  # the factor between both places, if they are in one line with 0
+
+    @property
+    def steps(self) -> Steps:
+        """The faults of the first explanation; none if nothing known explains the difference."""
+        return self.explanations[0] if self.explanations else ()
 
     @property
     def agrees(self) -> bool:
@@ -78,21 +94,24 @@ class CameraDifference:
         far = f"up to {self.largest:.4g} px" if np.isfinite(self.largest) else "behind the camera"
         half = f"{self.median:.4g} px or more" if np.isfinite(self.median) else "there"
         out = [f"differ: points lie {far} ({where}), half of them {half}"]
-        for fault, guess, _ in self.steps:
-            out += [fault.sentence_of(guess), f"  {fault.advice_of(guess)}"]
-            if fault.name == "pixel_offset":
-                dx, dy = guess.values
-                out.append(f"  its principal point is off by ({-dx:+.3f}, {dy:+.3f}) px, rows down")
+        for number, steps in enumerate(self.explanations):
+            out += ["or:"] if number else []
+            out += (line for step in steps for line in step.lines())
         if self.unit is not None:
             out.append(f"  its place is the scene's times {self.unit:.6g}: another unit of length?")
-        if not self.steps:
+        if not self.explanations:
             out.append("no known fault, and no two of them, make the file's camera of the scene's")
         return out
 
 
-@np.errstate(invalid="ignore", divide="ignore", over="ignore")  # of points behind a camera
 def difference(own: Camera, other: Camera) -> CameraDifference:
-    """Compare another camera with the scene's own; both pictures have one size.
+    """Compare another camera with the scene's own, and find out what makes one of the other."""
+    return explained(measured(own, other), own, other)
+
+
+@np.errstate(invalid="ignore", divide="ignore", over="ignore")  # of points behind a camera
+def measured(own: Camera, other: Camera) -> CameraDifference:
+    """Measure how far another camera is from the scene's own; both pictures have one size.
 
     Parameters
     ----------
@@ -101,21 +120,27 @@ def difference(own: Camera, other: Camera) -> CameraDifference:
     """
     points = known_points(own)
     x, y, depth = film_of(own, points)
-    apart = _apart((x, y, depth), film_of(other, points))
-    worst = int(np.argmax(apart))
-    allowed = max(CLOSE, certify(own, points, np.stack((x, y))).allowed)
-    found = CameraDifference(
-        float(apart[worst]),
-        float(np.median(apart)),
+    far = apart((x, y, depth), film_of(other, points))
+    worst = int(np.argmax(far))
+    return CameraDifference(
+        float(far[worst]),
+        float(np.median(far)),
         (float(x[worst]), float(y[worst])),
         float(depth[worst]),
-        allowed,
+        max(CLOSE, certify(own, points, np.stack((x, y))).allowed),
     )
+
+
+@np.errstate(invalid="ignore", divide="ignore", over="ignore")
+def explained(found: CameraDifference, own: Camera, other: Camera) -> CameraDifference:
+    """Return what was measured of two cameras with what explains it, if they differ."""
     if found.agrees:
         return found
-    steps = tuple(_explained(own, other, allowed))
+    explanations = tuple(_explanations(own, other, found.allowed))
+    steps = explanations[0] if explanations else ()
     is_moved = any(step.fault.name == "camera_moved" for step in steps)
-    return replace(found, steps=steps, unit=_unit(own, other) if is_moved else None)
+    unit = _unit(own, other) if is_moved else None
+    return replace(found, explanations=explanations, unit=unit)
 
 
 def _unit(own: Camera, other: Camera) -> float | None:
@@ -127,68 +152,129 @@ def _unit(own: Camera, other: Camera) -> float | None:
     return factor if is_one and factor > 0 else None
 
 
-def _apart(first: Film, second: Film) -> Floats:
+def apart(first: Film, second: Film) -> Floats:
     """Return how far apart points are on two films, (n,) pixels."""
     with np.errstate(invalid="ignore", over="ignore"):
-        apart = np.hypot(first[0] - second[0], first[1] - second[1])
-    return np.where(np.isnan(apart), np.inf, apart)
+        far = np.hypot(first[0] - second[0], first[1] - second[1])
+    return np.where(np.isnan(far), np.inf, far)
 
 
-def _explained(own: Camera, other: Camera, allowed: float) -> list[Step]:
-    """Return the faults with which the scene's camera is the other one; one or two if these do.
+def _explanations(own: Camera, other: Camera, allowed: float) -> list[Steps]:
+    """Return what makes the scene's camera the other one, as simply as possible.
 
     Every camera that is not mirrored is the scene's with other focal lengths, an offset, moved and
     turned: so these are told only where no known mistake, alone or with another, does as well.
-    Cameras are the same if they see what is before the other one in the same places.
     """
-    before = known_points(other)
-    if own.clip_start > 0 or other.projection.sees_behind:
-        before = known_points(replace(other, clip_start=own.clip_start, clip_end=own.clip_end))
-    points = before[:, :_FEW]
+    sees_as = _same_view(own, other, allowed)
+    options = list(mistakes(own))
+    if alone := _all(((step,) for step in options), sees_as):
+        return alone
+    beside = ((first, step) for first in options for step in _half_pixels(first.camera))
+    fitted = ((step,) for step in _fitted(own, other))
+    further = [(first, step) for first in options for step in _fitted(first.camera, other)]
+    # A turn, a move or an offset can look like two mistakes: these come before.
+    focal = (steps for steps in further if steps[1].fault.name.startswith("focal"))
+    if found := _first(chain(beside, fitted, focal), sees_as):
+        return found
+    if pairs := _all(((a, b) for a in options for b in _second(a, other)), sees_as):
+        return pairs
+    if found := _first(further, sees_as):
+        return found
+    steps = _last_resort(own, other)
+    return [steps] if steps and sees_as(steps[-1].camera) else []
+
+
+def _all(every: Iterable[Steps], sees_as: SeesAs) -> list[Steps]:
+    """Return the explanations that make the other camera; of those with the same names one."""
+    found: dict[frozenset[str], Steps] = {}
+    for steps in every:
+        names = frozenset(step.fault.name for step in steps)
+        if names not in found and sees_as(steps[-1].camera):
+            found[names] = steps
+    return [*found.values()]
+
+
+def _first(every: Iterable[Steps], sees_as: SeesAs) -> list[Steps]:
+    """Return the first of some explanations that makes the other camera; none if none does."""
+    return [*islice((steps for steps in every if sees_as(steps[-1].camera)), 1)]
+
+
+def points_before(camera: Camera, own: Camera) -> Floats:
+    """Return some points that a camera sees, (3, n), between the scene's clip distances."""
+    if own.clip_start > 0 or camera.projection.sees_behind:
+        camera = replace(camera, clip_start=own.clip_start, clip_end=own.clip_end)
+    return known_points(camera)[:, :_FEW]
+
+
+def _same_view(own: Camera, other: Camera, allowed: float) -> Callable[[Camera], bool]:
+    """Return a function that says whether a camera sees what is before `other` as that does."""
+    points = points_before(other, own)
     film = film_of(other, points)
 
-    def is_other(camera: Camera) -> bool:
-        return bool(np.all(_apart(film_of(camera, points), film) <= allowed))
+    def sees_as(camera: Camera) -> bool:
+        if not _looks_as(camera, other):  # most do not, and this takes a tenth of the time
+            return False
+        return bool(np.all(apart(film_of(camera, points), film) <= allowed))
 
-    options = list(_options(own))
-    for first in options:
-        if is_other(first.camera):
-            return [first]
-        for step in _half_pixels(first.camera):
-            if is_other(step.camera):
-                return [first, step]
-    for step in _fitted(own, other):
-        if is_other(step.camera):
-            return [step]
-    for first in options:
-        for step in (*_options(first.camera), *_fitted(first.camera, other)):
-            if is_other(step.camera):
-                return [first, step]
-    chain: list[Step] = []
+    return sees_as
+
+
+def _looks_as(camera: Camera, other: Camera) -> bool:
+    """Return whether two cameras may look in the same direction, mirrored or not."""
+    axes = np.abs(camera.world_from_camera[:3, :3]) - np.abs(other.world_from_camera[:3, :3])
+    return bool(np.abs(axes).max() < _SAME_AXES)
+
+
+def _last_resort(own: Camera, other: Camera) -> Steps:
+    """Return the turn, the move, the focal lengths and the offset between two cameras."""
+    out: list[Step] = []
     camera = own
     for name in _LAST_RESORT:
         fitted = {step.fault.name: step for step in _fitted(camera, other)}
         if name not in fitted:  # of a panorama, or of mirrored axes
-            return []
-        step = fitted[name]
-        if name == "focal_lengths" and np.ptp([*step.guess.values]) <= _NEGLIGIBLE:
-            step = fitted["focal_length"]  # one says as much
+            return ()
+        step = _simplest(fitted, name)
         if any(abs(v) > _NEGLIGIBLE for v in step.guess.values):
-            chain.append(step)
+            out.append(step)
             camera = step.camera
-    return chain if is_other(camera) else []
+    return tuple(out)
 
 
-def _options(camera: Camera) -> Iterator[Step]:
+def _simplest(fitted: Mapping[str, Step], name: str) -> Step:
+    """Return the fault of a name; of two focal lengths that are equal, one says as much."""
+    is_one = name == "focal_lengths" and np.ptp([*fitted[name].guess.values]) <= _NEGLIGIBLE
+    return fitted["focal_length" if is_one else name]
+
+
+def focal_step(camera: Camera, other: Camera) -> Step | None:
+    """Return the camera with the other one's focal lengths; None if it has them, or cannot."""
+    fitted = {step.fault.name: step for step in _fitted(camera, other)}
+    if "focal_lengths" not in fitted:
+        return None
+    step = _simplest(fitted, "focal_lengths")
+    return step if any(abs(v) > _NEGLIGIBLE for v in step.guess.values) else None
+
+
+def mistakes(camera: Camera, faults: Sequence[AnyFault] = _MISTAKES) -> Iterator[Step]:
     """Yield the camera with each mistake that has no numbers, in the order of the faults."""
-    for fault in (*CAMERA_FAULTS, *LENS_FAULTS):
-        if not fault.numbers:
-            case = Case(
-                Scene(camera), _NO_MANIFEST, Settings(), Picture(np.zeros((0, 4), np.float32))
-            )
-            for guess in result_of(fault.find(_NO_PICTURE)):
-                if changed := fault.assume(case, guess):
-                    yield Step(fault, guess, changed.scene.camera)
+    for fault in faults:
+        assert isinstance(fault.assume, Ways)
+        for option, change in fault.assume.options():
+            if changed := change(camera):
+                yield Step(fault, option, changed, change)
+
+
+def _second(first: Step, other: Camera) -> Iterator[Step]:
+    """Yield the camera of a mistake with another one, as far as that can make the other camera.
+
+    A lens has nothing to do with a matrix: so after one of a lens there are those of lenses alone,
+    and after one of a matrix these only if the camera then stands and looks as the other does.
+    """
+    if first.fault in MATRIX_FAULTS:
+        yield from mistakes(first.camera, MATRIX_FAULTS)
+        if not _looks_as(first.camera, other):
+            return
+    yield from mistakes(first.camera, LENS_FAULTS)
 
 
 def _half_pixels(camera: Camera) -> Iterator[Step]:
@@ -205,18 +291,21 @@ def _with(camera: Camera, name: str, family: Family, values: Values) -> Step | N
     """
     if not np.isfinite(values).all():
         return None
-    changed = family.camera(camera, *values)
+
+    def change(of: Camera) -> Camera | None:
+        return family.camera(of, *values)
+
+    changed = change(camera)
     if changed is None:
         return None
     words = family.words(camera, *values)
-    return Step(_BY_NAME[name], Numbers(values=values, words=words), changed)
+    return Step(_BY_NAME[name], Numbers(values=values, words=words), changed, change)
 
 
-def _fitted(camera: Camera, other: Camera) -> Iterator[Step]:
-    """Yield the camera with each fault that has numbers, which are read off both cameras."""
-    for name, family, read_off in _FITTED:
-        if step := _with(camera, name, family, read_off(camera, other)):
-            yield step
+def _fitted(camera: Camera, other: Camera) -> list[Step]:
+    """Return the camera with each fault that has numbers, which are read off both cameras."""
+    read = (_with(camera, name, own, read_off(camera, other)) for name, own, read_off in _FITTED)
+    return [step for step in read if step]
 
 
 def _focal_lengths(camera: Camera, other: Camera) -> Values:
