@@ -14,16 +14,8 @@ import numpy as np
 from ..arrays import Floats
 from ..scene import Camera
 from ..tracer.camera import film_of
-from .camera_difference import (
-    CameraDifference,
-    Step,
-    apart,
-    explained,
-    focal_step,
-    measured,
-    mistakes,
-    points_before,
-)
+from .camera_difference import CameraDifference, apart, explained, measured, points_before
+from .camera_steps import Steps, focal_step, mistakes
 
 _FEW = 6  # cameras, among all, on which an explanation is tried first
 _ONE_PLACE = 1e-20  # of the squared places: what is less is the rounding of their mean
@@ -87,7 +79,7 @@ class TrajectoryDifference:
 
     names: tuple[str, ...]
     each: tuple[CameraDifference, ...]  # measured; the worst one explained where nothing is common
-    steps: tuple[Step, ...] = ()  # what all that differ have, or what comes before the other world
+    steps: Steps = ()  # what all that differ have, or what comes before the other world
     world: Similarity | None = None
 
     @property
@@ -144,7 +136,7 @@ def trajectory_difference(
 _Pairs = Sequence[tuple[Camera, Camera, float]]  # the scene's, the other, the pixels allowed
 
 
-def _with(camera: Camera, steps: Sequence[Step]) -> Camera:
+def _with(camera: Camera, steps: Steps) -> Camera:
     """Return a camera with the faults of another one, in the same way and with the same numbers."""
     for step in steps:
         camera = step.change(camera) or camera
@@ -160,7 +152,7 @@ def _sees_as(
     return bool(np.all(apart(film_of(camera, points), film_of(other, others)) <= allowed))
 
 
-def _in_another_world(pairs: _Pairs) -> tuple[tuple[Step, ...], Similarity] | None:
+def _in_another_world(pairs: _Pairs) -> tuple[Steps, Similarity] | None:
     """Return a world, and what is wrong before it, of which all cameras are the scene's."""
     few = [pairs[k] for k in np.unique(np.linspace(0, len(pairs) - 1, _FEW).astype(int))]
     for steps in _before(pairs[0]):
@@ -169,15 +161,15 @@ def _in_another_world(pairs: _Pairs) -> tuple[tuple[Step, ...], Similarity] | No
     return None
 
 
-def _before(pair: tuple[Camera, Camera, float]) -> list[tuple[Step, ...]]:
+def _before(pair: tuple[Camera, Camera, float]) -> list[Steps]:
     """Return what may be wrong with every camera of another world: first nothing."""
     own, other, _ = pair
     lens = focal_step(own, other)
-    alone: list[tuple[Step, ...]] = [(), (lens,)] if lens else [()]
+    alone: list[Steps] = [(), (lens,)] if lens else [()]
     return alone + [(step,) for step in mistakes(own)]
 
 
-def _world(pairs: _Pairs, steps: Sequence[Step]) -> Similarity | None:
+def _world(pairs: _Pairs, steps: Steps) -> Similarity | None:
     """Return the world in which the others see what the scene's cameras with a fault do."""
     own = [_with(camera, steps) for camera, _, _ in pairs]
     world = Similarity.between(own, [other for _, other, _ in pairs])
