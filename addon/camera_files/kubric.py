@@ -60,7 +60,7 @@ def _size(metadata: Content, source: Source) -> tuple[int, int]:
 KUBRIC = Convention(
     "kubric",
     "Kubric",
-    "metadata.json",
+    "metadata.json, which is read alone",
     frozenset(),
     False,
     None,
