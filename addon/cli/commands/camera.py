@@ -20,7 +20,7 @@ from ...diagnosis.trajectory import TrajectoryDifference, trajectory_difference
 from ...framing import Choice
 from ...report.cameras import SceneCamera, write_cameras
 from ...scene import Camera, Region, SceneError
-from ..arguments import is_blend, refuse
+from ..arguments import check_frames, is_blend, refuse
 from ..camera_options import LAST_FRAME, add_camera, choice_from
 from ..opening import SOURCES, open_blend, open_file
 from ..parser import AGREE, DIFFERENCES, Parser
@@ -53,13 +53,7 @@ class CameraOptions:
         else:
             refuse(given, ("view",), "is for --check")
         if given.frames is not None:
-            refuse(given, ("frame",), "is for one frame, not for --frames")
-            if not is_blend(given.scene):
-                raise SceneError(f"--frames is for a .blend: '{given.scene}' has one frame")
-            try:
-                frames_named(given.frames)
-            except ValueError as error:
-                raise SceneError(f"--frames {error}") from error
+            check_frames(given, ())
         return cls(
             given.scene,
             choice_from(given, given.scene),
