@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
+import numpy as np
 from reference_tracer.arrays import Floats
 from reference_tracer_processes.running import KEPT, Limits, ProgramError, filled, run, words_of
 
@@ -67,7 +68,7 @@ class Program(Submission):
                 f"it answered {len(answers):,} lines of {len(question):,}: one for each is wanted"
             )
             raise StudentError("answer", text)
-        return answers
+        return np.where(np.isneginf(answers), np.inf, answers)  # of a miss it may write either
 
     def _run(self, folder: Path, rays: Floats) -> bytes:
         """Run the program, and return what it wrote as its answers.

@@ -49,6 +49,7 @@ MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe 
     Mark.WRONG_T: (0, 158, 115),
     Mark.WRONG_BARYCENTRICS: (236, 200, 30),
     Mark.WRONG_T_AND_BARYCENTRICS: (122, 98, 12),
+    Mark.RAISED: (255, 0, 255),
 }
 _DIM = 0.35
 _WARNING = (

@@ -44,7 +44,7 @@ HOSTILE = {
     "writes": (HEAD + "o -= 1\n    " + NOTHING, "exception", "must not be changed"),
     "sorts": (HEAD + "p.sort()\n    " + NOTHING, "exception", "must not be changed"),
     "reads input": (HEAD + "input()", "exception", "EOFError"),
-    "of one ray": (HEAD + "ox, oy, oz = o\n    " + NOTHING, "exception", "a row for each ray"),
+    "of one ray": (HEAD + "if o[0] > 0: pass\n    " + NOTHING, "exception", "a row for each ray"),
     "changes json": ("import json\njson.dumps = lambda *_: '{}'", "ended", "no answer"),
     "forges an error": (
         "import json, os\nfor fd in range(3, 9):\n    try: os.write(fd, json.dumps("
@@ -103,6 +103,29 @@ def test_its_own_error(name, written):
     assert error.kind == kind
     assert words in error.message
     assert error.to_dict()["line"] == error.line
+
+
+def test_what_raises_is_asked_case_by_case(written):
+    """The others' answers are as they were; a program's own -inf is a miss, and no exception."""
+    text = (
+        HEAD
+        + "assert 3 not in o[:, 0]\n    "
+        + "return np.where(o[:, 0] == 4, -np.inf, 7), p[:, 0]"
+    )
+    rays = np.repeat(np.arange(9.0)[:, None], 3, 1), np.ones((9, 3)), np.ones((9, 3, 3))
+    with Student(written(text), FORM) as student:
+        t, s = student.ask(*rays)
+        assert student.raised.tolist() == [k == 3 for k in range(9)] and student.raises == 1
+        error, (origin, *_) = student.first
+        assert "AssertionError" in error.message and error.line == 5 and (origin == 3).all()
+        assert (
+            np.flatnonzero(~np.isfinite(t)).tolist() == [3, 4] and (np.delete(s, 3, 0) == 1).all()
+        )
+
+
+def test_what_raises_in_a_call_and_in_none_of_its_cases_is_the_functions_own(written):
+    text = HEAD + "assert len(o) < 3\n    " + NOTHING
+    assert failure(written(text)).kind == "exception"
 
 
 def test_the_line_is_the_files_own(written):
