@@ -45,7 +45,8 @@ def serve(path: Path, form: Form, requests: BinaryIO, answers: BinaryIO) -> None
         head = json.loads(line)
         limit_time(head["seconds"])
         given = _received(requests, form, head["count"])
-        began, raised = time.perf_counter(), []
+        began = time.perf_counter()
+        raised: list[Exception] = []
         found = _guarded(
             path, answers, lambda given=given, to=raised: _each(function, form, given, to)
         )

@@ -8,6 +8,7 @@ own. It may still read what its user may. `docs/programs.md` says what it reads 
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 import time
 from dataclasses import dataclass, replace
@@ -34,6 +35,12 @@ class Run:
     command: str
     words: tuple[str, ...]
     exchange: str = "csv"  # one of EXCHANGES
+
+    @property
+    def own(self) -> Path | None:
+        """The last file or folder that it names: what the program lies in; else None."""
+        parts = [part for word in self.words for part in re.split(r"[\s=]", word)]
+        return next((Path(part) for part in reversed(parts) if part and Path(part).exists()), None)
 
     @classmethod
     def parsed(cls, command: str, exchange: str = "csv") -> Run:
@@ -89,7 +96,8 @@ class Program(Submission):
         ):
             began = time.monotonic()
             try:
-                run(words, own, replace(self.limits, seconds=self._left), (source, out, err))
+                limits = replace(self.limits, seconds=self._left)
+                run(words, own, limits, (source, out, err), started=self._runs)
             except ProgramError as error:
                 of_limit = f" of {self.limits.seconds:g} s for one scene"
                 text = error.message + of_limit * (error.kind == "time")

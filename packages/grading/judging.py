@@ -6,7 +6,9 @@ Whatever the file does wrong is in the `Judgement`: it is never an error of ours
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import chain, count
 from pathlib import Path
 from typing import TypeVar
@@ -112,6 +114,7 @@ def judge(
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
     name: str = "",
+    started: list[Submission] | None = None,
 ) -> Work[Judgement]:
     """Judge one file or program; yields the share of the work done.
 
@@ -129,10 +132,14 @@ def judge(
         The time is that of each scene, and of the cases.
     name : str, optional
         What a reader calls it; by default the file's name, or the command.
+    started : list of Submission, optional
+        Where the running program is entered, for who may stop it.
     """
     subject = cases.subject
     out = Judgement(name or names([submission])[0], subject, scenes=[s.name for s in scenes])
     with _started(submission, subject.form, limits) as student:
+        if started is not None:
+            started.append(student)
         try:
             _on_cases(out, student, cases)
         except StudentError as error:
@@ -159,11 +166,12 @@ def _started(submission: Path | Run, form: Form, limits: Limits | None) -> Submi
 
 
 def names(submissions: Sequence[Path | Run]) -> list[str]:
-    """Return what a reader calls each: a file's name, or a command; none twice."""
-    files = iter(distinct([s for s in submissions if isinstance(s, Path)]))
+    """Return what a reader calls each: its file's or folder's name, or a command; none twice."""
+    paths = [s.own if isinstance(s, Run) else s for s in submissions]
+    files = iter(distinct([path for path in paths if path]))
     out: list[str] = []
-    for each in submissions:
-        name = printable(each.command) if isinstance(each, Run) else next(files)
+    for each, path in zip(submissions, paths, strict=True):
+        name = next(files) if path or not isinstance(each, Run) else printable(each.command)
         numbered = chain([name], (f"{name} ({n})" for n in count(2)))
         out.append(next(own for own in numbered if own not in out))
     return out
@@ -225,14 +233,29 @@ def judge_all(
     limits: Limits | None = None,
     *,
     told: Callable[[Judgement], T],
+    jobs: int = 1,
 ) -> Work[dict[str, T]]:
-    """Judge several, each by itself, by what a reader calls them.
+    """Judge several, `jobs` at a time, each by itself, by what a reader calls them.
 
     Returns what is made of each judgement once it is there: it holds pictures, and is not kept.
     """
-    out = {}
-    share = 1 / max(len(submissions), 1)
-    for k, (name, each) in enumerate(submissions.items()):
-        work = judge(each, cases, scenes, extremes, limits, name)
-        out[name] = told((yield from scaled(work, k * share, share)))
-    return out
+    shares = dict.fromkeys(submissions, 0.0)
+    started: list[Submission] = []
+
+    def judged(name: str) -> T:
+        work = judge(submissions[name], cases, scenes, extremes, limits, name, started)
+        found = result_of(work, partial(shares.__setitem__, name))
+        if any(each.stopped for each in started):
+            raise CancelledError
+        return told(found)
+
+    with ThreadPoolExecutor(jobs) as pool:
+        found = {name: pool.submit(judged, name) for name in submissions}
+        try:
+            while wait(found.values(), 0.1).not_done:
+                yield sum(shares.values()) / len(shares)
+            return {name: future.result() for name, future in found.items()}
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+            for each in started:
+                each.stop()

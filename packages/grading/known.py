@@ -117,8 +117,8 @@ def allowed(rays: Rays, corners: Floats, t: Floats) -> tuple[Floats, Floats]:
     point = np.abs(d).sum(axis=0) * of_t + 4 * U * far
     shape = longest * longest / size
     arms = np.abs(corners - o)
-    volumes = sum(cross_magnitude(arms[k - 1], arms[k]) for k in range(3))
-    of_volumes = dot(np.abs(d), volumes) / np.abs(dot(d, n))
+    volumes = [dot(np.abs(d), cross_magnitude(arms[k - 1], arms[k])) for k in range(3)]
+    of_volumes = np.sum(volumes, axis=0) / np.abs(dot(d, n))
     of_s = ROUNDINGS * U * (shape * shape + of_volumes)
     s_allowed = of_s + shape * point / longest
     t_allowed = of_t + of_s * longest / np.sqrt(dot(d, d))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import subprocess
 from abc import ABC, abstractmethod
 from typing import Self
 
 import numpy as np
 from reference_tracer.arrays import Array, Floats
 from reference_tracer.cli.running import printable
-from reference_tracer_processes.running import Limits
+from reference_tracer_processes.running import Limits, kill
 
 from .form import Form
 from .programs import Mask
@@ -31,6 +32,8 @@ class Submission(ABC):
         self.first: tuple[StudentError, tuple[Floats, ...]] | None = None  # that, and its case
         self.raises = 0  # how many cases have
         self._has_answered = False
+        self.stopped = False
+        self._process: subprocess.Popen[bytes] | None = None
 
     def __enter__(self) -> Self:
         return self
@@ -58,6 +61,8 @@ class Submission(ABC):
         """
         if not len(given[0]):
             return self.form.answers(np.zeros((0, self.form.numbers)))
+        if self.stopped:
+            raise StudentError("ended", "it was stopped")
         table = self._answered(self.form.question(given))
         self.raised = np.isneginf(table[:, 0])
         if self._errors and self.raised.any():
@@ -68,6 +73,18 @@ class Submission(ABC):
             self.raises += int(self.raised.sum())
         self._has_answered = True
         return self.form.answers(table)
+
+    def stop(self) -> None:
+        """End what runs, and let nothing begin anew; from any thread."""
+        self.stopped = True
+        if self._process:
+            kill(self._process)
+
+    def _runs(self, process: subprocess.Popen[bytes]) -> None:
+        """Note what has just been started."""
+        self._process = process
+        if self.stopped:
+            kill(process)
 
     @abstractmethod
     def _answered(self, question: Floats) -> Floats:
