@@ -52,8 +52,8 @@ intersect(origins, directions, triangles) -> t, barycentrics, or another --subje
 --template makes a file to begin with.
 
 It RUNS their code, in a process of its own with limits of time and memory, and in bubblewrap where
-that works. Elsewhere that is no sandbox: the code may read, write and send whatever you may. Read it
-first, or run this where that is safe.
+that works. Elsewhere that is no sandbox: the code may read, write and send whatever you may. Read
+it first, or run this where that is safe.
 """
 _CODES = f"""exit codes:
   {AGREE}  all of them are right

@@ -54,7 +54,7 @@ MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe 
 _DIM = 0.35
 _WARNING = (
     "These numbers were made by <strong>running the students' own code</strong>, in a process of "
-    "its own with a time limit, in bubblewrap where that is there. Elsewhere that is not a sandbox: "
+    "its own with a time limit, in bubblewrap where that works. Elsewhere that is not a sandbox: "
     "the code could do whatever the one who started it may. This page itself runs nothing."
 )
 
