@@ -13,7 +13,7 @@ import numpy as np
 from ... import exr, images
 from ...certificate_file import save_certificate
 from ...framing import Choice
-from ...mesh_files.load import READERS
+from ...opened import mesh_formats
 from ...rendering import render
 from ...report import cryptomatte, folders, masks
 from ...scene import Scene, SceneError
@@ -155,7 +155,7 @@ def trace(options: TraceOptions) -> int:
     )
     for line in s.required():
         print(line)
-    is_mesh = options.scene.suffix.lower() in READERS
+    is_mesh = options.scene.suffix.lower() in mesh_formats()
     if options.is_png and is_mesh and not options.settings.color:
         print("each mesh has one flat colour: --color facing shows its shape")
     return AGREE
