@@ -64,7 +64,8 @@ class Answers:
             "t": self.both & ~self.wrong_t,
             "barycentrics": self.both & ~self.wrong_s,
         }
-        counted, doubt = self.hit | known.hit | raised, known.doubt & ~raised
+        counted = (self.hit | known.hit | raised) & ~self.checks.of(Group.ELSEWHERE)
+        doubt = known.doubt & ~raised
         return Tally.of(counted, doubt, right, self.checks.subject.weights)
 
     @cached_property
