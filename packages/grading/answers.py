@@ -64,7 +64,7 @@ class Answers:
             "t": self.both & ~self.wrong_t,
             "barycentrics": self.both & ~self.wrong_s,
         }
-        counted = (self.hit | known.hit | raised) & ~self.checks.of(Group.ELSEWHERE)
+        counted = (self.hit | known.hit | raised) & self.counts
         doubt = known.doubt & ~raised
         return Tally.of(counted, doubt, right, self.checks.subject.weights)
 
@@ -73,10 +73,15 @@ class Answers:
         """Where it says to hit, in front or behind."""
         return np.isfinite(self.t)
 
+    @property
+    def counts(self) -> Mask:
+        """Which pairs are more than a means to tell mistakes apart."""
+        return ~self.checks.of(Group.ELSEWHERE)
+
     @cached_property
     def both(self) -> Mask:
-        """Where it says to hit, and does."""
-        return self.hit & self.checks.known.hit
+        """Where it says to hit, and does, and where that counts."""
+        return self.hit & self.checks.known.hit & self.counts
 
     @cached_property
     def wrong_hit(self) -> Mask:
