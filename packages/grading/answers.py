@@ -74,6 +74,11 @@ class Answers:
         return np.isfinite(self.t)
 
     @property
+    def to_hit(self) -> Mask:
+        """Where it should say so."""
+        return self.checks.known.hit
+
+    @property
     def counts(self) -> Mask:
         """Which pairs are more than a means to tell mistakes apart."""
         return ~self.checks.of(Group.ELSEWHERE)
