@@ -16,8 +16,8 @@ from ...camera_files.files import of_frames
 from ...certificate_file import save_certificate
 from ...comparison.animation import frames_named
 from ...framing import Choice
-from ...mesh_files.load import READERS
 from ...methods import Method
+from ...opened import mesh_formats
 from ...rendering import render
 from ...report import cryptomatte, folders, masks
 from ...scene import Scene, SceneError
@@ -174,7 +174,7 @@ def trace(options: TraceOptions) -> int:
             _traced(options, *load(options.scene, options.choice), place)
         else:
             _frames(options, options.frames, place)
-    is_mesh = options.scene.suffix.lower() in READERS
+    is_mesh = options.scene.suffix.lower() in mesh_formats()
     is_png = any(path.suffix.lower() == ".png" for path in options.out)
     if is_png and is_mesh and not options.settings.color:
         print("each mesh has one flat colour: --color facing shows its shape")
