@@ -60,7 +60,7 @@ _texts: dict[str, tuple[int, str]] = {}  # the `session_uid` of ours, and what t
 _seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
 
 
-def keep_comparison(comparison: Comparison) -> Work[Result]:
+def _kept(comparison: Comparison) -> Work[Result]:
     """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
     from ...causes.cause import AGREE
     from ...causes.maps import cause_map, difference_map, ringed
@@ -92,6 +92,16 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
     _latest[Kind.COMPARISON] = replace(found, regions=regions, put_right=right)
     return _latest[Kind.COMPARISON]
+
+
+def keep_comparison(comparison: Comparison) -> Work[Result]:
+    """Remember a comparison, and show its pictures; ended in between, there is none."""
+    try:
+        return (yield from _kept(comparison))
+    finally:
+        found = _latest.get(Kind.COMPARISON)
+        if found is None or found.content.causes is not comparison.causes:
+            _forget_comparison()  # the pictures are of two
 
 
 def keep_trade(trade: Trade) -> Result:
@@ -148,11 +158,16 @@ def content(kind: Kind, scene: Any) -> Any:
 
 def drop(kind: Kind, scene: Any) -> None:
     """Drop a scene's result of a kind, with its pictures."""
-    if latest(kind, scene):
+    if latest(kind, scene) and kind is Kind.COMPARISON:
+        _forget_comparison()
+    elif latest(kind, scene):
         del _latest[kind]
-    if kind not in _latest and kind is Kind.COMPARISON:
-        for name in (TRACED, BLENDER, DIFFERENCE, CAUSES, PUT_RIGHT):
-            remove(name)
+
+
+def _forget_comparison() -> None:
+    _latest.pop(Kind.COMPARISON, None)
+    for name in tuple(_pictures):
+        remove(name)
 
 
 def forget() -> None:
@@ -204,7 +219,8 @@ def remove(name: str) -> None:
 def _give_up(name: str, successor: Any = None) -> None:
     """Remove ours, whose users take another one; if the user has saved it to a file, it is his."""
     old = ours(name)
-    if old and old.filepath != _pictures.get(name, ("",))[0]:
+    path, _linear = _pictures.get(name, ("", ""))
+    if old and _file(old.filepath) != _file(path):
         del old[MARK]
         old.is_runtime_data = False
         old.name = Path(old.filepath).name
@@ -212,6 +228,10 @@ def _give_up(name: str, successor: Any = None) -> None:
         if successor:
             old.user_remap(successor)
         _blocks(name).remove(old)
+
+
+def _file(path: str) -> Path:
+    return Path(bpy.path.abspath(path)).resolve()
 
 
 def shown_put_right(scene: Any) -> Told:
