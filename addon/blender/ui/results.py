@@ -47,6 +47,7 @@ class Result:
     regions: tuple[Region, ...] = ()  # where it differs, the largest first
     # By the number of a fault that is told: the picture that it changes, put right.
     put_right: Mapping[int, Colors] = field(default_factory=dict)
+    shown: list[int] = field(default_factory=list)  # of the fault that is shown put right
     # The numbers of the faults that a copy of the camera was added for, by its `session_uid`.
     copies: dict[int, int] = field(default_factory=dict)
 
@@ -129,10 +130,10 @@ def content(kind: Kind, scene: Any) -> Any:
 
 def drop(kind: Kind, scene: Any) -> None:
     """Drop a scene's result of a kind, with its pictures."""
-    if latest(kind, scene) and kind is Kind.COMPARISON:
-        _forget_comparison()
-    elif latest(kind, scene):
+    if latest(kind, scene):
         del _latest[kind]
+        if kind is Kind.COMPARISON:
+            _forget_comparison()
 
 
 def _forget_comparison() -> None:
@@ -218,18 +219,11 @@ def shown_put_right(scene: Any) -> Told:
     SceneError
         If it shows none of them.
     """
-    import numpy as np
-
     from ...scene import SceneError
 
-    image, found = ours(PUT_RIGHT), latest(Kind.COMPARISON, scene)
-    if image and found:
-        width, height = image.size
-        pixels = np.empty((height, width, 4), np.float32)
-        image.pixels.foreach_get(pixels.ravel())
-        for number, color in found.put_right.items():
-            if np.array_equal(np.asarray(color, np.float32), pixels, equal_nan=True):
-                return found.content.diagnosis.told[number]
+    found = latest(Kind.COMPARISON, scene)
+    if found and found.shown:
+        return found.content.diagnosis.told[found.shown[0]]
     raise SceneError("No picture of this scene's latest comparison is shown put right: press Show.")
 
 
