@@ -39,28 +39,13 @@ def _file_closes(*_: Any) -> None:
     inspector.REFERENCE_TRACER_OT_inspect.running = False
 
 
-@bpy.app.handlers.persistent
-def _file_opened(*_: Any) -> None:
-    forget()
-
-
-@bpy.app.handlers.persistent
-def _undo_begins(*_: Any) -> None:
-    remember_editors()
-
-
-@bpy.app.handlers.persistent
-def _undo_ended(*_: Any) -> None:
-    put_back()
-
-
 _HANDLERS = {
     "load_pre": _file_closes,
-    "load_post": _file_opened,
-    "undo_pre": _undo_begins,
-    "undo_post": _undo_ended,
-    "redo_pre": _undo_begins,
-    "redo_post": _undo_ended,
+    "load_post": forget,
+    "undo_pre": remember_editors,
+    "undo_post": put_back,
+    "redo_pre": remember_editors,
+    "redo_post": put_back,
 }
 
 

@@ -63,6 +63,15 @@ def test_an_image_that_the_user_saved_is_the_users(tmp_path):
     assert saved.pixels[0] == 1 and not saved.is_runtime_data and not saved.get(results.MARK)
 
 
+def test_an_image_whose_path_blender_has_made_relative_is_still_ours(tmp_path):
+    results.show(results.TRACED, PICTURE)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.file.make_paths_relative()
+    assert results.ours(results.TRACED).filepath.startswith("//")
+    results.show(results.TRACED, PICTURE)
+    assert named() == [results.TRACED]
+
+
 def test_twenty_rounds_take_the_memory_of_one():
     used = []
     for _ in range(20):
@@ -168,6 +177,29 @@ def test_undo_is_the_users():
         assert named() == [results.TRACED] and results.ours(results.TRACED).pixels[0] == 2
         [text] = bpy.data.texts
         assert text == results.ours(text.name) and text.as_string().strip() == "at 2.0"
+
+
+def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, compare):
+    build.scene()
+    build.solids()
+    build.corner_camera()
+    first, second = compare(), compare()
+    work = results.keep_comparison(second)
+    next(work)
+    work.close()
+    assert not named()
+    for found, then in (
+        (first, first),  # complete
+        (replace(first, diagnosis=None), first),  # of the same pictures
+        (second, None),
+    ):
+        work = results.keep_comparison(found)
+        if found is first:
+            result_of(work)
+        next(work, None)
+        work.close()
+        assert results.content(Kind.COMPARISON, bpy.context.scene) is then
+        assert bool(named()) == (then is not None)
 
 
 def test_a_comparison_that_fails_leaves_no_other_one_on_the_screen(build):

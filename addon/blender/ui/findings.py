@@ -172,6 +172,8 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
             raise SceneError(f"No picture shows it put right: {said}.")
         show = show_where_shown if bpy.app.background else open_as_render
         show(context, results.show(results.PUT_RIGHT, color))
+        kept: Any = results.latest(Kind.COMPARISON, context.scene)
+        kept.shown[:] = [self.number]
         return {"FINISHED"}
 
 
