@@ -14,6 +14,7 @@ from ..drawing.judges import JUDGES
 from ..engine import ENGINE
 from . import operators, results, samples
 from .layout import Part, both, button, draw_facts, folded, setting, wrapped
+from .long_work import LongWork
 from .menus import REFERENCE_TRACER_PT_presets
 from .outcome import draw_figures, draw_outcome
 from .results import Kind
@@ -49,9 +50,13 @@ class _Main(Part):
         layout = self.layout
         if context.scene.camera is None:
             button(layout, context, operators.REFERENCE_TRACER_OT_frame_all, "CAMERA_DATA")
-        row = layout.row()
-        row.scale_y = 1.4
-        button(row, context, operators.REFERENCE_TRACER_OT_compare, "RENDER_STILL")
+        if LongWork.running:
+            layout.progress(factor=LongWork.share)
+            wrapped(layout, context, LongWork.said)
+        else:
+            row = layout.row()
+            row.scale_y = 1.4
+            button(row, context, operators.REFERENCE_TRACER_OT_compare, "RENDER_STILL")
         comparison = results.content(Kind.COMPARISON, context.scene)
         if comparison:
             draw_outcome(layout, context, comparison)
@@ -94,7 +99,7 @@ def _draw_more(layout: Any, context: Any) -> None:
     button(layout, context, operators.REFERENCE_TRACER_OT_compare_all, "RENDERLAYERS")
     for row in results.content(Kind.ENGINES, context.scene) or ():
         box = layout.box()
-        draw_facts(box, _of_engine(row))
+        draw_facts(box, context, _of_engine(row))
         for line in filter(None, (row.error, *row.not_judged)):
             wrapped(box, context, line, "ERROR")
     button(layout, context, operators.REFERENCE_TRACER_OT_compare_animation, "RENDER_ANIMATION")
