@@ -221,7 +221,7 @@ def test_a_verdict_says_what_it_leaves_out(scene):
     cause[1] = UNEXPLAINED  # which no agreement leaves out
     said = "Differences: 5 px unexplained, 3 px at edges"
     assert Verdict.DIFFERENCES.in_words(Counts.of(cause)) == said
-    assert f"verdict: {said.lower()}"[:24] in mixed(scene).lines()[-1]
+    assert mixed(scene).lines()[-1].startswith("verdict: differences: ")
 
 
 @pytest.mark.parametrize("shape", [(16, 21, 4), (20, 16, 4), (16, 20, 3)])

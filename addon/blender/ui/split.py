@@ -89,10 +89,12 @@ def _draw_lines(ends: Sequence[tuple[float, float]], color: Sequence[float], sca
     shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     batch = batch_for_shader(shader, "LINES", {"pos": [(*end, 0.0) for end in ends]})
     shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+    gpu.state.blend_set("ALPHA")  # the rims of lines are smooth
     for width, shown in ((2 * _WIDTH, (0.0, 0.0, 0.0)), (_WIDTH, color)):
         shader.uniform_float("lineWidth", width * scale)
         shader.uniform_float("color", (*shown, 1.0))
         batch.draw(shader)
+    gpu.state.blend_set("NONE")
 
 
 def _draw_marks(context: Any, at: Place, scale: float) -> None:

@@ -15,7 +15,7 @@ from .long_work import LongWork, named
 
 @named
 class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
-    bl_label = "Measure the Trade"
+    bl_label = "Measure Time and Accuracy"
     bl_description = (
         "Measure on this scene and camera how long every method, precision, number of samples "
         "and size takes, and what it gets wrong"
@@ -58,7 +58,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
-    bl_label = "Measure the Extremes"
+    bl_label = "Find Where Methods Break"
     bl_description = (
         "Trace scenes that get harder and harder (far away, tiny, edge-on...) by every "
         "method, and find the first scale at which each differs from exact arithmetic"

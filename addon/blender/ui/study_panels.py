@@ -5,16 +5,21 @@ The pixel inspector is in the sidebar of images, too.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
+from ..drawing.judges import label_of
 from . import explain, results, studies
 from .differing import IMAGE_PT_reference_tracer_shown
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .layout import Part, beside, both, wrapped
+from .layout import Part, beside, both, draw_facts, wrapped
 from .results import Kind
+from .swatches import swatch
+
+if TYPE_CHECKING:
+    from ...comparison.comparison import Comparison
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
@@ -43,6 +48,9 @@ class _Inspector(Part):
         found = results.latest(Kind.PIXEL, context.scene)
         if found:
             _draw(layout, context, found.content, found.lines[0])
+            if comparison := results.content(Kind.COMPARISON, context.scene):
+                pixel = found.content.pixel
+                _draw_compared(layout, context, comparison, pixel.x, pixel.y)
 
 
 def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
@@ -67,6 +75,25 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
         for reason in judged.reasons[:1]:
             wrapped(box, context, reason.sentence, "BLANK1")
     wrapped(layout, context, f"{iface_('All of it is in the text')} '{explain.TEXT}'.", "TEXT")
+
+
+def _draw_compared(layout: Any, context: Any, comparison: Comparison, x: int, y: int) -> None:
+    """Draw a pixel's colour on both sides of the latest comparison, and why they differ."""
+    from ...causes.explain import BY_NUMBER
+
+    height, width = comparison.causes.cause.shape
+    if not (x < width and y < height):  # it was of another size
+        return
+    box = layout.box()
+    box.label(text="In the Comparison", icon="MOD_MIRROR")
+    sides = {
+        "Traced": comparison.frame.color,
+        label_of(comparison.case.picture.source): comparison.picture,
+    }
+    colors = ((name, "  ".join(f"{c:.4g}" for c in shown[y, x])) for name, shown in sides.items())
+    draw_facts(box, context, colors)
+    cause = BY_NUMBER[comparison.causes.cause[y, x]]
+    wrapped(box, context, comparison.why(x, y), swatch=swatch(cause))
 
 
 def _t(test: Any) -> str:
@@ -114,7 +141,7 @@ class IMAGE_PT_reference_tracer_inspector(_Inspector, bpy.types.Panel):
 
 
 class _Trade(Part):
-    bl_label = "Trade"
+    bl_label = "Time and Accuracy"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
@@ -123,7 +150,7 @@ class _Trade(Part):
 
 
 class _Extremes(Part):
-    bl_label = "Extremes"
+    bl_label = "Where Methods Break"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
