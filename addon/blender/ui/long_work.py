@@ -172,7 +172,8 @@ class LongWork(Mixin):
 
     def _say(self, context: Any, what: str, rest: str = "") -> None:
         """Say where the user looks what is done, how far it is, and how to end it."""
-        said = ", ".join(filter(None, (self.doing or rpt_(self.bl_label), what))) + rest
+        said = self.doing or ", ".join(filter(None, (rpt_(self.bl_label), what)))
+        said += rest
         LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"
         LongWork._told.add(context.workspace.as_pointer())
         context.workspace.status_text_set(LongWork.said)

@@ -14,7 +14,7 @@ from ..drawing.judges import label_of
 from . import explain, results, studies
 from .differing import IMAGE_PT_reference_tracer_shown
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .layout import Part, beside, both, draw_facts, wrapped
+from .layout import Part, beside, both, draw_facts, fit, wrapped
 from .results import Kind
 from .swatches import swatch
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
+_VALUE = 0.58  # the share of the width that a number has beside its name and error
 
 
 class _Inspector(Part):
@@ -48,9 +49,6 @@ class _Inspector(Part):
         found = results.latest(Kind.PIXEL, context.scene)
         if found:
             _draw(layout, context, found.content, found.lines[0])
-            if comparison := results.content(Kind.COMPARISON, context.scene):
-                pixel = found.content.pixel
-                _draw_compared(layout, context, comparison, pixel.x, pixel.y)
 
 
 def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
@@ -63,8 +61,10 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
     wrapped(box, context, said)
     certainty = iface_(CERTAINTY_SENTENCES[derivation.certified.certainty])
     wrapped(box, context, iface_("This is {}.").format(certainty))
+    if comparison := results.content(Kind.COMPARISON, context.scene):
+        _draw_compared(layout, context, comparison, pixel.x, pixel.y)
     if derivation.seen_test:
-        _numbers(layout.box(), derivation.seen_test)
+        _numbers(layout.box(), context, derivation.seen_test)
     box = layout.box()
     tested = iface_("Tested: {}, left out: {:,}").format(len(derivation.tests), pixel.left_out)
     box.label(text=tested)
@@ -103,7 +103,7 @@ def _t(test: Any) -> str:
     return f", t = {float(t[0]):.6g}" if t else ""
 
 
-def _numbers(layout: Any, test: Any) -> None:
+def _numbers(layout: Any, context: Any, test: Any) -> None:
     """Draw the key numbers of what is seen; wrong digits are in brackets."""
     from ...derivation.digits import exact_text, marked, off_text, ulps
     from ...derivation.textbook import Arithmetic
@@ -112,18 +112,23 @@ def _numbers(layout: Any, test: Any) -> None:
     for quantity in (quantities[key] for key in _KEYS if key in quantities):
         column = layout.column(align=True)
         column.scale_y = 0.8
-        _number(column, quantity.formula.label, "", "ulp")
+        _number(column, context, quantity.formula.label, "", "ulp")
         exact = quantity.exact(0)
         for name, kind in (("f32", Arithmetic.FLOAT32), ("f64", Arithmetic.FLOAT64)):
             value = quantity.values[kind][0]
             off = ulps(value, exact)
             shown = marked(value, exact, off).with_wrong("[{}]")
-            _number(column, name, shown, off_text(off))
-        _number(column, "exact", "undefined" if exact is None else exact_text(exact, _DIGITS), "")
+            _number(column, context, name, shown, off_text(off))
+        known = "undefined" if exact is None else exact_text(exact, _DIGITS)
+        _number(column, context, "exact", known, "")
 
 
-def _number(layout: Any, name: str, value: str, off: str) -> None:
-    """Draw a number with its error; an exact number may be too long for the panel."""
+def _number(layout: Any, context: Any, name: str, value: str, off: str) -> None:
+    """Draw a number with its error: in columns, or below its name where it has no room there."""
+    if value and not fit(context, [value], _VALUE, 0):
+        wrapped(layout, context, f"{name} {off}")
+        wrapped(layout, context, value)
+        return
     split = layout.split(factor=0.17 if value else 0.83)  # without a value: a head
     split.label(text=name)
     if value and off:
