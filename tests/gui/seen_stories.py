@@ -184,7 +184,7 @@ def compared_images():
     pixels[:, :3] = pixels[:, 1::-1].repeat(2, axis=1)[:, :3]  # so that it is seen whose they are
     other.pixels.foreach_set(pixels.astype(np.float32).ravel())
     other.update()
-    places = np.random.default_rng(7).uniform(0.02, 0.98, (400, 2))
+    places = np.random.default_rng(7).uniform((0.02, 0.02), (0.98, 0.85), (400, 2))  # names: above
     seen = {}
     for image in ("DIFFERENCE", "CAUSES", "TRACED", "OTHER", "BOTH"):
         with bpy.context.temp_override(window=where, area=area):
@@ -322,8 +322,8 @@ def first_result():
     inside = next(r for r in area.regions if r.type == "WINDOW")
     with bpy.context.temp_override(window=where, area=area, region=inside):
         bpy.ops.reference_tracer.explain(x=first.left, y=first.bottom, source="COMPARISON")
-    found = yield from drawn_anew(SIDEBAR)
-    noted["inspector"] = [e["text"] for e in found[SIDEBAR + "_inspector"]["drawn"]]
+    found = yield from drawn_anew(PROPERTIES)
+    noted["inspector"] = [e["text"] for e in found[PROPERTIES + "_inspector"]["drawn"]]
     screenshot("first_inspector")
     view.render_display_type = "NONE"
 

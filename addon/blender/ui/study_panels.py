@@ -150,8 +150,11 @@ class _Trade(Part):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        self.layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
-        _draw_measured(self.layout, context, Kind.TRADE)
+        measure = studies.REFERENCE_TRACER_OT_trade.bl_idname
+        self.layout.operator(measure, text="Measure", icon="TIME")
+        _draw_measured(
+            self.layout, context, Kind.TRADE, "How long each method takes, and what it gets wrong"
+        )
 
 
 class _Extremes(Part):
@@ -159,14 +162,18 @@ class _Extremes(Part):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        self.layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
-        _draw_measured(self.layout, context, Kind.EXTREMES)
+        measure = studies.REFERENCE_TRACER_OT_extremes.bl_idname
+        self.layout.operator(measure, text="Measure", icon="MOD_NOISE")
+        _draw_measured(
+            self.layout, context, Kind.EXTREMES, "How far, tiny or thin is too much for each method"
+        )
 
 
-def _draw_measured(layout: Any, context: Any, kind: Kind) -> None:
-    """Draw what a study found in one sentence, and a button that opens its plot."""
-    if found := results.latest(kind, context.scene):
-        wrapped(layout, context, found.lines[0], "INFO")
+def _draw_measured(layout: Any, context: Any, kind: Kind, what: str) -> None:
+    """Draw what a study found in one sentence, with a button that opens its plot; or what it is."""
+    found = results.latest(kind, context.scene)
+    wrapped(layout, context, found.lines[0] if found else what, "INFO" if found else "NONE")
+    if found:
         layout.operator("wm.url_open", text="Open Plot").url = found.page
 
 
