@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import bpy
@@ -59,7 +60,17 @@ def test_an_image_that_the_user_saved_is_the_users(tmp_path):
         again = results.show(results.TRACED, 0 * PICTURE)
     assert named() == [results.TRACED, "kept.exr"] and again.pixels[0] == 0
     saved.reload()
+    results.remove(results.TRACED)
     assert saved.pixels[0] == 1 and not saved.is_runtime_data and not saved.get(results.MARK)
+
+
+def test_twenty_rounds_take_the_memory_of_one():
+    used = []
+    for _ in range(20):
+        shown = results.show(results.TRACED, np.ones((1024, 1024, 4), np.float32))
+        assert shown.pixels[0] == 1  # it is loaded, 16 MB
+        used.append(int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[1]) * 4096)
+    assert used[-1] - used[1] < 64e6 and named() == [results.TRACED]
 
 
 def test_an_image_that_the_user_packed_is_written_again():

@@ -23,6 +23,7 @@ blender --command extension server-generate --repo-dir .
 python3 -m http.server --bind 127.0.0.1 8000 &
 until (: </dev/tcp/127.0.0.1/8000) 2>/dev/null; do sleep 0.1; done
 """
+SCENE = "exercise_triangle"
 USE = "blender {scene} --command reference_tracer compare --out {folder}/compared"
 
 
@@ -50,6 +51,7 @@ def test_it_is_installed_from_an_address_as_the_document_says(blender):
 
 @pytest.mark.story("from_disk")
 def test_it_goes_and_comes_in_an_open_window(noted):
-    assert noted["gone"] == {"panel": False, "scene": False, "modules": []}
+    assert noted["gone"] == {"panel": False, "scene": False, "images": 0, "modules": []}
     assert noted["installed"] == noted["again"] == ["FINISHED"]  # the second time, over itself
     assert noted["verdict"] == "agree"
+    assert noted["written"] == [f"{SCENE}/compare/comparison.json"]  # as the Preferences say

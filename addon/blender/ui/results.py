@@ -181,22 +181,11 @@ def show(name: str, color: Colors) -> Any:
 
 
 def _as_ours(block: Any, name: str) -> Any:
-    """Mark an image, whose file is written, or a text, and have it take the place of ours.
-
-    One that the user has saved to a file of his is his from then on.
-    """
-    path, linear = _pictures.get(name, ("", ""))
-    if linear:
-        block.colorspace_settings.name = linear
+    """Mark an image, whose file is written, or a text, and have it take the place of ours."""
+    if name in _pictures:
+        block.colorspace_settings.name = _pictures[name][1]
         block.alpha_mode = "PREMUL"
-    old = ours(name)
-    if old and old.filepath != path:
-        del old[MARK]
-        old.is_runtime_data = False
-        old.name = Path(old.filepath).name
-    elif old:
-        old.user_remap(block)
-        _blocks(name).remove(old)
+    _give_up(name, block)
     block.name = name
     block[MARK] = name
     block.is_runtime_data = True
@@ -205,10 +194,22 @@ def _as_ours(block: Any, name: str) -> Any:
 
 def remove(name: str) -> None:
     """Remove our image or text of a name, if there is one."""
-    if block := ours(name):
-        _blocks(name).remove(block)
+    _give_up(name)
     _pictures.pop(name, None)
     _texts.pop(name, None)
+
+
+def _give_up(name: str, successor: Any = None) -> None:
+    """Remove ours, whose users take another one; if the user has saved it to a file, it is his."""
+    old = ours(name)
+    if old and old.filepath != _pictures.get(name, ("",))[0]:
+        del old[MARK]
+        old.is_runtime_data = False
+        old.name = Path(old.filepath).name
+    elif old:
+        if successor:
+            old.user_remap(successor)
+        _blocks(name).remove(old)
 
 
 def shown_put_right(scene: Any) -> Told:
