@@ -79,7 +79,7 @@ def test_the_result_opens_where_a_render_is_still_shown(noted):
 def test_the_line_divides_the_traced_picture_from_the_other(noted):
     both = noted["both"]
     assert both["apart"] > 0.8  # so it is seen whose each pixel is
-    assert both["left"] < 0.02 and both["right"] < 0.02
+    assert both["left"] < 0.05 and both["right"] < 0.05  # a screen's pixel may be that of two
     assert noted["coarse"] < 0.1
     assert noted["dragged"][0] == pytest.approx(noted["dragged"][1], abs=0.005)
 

@@ -103,9 +103,20 @@ def _open(window: int, name: str) -> None:
             bpy.ops.render.view_show("INVOKE_DEFAULT")
     if space := _of_render(context):
         space.image = image
+        _fit(context, space)
     for extra in bpy.data.images[:]:  # Blender makes it to be shown, where there is none
         if extra.type == "RENDER_RESULT" and extra.name not in had:
             bpy.data.images.remove(extra)
+
+
+def _fit(context: Any, space: Any) -> None:
+    """Have an Image Editor show all of its picture."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.spaces.active == space:
+                inside = next(r for r in area.regions if r.type == "WINDOW")
+                with context.temp_override(window=window, area=area, region=inside):
+                    bpy.ops.image.view_all(fit_view=True)
 
 
 def _of_render(context: Any) -> Any:
