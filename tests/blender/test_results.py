@@ -95,7 +95,7 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
     assert [(r.left, r.bottom, r.pixels) for r in found] == [(40, 20, 3)]
     assert bpy.ops.reference_tracer.frame_region(number=0) == {"FINISHED"}
     assert not bpy.context.selected_objects  # it moves the picture alone
-    assert bpy.ops.reference_tracer.view_region(number=0) == {"FINISHED"}
+    assert bpy.ops.reference_tracer.select_object(name=found[0].objects[0]) == {"FINISHED"}
     assert [o.name for o in bpy.context.selected_objects] == [found[0].objects[0]]
     with pytest.raises(RuntimeError, match="has 1 regions"):
         bpy.ops.reference_tracer.frame_region(number=1)

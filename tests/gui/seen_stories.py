@@ -249,9 +249,11 @@ def compared_images():
     views.view_perspective = "PERSP"
     before = views.view_location.copy()
     noted["moved"] = []
-    for name in ("frame_region", "view_region"):
+    ops = bpy.ops.reference_tracer
+    shows = {"name": regions[0].objects[0]}
+    for operator, options in ((ops.frame_region, {"number": 0}), (ops.select_object, shows)):
         with bpy.context.temp_override(window=window()):
-            getattr(bpy.ops.reference_tracer, name)(number=0)
+            operator(**options)
         yield
         selected = [o.name for o in window().view_layer.objects if o.select_get()]
         noted["moved"].append([(views.view_location - before).length, selected])

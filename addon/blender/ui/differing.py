@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.app.translations import pgettext_tip as tip_
-from bpy.props import IntProperty
+from bpy.props import IntProperty, StringProperty
 
 from . import results, shown
 from .layout import fit, wrapped
@@ -19,12 +20,16 @@ if TYPE_CHECKING:
     from ...diagnosis.regions import Region
 
 LISTED = 8
+OBJECT_MODE = "Leave the mode that the active object is in: Tab"
 _AROUND = 24  # pixels of the picture that are shown around a region, at least
 _BESIDE = 0.85  # of a panel's width, beside the button that goes to the view
 
 
-class _OfRegion:
-    """Mixed into an operator that is about a region that the panel lists."""
+@named
+class REFERENCE_TRACER_OT_frame_region(bpy.types.Operator):
+    bl_label = "Frame Region"
+    bl_description = "Enlarge this region in the Image Editors that show the comparison"
+    bl_options = set()  # it changes no data
 
     number: IntProperty(
         name="Number",
@@ -33,28 +38,6 @@ class _OfRegion:
         options={"SKIP_SAVE"},
     )
 
-    def region(self, context: Any) -> Region:
-        """Return the region.
-
-        Raises
-        ------
-        SceneError
-            If there is none of this number.
-        """
-        from ...scene import SceneError
-
-        found = _regions(context)
-        if self.number >= len(found):
-            raise SceneError(f"The comparison has {len(found)} regions, numbered from 0.")
-        return found[self.number]
-
-
-@named
-class REFERENCE_TRACER_OT_frame_region(_OfRegion, bpy.types.Operator):
-    bl_label = "Frame Region"
-    bl_description = "Enlarge this region in the Image Editors that show the comparison"
-    bl_options = set()  # it changes no data
-
     @classmethod
     def description(cls, context: Any, properties: Any) -> str:
         """Return what the region is, too: the button may have no room for it."""
@@ -62,39 +45,60 @@ class REFERENCE_TRACER_OT_frame_region(_OfRegion, bpy.types.Operator):
         return "\n".join((*(texts_of(r)[0] for r in found), tip_(cls.bl_description)))
 
     def execute(self, context: Any) -> Answer:
-        region = self.region(context)
+        from ...scene import SceneError
+
+        found = _regions(context)
+        if self.number >= len(found):
+            raise SceneError(f"The comparison has {len(found)} regions, numbered from 0.")
         for window, area in _areas(context, "IMAGE_EDITOR"):
             if shown.chosen(area.spaces.active):
-                _enlarge(window, area, region)
+                _enlarge(window, area, found[self.number])
         return {"FINISHED"}
 
 
 @named
-class REFERENCE_TRACER_OT_view_region(_OfRegion, bpy.types.Operator):
-    bl_label = "Go There in the 3D View"
+class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
+    bl_label = "Select"
     bl_description = (
-        "Select the object that this region shows, and frame it in the 3D views that do not look "
+        "Select this object alone, make it active, and frame it in the 3D views that do not look "
         "through the camera"
     )
     bl_options = {"REGISTER", "UNDO"}
 
+    name: StringProperty(
+        name="Name", description="The object, by its full name", options={"SKIP_SAVE"}
+    )
+
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Allow it in Object Mode."""
+        if context.mode != "OBJECT":
+            cls.poll_message_set(rpt_(OBJECT_MODE))
         return context.mode == "OBJECT"
 
     def execute(self, context: Any) -> Answer:
         from ...scene import SceneError
 
-        names = self.region(context).objects
-        by_name = {o.name_full: o for o in context.view_layer.objects}
-        found = next((by_name[name] for name in names if name in by_name), None)
+        layer = context.view_layer
+        found = next((o for o in context.scene.objects if o.name_full == self.name), None)
         if found is None:
-            raise SceneError("The view layer has no object that this region shows.")
+            raise SceneError(
+                f"Scene '{context.scene.name}' has no object '{self.name}' now: it is instanced "
+                "from elsewhere, or was renamed or removed since the comparison."
+            )
+        if found not in set(layer.objects):
+            raise SceneError(
+                f"'{self.name}' is not in view layer '{layer.name}': its collection is excluded."
+            )
         for obj in context.selected_objects:
             obj.select_set(False)
         found.select_set(True)
-        context.view_layer.objects.active = found
+        layer.objects.active = found
+        if not found.select_get():
+            said = rpt_(
+                "'{}' is active, but hidden in this view: Blender selects only what is seen"
+            )
+            self.report({"WARNING"}, said.format(self.name))
         for window, area in _areas(context, "VIEW_3D"):
             if area.spaces.active.region_3d.view_perspective != "CAMERA":
                 inside = next(r for r in area.regions if r.type == "WINDOW")
@@ -152,8 +156,9 @@ def draw_causes(layout: Any, context: Any) -> None:
             translate=False,
         )
         to.number = number
-        view = REFERENCE_TRACER_OT_view_region.bl_idname
-        row.operator(view, text="", icon="VIEW3D").number = number
+        if region.objects:
+            select = REFERENCE_TRACER_OT_select_object.bl_idname
+            row.operator(select, text="", icon="VIEW3D").name = region.objects[0]
     if more := len(_regions(context)[LISTED:]):
         column.label(text=iface_("and {} more regions").format(more))
 

@@ -16,7 +16,6 @@ from .long_work import LongWork
 from .results import Kind
 
 if TYPE_CHECKING:
-    from ...causes.counts import PixelCounts
     from ...comparison.comparison import Comparison
 
 Facts = Iterator[tuple[str, str]]  # names and values
@@ -30,7 +29,6 @@ def draw_outcome(layout: Any, context: Any, comparison: Comparison) -> None:
     for line in comparison.excused.lines():
         wrapped(layout, context, line.strip(), "ERROR")
     draw_findings(layout, context, comparison)
-    draw_facts(layout, context, _of_pixels(comparison.counts))
     draw_causes(layout, context)
 
 
@@ -68,16 +66,6 @@ def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
         draw_facts(layout.box(), context, facts)
     for line in (*comparison.required, *table(comparison.self_check)[:1]):
         wrapped(layout, context, line)
-
-
-def _of_pixels(pixels: PixelCounts) -> Facts:
-    """Yield how many pixels agree, and how many differ in and around surfaces."""
-    counts = {"Agree": pixels.agree}
-    if pixels.differ:
-        counts["Inside surfaces"] = pixels.interior.differ
-        counts["Along edges"] = pixels.boundary.differ
-    for label, count in counts.items():
-        yield label, f"{count:,} px"
 
 
 def _measured(comparison: Comparison) -> Facts:
