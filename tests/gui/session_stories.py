@@ -2,7 +2,7 @@
 
 import bpy
 import numpy as np
-from seen_stories import at_rest, editor, ours, step
+from seen_stories import at_rest, editor, ours
 from story import (
     MODULE,
     OUT,
@@ -44,7 +44,9 @@ def second_day():
         press("ctrl+z")
         yield
     yield from seen("undone", second)
-    yield from step("redo")
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.redo()
+    yield
     yield from seen("redone", second)
     for engine in ("WORKBENCH", "CYCLES"):
         window().scene.reference_tracer.judge = engine
@@ -143,6 +145,7 @@ def elsewhere():
         bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
     yield from until(ended, 20)
     noted["refused"] = [sorted(ours()), shown_in(area), verdict(of_first)]
+    yield
     screenshot("session_refused")
     first.camera.data.type = "PERSP"
     yield from compared_in(of_first)
