@@ -184,9 +184,5 @@ class IMAGE_PT_reference_tracer_shown(bpy.types.Panel):
         return shown.chosen(context.space_data) is not None
 
     def draw(self, context: Any) -> None:
-        """Draw the switch, the line's place, the legend and the regions."""
-        layout: Any = self.layout
-        shown.draw_switch(layout.column(align=True), context.space_data)
-        if shown.chosen(context.space_data) == "BOTH":
-            layout.prop(context.window_manager.reference_tracer, "split", slider=True)
-        draw_causes(layout, context)
+        """Draw the legend and the regions; the header has the switch."""
+        draw_causes(self.layout, context)

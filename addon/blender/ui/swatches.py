@@ -2,32 +2,35 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ...causes.cause import Cause
 
 _SIDE = 16  # pixels of an icon
-_made: list[Any] = []  # the collection of the icons, once one is drawn
 
 
+@cache
+def _icons() -> Any:
+    import bpy.utils.previews
+
+    return bpy.utils.previews.new()
+
+
+@cache
 def swatch(cause: Cause) -> int:
     """Return the number of the icon of a cause's colour; 0 if it has none."""
-    import bpy.utils.previews
     import numpy as np
 
     from ...images import curve
 
     if cause.color is None:
         return 0
-    if not _made:
-        _made.append(bpy.utils.previews.new())
-    [icons] = _made
-    if cause.key not in icons:
-        icon = icons.new(cause.key)
-        icon.icon_size = _SIDE, _SIDE
-        icon.icon_pixels_float = [*curve(np.array(cause.color)), 1.0] * _SIDE**2
-    found: int = icons[cause.key].icon_id
+    icon = _icons().new(cause.key)
+    icon.icon_size = _SIDE, _SIDE
+    icon.icon_pixels_float = [*curve(np.array(cause.color)), 1.0] * _SIDE**2
+    found: int = icon.icon_id
     return found
 
 
@@ -39,5 +42,6 @@ def unregister() -> None:
     """Free the icons."""
     import bpy.utils.previews
 
-    while _made:
-        bpy.utils.previews.remove(_made.pop())
+    bpy.utils.previews.remove(_icons())
+    _icons.cache_clear()
+    swatch.cache_clear()
