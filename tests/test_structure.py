@@ -29,7 +29,6 @@ FLOORS = {
     "tracer": 1,
     "framing": 1,
     "scene_files": 1,
-    "mesh_files": 1,
     "camera_files": 1,
     "mesh_diagnosis": 1,
     "opened": 2,

@@ -24,8 +24,6 @@ from reference_tracer.derivation.candidates import gather_pixel
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.scene_files import save_scene
 
-from ..mesh_files.gltf_build import rich
-
 DAILY, LONG, AT_ONCE = 1_000, 100_000, 20_000
 SUFFIXES = {".npz", ".json", ".png", ".exr", ".obj", ".ply", ".off", ".stl", ".glb", ".gltf"}
 
@@ -52,7 +50,7 @@ def folder(make, tmp_path, rng):
     several = trimesh.Scene([shape, trimesh.creation.icosahedron()])
     several.export(valid / "several.glb")
     several.export(valid / "several.obj")
-    (valid / "rich.gltf").write_text(rich().with_data_uri())
+    (valid / "plain.gltf").write_text(gltf_build.plain().with_data_uri())
     picture = rng.integers(0, 256, (9, 11, 4), dtype=np.uint8)
     images.save_png(valid / "own.png", picture)
     Image.fromarray(picture[..., :3]).quantize(9).save(valid / "palette.png", transparency=1)
