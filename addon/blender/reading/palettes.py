@@ -23,7 +23,7 @@ from ...pictures.palette import (
     clear_palette,
     not_told_apart,
 )
-from ...scene import Scene, SceneError
+from ...scene import GREY, Scene, SceneError
 from ..temporary import NOT_DRAWN
 from .colors import slot_materials
 
@@ -109,7 +109,8 @@ def as_compared(scene: Any, exported: Scene, manifest: Manifest) -> tuple[Scene,
         palette = palette_by(scene, by) if by == By.OBJECT else VIEWPORT
     if palette.by == By.OBJECT:
         whose = zip(exported.instance_objects, manifest.owners, strict=False)
-        slots = {(exported.objects[n], owner): palette.colors[owner][None] for n, owner in whose}
+        grey = np.array(GREY[:3], np.float32)  # of what instances, and is of a type without colour
+        slots = {(exported.objects[n], o): palette.colors.get(o, grey)[None] for n, o in whose}
         exported = recolored(exported, GivenColors("--colors", slots), manifest.owners)
     return exported, noted(palette, exported, manifest)
 
