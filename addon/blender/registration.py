@@ -9,7 +9,17 @@ import bpy
 
 from . import engine
 from .reading import rendered
-from .ui import inspector, language, menus, panels, preferences, properties, split, study_panels
+from .ui import (
+    inspector,
+    language,
+    menus,
+    panels,
+    preferences,
+    properties,
+    split,
+    study_panels,
+    swatches,
+)
 from .ui.long_work import OPERATORS, LongWork
 from .ui.results import forget, put_back, remember_editors
 
@@ -22,6 +32,7 @@ MODULES = (
     panels,
     study_panels,
     split,
+    swatches,
     rendered,
 )
 # The panels import the operators.

@@ -60,8 +60,7 @@ _seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are 
 
 def _kept(comparison: Comparison) -> Work[Result]:
     """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
-    from ...causes.cause import AGREE
-    from ...causes.maps import cause_map, difference_map, ringed
+    from ...causes.maps import cause_map, difference_map
     from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
 
@@ -73,7 +72,6 @@ def _kept(comparison: Comparison) -> Work[Result]:
     yield 0.2
     pair = traced, comparison.picture
     apart = yield from scaled(by_rows(difference_map, *pair), 0.2, 0.3)
-    apart = ringed(apart, cause != AGREE)
     yield 0.5
     show(DIFFERENCE, apart)
     yield 0.6

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @named
 class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
-    bl_label = "Measure the Trade"
+    bl_label = "Measure Time and Accuracy"
     bl_description = (
         "Measure on this scene and camera how long every method, precision, number of samples "
         "and size takes, and what it gets wrong"
@@ -65,7 +65,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
-    bl_label = "Measure the Extremes"
+    bl_label = "Find Where Methods Break"
     bl_description = (
         "Trace scenes that get harder and harder (far away, tiny, edge-on...) by every "
         "method, and find the first scale at which each differs from exact arithmetic"
