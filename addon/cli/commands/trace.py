@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ... import exr, images
+from ... import exr, images, npz
 from ...certificate_file import save_certificate
 from ...framing import Choice
 from ...mesh_files.load import READERS
@@ -170,8 +170,7 @@ def _write(path: Path, frame: Frame, new: Path, step: int) -> None:
         exr.save(new, passes, cryptomatte.header(frame))
     else:
         passes = {name: values[::step] for name, values in frame.passes().items()}
-        with new.open("wb") as file:  # given a name, numpy would add .npz to it
-            np.savez_compressed(file, objects=np.array(frame.scene.objects, "U"), **passes)  # type: ignore[arg-type]  # none is "allow_pickle"
+        npz.save(new, {"objects": np.array(frame.scene.objects, "U")} | passes)
 
 
 def _rows_alone(scene: Scene, settings: Settings, first: int, last: int) -> Scene:
