@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TypeVar
 
 from reference_tracer.arrays import Floats
-from reference_tracer.cli.running import printable
 from reference_tracer.tracer.progress import Work, scaled
+from reference_tracer.wording import printable
 from reference_tracer_processes.running import Limits
 
 from .examples import Example, find_examples

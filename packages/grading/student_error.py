@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 import numpy as np
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 
 KINDS = frozenset({"syntax", "exception", "answer", "exit", "memory", "time", "ended"})
 

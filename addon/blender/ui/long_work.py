@@ -8,7 +8,6 @@ with progress, the time left, and Esc. Only one runs at a time.
 from __future__ import annotations
 
 import time
-import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar
 
@@ -195,10 +194,10 @@ class LongWork(Mixin):
 
 def failed(operator: Any, error: Exception) -> Answer:
     """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
-    from ...errors import EXPECTED, words
+    from ...errors import EXPECTED, show_traceback, words
 
     if not isinstance(error, EXPECTED):
-        traceback.print_exception(error)
+        show_traceback(error)
     operator.report({"ERROR"}, words(error))
     return {"CANCELLED"}
 

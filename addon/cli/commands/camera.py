@@ -19,6 +19,7 @@ from ...diagnosis.camera_difference import difference
 from ...framing import Choice
 from ...report.cameras import SceneCamera, write_cameras
 from ...scene import Camera, Region, SceneError
+from ...wording import show
 from ..arguments import is_blend, refuse
 from ..camera_options import LAST_FRAME, add_camera, choice_from
 from ..opening import SOURCES, open_blend, open_file
@@ -152,8 +153,8 @@ def _scene(options: CameraOptions) -> Iterator[_At]:
 
 def _written(options: CameraOptions, out: Path, at: _At) -> int:
     convention = CONVENTIONS[options.convention or OPENCV.name]
-    print(write_cameras(out, at(None), convention, options.centers))
-    print(f"written to {out}, as {convention.title}")
+    show(write_cameras(out, at(None), convention, options.centers))
+    show(f"written to {out}, as {convention.title}")
     return AGREE
 
 
@@ -183,7 +184,7 @@ def _checked(options: CameraOptions, at: _At) -> int:
         wrong = _other_than_points(view, one.view.camera)
         agrees = agrees and its.agrees and not wrong
         for line in (*its.lines(), *wrong, *_notes(view, one.view)):
-            print(f"{view.name or options.check.name}: {line}")
+            show(f"{view.name or options.check.name}: {line}")
     return AGREE if agrees else DIFFERENCES
 
 

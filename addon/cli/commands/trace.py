@@ -21,7 +21,7 @@ from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.progress import Share
 from ...tracer.settings import Settings
-from ...wording import count_of
+from ...wording import count_of, show
 from ..arguments import GivenSettings, Place, add_settings, place_from, refuse, settings_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
@@ -148,16 +148,15 @@ def trace(options: TraceOptions) -> int:
         if options.masks and options.out:
             masks.write(options.masks, frame, options.out.name)
     s = frame.statistics
-    print(
+    show(
         f"{frame.shape[1]} x {frame.shape[0]} pixels, {count_of(s.triangles, 'triangle')}, "
         f"{count_of(s.pairs_tested, 'pair')} tested in {s.seconds:.2f} s ({s.method}, "
         f"{settings.precision}): {', '.join(map(str, options.files))}"
     )
-    for line in s.required():
-        print(line)
+    show(*s.required())
     is_mesh = options.scene.suffix.lower() in READERS
     if options.is_png and is_mesh and not options.settings.color:
-        print("each mesh has one flat colour: --color facing shows its shape")
+        show("each mesh has one flat colour: --color facing shows its shape")
     return AGREE
 
 
