@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 from reference_tracer import npz
 from reference_tracer.manifest import Effect, Manifest, ObjectEntry, Unmodelled
-from reference_tracer.mesh_files.load import load_meshes
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
 from reference_tracer.scene_files import load_account, load_scene, save_scene
+from reference_tracer_meshes.load import load_meshes
 
 from .old_scenes import old_arrays
 

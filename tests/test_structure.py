@@ -30,7 +30,6 @@ FLOORS = {
     "framing": 1,
     "npz": 1,
     "scene_files": 1,
-    "mesh_files": 1,
     "camera_files": 1,
     "mesh_diagnosis": 1,
     "opened": 2,

@@ -12,7 +12,7 @@ from ..camera_files.files import CONVENTIONS, is_seen_to_be, read
 from ..camera_files.files import chosen as chosen_view
 from ..file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
-from ..mesh_files.load import READERS
+from ..opened import mesh_formats
 from ..scene import SceneError
 from ..wording import show
 from .arguments import is_blend, refuse
@@ -144,7 +144,7 @@ def check_kind(path: Path) -> None:
     if suffix == ".blend":
         return
     check_is_file(path)
-    if suffix == ".npz" or suffix in READERS:
+    if suffix == ".npz" or suffix in mesh_formats():
         return
     do = ""
     if not suffix:
@@ -153,7 +153,7 @@ def check_kind(path: Path) -> None:
         do = ": import it into Blender, and save a .blend"
     elif suffix.startswith(".blend"):
         do = ": a backup of Blender's is a .blend once it is renamed"
-    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(READERS)}{do}")
+    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(mesh_formats())}{do}")
 
 
 def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice:
@@ -166,7 +166,7 @@ def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice
         others.
     """
     check_kind(path)
-    is_mesh = path.suffix.lower() in READERS
+    is_mesh = path.suffix.lower() in mesh_formats()
     _refuse_without_camera(given, is_mesh)
     if is_mesh:
         refuse(given, _OF_BLEND, f"is for a .blend: '{path}' has no such thing")

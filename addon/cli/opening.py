@@ -15,8 +15,7 @@ from typing import Any, NamedTuple
 from ..file_kinds import check_is_file
 from ..framing import Choice
 from ..manifest import Manifest
-from ..mesh_files.load import READERS
-from ..opened import open_scene
+from ..opened import mesh_formats, open_scene
 from ..scene import Scene, SceneError
 from ..tracer.settings import Settings
 from ..wording import show
@@ -26,7 +25,7 @@ from .camera_options import check_kind
 
 PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
-SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(READERS)})"
+SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
 
 
 class OpenedFile(NamedTuple):

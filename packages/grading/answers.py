@@ -25,7 +25,7 @@ class Answers:
     """What a function made of the checks: t (n,), barycentrics (n, 3)."""
 
     checks: Checks
-    t: Floats
+    t: Floats  # -inf: it raises
     s: Floats
 
     @property
@@ -58,13 +58,14 @@ class Answers:
     @property
     def tally(self) -> Tally:
         """How many are right."""
-        known = self.checks.known
+        known, raised = self.checks.known, np.isneginf(self.t)
         right = {
-            "surface": self.hit == known.hit,
+            "surface": (self.hit == known.hit) & ~raised,
             "t": self.both & ~self.wrong_t,
             "barycentrics": self.both & ~self.wrong_s,
         }
-        return Tally.of(self.hit | known.hit, known.doubt, right, self.checks.subject.weights)
+        counted, doubt = self.hit | known.hit | raised, known.doubt & ~raised
+        return Tally.of(counted, doubt, right, self.checks.subject.weights)
 
     @cached_property
     def hit(self) -> Mask:
@@ -79,7 +80,8 @@ class Answers:
     @cached_property
     def wrong_hit(self) -> Mask:
         """Where it hits what it should not, or the other way round, without a doubt."""
-        return (self.hit != self.checks.known.hit) & ~self.checks.known.doubt
+        known = self.checks.known
+        return (self.hit != known.hit) & ~known.doubt & ~np.isneginf(self.t)
 
     @cached_property
     def wrong_t(self) -> Mask:

@@ -27,22 +27,11 @@ from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
 
-from ..mesh_files.gltf_build import rich
+from ..meshes import gltf_build
 
 DAILY, LONG, AT_ONCE = 1_000, 100_000, 20_000
-SUFFIXES = {
-    ".npz",
-    ".npy",
-    ".json",
-    ".png",
-    ".exr",
-    ".obj",
-    ".ply",
-    ".off",
-    ".stl",
-    ".glb",
-    ".gltf",
-}
+PICTURES, ARRAYS = {".png", ".exr"}, {".npz", ".npy"}
+SUFFIXES = {*PICTURES, *ARRAYS, ".json", ".obj", ".ply", ".off", ".stl", ".glb", ".gltf"}
 
 
 @pytest.fixture
@@ -72,7 +61,7 @@ def folder(make, tmp_path, rng):
     several = trimesh.Scene([shape, trimesh.creation.icosahedron()])
     several.export(valid / "several.glb")
     several.export(valid / "several.obj")
-    (valid / "rich.gltf").write_text(rich().with_data_uri())
+    (valid / "plain.gltf").write_text(gltf_build.plain().with_data_uri())
     picture = rng.integers(0, 256, (9, 11, 4), dtype=np.uint8)
     images.save_png(valid / "own.png", picture)
     Image.fromarray(picture[..., :3]).quantize(9).save(valid / "palette.png", transparency=1)

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
-from reference_tracer.mesh_files.contents import Contents, Placed
-from reference_tracer.mesh_files.load import scene_of_meshes
 from reference_tracer.scene import Camera, Mesh, Scene, ViewWindow
+from reference_tracer_meshes.contents import Contents, Placed
+from reference_tracer_meshes.load import scene_of_meshes
 
 
 def mesh(vertices: NDArray, triangles: NDArray) -> Placed:
