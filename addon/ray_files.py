@@ -38,6 +38,7 @@ def load_rays(path: Path) -> Rays:
     return Rays(origins, directions)
 
 
+@np.errstate(all="ignore")  # what a number becomes is compared
 def _vectors(path: Path, found: dict[str, Array], name: str) -> Floats:
     """Return an array's rows as (3, n) float64."""
     if name not in found:

@@ -64,7 +64,8 @@ class RefusedError(Exception):
 
 def only(what: str, found: Any, known: Any) -> None:
     """Refuse what is not known."""
-    if unknown := [str(each) for each in found if each not in known]:
+    # numpy makes texts of a file that are none: `ascii` takes those, too
+    if unknown := [ascii(str(each))[1:-1] for each in found if each not in known]:
         raise RefusedError(f"not covered: {what} {', '.join(unknown[:9])}")
 
 

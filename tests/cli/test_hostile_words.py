@@ -45,6 +45,8 @@ def folder(make, tmp_path, monkeypatch):
         "more": {f"x{STEERING}".replace("\ud800", ""): np.zeros(3)},
     }.items():
         np.savez(f"{name}.npz", **arrays | change)
+    no_text = np.full(9, 2**31 - 1, "<u4").view("<U9")[0:1].reshape(())  # no letters at all
+    np.savez("letters.npz", **arrays | {"certificate": no_text})
     np.savez("depth.npz", **{f"{k}{STEERING}".replace("\ud800", ""): frame.t for k in range(99)})
     for name in ("colors", "pixel", "camera"):
         content = {"schema": WORDS, "K": WORDS, "objects": {WORDS: WORDS}, WORDS: WORDS}
@@ -70,6 +72,7 @@ COMMANDS = [
     "verify schema.npz",
     "verify camera.npz",
     "verify more.npz",
+    "verify letters.npz",
 ]
 
 
@@ -80,7 +83,7 @@ def test_words_of_a_file_are_harmless(command, folder, exit_code, capsys):
     assert code in range(5)
 
 
-@pytest.mark.parametrize("name", ["schema", "camera", "more"])
+@pytest.mark.parametrize("name", ["schema", "camera", "more", "letters"])
 def test_the_checker_alone_is_as_careful(name, folder, monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", ["verify.py", f"{name}.npz"])
     with pytest.raises(SystemExit):
