@@ -35,6 +35,11 @@ class StudentError(Exception):
         """The line of the student's file where it happened, if there is one."""
         return self.trace[-1][1] if self.trace else None
 
+    @property
+    def lines(self) -> list[str]:
+        """The lines of its own files that lead there, each once."""
+        return list(dict.fromkeys(f"{file}, line {n}: {text}" for file, n, _, text in self.trace))
+
     def to_dict(self) -> dict[str, Any]:
         """Return the error as JSON can hold it."""
         names = "file", "line", "function", "text"

@@ -304,3 +304,17 @@ def test_an_angle_in_degrees_is_refused(key, tmp_path):
     path.write_text(json.dumps(content), encoding="utf-8")
     with pytest.raises(SceneError, match=f"{key} is 50.*radians.*degrees"):
         read(path)
+
+
+def test_an_angle_of_gltf_in_degrees_is_refused(tmp_path):
+    lens = {"yfov": 50.0, "znear": 0.1}
+    content = {
+        "asset": {"version": "2.0"},
+        "cameras": [{"type": "perspective", "perspective": lens}],
+        "nodes": [{"camera": 0}],
+        "scenes": [{"nodes": [0]}],
+    }
+    path = tmp_path / "camera.gltf"
+    path.write_text(json.dumps(content), encoding="utf-8")
+    with pytest.raises(SceneError, match=r"yfov is 50: .*radians.*degrees"):
+        read(path)
