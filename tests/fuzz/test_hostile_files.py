@@ -24,6 +24,8 @@ from reference_tracer.derivation.candidates import gather_pixel
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.scene_files import save_scene
 
+from ..meshes import gltf_build
+
 DAILY, LONG, AT_ONCE = 1_000, 100_000, 20_000
 SUFFIXES = {".npz", ".json", ".png", ".exr", ".obj", ".ply", ".off", ".stl", ".glb", ".gltf"}
 
