@@ -27,7 +27,7 @@ from . import frame
 from .convention import Convention, Files, Source, View
 from .features import PARALLEL
 from .gltf_file import as_specified, item, open_gltf, read_tree
-from .json_files import dumped
+from .json_files import dumped, radians_of
 
 
 def _write(views: Sequence[View], centers: str) -> Files:
@@ -104,7 +104,8 @@ def _view(own: Content, label: str, name: str, world: Floats, source: Source) ->
         across, up = _number(lens, label, "xmag"), _number(lens, label, "ymag")
         aspect: float | None = across / up
     else:
-        up = float(np.tan(_number(lens, label, "yfov") / 2))
+        _number(lens, label, "yfov")
+        up = float(np.tan(radians_of(lens, "yfov", f"{label}: ") / 2))
         aspect = _number(lens, label, "aspectRatio") if "aspectRatio" in lens else None
     size = _size(own, label, aspect, source)
     across = up * size[0] / size[1]

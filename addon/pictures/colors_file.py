@@ -19,6 +19,7 @@ from ..scene import Scene, SceneError
 from .palette import By, GivenColors, Key, automatic_note, clear_palette, eight_bits, not_told_apart
 
 SCHEMA = "reference_tracer.colors/1"
+_LAST = "show the last colour"
 
 
 def owners_of(scene: Scene, owners: Sequence[str] = ()) -> tuple[str, ...]:
@@ -46,6 +47,7 @@ def text(scene: Scene, owners: Sequence[str]) -> str:
         found[scene.objects[plane.object], owner] = plane.color[None]
     content = {
         "schema": SCHEMA,
+        "slots_past_the_end": _LAST,
         "background": _color(scene.background) | {"alpha": float(scene.background[3])},
         "objects": [
             {"name": name, "instanced_by": owner, "slots": [_color(c) for c in colors]}
@@ -88,6 +90,8 @@ def _slots(content: Content) -> dict[Key, Colors]:
         raise SceneError(
             f"its schema is {schema!r}, not {SCHEMA!r}: --colors-out writes such files"
         )
+    if content.get("slots_past_the_end", _LAST) != _LAST:
+        raise SceneError(f"slots_past_the_end must be {_LAST!r}, as Blender has it")
     found: dict[Key, Colors] = {}
     for number, entry in enumerate(part(content, "objects", "", list)):
         where = f"objects[{number}]"

@@ -266,8 +266,11 @@ def test_what_the_file_lacks_or_has_too_much_is_named(ordinary, compare, tmp_pat
 def test_the_command_line_writes_and_takes_them(ordinary, tmp_path, capsys):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     palette, out = tmp_path / "colors.json", str(tmp_path / "out")
+    assert in_blender.run(["compare", "--colors-out", str(palette)]) == 0
+    alone, told = palette.read_bytes(), capsys.readouterr().out
+    assert "clear colour of its own" in told and "verdict" not in told
     assert in_blender.run(["compare", "--colors-out", str(palette), "--out", out]) == 0
-    assert "clear colour of its own" in capsys.readouterr().out
+    assert palette.read_bytes() == alone
     case = gather_case(bpy.context, colors=By.OBJECT)
     images.save_png(tmp_path / "other.png", images.to_display(case.picture.color))
     against = "compare", "--against", str(tmp_path / "other.png"), "--out", out

@@ -40,7 +40,6 @@ TUNING = {
     "sweep.sweep": {
         "_PAIRS": _STEP,
         "_FRAGMENTS": _ROOM,
-        "SAMPLE": "how many clusters are looked at first: whether they pay",
         "0.75": _ROOM,
         "2": _SHARE,
         "0.6": _SHARE,
@@ -74,9 +73,6 @@ ELSEWHERE = {
     "test_rounding.py holds their bounds against fractions",
     "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "
     "is left out is held to be what the boxes leave out by test_small_triangles.py",
-    "sweep.clusters": "which triangles are a cluster: its box is that of their vertices",
-    "sweep.clustered": "the boxes of clusters, argued by hand at its head, and what is looked at "
-    "first; pictures are held to be the same by test_clusters.py",
     "tree": "which triangles any rays may meet, argued by hand at its head: what is found is held "
     "to be what every pair has by test_tree.py",
     "measures": "of barycentrics, whose bound is argued by hand: below it, integers divide",

@@ -22,7 +22,6 @@ LEAST = "the least or the largest of numbers, which are not changed"
 SORTS = "sorts what is looked at first: any order is right"
 FLOAT32 = "float32 and a matrix product: Trees.v has no word for it (test_small_triangles.py)"
 BOXES = "boxes of whole instances, argued by hand: test_ends_of_float64.py, test_dropped.py"
-BY_HAND = "boxes of clusters, argued by hand at the head of clustered.py (test_clusters.py)"
 BOXES_BY_HAND = "bounds on what a ray misses, argued at the head of tree.py (test_tree.py)"
 WEIGHTS = "barycentrics, whose bound is argued by hand in measures.py (test_barycentrics.py)"
 BEFORE = "the roundings before the proof: test_rounding.py holds their bounds against fractions"
@@ -81,34 +80,23 @@ LEFT_OUT = {
         SORTS: "InstanceBoxes.area by_depth by_depth.<locals>.depth",
     },
     "sweep/chunks.py": {
-        WHICH: "Names.of Numbering.__init__ Numbering.enter Numbering.names_of _parts _some",
+        WHICH: "Names.of Numbering.__init__ Numbering.enter Numbering.names_of _parts",
         SORTS: "chunks",
         CALLS: "_Part.world expand",
-    },
-    "sweep/clustered.py": {
-        BY_HAND: "Clustered.of Clustered.of.<locals>.span",
-        SORTS: "Clustered.layers Clustered.pay Clustered.bins",
-        LEAST: "Clustered.not_hidden",
-        WHICH: "Clustered.triangles",
-    },
-    "sweep/clusters.py": {
-        BY_HAND: "Clusters.of",
-        SORTS: "Clusters.are_compact _surface clusters_of",
-        WHICH: "Clusters.__len__",
     },
     "sweep/depth_buffer.py": {
         WHICH: "DepthBuffer.__init__ DepthBuffer.winners DepthBuffer.pixels DepthBuffer.places _at",
         LEAST: "DepthBuffer.refresh DepthBuffer.farthest DepthBuffer.farthest_in "
-        "DepthBuffer.farthest_over DepthBuffer.farthest_around",
+        "DepthBuffer.farthest_around",
     },
-    "sweep/film.py": {CALLS: "Film.dual Film.is_sound", BY_HAND: "Film.rows with_room"},
+    "sweep/film.py": {CALLS: "Film.dual Film.is_sound", FLOAT32: "Film.rows with_room"},
     "sweep/rasterise.py": {WHICH: "Boxes.size rasterised split cells"},
     "sweep/small_boxes.py": {CALLS: "small_pairs", WHICH: "_blocks _pixels"},
     "sweep/small_triangles.py": {
         FLOAT32: "SmallTriangles.__init__ SmallTriangles.within SmallTriangles._ends"
     },
     "sweep/sweep.py": {
-        CALLS: "sweep Sweep.__init__ Sweep.steps Sweep._instances Sweep._visible Sweep._keep "
+        CALLS: "sweep Sweep.__init__ Sweep.steps Sweep._instances Sweep._keep "
         "Sweep._make_room Sweep.enter Sweep._enter_triangles Sweep._enter_large "
         "Sweep.pairs _FullError.__init__",
     },

@@ -160,7 +160,7 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
         "Show the picture that this is wrong in, the traced one or the other, as it is with this "
         "and what was found before it put right"
     )
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = set()  # it changes no data
     in_object_mode = False
 
     def execute(self, context: Any) -> Answer:

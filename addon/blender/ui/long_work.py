@@ -20,7 +20,7 @@ from ...tracer.progress import Work, doing, result_of
 from ...wording import say
 from ..versions import RELATIVE
 from .preferences import default_folder
-from .results import redraw
+from .results import Kind, drop, redraw
 
 if TYPE_CHECKING:
     from bpy.stub_internal.rna_enums import OperatorReturnItems
@@ -59,12 +59,13 @@ def named(operator: T) -> T:
 class LongWork(Mixin):
     """Mixed into an operator with long work, which gives its `begin` and its `finish`."""
 
-    bl_options = {"UNDO"}  # what it leaves is one step
+    bl_options = set()  # it leaves results, which no undo step has
 
     running: ClassVar[str] = ""  # the label of the one that is, in whichever window
     _work: ClassVar[Work[Any]]  # of that one
     _timer: ClassVar[Any]
     _told: ClassVar[set[int]] = set()  # the addresses of the workspaces whose status bar says so
+    kind: Kind | None = None  # of its result: if it fails, the one before is dropped
     needs_camera: ClassVar[bool] = False
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
@@ -194,9 +195,15 @@ class LongWork(Mixin):
 
 
 def failed(operator: Any, error: Exception) -> Answer:
-    """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
+    """Have an operator report an error, with a traceback if it is a fault of ours, and end.
+
+    What is on the screen is not taken for its result.
+    """
     from ...errors import EXPECTED, words
 
+    if kind := getattr(operator, "kind", None):
+        drop(kind, bpy.context.scene)
+        redraw(bpy.context)
     if not isinstance(error, EXPECTED):
         traceback.print_exception(error)
     operator.report({"ERROR"}, words(error))

@@ -1,12 +1,14 @@
 """Keeps the latest of each kind of result for the panels, and shows it in images and texts.
 
-What the panels show is not stored in the .blend: it is about one moment.
+They belong to the session, as a render does. Blender stores no data-block that is marked as runtime
+data. A picture is shown from a file of the session's, so there is nothing in it to be saved. No
+undo step need have them: undo takes them away, and they are put back.
 """
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cache
@@ -33,14 +35,14 @@ BLENDER = "Reference Tracer Blender"
 DIFFERENCE = "Reference Tracer Difference"
 CAUSES = "Reference Tracer Causes"
 PUT_RIGHT = "Reference Tracer Put Right"
-MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
+MARK = "reference_tracer_result"  # a custom property of our images and texts: their name
+_SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of an area
 
 
 @dataclass(frozen=True, eq=False)
 class Result:
     """What a panel shows; computed once, since panels are drawn many times a second."""
 
-    file: str
     content: Any  # what the kind says
     lines: tuple[str, ...]  # sentences; a panel shows the first
     scene: str | None = None  # None: of no scene
@@ -53,6 +55,9 @@ class Result:
 
 
 _latest: dict[Kind, Result] = {}
+_pictures: dict[str, tuple[str, str]] = {}  # the files of our images, and their colour spaces
+_texts: dict[str, tuple[int, str]] = {}  # the `session_uid` of ours, and what they say
+_seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
 
 
 def keep_comparison(comparison: Comparison) -> Work[Result]:
@@ -83,8 +88,7 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     for number, _, color in pictures_put_right(comparison):
         right[number] = color
         yield 1.0
-    if stale := ours(PUT_RIGHT):
-        bpy.data.images.remove(stale)
+    remove(PUT_RIGHT)
     found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
     _latest[Kind.COMPARISON] = replace(found, regions=regions, put_right=right)
     return _latest[Kind.COMPARISON]
@@ -126,16 +130,14 @@ def keep(
     kind: Kind, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
 ) -> Result:
     """Remember a result of a kind, for :func:`latest`."""
-    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, page)
+    _latest[kind] = Result(content, tuple(lines), scene, page)
     return _latest[kind]
 
 
 def latest(kind: Kind, scene: Any) -> Result | None:
-    """Return the latest result of a kind, if it is of this scene in the file that is open."""
+    """Return the latest result of a kind, if it is of this scene."""
     found = _latest.get(kind)
-    if found and found.file == bpy.data.filepath and found.scene in (None, scene.name):
-        return found
-    return None
+    return found if found and found.scene in (None, scene.name) else None
 
 
 def content(kind: Kind, scene: Any) -> Any:
@@ -144,32 +146,72 @@ def content(kind: Kind, scene: Any) -> Any:
     return found and found.content
 
 
+def drop(kind: Kind, scene: Any) -> None:
+    """Drop a scene's result of a kind, with its pictures."""
+    if latest(kind, scene):
+        del _latest[kind]
+    if kind not in _latest and kind is Kind.COMPARISON:
+        for name in (TRACED, BLENDER, DIFFERENCE, CAUSES, PUT_RIGHT):
+            remove(name)
+
+
 def forget() -> None:
-    """Drop all results, as when another file is opened."""
+    """Drop all results, with what shows them, as when another file is opened."""
     _latest.clear()
-
-
-def remove_stale_images() -> None:
-    """Remove our images from a file that was just opened: what was shown of them was not stored."""
-    for image in bpy.data.images[:]:
-        if image.get(MARK) and image.source == "GENERATED":
-            bpy.data.images.remove(image)
+    for name in (*_pictures, *_texts):
+        remove(name)
 
 
 def show(name: str, color: Colors) -> Any:
-    """Put linear RGBA (h, w, 4) into our image of this name; make it if there is none."""
+    """Show linear RGBA (h, w, 4) as our image of this name, in place of the one that there is."""
     import numpy as np
 
+    remember_editors()
     height, width = color.shape[:2]
-    image = _ours(bpy.data.images, name, lambda i: i.source != "GENERATED")
-    if image is None:
-        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
-        image[MARK] = name
-    elif tuple(image.size) != (width, height):
-        image.scale(width, height)
+    image: Any = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+    linear = image.colorspace_settings.name
+    image.colorspace_settings.is_data = True  # it is written as it is
+    image.alpha_mode = "CHANNEL_PACKED"
     image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
-    image.update()
+    image.filepath_raw = str(Path(bpy.app.tempdir, f"{name}.exr"))
+    image.file_format = "OPEN_EXR"
+    image.save()
+    _pictures[name] = image.filepath_raw, linear
+    _as_ours(image, name)
+    _fill_editors()
     return image
+
+
+def _as_ours(block: Any, name: str) -> Any:
+    """Mark an image, whose file is written, or a text, and have it take the place of ours."""
+    if name in _pictures:
+        block.colorspace_settings.name = _pictures[name][1]
+        block.alpha_mode = "PREMUL"
+    _give_up(name, block)
+    block.name = name
+    block[MARK] = name
+    block.is_runtime_data = True
+    return block
+
+
+def remove(name: str) -> None:
+    """Remove our image or text of a name, if there is one."""
+    _give_up(name)
+    _pictures.pop(name, None)
+    _texts.pop(name, None)
+
+
+def _give_up(name: str, successor: Any = None) -> None:
+    """Remove ours, whose users take another one; if the user has saved it to a file, it is his."""
+    old = ours(name)
+    if old and old.filepath != _pictures.get(name, ("",))[0]:
+        del old[MARK]
+        old.is_runtime_data = False
+        old.name = Path(old.filepath).name
+    elif old:
+        if successor:
+            old.user_remap(successor)
+        _blocks(name).remove(old)
 
 
 def shown_put_right(scene: Any) -> Told:
@@ -196,33 +238,56 @@ def shown_put_right(scene: Any) -> Told:
 
 
 def ours(name: str) -> Any:
-    """Return our image of a name, or None."""
-    return next((i for i in bpy.data.images if i.get(MARK) == name), None)
+    """Return our image or text of a name, or None."""
+    return next((b for b in _blocks(name) if b.get(MARK) == name and b.is_runtime_data), None)
 
 
-def _ours(blocks: Any, name: str, is_saved: Callable[[Any], object]) -> Any:
-    """Return our image or text of a name, or None. One that the user has saved is theirs now."""
-    found = next((b for b in blocks if b.get(MARK) == name), None)
-    if found and is_saved(found):
-        del found[MARK]
-        return None
-    return found
+def _blocks(name: str) -> Any:
+    return bpy.data.texts if name in _texts else bpy.data.images
 
 
 def show_text(context: Any, name: str, content: str) -> Any:
-    """Put a text into our text of this name, or a new one, and show it in a text editor.
-
-    A text that the user has saved to a file is theirs, and is left as it is.
-    """
-    text = _ours(bpy.data.texts, name, lambda t: t.filepath)
-    if text is None:
-        text = bpy.data.texts.new(name)
-        text[MARK] = name
-    text.from_string(content)
+    """Put a text into our text of this name, and show it in a text editor."""
+    text = _new_text(name, content)
     if area := next(areas(context, "TEXT_EDITOR"), None):
         area.spaces.active.text = text
         area.spaces.active.top = 0
     return text
+
+
+def _new_text(name: str, content: str) -> Any:
+    text = bpy.data.texts.new(name)
+    text.from_string(content)
+    _texts[name] = text.session_uid, content
+    return _as_ours(text, name)
+
+
+def remember_editors(*_: Any) -> None:
+    """Remember which editors show ours, before undo takes it away."""
+    _seen.clear()
+    manager: Any = bpy.context.window_manager
+    for window in manager.windows:
+        for area in window.screen.areas:
+            shown = getattr(area.spaces.active, _SHOWN_AS.get(area.type, ""), None)
+            if shown and MARK in shown:
+                _seen.append((area, shown[MARK]))
+
+
+def put_back(*_: Any) -> None:
+    """Make again what undo has taken away, or has put an older one in the place of."""
+    for name, (path, _linear) in _pictures.items():
+        if ours(name) is None:
+            _as_ours(bpy.data.images.load(path), name)
+    for name, (made, content) in _texts.items():
+        text = ours(name)
+        if text is None or text.session_uid != made:
+            _new_text(name, content)
+    _fill_editors()
+
+
+def _fill_editors() -> None:
+    for area, name in _seen:
+        setattr(area.spaces.active, _SHOWN_AS[area.type], ours(name))
 
 
 def areas(context: Any, kind: str) -> Iterator[Any]:

@@ -20,6 +20,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         "Measure on this scene and camera how long every method, precision, number of samples "
         "and size takes, and what it gets wrong"
     )
+    kind = results.Kind.TRADE
     needs_camera = True
 
     width: IntProperty(
@@ -63,6 +64,7 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         "Trace scenes that get harder and harder (far away, tiny, edge-on...) by every "
         "method, and find the first scale at which each differs from exact arithmetic"
     )
+    kind = results.Kind.EXTREMES
     scenario: EnumProperty(
         name="Scenario",
         description="The scenario to measure",

@@ -16,7 +16,7 @@ from ...scene import Mesh, Scene
 from ...tracer.progress import Steps
 from ...tracer.vector import Vectors, gather, groups, occurring, parts, transform_points
 from .film import Film, Vertices
-from .small_triangles import SmallTriangles, Triangles
+from .small_triangles import SmallTriangles
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
 
@@ -25,15 +25,13 @@ _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a c
 class Chunk:
     """The triangles first <= k < last of one instance, or all of several (`last` is None).
 
-    Of `dense` instances only those that may cover a pixel (`small_triangles.py`). Where `own` is
-    given, only these triangles, instance by instance.
+    Of `dense` instances only those that may cover a pixel (`small_triangles.py`).
     """
 
     instances: Integers
     first: int = 0
     last: int | None = None
     dense: bool = False
-    own: tuple[tuple[int, Integers], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,12 +186,6 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Ste
 
 def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part | None]:
     """Yield a chunk's triangles, mesh by mesh, and None after each step in between."""
-    if chunk.own:
-        for instance, own in chunk.own:
-            yield from _some(
-                scene, np.array([instance], np.int32), own, small if chunk.dense else None
-            )
-        return
     of = scene.instance_meshes[chunk.instances]
     for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
         mesh = scene.meshes[scene.instances[members[0]].mesh]
@@ -210,20 +202,3 @@ def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part 
         starts = count * np.arange(len(members), dtype=np.int32)
         corners = (corners[:, None] + starts[:, None]).reshape(3, -1)
         yield _Part(mesh, members, counts, corners, used)
-
-
-def _some(
-    scene: Scene, instance: Integers, own: Integers, small: SmallTriangles | None
-) -> Iterator[_Part | None]:
-    """Yield the triangles `own` of one instance, as `_parts` does."""
-    mesh = scene.meshes[scene.instances[instance[0]].mesh]
-    used, corners = occurring(mesh.triangles.take(own, axis=0).T, len(mesh.vertices))
-    yield None
-    if not small:
-        yield _Part(mesh, instance, np.array([len(own)]), corners, used, own)
-        return
-    some = Triangles(mesh.vertices.take(used, axis=0), corners.T)
-    for found in small.within(some, instance):
-        if found:
-            found = found._replace(used=used[found.used], triangle=own[found.triangle])
-        yield _Part(mesh, *found) if found else None

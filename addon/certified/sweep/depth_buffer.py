@@ -195,29 +195,6 @@ class DepthBuffer:
             out[larger] = np.where(size < 2 * FINE, farthest, -np.inf)
         return out
 
-    def farthest_over(self, low: Index, high: Index) -> Floats:
-        """Return the least nearness in the cells that boxes overlap, of any size, (b,).
-
-        Any box is covered by four squares of 2^k cells a side, one at each of its corners.
-        """
-        low = low // FINE
-        high = high // FINE
-        level = np.frexp((high - low).max(axis=0) + 1.0)[1] - 1
-        out = np.empty(len(level))
-        cells = self._fine
-        for k in range(int(level.max(initial=-1)) + 1):
-            side = 1 << k
-            some = np.flatnonzero(level == k)
-            x0, y0 = low[:, some]
-            x1, y1 = np.maximum(high[:, some] - side + 1, (x0, y0))
-            out[some] = _at(cells, x0, y0)
-            for x, y in ((x1, y0), (x0, y1), (x1, y1)):
-                out[some] = np.minimum(out[some], _at(cells, x, y))
-            cells = cells.copy()
-            np.minimum(cells[:-side], cells[side:], out=cells[:-side])
-            np.minimum(cells[:, :-side], cells[:, side:], out=cells[:, :-side])
-        return out
-
     def farthest_around(self, x0: int, y0: int, x1: int, y1: int) -> float:
         """Return the least nearness in all cells that a box of any size overlaps."""
         rows = slice(y0 // FINE, y1 // FINE + 1)

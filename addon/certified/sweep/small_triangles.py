@@ -51,13 +51,6 @@ class Visible(NamedTuple):
     triangle: Integers  # (m,) their numbers in the mesh, instance by instance
 
 
-class Triangles(NamedTuple):
-    """Some triangles of a mesh, and their vertices, as a `Mesh` has them."""
-
-    vertices: Floats  # (v, 3)
-    triangles: Integers  # (n, 3)
-
-
 class SmallTriangles:
     """The instances of a scene on a camera's film, in float32.
 
@@ -99,7 +92,7 @@ class SmallTriangles:
         known &= largest(most, np.full_like(most, far)) < _FARTHEST // 2
         self.is_dense = known & (counts > _PER_PIXEL * area)
 
-    def within(self, mesh: Mesh | Triangles, members: Integers) -> Iterator[Visible | None]:
+    def within(self, mesh: Mesh, members: Integers) -> Iterator[Visible | None]:
         """Find the triangles of instances `members` of a mesh that may cover a pixel.
 
         Yields those of some instances and triangles at a time, and None after each step in between.

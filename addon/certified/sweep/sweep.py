@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -23,8 +22,6 @@ from ..arithmetic import sound_steps
 from ..bounds import plane_fractions
 from .boxes import Boxed, InstanceBoxes, boxes_of, by_depth
 from .chunks import Chunk, Names, Numbering, chunks, expand
-from .clustered import SAMPLE, Clustered
-from .clusters import Clusters, clusters_of
 from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments, nearness
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
@@ -114,9 +111,6 @@ class Sweep:
         region = self._depths.region
         small = SmallTriangles(self._scene, self._film, region, around.area)
         in_view = around.in_region(region)
-        of = self._scene.instance_meshes
-        found = {k: clusters_of(self._scene.meshes[k]) for k in np.unique(of[in_view]).tolist()}
-        known = {k: clusters for k, clusters in found.items() if clusters}
         every = chunks(self._scene, in_view, around.depth, limit, small.is_dense)
         for number, chunk in enumerate(every):
             if self._fragments:
@@ -124,28 +118,9 @@ class Sweep:
                 hidden = around.hidden(chunk.instances, self._depths)
                 chunk = replace(chunk, instances=chunk.instances[~hidden])
             share = 0.6 * number / len(every)
-            for part in self._visible(chunk, known):
-                for _ in timed(self.enter(part, small), self._statistics.stages):
-                    yield share
-                    self._make_room(room, share)
-
-    def _visible(self, chunk: Chunk, known: dict[int, Clusters]) -> Iterator[Chunk]:
-        """Yield what of a chunk may be seen, given the clusters of meshes by number."""
-        has_clusters = np.isin(self._scene.instance_meshes[chunk.instances], list(known))
-        rest = replace(chunk, instances=chunk.instances[~has_clusters])
-        some = replace(chunk, instances=chunk.instances[has_clusters])
-        project = partial(Clustered.of, self._scene, self._film, self._depths.region, some, known)
-        if not has_clusters.any() or not project(step=SAMPLE).pay():
-            yield chunk
-            return
-        yield rest
-        clusters = project()
-        for depth_bin in clusters.bins():
-            if self._fragments:
-                self._depths.refresh()
-                depth_bin = clusters.not_hidden(depth_bin, self._depths)
-            if len(depth_bin):
-                yield replace(some, own=tuple(clusters.triangles(depth_bin)))
+            for _ in timed(self.enter(chunk, small), self._statistics.stages):
+                yield share
+                self._make_room(room, share)
 
     def _keep(self, some: Fragments) -> None:
         self._fragments.append(some)

@@ -57,6 +57,8 @@ def add(parser: Parser) -> None:
 
 def compare(options: CompareOptions) -> int:
     """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
+    if options.only_colors:
+        return _only_colors(options, options.only_colors)
     results = [folders.place_of(options.out / name) for name in comparison_report.NAMES]
     colors = options.colors if isinstance(options.colors, Path) else None
     for file in (options.scene, options.file, colors, options.colors_out, options.junit):
@@ -64,10 +66,6 @@ def compare(options: CompareOptions) -> int:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
             )
-    if options.colors_out and options.file is None and not is_blend(options.scene):
-        if options.junit:
-            raise SceneError("--junit is for a comparison: name a picture with --against")
-        return _only_colors(options, options.colors_out)
     if options.junit:  # that of an earlier run would pass for this one's
         options.junit.unlink(missing_ok=True)
     written = comparison_report.failure_written(options.out)  # but for an animation
@@ -200,11 +198,20 @@ def _write_junit(options: CompareOptions, judged: Sequence[Judged]) -> None:
 
 
 def _only_colors(options: CompareOptions, path: Path) -> int:
-    """Write the colours for a picture of a mesh or a .npz that is still to be rendered."""
-    scene, manifest, _ = open_file(options.scene, options.choice)
-    scene, notes = in_colors(scene, _colors(options) or By.AUTOMATIC)
+    """Write the colours for a picture that is still to be rendered."""
+    colors = _colors(options)
+    if is_blend(options.scene):
+        with open_blend(options.scene, options.choice) as blender:
+            from ...blender.jobs.against import exported_in
+            from ...blender.jobs.open_file import Choices
+
+            colors = colors or Choices.of(blender.context.scene, {}).colors
+            _, scene, manifest = exported_in(blender.context, colors)
+    else:
+        scene, manifest, _ = open_file(options.scene, options.choice)
+        scene, notes = in_colors(scene, colors or By.AUTOMATIC)
+        manifest = replace(manifest, notes=(*manifest.notes, *notes))
     _write_colors(path, scene, manifest.owners)
-    manifest = replace(manifest, notes=(*manifest.notes, *notes))
     print(*manifest.lines(), f"written to {path}", sep="\n")
     return AGREE
 
