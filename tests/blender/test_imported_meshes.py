@@ -5,17 +5,21 @@ The right area and place are worked out from the rules of the specification, by 
 
 from __future__ import annotations
 
-import json
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from pxr import Usd, UsdGeom, UsdUtils
+from reference_tracer import load_scene
+from reference_tracer.cli.opening import SOURCES
 from reference_tracer.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.vector import transform_points
-from reference_tracer_meshes import by_blender
+from reference_tracer_meshes import FORMATS, by_blender
 from reference_tracer_meshes.load import load_meshes
 
 from ..meshes.gltf_build import SQUARE, UNIT, Build, box, moved, read, rich, skinned, sparse
@@ -200,4 +204,27 @@ def test_the_command_traces_a_package(tmp_path):
     words = ["trace", str(tmp_path / "a.usdz"), "--out", str(tmp_path / "a.npz")]
     subprocess.run([sys.executable, "-m", "reference_tracer.cli", *words], check=True)
     with np.load(tmp_path / "a.npz") as found:
-        assert json.dumps(sorted(found.files))
+        assert np.isfinite(found["depth"]).mean() > 0.1
+
+
+def test_the_formats_that_are_named_are_those_that_are_read(tmp_path):
+    """In --help, in the documents and to Python: each is read here."""
+    square = trimesh.Trimesh(QUAD, [(0, 1, 2), (0, 2, 3)], process=False)
+    stage(tmp_path / "in.usdc").Save()
+    for suffix in FORMATS:
+        path = tmp_path / f"a{suffix}"
+        if suffix == ".usdz":
+            UsdUtils.CreateNewUsdzPackage(str(tmp_path / "in.usdc"), str(path))
+        elif suffix.startswith(".usd"):
+            stage(path).Save()
+        else:
+            square.export(path)
+        assert sum(len(p.mesh.triangles) for p in load_meshes(path).placed) == 2, suffix
+    root = Path(__file__).parent.parent.parent
+    documents = (root / "docs/commands.md").read_text("utf-8")
+    line = next(line for line in documents.splitlines() if line.startswith("A scene is a .blend"))
+    for text in (line.partition("#meshes")[2], SOURCES.partition("a mesh")[2]):
+        assert re.findall(r"\.\w+", text) == [*FORMATS]
+    assert re.findall(r"\.\w+", load_scene.__doc__.split("``")[0].partition("That is")[2]) == [
+        *FORMATS
+    ]
