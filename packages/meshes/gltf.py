@@ -203,7 +203,9 @@ class _File:
         if count := len(self.content.get("animations", [])):
             yield f"Animations are not played, {count} of them; everything is traced at rest."
         if count := len(self.content.get("cameras", [])):
-            yield f"The file has {count_of(count, 'camera')}; --camera uses one by its node's name."
+            names = [str(node.get("name", "")) for node in nodes if "camera" in node]
+            use = "--camera uses one by its node's name"
+            yield f"The file has {count_of(count, 'camera')}; {use}: {', '.join(names)[:99]}."
         if "KHR_lights_punctual" in self.content.get("extensions", {}):
             yield "Lights are not used: the file has some."
 
