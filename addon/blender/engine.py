@@ -77,10 +77,13 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         from ..certified.arithmetic import AssumptionError
         from ..tracer.frame import Frame
         from .reading.export import export
+        from .reading.palettes import as_compared
 
         self.update_stats("", "Exporting")
-        scene, manifest = export(depsgraph)
+        scene, manifest = as_compared(depsgraph.scene, *export(depsgraph))
         say(*manifest.lines())
+        for note in manifest.notes:
+            self.report({"INFO"}, note[0].upper() + note[1:])
         frame = Frame.empty(scene)
         layer = depsgraph.view_layer.name
         passes = _enabled(depsgraph.view_layer)

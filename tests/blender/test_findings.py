@@ -109,20 +109,18 @@ def test_an_object_that_was_found_is_selected(seen, monkeypatch):
     assert [t.guess.object for t in told] == [name]
     for other in scene.objects:
         other.select_set(True)
-    assert OPS.select_finding(number=0) == {"FINISHED"}
+    assert OPS.select_object(name=name) == {"FINISHED"}
     assert bpy.context.selected_objects == [obj] == [bpy.context.view_layer.objects.active]
-    with pytest.raises(RuntimeError, match="tells 1 faults"):
-        OPS.select_finding(number=1)
     obj.name = "Renamed"
     with pytest.raises(RuntimeError, match=f"no object '{name}' now"):
-        OPS.select_finding(number=0)
+        OPS.select_object(name=name)
 
 
 def test_without_a_finding_there_is_no_button(seen):
-    assert not OPS.select_finding.poll() and not OPS.copy_camera.poll()
+    assert not OPS.copy_camera.poll()
     OPS.compare()
     assert found() is None
-    assert not OPS.select_finding.poll() and not OPS.copy_camera.poll()
+    assert not OPS.copy_camera.poll()
 
 
 class Drawn(list):

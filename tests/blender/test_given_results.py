@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.engine import ENGINE
 from reference_tracer.blender.reading import rendered
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
@@ -211,3 +212,28 @@ def test_without_a_render_there_is_no_result(solids):
     solids.reference_tracer.judge = "RENDER_RESULT"
     with pytest.raises(RuntimeError, match="no Render Result: render it first"):
         OPS.compare()
+
+
+@pytest.mark.parametrize(("colors", "number"), [("AUTOMATIC", 2), ("OBJECT", 2), ("VIEWPORT", 1)])
+def test_a_render_tells_grey_objects_apart_as_a_comparison_does(colors, number, build, capfd):
+    """F12 of a new scene, whose objects share a colour; and it agrees with what was rendered."""
+    scene = build.scene(96, 54)
+    scene.render.film_transparent = True
+    scene.display.shading.color_type = "MATERIAL"
+    for name, x in (("Left", -1.5), ("Right", 0.5)):
+        corners = [(x, 5, -1), (x + 1, 5, -1), (x + 1, 5, 1), (x, 5, 1)]
+        build.mesh(name, corners, [(0, 1, 2, 3)])
+    build.camera((0, 0, 0), (np.pi / 2, 0, 0))
+    stored = scene.reference_tracer
+    stored.colors = colors
+    stored.judge = "RENDER_RESULT"
+    scene.render.engine = ENGINE
+    bpy.ops.render.render()
+    said = capfd.readouterr()
+    told = "the viewport's colours do not tell 'Left' from 'Right'" in said.out + said.err
+    assert told == (colors == "AUTOMATIC")
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, scene)
+    seen = found.picture[found.picture[..., 3] > 0]
+    assert len(np.unique(seen, axis=0)) == number
+    assert found.verdict == "agree" and found.counts.differ == 0

@@ -21,6 +21,7 @@ from ...scene import Scene
 from ..drawing.drawings import Drawing
 from ..drawing.judge import Judge
 from ..drawing.judges import RENDER_RESULT
+from ..engine import ENGINE
 from ..reading.camera import export_camera
 from ..reading.pictures import image_file, render_result
 from ..versions import DITHER
@@ -70,7 +71,8 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
         making = replace(making, default_dither=dither, engine=engine)
         shown = picture_of_file(file, export_camera(context.scene), making)
     colors = chosen.colors
-    if colors == By.AUTOMATIC and (chosen.as_is or not judge):
+    has_ours = judge or (chosen.judge == RENDER_RESULT and making.engine == ENGINE)
+    if colors == By.AUTOMATIC and (chosen.as_is or not has_ours):
         colors = By.VIEWPORT
     case = gather_against(context, shown, chosen.settings, chosen.self_check, colors)
     return replace(case, tracer=chosen.tracer)
