@@ -29,8 +29,6 @@ from reference_tracer.tracer.settings import Settings
 
 from ..meshes import gltf_build
 
-from ..meshes import gltf_build
-
 DAILY, LONG, AT_ONCE = 1_000, 100_000, 20_000
 PICTURES, ARRAYS = {".png", ".exr"}, {".npz", ".npy"}
 SUFFIXES = {*PICTURES, *ARRAYS, ".json", ".obj", ".ply", ".off", ".stl", ".glb", ".gltf"}
