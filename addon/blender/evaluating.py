@@ -39,6 +39,8 @@ Turns: TypeAlias = Generator[bool, Any, T]
 def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
     """Have Blender evaluate a temporary scene, and draw it, in turns with the work.
 
+    A 'Render Result' that did not exist before is removed.
+
     Parameters
     ----------
     scene : bpy.types.Scene
@@ -56,6 +58,7 @@ def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
         If Blender draws nothing.
     """
     turns = _InTurns(work)
+    had_result = bool(_render_results())
     with held(), TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "picture")  # also one of work that has ended
         try:
@@ -67,7 +70,14 @@ def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
             said = str(error).removeprefix("Error: ").strip()
             turns.fail(SceneError(f"{judge.name} draws no picture: {said}" if judge else said))
         turns.fail(SceneError("Blender ended the render"))
+        if not had_result:
+            bpy.data.batch_remove(_render_results())
     return turns.result()
+
+
+def _render_results() -> list[Any]:
+    """Return the image of the last render, if there was one in this file."""
+    return [image for image in bpy.data.images if image.type == "RENDER_RESULT"]
 
 
 class _InTurns(Generic[T]):
@@ -149,9 +159,8 @@ def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
     finally:
         remove(empty)
     if judge and not writes:
-        result = next(image for image in bpy.data.images if image.type == "RENDER_RESULT")
         try:
-            result.save_render(f"{scene.render.filepath}.exr", scene=scene)
+            _render_results()[0].save_render(f"{scene.render.filepath}.exr", scene=scene)
         except RuntimeError:
             turns.fail(SceneError(f"{judge.label} made no picture: see the console."))
     if judge and not turns.go_on():

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import ctypes
-import os
 import signal
 import subprocess
 import sys
-import tempfile
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 import bpy
 import pytest
@@ -18,28 +13,7 @@ from reference_tracer.blender.slowest import slowest
 from reference_tracer.pictures.palette import By
 from reference_tracer.scene import SceneError
 
-DONE = "BKE_object_handle_data_update on OBHeavy"  # once for each evaluation of its modifiers
-
-
-@contextmanager
-def counted() -> Iterator[list[int]]:
-    """Give a list that has, in the end, how often the modifiers of 'Heavy' were evaluated."""
-    found: list[int] = []
-    flush = ctypes.CDLL(None).fflush
-    flush(None)
-    stdout = os.dup(1)
-    with tempfile.TemporaryFile() as file:
-        os.dup2(file.fileno(), 1)
-        bpy.app.debug_depsgraph_eval = True
-        try:
-            yield found
-        finally:
-            bpy.app.debug_depsgraph_eval = False
-            flush(None)
-            os.dup2(stdout, 1)
-            os.close(stdout)
-        file.seek(0)
-        found.append(file.read().decode(errors="replace").count(DONE))
+from ..evaluations import DONE, counted
 
 
 @pytest.fixture
