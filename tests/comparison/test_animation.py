@@ -37,7 +37,7 @@ def test_what_names_no_frames_is_refused_in_a_line(text, tmp_path, capsys):
     out = tmp_path / "out"
     assert main(["compare", "none.blend", "--out", str(out), f"--frames={text}"]) == 4
     said = f"--frames is {text}; it must be 1-250, 1-250:5 for every fifth, 7, or all, for example"
-    assert capsys.readouterr().err.splitlines() == [shown(f"reftrace: {said}")]
+    assert capsys.readouterr().err.splitlines() == [shown(f"reftrace: {shown(said)}")]
     assert not out.exists()
 
 
