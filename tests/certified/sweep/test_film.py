@@ -39,10 +39,11 @@ def project(film: Film, world) -> Vertices:
     return vertices
 
 
-def rays_of(film: Film, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+def rays_of(film: Film, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return stored origins and directions of pixels, (3, n) each."""
     rays = camera_rays(film.camera, x + 0.5 + film.dx, y + 0.5 + film.dy)
-    return tuple(np.broadcast_to(v, (3, len(x))) for v in (rays.origins, rays.directions))
+    shape = 3, len(x)
+    return np.broadcast_to(rays.origins, shape), np.broadcast_to(rays.directions, shape)
 
 
 @pytest.mark.slow
