@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 
 from ..comparison.comparison import Comparison
 from ..comparison.verdict import Verdict
-from ..svg import legal
 from ..wording import count_of
+from .svg import legal
 
 
 class Judged(NamedTuple):

@@ -10,9 +10,9 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from ..svg import element as element
-from ..svg import said as said
-from ..svg import width_of as width_of
+from .svg import element as element
+from .svg import said as said
+from .svg import width_of as width_of
 
 WIDTH, HEIGHT = 1920, 1080  # what a projector shows
 # Sizes of a title, the labels and the numbers at the axes: legible from the back row, or as large

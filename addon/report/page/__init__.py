@@ -1,9 +1,9 @@
 """Writes a comparison as one HTML file that opens offline and says why each pixel differs.
 
-`content.py` gathers what it shows, and `page.schema.json` says what that is. `page.html` names its
-style sheets and its scripts; the written file holds their contents in place of their names. A
-Content Security Policy lets only these scripts run and nothing be fetched, so that no name in a
-scene can do either.
+`content.py` gathers what it shows, and `page.schema.json` says what that is. `page.html` (and
+`pixel.html`, of one derivation) names its style sheets and its scripts; the written file holds
+their contents in place of their names. A Content Security Policy lets only these scripts run and
+nothing be fetched, so that no name in a scene can do either.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ from pathlib import Path
 
 from ...comparison.comparison import Comparison
 from ...comparison.extras import Extras
-from ...derivation import html as explained
 from ...translations import tables
 from ..folders import replacing_file
 from .content import content
@@ -51,14 +50,13 @@ def write(
         new.write_text(text, encoding="utf-8")
 
 
-def html(held: Mapping[str, object]) -> str:
-    """Return the page that shows this content."""
-    text = template("page.html")
+def html(held: Mapping[str, object], name: str = NAME) -> str:
+    """Return the page that shows this content, by one of this folder's templates."""
+    text = template(name)
     text = text.replace(_NO_SCRIPT, _policy([_text(name) for name in _SCRIPT.findall(text)]))
-    text = text.replace("</head>", f"<style>{explained.STYLE}</style>\n</head>")
     text = _SCRIPT.sub(lambda m: f"<script>{_text(m[1])}</script>", text)
-    for name, given in (("languages", tables("page")), ("data", held)):
-        empty = _DATA.format(name)
+    for part, given in (("languages", tables("page")), ("data", held)):
+        empty = _DATA.format(part)
         text = text.replace(empty, empty.replace("></", f">{json_text(given)}</"))
     return text
 

@@ -1,4 +1,4 @@
-"""Writes elements of SVG: the plots of `report/`, and the drawings of `derivation/`.
+"""Writes elements of SVG, for plots.
 
 No font is known here, so the widths of words are estimated.
 """
@@ -32,7 +32,6 @@ def legal(words: str) -> str:
     return _NO_XML.sub("\ufffd", words)
 
 
-@cache
 @cache
 def width_of(words: str, size: float) -> float:
     """Return how wide the longest line of words is, at most."""
