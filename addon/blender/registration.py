@@ -9,7 +9,17 @@ import bpy
 
 from . import engine
 from .reading import rendered
-from .ui import inspector, language, menus, panels, preferences, properties, split, study_panels
+from .ui import (
+    inspector,
+    language,
+    menus,
+    panels,
+    preferences,
+    properties,
+    split,
+    study_panels,
+    swatches,
+)
 from .ui.long_work import OPERATORS, LongWork
 from .ui.results import forget, put_back, remember_editors
 
@@ -22,6 +32,7 @@ MODULES = (
     panels,
     study_panels,
     split,
+    swatches,
     rendered,
 )
 # The panels import the operators.
@@ -39,28 +50,13 @@ def _file_closes(*_: Any) -> None:
     inspector.REFERENCE_TRACER_OT_inspect.running = False
 
 
-@bpy.app.handlers.persistent
-def _file_opened(*_: Any) -> None:
-    forget()
-
-
-@bpy.app.handlers.persistent
-def _undo_begins(*_: Any) -> None:
-    remember_editors()
-
-
-@bpy.app.handlers.persistent
-def _undo_ended(*_: Any) -> None:
-    put_back()
-
-
 _HANDLERS = {
     "load_pre": _file_closes,
-    "load_post": _file_opened,
-    "undo_pre": _undo_begins,
-    "undo_post": _undo_ended,
-    "redo_pre": _undo_begins,
-    "redo_post": _undo_ended,
+    "load_post": forget,
+    "undo_pre": remember_editors,
+    "undo_post": put_back,
+    "redo_pre": remember_editors,
+    "redo_post": put_back,
 }
 
 

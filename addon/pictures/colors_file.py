@@ -144,15 +144,23 @@ def in_colors(scene: Scene, by: By | GivenColors) -> tuple[Scene, tuple[str, ...
         notes = (automatic_note("file", pair),)
     if isinstance(by, GivenColors):
         by.check_known(scene.objects)
-        return _recolored(scene, by, owners), notes
+        return recolored(scene, by, owners), notes
     if by != By.OBJECT:
         return scene, notes
     clear = clear_palette(sorted(scene.objects)).colors
     given = GivenColors("--colors", {(name, name): c[None] for name, c in clear.items()})
-    return _recolored(scene, given, owners), notes
+    return recolored(scene, given, owners), notes
 
 
-def _recolored(scene: Scene, given: GivenColors, owners: Sequence[str]) -> Scene:
+def recolored(scene: Scene, given: GivenColors, owners: Sequence[str]) -> Scene:
+    """Return a scene in given colours; the owners are those of its instances, then its planes.
+
+    Raises
+    ------
+    SceneError
+        If an object in the view has none.
+    """
+
     def opaque(number: int, owner: str) -> Colors:
         colors = given.of(scene.objects[number], owner)
         return np.hstack((colors, np.ones((len(colors), 1), np.float32)))

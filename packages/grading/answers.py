@@ -64,7 +64,8 @@ class Answers:
             "t": self.both & ~self.wrong_t,
             "barycentrics": self.both & ~self.wrong_s,
         }
-        counted, doubt = self.hit | known.hit | raised, known.doubt & ~raised
+        counted = (self.hit | known.hit | raised) & self.counts
+        doubt = known.doubt & ~raised
         return Tally.of(counted, doubt, right, self.checks.subject.weights)
 
     @cached_property
@@ -72,10 +73,20 @@ class Answers:
         """Where it says to hit, in front or behind."""
         return np.isfinite(self.t)
 
+    @property
+    def to_hit(self) -> Mask:
+        """Where it should say so."""
+        return self.checks.known.hit
+
+    @property
+    def counts(self) -> Mask:
+        """Which pairs are more than a means to tell mistakes apart."""
+        return ~self.checks.of(Group.ELSEWHERE)
+
     @cached_property
     def both(self) -> Mask:
-        """Where it says to hit, and does."""
-        return self.hit & self.checks.known.hit
+        """Where it says to hit, and does, and where that counts."""
+        return self.hit & self.checks.known.hit & self.counts
 
     @cached_property
     def wrong_hit(self) -> Mask:

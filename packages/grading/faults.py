@@ -33,7 +33,7 @@ ALIKE = 1e-4
 MOST_WAYS = 4  # in which two mistakes may give the same answers: with more, they say nothing
 OTHERS = 2  # mistakes with the same answers that are mentioned
 UNRECOGNISED = "unrecognised_"
-UNEXPLAINED = {"no_hits", "all_hits"}
+UNEXPLAINED = "all_hits"  # of what never hits, two mistakes would say too little
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ def find_faults(answers: Answers) -> tuple[list[Fault], Match | None]:
     if ways := with_one(answers.cases, answers.table):
         return _matched(answers, ways)
     faults = _tested(answers, answers.wrong)
-    if any(f.name in UNEXPLAINED or f.name.startswith(UNRECOGNISED) for f in faults):
+    if any(f.name == UNEXPLAINED or f.name.startswith(UNRECOGNISED) for f in faults):
         ways = with_two(answers.cases, answers.table)
         if 0 < len(ways) <= MOST_WAYS:
             return _matched(answers, ways)

@@ -141,8 +141,7 @@ def _student(j: Judgement) -> str:
 
 
 def _error(where: str, error: StudentError) -> str:
-    lines = dict.fromkeys(f"{file}, line {n}: {text}" for file, n, _, text in error.trace)
-    trace = "\n".join(lines)
+    trace = "\n".join(error.lines)
     return (
         f'<div class="error"><strong>The file’s own error, in {escape(where)}</strong> '
         f"({error.kind}): {escape(error.message)}<pre>{escape(trace)}</pre></div>"

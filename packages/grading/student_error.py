@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 
 KINDS = frozenset({"syntax", "exception", "answer", "exit", "memory", "time", "ended"})
 # What an error is, or what numpy says of it -> what a student needs to know.
@@ -34,6 +34,11 @@ class StudentError(Exception):
     def line(self) -> int | None:
         """The line of the student's file where it happened, if there is one."""
         return self.trace[-1][1] if self.trace else None
+
+    @property
+    def lines(self) -> list[str]:
+        """The lines of its own files that lead there, each once."""
+        return list(dict.fromkeys(f"{file}, line {n}: {text}" for file, n, _, text in self.trace))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the error as JSON can hold it."""

@@ -63,7 +63,7 @@ def lines(j: Judgement) -> list[str]:
         out += wrapped(put_right(j))
     for where, error in j.errors:
         out += wrapped(f"its own error, in {where}: {error.message}")
-        out += dict.fromkeys(f"    {file}, line {n}: {text}" for file, n, _, text in error.trace)
+        out += [f"    {line}" for line in error.lines]
     for fault in j.faults:
         out += wrapped(f"{fault.name} ({fault.pairs:,} checks): {fault.sentence}")
     if j.leaks:

@@ -9,7 +9,8 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.ui import differing, results
+from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.differing import texts_of
 from reference_tracer.blender.ui.operators import REFERENCE_TRACER_OT_compare
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.causes.cause import AGREE, UNEXPLAINED
@@ -63,6 +64,15 @@ def test_an_image_that_the_user_saved_is_the_users(tmp_path):
     assert saved.pixels[0] == 1 and not saved.is_runtime_data and not saved.get(results.MARK)
 
 
+def test_an_image_whose_path_blender_has_made_relative_is_still_ours(tmp_path):
+    results.show(results.TRACED, PICTURE)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.file.make_paths_relative()
+    assert results.ours(results.TRACED).filepath.startswith("//")
+    results.show(results.TRACED, PICTURE)
+    assert named() == [results.TRACED]
+
+
 def test_twenty_rounds_take_the_memory_of_one():
     used = []
     for _ in range(20):
@@ -93,28 +103,18 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
     found = result_of(results.keep_comparison(told)).regions
     assert [(r.left, r.bottom, r.pixels) for r in found] == [(40, 20, 3)]
     assert bpy.ops.reference_tracer.frame_region(number=0) == {"FINISHED"}
+    assert not bpy.context.selected_objects  # it moves the picture alone
+    assert bpy.ops.reference_tracer.select_object(name=found[0].objects[0]) == {"FINISHED"}
     assert [o.name for o in bpy.context.selected_objects] == [found[0].objects[0]]
     with pytest.raises(RuntimeError, match="has 1 regions"):
         bpy.ops.reference_tracer.frame_region(number=1)
     assert not bpy.ops.reference_tracer.show_image.poll()  # there is no editor
-    assert listed() == [f"3 px: {found[0].objects[0]}"]
+    assert texts_of(found[0])[0] == f"3 px unexplained (40, 20): {found[0].objects[0]}"
     cause[20, 40:43] = AGREE
-    cause[-2:, :2] = UNEXPLAINED  # where both sides see nothing
-    result_of(results.keep_comparison(told))
-    assert listed() == ["4 px: Background"]
-
-
-def listed():
-    """Return the words of the buttons that frame regions."""
-    words = []
-
-    def operator(name, text, translate):
-        words.append(text)
-        return SimpleNamespace()
-
-    column = SimpleNamespace(operator=operator)
-    differing.draw_regions(SimpleNamespace(column=lambda align: column), bpy.context)
-    return words
+    cause[-2:, :2] = EDGE  # where both sides see nothing
+    found = result_of(results.keep_comparison(told)).regions
+    height = len(cause)
+    assert [texts_of(r)[0] for r in found][1:2] == [f"4 px at edges (0, {height - 2}): Background"]
 
 
 def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, compare, tmp_path):
@@ -168,6 +168,29 @@ def test_undo_is_the_users():
         assert named() == [results.TRACED] and results.ours(results.TRACED).pixels[0] == 2
         [text] = bpy.data.texts
         assert text == results.ours(text.name) and text.as_string().strip() == "at 2.0"
+
+
+def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, compare):
+    build.scene()
+    build.solids()
+    build.corner_camera()
+    first, second = compare(), compare()
+    work = results.keep_comparison(second)
+    next(work)
+    work.close()
+    assert not named()
+    for found, then in (
+        (first, first),  # complete
+        (replace(first, diagnosis=None), first),  # of the same pictures
+        (second, None),
+    ):
+        work = results.keep_comparison(found)
+        if found is first:
+            result_of(work)
+        next(work, None)
+        work.close()
+        assert results.content(Kind.COMPARISON, bpy.context.scene) is then
+        assert bool(named()) == (then is not None)
 
 
 def test_a_comparison_that_fails_leaves_no_other_one_on_the_screen(build):

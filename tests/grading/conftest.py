@@ -167,6 +167,12 @@ def running(word: str) -> bool:
     return any(word in command for command in commands)
 
 
+@pytest.fixture(autouse=True)
+def own_key(tmp_path, monkeypatch):
+    """Tests sign with a key of their own, not with the user's."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+
+
 @pytest.fixture(scope="session")
 def no_guard() -> str:
     """The text of a file that divides by zero on rays in the triangle's plane."""

@@ -221,9 +221,8 @@ def test_nobody_waits_for_what_lives_on(kind, written):
     assert time.monotonic() - began < 10
 
 
-def test_what_it_may_reach(written, tmp_path, monkeypatch):
+def test_what_it_may_reach(written, tmp_path):
     """In the sandbox it writes nothing, and does not see the key that records are signed with."""
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     key, other = secret(), written("50", "other_record.json")
     text = (
         f"import glob\nkeys = glob.glob({str(tmp_path / 'state' / '*' / '*')!r})\n"

@@ -145,7 +145,7 @@ def lesson_1():
         yield 0.5
         shot(6)
         return
-    yield from click_on(area("PROPERTIES"), "reference_tracer.frame_region(")
+    yield from click_on(area("PROPERTIES"), "reference_tracer.select_object(", across=0.93)
     noted["selected"] = [o.name for o in window().view_layer.objects if o.select_get()]
     yield from click_on(area("PROPERTIES"), "reference_tracer.open_page(")
     yield from until(opened)

@@ -64,6 +64,7 @@ SMALL = 640, 360, 0.5
 SIZES = {  # of other stories
     "panel": LARGE,
     "second_day": LARGE,
+    "first_result": (1000, 600, 1.0),
     **dict.fromkeys(("compared_images", "in_images"), SMALL_LARGE),
     **dict.fromkeys(
         (story.__name__ for story in lesson_stories.STORIES),

@@ -59,11 +59,11 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
                     redraw(context)
 
     def _show(self, context: Any, comparison: Any, share: float) -> Work[None]:
-        """Keep a comparison, and show the user the difference, once; the share stays."""
+        """Keep a comparison, and show the user the traced picture, once; the share stays."""
         yield from mapped(results.keep_comparison(comparison), lambda _: share)
         if not self._is_shown:
             show = open_as_render if self.pressed else show_where_shown
-            show(context, results.ours(results.DIFFERENCE))
+            show(context, results.ours(results.TRACED))
             self._is_shown = True
             self.kind = None
 

@@ -8,7 +8,7 @@ undo step need have them: undo takes them away, and they are put back.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cache
@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ...methods import Method
 from ...tracer.progress import Work, by_rows, scaled
 
 if TYPE_CHECKING:
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
     from ...comparison.comparison import Comparison
     from ...diagnosis.diagnosis import Told
     from ...diagnosis.regions import Region
-    from ...study.extremes import ExtremesRow
-    from ...study.trade import Trade
 
 # A name: so the class of a result need not be imported.
 Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES")
@@ -50,20 +47,20 @@ class Result:
     regions: tuple[Region, ...] = ()  # where it differs, the largest first
     # By the number of a fault that is told: the picture that it changes, put right.
     put_right: Mapping[int, Colors] = field(default_factory=dict)
+    shown: list[int] = field(default_factory=list)  # of the fault that is shown put right
     # The numbers of the faults that a copy of the camera was added for, by its `session_uid`.
     copies: dict[int, int] = field(default_factory=dict)
 
 
 _latest: dict[Kind, Result] = {}
-_pictures: dict[str, tuple[str, str]] = {}  # the files of our images, and their colour spaces
-_texts: dict[str, tuple[int, str]] = {}  # the `session_uid` of ours, and what they say
+_files: dict[str, tuple[str, str]] = {}  # of our images, with their colour spaces, and texts
+_made: dict[str, int] = {}  # from these: the latest one's `session_uid`
 _seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
 
 
-def keep_comparison(comparison: Comparison) -> Work[Result]:
+def _kept(comparison: Comparison) -> Work[Result]:
     """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
-    from ...causes.cause import AGREE
-    from ...causes.maps import cause_map, difference_map, ringed
+    from ...causes.maps import cause_map, difference_map
     from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
 
@@ -75,7 +72,6 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     yield 0.2
     pair = traced, comparison.picture
     apart = yield from scaled(by_rows(difference_map, *pair), 0.2, 0.3)
-    apart = ringed(apart, cause != AGREE)
     yield 0.5
     show(DIFFERENCE, apart)
     yield 0.6
@@ -94,30 +90,14 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     return _latest[Kind.COMPARISON]
 
 
-def keep_trade(trade: Trade) -> Result:
-    """Remember a trade, and write its plot for the browser."""
-    from ...report import trade as trade_report
-
-    page = _page("trade", trade_report.picture(trade))
-    return keep(Kind.TRADE, trade, [trade.advice], trade.scene, page)
-
-
-def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
-    """Remember where each method breaks, and write the plot of it for the browser."""
-    from ...report import extremes as extremes_report
-
-    page = _page("extremes", extremes_report.picture(rows))
-    wrong = sum(r.lost + r.doubled for r in rows if Method(r.method).is_proven)
-    lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
-    return keep(Kind.EXTREMES, tuple(rows), lines, page=page)
-
-
-def _page(name: str, drawn: str) -> str:
-    from ...report import folders, plots
-
-    path = session_folder() / f"{name}.html"
-    folders.write_text(path, plots.page(f"Reference Tracer {name}", drawn))
-    return path.as_uri()
+def keep_comparison(comparison: Comparison) -> Work[Result]:
+    """Remember a comparison, and show its pictures; ended in between, there is none."""
+    try:
+        return (yield from _kept(comparison))
+    finally:
+        found = _latest.get(Kind.COMPARISON)
+        if found is None or found.content.causes is not comparison.causes:
+            _forget_comparison()  # the pictures are of two
 
 
 @cache
@@ -150,15 +130,21 @@ def drop(kind: Kind, scene: Any) -> None:
     """Drop a scene's result of a kind, with its pictures."""
     if latest(kind, scene):
         del _latest[kind]
-    if kind not in _latest and kind is Kind.COMPARISON:
-        for name in (TRACED, BLENDER, DIFFERENCE, CAUSES, PUT_RIGHT):
-            remove(name)
+        if kind is Kind.COMPARISON:
+            _forget_comparison()
 
 
-def forget() -> None:
+def _forget_comparison() -> None:
+    _latest.pop(Kind.COMPARISON, None)
+    for name in (TRACED, BLENDER, DIFFERENCE, CAUSES, PUT_RIGHT):
+        remove(name)
+
+
+@bpy.app.handlers.persistent
+def forget(*_: Any) -> None:
     """Drop all results, with what shows them, as when another file is opened."""
     _latest.clear()
-    for name in (*_pictures, *_texts):
+    for name in tuple(_files):
         remove(name)
 
 
@@ -166,7 +152,6 @@ def show(name: str, color: Colors) -> Any:
     """Show linear RGBA (h, w, 4) as our image of this name, in place of the one that there is."""
     import numpy as np
 
-    remember_editors()
     height, width = color.shape[:2]
     image: Any = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
     linear = image.colorspace_settings.name
@@ -176,35 +161,41 @@ def show(name: str, color: Colors) -> Any:
     image.filepath_raw = str(Path(bpy.app.tempdir, f"{name}.exr"))
     image.file_format = "OPEN_EXR"
     image.save()
-    _pictures[name] = image.filepath_raw, linear
-    _as_ours(image, name)
+    _files[name] = image.filepath_raw, linear
+    bpy.data.images.remove(image)
+    remember_editors()
+    shown = _loaded(name)
     _fill_editors()
-    return image
+    return shown
 
 
-def _as_ours(block: Any, name: str) -> Any:
-    """Mark an image, whose file is written, or a text, and have it take the place of ours."""
-    if name in _pictures:
-        block.colorspace_settings.name = _pictures[name][1]
-        block.alpha_mode = "PREMUL"
+def _loaded(name: str) -> Any:
+    """Load our image or text from its file, in place of the one that there is."""
+    path, linear = _files[name]
+    block: Any
+    if linear:
+        block = bpy.data.images.load(path)
+        block.colorspace_settings.name = linear
+    else:
+        block = bpy.data.texts.load(path, internal=True)
     _give_up(name, block)
     block.name = name
     block[MARK] = name
     block.is_runtime_data = True
+    _made[name] = block.session_uid
     return block
 
 
 def remove(name: str) -> None:
     """Remove our image or text of a name, if there is one."""
     _give_up(name)
-    _pictures.pop(name, None)
-    _texts.pop(name, None)
+    _files.pop(name, None)
 
 
 def _give_up(name: str, successor: Any = None) -> None:
     """Remove ours, whose users take another one; if the user has saved it to a file, it is his."""
     old = ours(name)
-    if old and old.filepath != _pictures.get(name, ("",))[0]:
+    if old and old.filepath and _file(old.filepath) != _file(_files[name][0]):
         del old[MARK]
         old.is_runtime_data = False
         old.name = Path(old.filepath).name
@@ -212,6 +203,10 @@ def _give_up(name: str, successor: Any = None) -> None:
         if successor:
             old.user_remap(successor)
         _blocks(name).remove(old)
+
+
+def _file(path: str) -> Path:
+    return Path(bpy.path.abspath(path)).resolve()
 
 
 def shown_put_right(scene: Any) -> Told:
@@ -222,18 +217,11 @@ def shown_put_right(scene: Any) -> Told:
     SceneError
         If it shows none of them.
     """
-    import numpy as np
-
     from ...scene import SceneError
 
-    image, found = ours(PUT_RIGHT), latest(Kind.COMPARISON, scene)
-    if image and found:
-        width, height = image.size
-        pixels = np.empty((height, width, 4), np.float32)
-        image.pixels.foreach_get(pixels.ravel())
-        for number, color in found.put_right.items():
-            if np.array_equal(np.asarray(color, np.float32), pixels, equal_nan=True):
-                return found.content.diagnosis.told[number]
+    found = latest(Kind.COMPARISON, scene)
+    if found and found.shown:
+        return found.content.diagnosis.told[found.shown[0]]
     raise SceneError("No picture of this scene's latest comparison is shown put right: press Show.")
 
 
@@ -243,25 +231,23 @@ def ours(name: str) -> Any:
 
 
 def _blocks(name: str) -> Any:
-    return bpy.data.texts if name in _texts else bpy.data.images
+    _path, linear = _files.get(name, ("", ""))
+    return bpy.data.images if linear else bpy.data.texts
 
 
 def show_text(context: Any, name: str, content: str) -> Any:
     """Put a text into our text of this name, and show it in a text editor."""
-    text = _new_text(name, content)
+    path = Path(bpy.app.tempdir, f"{name}.md")
+    path.write_text(content, encoding="utf-8")
+    _files[name] = str(path), ""
+    text = _loaded(name)
     if area := next(areas(context, "TEXT_EDITOR"), None):
         area.spaces.active.text = text
         area.spaces.active.top = 0
     return text
 
 
-def _new_text(name: str, content: str) -> Any:
-    text = bpy.data.texts.new(name)
-    text.from_string(content)
-    _texts[name] = text.session_uid, content
-    return _as_ours(text, name)
-
-
+@bpy.app.handlers.persistent
 def remember_editors(*_: Any) -> None:
     """Remember which editors show ours, before undo takes it away."""
     _seen.clear()
@@ -273,15 +259,13 @@ def remember_editors(*_: Any) -> None:
                 _seen.append((area, shown[MARK]))
 
 
+@bpy.app.handlers.persistent
 def put_back(*_: Any) -> None:
     """Make again what undo has taken away, or has put an older one in the place of."""
-    for name, (path, _linear) in _pictures.items():
-        if ours(name) is None:
-            _as_ours(bpy.data.images.load(path), name)
-    for name, (made, content) in _texts.items():
-        text = ours(name)
-        if text is None or text.session_uid != made:
-            _new_text(name, content)
+    for name in _files:
+        block = ours(name)
+        if block is None or block.session_uid != _made[name]:
+            _loaded(name)
     _fill_editors()
 
 
