@@ -80,13 +80,14 @@ def main() -> None:
     causes.write(DOCS / "images" / "causes")
     if not options.files:  # it takes a minute
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
-        plot = PROJECT / "out" / "docs" / "extremes" / "extremes.svg"
-        shutil.copy(plot, DOCS / "images" / "extremes.svg")
         story.write(DOCS / "images" / "diagnosis.gif")
     if not options.no_browser:
         from documents import browser, drawings
 
         drawings.write(DOCS / "images" / "lessons")
+        if not options.files:
+            plotted = PROJECT / "out" / "docs" / "extremes" / "extremes.html"
+            drawings.save_plot(plotted, DOCS / "images" / "extremes.svg")
         page = PROJECT / "out" / "demo" / "page.html"  # of `make demo`
         browser.save(page, DOCS / "images" / "page.png", 1400, 1130)
     if not options.no_window:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 from xml.etree import ElementTree
@@ -9,7 +10,13 @@ from xml.etree import ElementTree
 from ..comparison.comparison import Comparison
 from ..comparison.verdict import Verdict
 from ..wording import count_of
-from .svg import legal
+
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def legal(words: str) -> str:
+    """Return words with what XML cannot hold, as control characters, made visible."""
+    return _NO_XML.sub("\ufffd", words)
 
 
 class Judged(NamedTuple):

@@ -8,17 +8,16 @@ from pathlib import Path
 from ..derivation import reproducer
 from ..derivation.derivation import Derivation, derive_pixel
 from ..derivation.document import answer_sentence, document_markdown
-from ..derivation.formulas import VECTORS
 from ..derivation.pixel import Pixel
-from ..derivation.shown import shown
 from ..derivation.writers import json_text
-from . import folders, page
+from . import folders
+from .templates import alone
 
 
 def html(derivation: Derivation) -> str:
     """Return a page by itself, which opens offline, in light and dark."""
-    held = {"formulas": {"vectors": sorted(VECTORS)}, "derivations": [shown(derivation)]}
-    return page.html(held, "pixel.html")
+    pixel = derivation.pixel
+    return alone(f"The ray through pixel ({pixel.x}, {pixel.y})", [derivation])
 
 
 # By a file's ending.

@@ -12,12 +12,12 @@ from reference_tracer.certainty import Certainty
 from reference_tracer.derivation import document, writers
 from reference_tracer.derivation.derivation import derive
 from reference_tracer.derivation.formulas import Rejection
-from reference_tracer.derivation.shown import shown
 from reference_tracer.derivation.textbook import FLOATS, Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
 from reference_tracer.report import pixel
+from reference_tracer.report.shown import shown
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
 from reference_tracer.tracer.settings import Precision, Settings
 

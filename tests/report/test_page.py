@@ -29,7 +29,7 @@ from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-FOLDER = page._HERE
+FOLDER = Path(page.__file__).parent
 PROJECT = Path(__file__).resolve().parents[2]
 DATA = re.compile(r'<script type="application/json" id="data">(.*?)</script>', re.DOTALL)
 SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)

@@ -39,3 +39,13 @@ def write(folder: Path) -> None:
             svg.evaluate("(e, style) => e.insertAdjacentHTML('afterbegin', style)", style)
             text = svg.evaluate("e => new XMLSerializer().serializeToString(e)")
             (folder / f"drawn_{name}.svg").write_text(f"{text}\n", encoding="utf-8")
+
+
+def save_plot(page: Path, picture: Path) -> None:
+    """Save the plot of a study's page as a file, as a reader does."""
+    with browser.opened() as opened:
+        tab = opened.new_page()
+        tab.goto(page.resolve().as_uri())
+        with tab.expect_download() as saved:
+            tab.get_by_text("Save as SVG").click()
+        saved.value.save_as(picture)

@@ -20,12 +20,12 @@ from ...comparison.comparison import Comparison
 from ...comparison.extras import Extras
 from ...comparison.put_right import pictures_put_right
 from ...derivation.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
-from ...derivation.shown import shown
 from ...diagnosis.regions import Region, regions, sides
 from ...images import data_uri, to_display
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report
+from ..shown import data, shown
 from . import arrays
 from .arrays import packed
 
@@ -201,4 +201,4 @@ def _study(
     held = {k: v for k, v in report.to_dict(found).items() if k != "rows"}
     if table:
         held["table"] = table(found)
-    return held | {"plot": report.picture(found)}
+    return held | {"plot": data(report.plot(found))}

@@ -25,6 +25,14 @@ function withAll(made, attributes = {}, ...children) {
   return made;
 }
 
+const ruler = document.createElement("canvas").getContext("2d");
+
+/** How wide words are in letters of a size. */
+function widthOf(words, size) {
+  ruler.font = `${size}px ${getComputedStyle(document.body).fontFamily}`;
+  return ruler.measureText(words).width;
+}
+
 const byId = (id) => document.getElementById(id);
 
 const ROWS = 200; // of a table: thousands would make the page slow

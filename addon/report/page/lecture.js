@@ -1,5 +1,5 @@
 "use strict";
-// A derivation for the reader, of what `derivation/shown.py` sends: headings, sentences and tables.
+// A derivation for the reader, of what `report/shown.py` sends: headings, sentences and tables.
 
 /** A derivation as an element; its headings stand so many levels below the page's own. */
 function lecture({ blocks, drawn }, below = 0) {

@@ -108,7 +108,7 @@ class Plate {
 
   /** A label at the best place that is left for it. */
   placed({ words, at, free }, taken) {
-    const [wide, high] = [widthOf(words) / 2 + 3, 0.7 * LETTERS];
+    const [wide, high] = [widthOf(words, LETTERS) / 2 + 3, 0.7 * LETTERS];
     const tries = free ? [{ x: at[0], y: at[1], away: 0 }] : [];
     for (const away of REACHES) {
       for (let k = 0; k < WAYS; k++) {
@@ -153,13 +153,6 @@ function lead({ at, x, y, wide, high }) {
   const share = Math.max(1 - 1 / over, 0);
   const [x2, y2] = [at[0] + share * (x - at[0]), at[1] + share * (y - at[1])];
   return svgElement("line", { x1: at[0], y1: at[1], x2, y2, class: "lead" });
-}
-
-const ruler = document.createElement("canvas").getContext("2d");
-
-function widthOf(words) {
-  ruler.font = `${LETTERS}px ${getComputedStyle(document.body).fontFamily}`;
-  return ruler.measureText(words).width;
 }
 
 /** The part of a polygon in which a linear function is not negative (Sutherland and Hodgman). */

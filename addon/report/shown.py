@@ -1,15 +1,15 @@
-"""A derivation as a page shows it: the lecture, and the numbers of its drawings, for JSON.
+"""A derivation as pages show it: the lecture, and the numbers of its drawings, for JSON.
 
-The page's own `lecture.js` lays it out, and `drawing.js` draws it.
+`lecture.js` lays it out, and `drawing.js` draws it.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from .derivation import Derivation
-from .document import lecture
-from .textbook import Arithmetic
+from ..derivation.derivation import Derivation
+from ..derivation.document import lecture
+from ..derivation.textbook import Arithmetic
 
 
 def shown(derivation: Derivation) -> dict[str, object]:
@@ -17,19 +17,20 @@ def shown(derivation: Derivation) -> dict[str, object]:
     pixel = derivation.pixel
     return {
         "pixel": [pixel.x, pixel.y],
-        "blocks": [_data(block) for block in lecture(derivation)],
+        "blocks": data(lecture(derivation)),
         "drawn": _drawn(derivation),
     }
 
 
-def _data(value: object) -> object:
-    """Return blocks and cells as dicts that say what they are."""
-    if not isinstance(value, tuple):
+def data(value: object) -> object:
+    """Return named tuples, and what is in them, as dicts that say what they are."""
+    if not isinstance(value, (tuple, list)):
         return value
-    if not hasattr(value, "_asdict"):
-        return [_data(part) for part in value]
-    fields = {name: _data(part) for name, part in value._asdict().items()}
-    return {"is": type(value).__name__.lower(), **fields}
+    parts = [data(part) for part in value]
+    names = getattr(value, "_fields", None)
+    if names is None:
+        return parts
+    return {"is": type(value).__name__.lower(), **dict(zip(names, parts, strict=True))}
 
 
 def _drawn(derivation: Derivation) -> dict[str, object]:

@@ -1,16 +1,16 @@
-"""Writes elements of SVG, for plots.
+"""Writes elements of SVG, for the badge.
 
 No font is known here, so the widths of words are estimated.
 """
 
 from __future__ import annotations
 
-import re
 from functools import cache
 from html import escape
 
+from reference_tracer.report.junit import legal
+
 _LETTER, _WIDE = 0.64, 1.0  # widths in sizes of the font, with room: of a letter; of an ideograph
-_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def element(name: str, *inside: str, **attributes: str | float) -> str:
@@ -25,11 +25,6 @@ def element(name: str, *inside: str, **attributes: str | float) -> str:
 def said(name: str, words: str, **attributes: str | float) -> str:
     """Return an element that holds words, whatever they hold."""
     return element(name, escape(legal(words)), **attributes)
-
-
-def legal(words: str) -> str:
-    """Return words with what XML cannot hold, as control characters, made visible."""
-    return _NO_XML.sub("\ufffd", words)
 
 
 @cache
