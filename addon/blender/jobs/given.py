@@ -21,9 +21,9 @@ from ...scene import Scene
 from ..drawing.drawings import Drawing
 from ..drawing.judge import Judge
 from ..drawing.judges import RENDER_RESULT
-from ..engine import ENGINE
 from ..reading.camera import export_camera
 from ..reading.pictures import image_file, render_result
+from ..temporary import ENGINE
 from ..versions import DITHER
 from .against import gather_against
 from .open_file import Choices
