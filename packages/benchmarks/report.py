@@ -1,4 +1,4 @@
-"""A `Bench` -> `bench.json`, `times.json`, which pyperf reads, `bench.txt` and `bench.svg`."""
+"""A `Bench` -> `bench.json`, `bench.txt`, and `times.json`, which pyperf reads and plots."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from reference_tracer.report import folders
 
-from . import plot
 from .peers import MissingPeerError, missing
 from .rows import Bench
 from .scaling import scalings
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
     from pyperf import BenchmarkSuite
 
 SCHEMA = "reference_tracer.bench/1"
-TABLE, JSON, TIMES, PLOT = "bench.txt", "bench.json", "times.json", "bench.svg"
+TABLE, JSON, TIMES = "bench.txt", "bench.json", "times.json"
 
 _UNITS = {
     "_s": "CPU seconds, the median of the rounds, for a whole picture",
@@ -75,7 +74,7 @@ def suite(bench: Bench) -> BenchmarkSuite | None:
 
 
 def write(directory: str | Path, bench: Bench) -> None:
-    """Write the table, the JSONs and the plot; a note says which library is missing for one.
+    """Write the table and the JSONs; a note says if pyperf is missing.
 
     Parameters
     ----------
@@ -90,13 +89,10 @@ def write(directory: str | Path, bench: Bench) -> None:
     """
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    for name in (TIMES, PLOT):
-        (directory / name).unlink(missing_ok=True)  # an earlier one would pass for this run's
+    (directory / TIMES).unlink(missing_ok=True)  # an earlier one would pass for this run's
     try:
         if kept := suite(bench):
             kept.dump(str(directory / TIMES))
-        if bench.rows:
-            plot.write(directory / PLOT, bench)
     except MissingPeerError as error:
         bench.note(str(error))
     write_json(directory, bench)
