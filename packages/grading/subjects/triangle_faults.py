@@ -52,24 +52,15 @@ def _wrong_conditions(right: Program) -> Iterator[tuple[str, str, tuple[Conditio
         if slip.name in ("back_faces_culled", "front_faces_culled"):
             [sides] = slip.conditions.values()
             yield slip.name, slip.sentence, (*inside, *map(condition, sides))
-    missing = *combinations(inside, 3), *combinations(inside, 2), *combinations(right.conditions, 1)
-    for some in missing:
-        text = "rays that pass beyond an edge are hit: {} is not tested"
-        name = "edge_not_tested"
-        if len(some) == len(inside):
-            name, text = (
-                "inside_not_tested",
-                "the whole plane of the triangle is hit: {} is not tested",
-            )
-        elif before in some:
-            name, text = (
-                "hits_behind",
-                "triangles behind the ray's origin are hit: {} is not tested",
-            )
-        elif inside[0] in some:
-            text += " (with Möller and Trumbore's u and v, that is u + v ≤ 1)"
+    for some in (
+        *combinations(inside, 3),
+        *combinations(inside, 2),
+        *combinations(right.conditions, 1),
+    ):
+        name = "inside_not_tested" if len(some) == 3 else "edge_not_tested"
+        text = f"{' and '.join(map(str, some))} is not tested"
         rest = tuple(c for c in right.conditions if c not in some)
-        yield name, text.format(" and ".join(map(str, some))), rest
+        yield "hits_behind" if before in some else name, text, rest
 
 
 def sum_equals_one(a: TableAnswers) -> Found:
