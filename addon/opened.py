@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -54,7 +55,14 @@ def open_scene(path: Path, choice: Choice | None = None) -> Opened:
 
 def file_manifest(path: Path, scene: Scene, said: Account) -> Manifest:
     """Return the account of a scene that is opened without Blender."""
-    entries = tuple(_entry(scene, number, name) for number, name in enumerate(scene.objects))
+    used: list[list[int]] = [[] for _ in scene.objects]
+    for instance in scene.instances:
+        used[instance.object].append(instance.mesh)
+    planes = Counter(plane.object for plane in scene.planes)
+    entries = tuple(
+        _entry(scene, name, used[number], planes[number])
+        for number, name in enumerate(scene.objects)
+    )
     return Manifest(
         path.name,
         path.stem,
@@ -68,9 +76,8 @@ def file_manifest(path: Path, scene: Scene, said: Account) -> Manifest:
     )
 
 
-def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
-    used = [i.mesh for i in scene.instances if i.object == number]
-    planes = sum(p.object == number for p in scene.planes)
+def _entry(scene: Scene, name: str, used: list[int], planes: int) -> ObjectEntry:
+    """Return an object's entry: `used` has the mesh of each of its instances."""
     own = [scene.meshes[k] for k in set(used)]
     return ObjectEntry(
         name,

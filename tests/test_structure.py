@@ -28,6 +28,7 @@ FLOORS = {
     "methods": 1,
     "tracer": 1,
     "framing": 1,
+    "npz": 1,
     "scene_files": 1,
     "camera_files": 1,
     "mesh_diagnosis": 1,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -25,7 +25,7 @@ from .temporary import everything
 
 # What Blender's importer makes of a USD file, by the name of the prim's type.
 _IMPORTED = frozenset(
-    "BasisCurves Capsule Cone Cube Cylinder Mesh NurbsCurves PointInstancer Points Sphere Volume".split()
+    "BasisCurves Capsule Cone Cube Cylinder Mesh NurbsCurves Points Sphere Volume".split()
 )
 
 
@@ -33,16 +33,16 @@ def main(path: str, out: str) -> None:
     """Import a file, and write its scene."""
     registration.register()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    scene: Any = bpy.context.scene
     missing: list[str] = []
     notes: list[str] = []
     if path.endswith((".gltf", ".glb")):
         _run(bpy.ops.import_scene.gltf, path, _GLTF)
     else:
         first = _look_into(path, missing, notes)
-        bpy.context.scene.frame_set(math.floor(first), subframe=first % 1)
+        scene.frame_set(math.floor(first), subframe=first % 1)
         _run(bpy.ops.wm.usd_import, path, _USD)
         _take_names_of_places()
-    scene = bpy.context.scene
     scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     scene.collection.objects.link(scene.camera)
     with everything(scene):
@@ -72,9 +72,9 @@ _USD = {
 }
 
 
-def _run(operator: Callable[..., set[str]], path: str, options: dict[str, Any]) -> None:
+def _run(operator: Any, path: str, options: dict[str, Any]) -> None:
     """Import a file, with those of the options that this Blender has."""
-    known = operator.get_rna_type().properties  # type: ignore[attr-defined]
+    known = operator.get_rna_type().properties
     own = {name: value for name, value in options.items() if name in known}
     if operator(filepath=path, **own) != {"FINISHED"}:
         raise SceneError("Blender cannot import it: export it again")

@@ -125,7 +125,7 @@ def _parsed(stored: bytes) -> Content:
 def _number(text: str) -> float:
     """Return a number; an integer may be written as 3.0 (specification 2.7.5)."""
     value = float(text)
-    return int(value) if value.is_integer() else value
+    return int(value) if value.is_integer() and text[0] != "-" else value  # -0.0 has a sign
 
 
 def _refuse(constant: str) -> NoReturn:

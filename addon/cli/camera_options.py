@@ -14,6 +14,7 @@ from ..file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
 from ..opened import mesh_formats
 from ..scene import SceneError
+from ..wording import show
 from .arguments import is_blend, refuse
 from .parser import COUNT, FINITE, POSITIVE, Parser, number
 
@@ -178,7 +179,7 @@ def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice
     chosen = {name: getattr(given, name) for name in known}
     if views := _views(given, path if is_mesh else None, of_frames):
         for note in dict.fromkeys(note for view in views for note in view.notes):
-            print(f"{given.camera}: {note}", file=sys.stderr)
+            show(f"{given.camera}: {note}", file=sys.stderr)
         chosen["camera"] = None
         if len(views) > 1:
             chosen["views"] = views

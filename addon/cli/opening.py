@@ -18,6 +18,7 @@ from ..manifest import Manifest
 from ..opened import mesh_formats, open_scene
 from ..scene import Scene, SceneError
 from ..tracer.settings import Settings
+from ..wording import show
 from . import running
 from .arguments import is_blend
 from .camera_options import check_kind
@@ -44,7 +45,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     lines = opened.manifest.lines()
     if not is_blend(path):  # there it is plain what is exported
         lines = opened.manifest.remarks()
-    print(*lines, sep="\n", end="\n" if lines else "")
+    show(*lines)
     return opened.scene, opened.settings
 
 

@@ -21,13 +21,13 @@ from reference_tracer.cli.parser import (
     Parser,
     number,
 )
-from reference_tracer.cli.running import printable, progress_bar
+from reference_tracer.cli.running import progress_bar
 from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.progress import Work, called, result_of, scaled
-from reference_tracer.wording import count_of, say
+from reference_tracer.wording import count_of, say, show
 from reference_tracer_processes.running import Limits
 from reference_tracer_processes.sandbox import sandbox, secret
 
@@ -176,7 +176,7 @@ def judge(options: JudgeOptions) -> int:
         folder = _folder(options, submissions)
         found = folder.kept_of(submissions) if folder and not options.again else {}
         if found:
-            print(f"{count_of(len(found), 'student')} judged before, unchanged: not judged again")
+            show(f"{count_of(len(found), 'student')} judged before, unchanged: not judged again")
         new = {name: each for name, each in submissions.items() if name not in found}
         if new:
             try:
@@ -186,10 +186,10 @@ def judge(options: JudgeOptions) -> int:
                     folder.save()
         students = [found[name] for name in submissions]
         if len(students) > 1:
-            print("\n".join(class_table(students)))
+            show(*class_table(students))
         if folder:
             folder.write(students, options.formats)
-            print(f"written to {options.out}")
+            show(f"written to {options.out}")
     return max(CODES[s["verdict"]] for s in students)
 
 
@@ -214,10 +214,10 @@ def _judged(
     from .report import student
     from .tables import lines
 
-    printed: dict[str, str] = {}
+    printed: dict[str, list[str]] = {}
 
     def told(j: Judgement) -> Student:
-        printed[j.name] = printable("\n".join(lines(j)))
+        printed[j.name] = [*lines(j), ""]
         return folder.keep(submissions[j.name], j) if folder else student(j)
 
     own = built_in() if options.subject == "triangle" else []
@@ -225,7 +225,7 @@ def _judged(
     with progress_bar() as progress:
         found = result_of(_work(options, submissions, opened, told), progress)
     for name in found:
-        print(printed[name], end="\n\n")
+        show(*printed[name])
     return found
 
 
@@ -273,5 +273,5 @@ def _write_template(path: Path, name: str) -> int:
     template = Path(__file__).with_name("templates") / f"{name}.py"
     folders.write_text(path, template.read_text(encoding="utf-8"))
     option = "" if name == "triangle" else f" --subject {name}"
-    print(f"{path}: fill in the function, then: reftrace judge {path}{option}")
+    show(f"{path}: fill in the function, then: reftrace judge {path}{option}")
     return AGREE

@@ -15,8 +15,8 @@ from typing import TypeVar
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.cli.running import printable
 from reference_tracer.tracer.progress import Work, result_of, scaled
+from reference_tracer.wording import printable
 from reference_tracer_processes.running import Limits
 
 from .cases import TableCases

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 
 KINDS = frozenset({"syntax", "exception", "answer", "exit", "memory", "time", "ended"})
 # What an error is, or what numpy says of it -> what a student needs to know.

@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 from reference_tracer.arrays import Array, Floats
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 from reference_tracer_processes.running import Limits, kill
 
 from .form import Form

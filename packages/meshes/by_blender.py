@@ -54,7 +54,7 @@ def imported(path: Path, needs: str) -> Contents:
             except ProgramError as error:
                 errors.seek(0)
                 lines = errors.read().decode("utf-8", "replace").splitlines()
-                own = [line.partition("Error: ")[2] for line in lines if "Error: " in line]
+                own = [line.rpartition("SceneError: ")[2] for line in lines if "Error: " in line]
                 raise SceneError(own[-1][:300] if own else error.message) from error
         scene, account = load_scene(out), load_account(out)
     objects, meshes = scene.objects, scene.meshes
@@ -73,7 +73,7 @@ def read_gltf(content: Content, buffers: Sequence[bytes]) -> Contents:
         files = [{"uri": f"{k}.bin", "byteLength": len(data)} for k, data in enumerate(buffers)]
         for k, data in enumerate(buffers):
             Path(name, f"{k}.bin").write_bytes(data)
-        used = sorted(set(_extensions(content)))
+        used = sorted({*_extensions(content), *content.get("extensionsRequired", [])})
         content = content | {"buffers": files, "extensionsUsed": used}
         path = Path(name, "file.gltf")
         path.write_text(json.dumps(content), "utf-8")

@@ -93,4 +93,6 @@ def _placed(
             used = np.zeros(len(vertices), bool)
             used[own] = True
             index = (np.cumsum(used) - 1)[own]
-        yield Placed(Mesh(vertices[used], index.reshape(-1, 3), name=name), np.eye(4), name)
+        yield Placed(
+            Mesh(vertices[used], index.reshape(-1, 3).astype(np.int32), name=name), np.eye(4), name
+        )

@@ -198,7 +198,7 @@ def _by_library(face: int, at: Floats, normal: Floats, rounding: float) -> Array
         ) from None
     if at.shape[1] > _MOST:
         raise SceneError(f"face {face} has {at.shape[1]:,} corners: cut it where it was made")
-    axis = int(np.abs(normal).argmax())
+    axis = int(np.argmax(np.abs(normal)))
     seen = at[[(axis + 1) % 3, (axis + 2) % 3]]  # along the axis nearest to the normal
     seen = seen if normal[axis] >= 0 else seen[::-1]
     count = seen.shape[1]
@@ -211,7 +211,7 @@ def _by_library(face: int, at: Floats, normal: Floats, rounding: float) -> Array
     own = float((seen[0] * np.roll(seen[1], -1) - np.roll(seen[0], -1) * seen[1]).sum())
     # What rounding does to a doubled area: ours, and the file's of corners whose sides are below 3.
     bound = _AREA + 8 * rounding
-    far = at[:, np.abs(at).max(axis=0).argmax()]
+    far = at[:, int(np.argmax(np.abs(at).max(axis=0)))]
     is_line = bool(np.abs(cross(at, far[:, None])).max() <= bound)
     if (areas < -bound).any() or abs(areas.sum() - own) > count * bound or (own <= 0) > is_line:
         raise _crosses(face)

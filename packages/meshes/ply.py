@@ -33,7 +33,8 @@ def read(path: Path) -> Contents:
         If it is cut off, or not a PLY file, or has no vertices.
     """
     vertices: Floats = np.zeros((0, 3))
-    corners, sizes = [np.zeros(0, np.intp)], [np.zeros(0, np.intp)]
+    corners: list[Index] = [np.zeros(0, np.intp)]
+    sizes: list[Index] = [np.zeros(0, np.intp)]
     notes = []
     for element in _elements(path):
         if element.name == "vertex":

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 
 from .sandbox import kept_in, limited
 

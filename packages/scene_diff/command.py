@@ -18,7 +18,7 @@ from reference_tracer.framing import Choice
 from reference_tracer.opened import mesh_formats
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.wording import count_of
+from reference_tracer.wording import count_of, show
 
 from .differences import differences
 from .geometry import Objects
@@ -74,13 +74,12 @@ def diff(options: DiffOptions) -> int:
         refuse(options, ("up",), "is for meshes: in a scene Z is up")
     first, second = (side(path, options.up) for path in paths)
     found = differences(first.scene, second.scene, first.variants)
-    for line in (*first.remarks, *second.remarks):
-        print(line)
+    show(*first.remarks, *second.remarks)
     for difference in found:
-        print(*difference.lines(), sep="\n")
+        show(*difference.lines())
     counts = [count_of(len(Objects.of(s.scene).triangles), "object") for s in (first, second)]
     how = count_of(len(found), "difference") if found else "the same"
-    print(f"{counts[0]} and {counts[1]}: {how}")
+    show(f"{counts[0]} and {counts[1]}: {how}")
     if options.json:
         content = {"schema": SCHEMA, "differences": [d.to_dict() for d in found]}
         folders.write_text(options.json, json.dumps(content, indent=1, ensure_ascii=False) + "\n")

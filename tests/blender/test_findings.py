@@ -8,8 +8,8 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.drawing.camera_object import copy_camera
-from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import findings, results
 from reference_tracer.blender.ui.results import Kind
@@ -42,18 +42,18 @@ def seen(build):
 @contextmanager
 def drawn_otherwise(monkeypatch, owner, name, value):
     """Have Blender draw with another value than was exported, as a handler might set it."""
-    real = compare_module.picture
+    real = drawings.picture
 
-    def picture(*args, **options):
+    def picture(*args):
         before = getattr(owner, name)
         setattr(owner, name, value)
         try:
-            return real(*args, **options)
+            return (yield from real(*args))
         finally:
             setattr(owner, name, before)
 
     with monkeypatch.context() as patched:
-        patched.setattr(compare_module, "picture", picture)
+        patched.setattr(drawings, "picture", picture)
         yield
 
 

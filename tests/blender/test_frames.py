@@ -242,14 +242,13 @@ def test_an_interruption_keeps_what_is_done(moving, run, out, monkeypatch, capsy
 
 def changed_at(monkeypatch, change) -> None:
     """Have Blender's picture of each frame go through a function of its number."""
-    real = compare_module.picture
+    real = compare_module._picture
 
-    def changed(tmp, *args, **options):
-        drawn = real(tmp, *args, **options)
-        other = change(tmp.frame_current)
-        return drawn if other is None else np.ascontiguousarray(other(drawn))
+    def changed(pixels, **options):
+        other = change(bpy.context.scene.frame_current)
+        return real(np.ascontiguousarray(other(pixels)) if other else pixels, **options)
 
-    monkeypatch.setattr(compare_module, "picture", changed)
+    monkeypatch.setattr(compare_module, "_picture", changed)
 
 
 def test_differences_and_failures_are_worse_than_warnings(moving, run, out, monkeypatch, capsys):

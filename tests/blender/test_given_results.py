@@ -91,6 +91,19 @@ def test_a_result_has_no_excuse_of_a_rasteriser_that_did_not_render_it(
     assert renderer() == unknown
 
 
+def test_a_file_is_excused_by_what_it_says_of_its_maker_alone(solids, reftrace, tmp_path):
+    """The scene may be set to a rasteriser, and another engine have rendered the picture."""
+    picture, scene = tmp_path / "picture.png", tmp_path / "scene.blend"
+    solids.render.engine = "REFERENCE_TRACER"
+    solids.render.filepath = str(picture)
+    bpy.ops.render.render(write_still=True)
+    solids.render.engine = "BLENDER_WORKBENCH"
+    bpy.ops.wm.save_as_mainfile(filepath=str(scene), copy=True)
+    done = reftrace("compare", scene, "--against", picture, "--out", tmp_path / "out")
+    assert "BLENDER_WORKBENCH" not in done.stdout
+    assert "nothing says that it was rasterised" in done.stdout
+
+
 def test_the_engine_of_a_result_goes_with_its_scene(rendered_png, solids):
     """Not with its name, which another scene may have by the time that it is compared."""
     rendered_png()

@@ -93,7 +93,7 @@ class TestNodes:
         triangles, notes = read(build.write(path))
         assert box(triangles) == moved(9)
         (note,) = notes
-        assert "hidden" in note and "node 0, node 1" in note
+        assert "hidden" in note and "2 nodes" in note
 
 
 class TestScenes:
@@ -110,7 +110,7 @@ class TestScenes:
         build.json["scene"] = 1
         triangles, notes = read(build.write(path))
         assert box(triangles) == moved(6)
-        assert len(notes) == 1 and "node 0, node 1" in notes[0]
+        assert len(notes) == 1 and "2 nodes" in notes[0]
 
     def test_the_first_of_two_is_named(self, path):
         build = self.two()

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli import opening
+from reference_tracer.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.vector import transform_points
@@ -265,3 +266,16 @@ def test_points_alone_are_told_to_be_nothing_that_a_ray_meets(suffix, tmp_path):
     (tmp_path / f"a{suffix}").write_text(texts[suffix])
     with pytest.raises(SceneError, match="holds no triangles, and a ray meets nothing else"):
         load_meshes(tmp_path / f"a{suffix}")
+
+
+def test_without_the_optional_libraries_triangles_and_convex_faces_are_read(tmp_path, monkeypatch):
+    for name in ("mapbox_earcut", "plyfile"):
+        monkeypatch.setitem(sys.modules, name, None)
+    text = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 0\n"
+    (tmp_path / "a.obj").write_text(f"{text}f 1 2 5\nf 1 2 3 4\n")
+    assert len(load_meshes(tmp_path / "a.obj").placed[0].mesh.triangles) == 3
+    (tmp_path / "b.obj").write_text(f"{text}f 1 2 3 4 5\n")
+    trimesh.creation.box().export(tmp_path / "c.ply")
+    for name, library in (("b.obj", "mapbox_earcut"), ("c.ply", "plyfile")):
+        with pytest.raises(MissingLibraryError, match=rf"{name}'.*{library}: pip install .*meshes"):
+            load_meshes(tmp_path / name)

@@ -8,7 +8,6 @@ with progress, the time left, and Esc. Only one runs at a time.
 from __future__ import annotations
 
 import time
-import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar
 
@@ -219,13 +218,13 @@ def failed(operator: Any, error: Exception) -> Answer:
 
     What is on the screen is not taken for its result.
     """
-    from ...errors import EXPECTED, words
+    from ...errors import EXPECTED, show_traceback, words
 
     if kind := getattr(operator, "kind", None):
         drop(kind, bpy.context.scene)
         redraw(bpy.context)
     if not isinstance(error, EXPECTED):
-        traceback.print_exception(error)
+        show_traceback(error)
     operator.report({"ERROR"}, words(error))
     return {"CANCELLED"}
 

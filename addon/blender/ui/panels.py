@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_iface as iface_
 
 from ...methods import Method
 from ..drawing.judges import JUDGES
-from ..engine import ENGINE
+from ..temporary import ENGINE
 from . import operators, results, samples
 from .layout import Part, both, button, draw_facts, folded, setting, wrapped
 from .long_work import LongWork

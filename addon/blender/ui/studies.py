@@ -10,7 +10,7 @@ from bpy.props import EnumProperty, IntProperty
 
 from ...methods import Method
 from ...tracer.progress import Work
-from ...wording import say
+from ...wording import show
 from . import choices, results
 from .long_work import LongWork, named
 
@@ -59,7 +59,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         if self._folder:
             trade_report.write(self._folder, result)
         keep_trade(result)
-        say(trade_report.table(result), name="")
+        show(*trade_report.table(result).split("\n"))
         return "INFO", result.advice
 
 
@@ -100,7 +100,7 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         if self._folder:
             extremes_report.write(self._folder, result)
         [said] = keep_extremes(result).lines
-        say(extremes_report.breaking_table(result), said, name="")
+        show(*extremes_report.breaking_table(result).split("\n"), said)
         return "INFO", said
 
 

@@ -20,6 +20,7 @@ from ...diagnosis.trajectory import TrajectoryDifference, trajectory_difference
 from ...framing import Choice
 from ...report.cameras import SceneCamera, write_cameras
 from ...scene import Camera, Region, SceneError
+from ...wording import show
 from ..arguments import check_frames, is_blend, refuse
 from ..camera_options import LAST_FRAME, add_camera, choice_from
 from ..opening import SOURCES, open_blend, open_file
@@ -147,8 +148,8 @@ def _scene(options: CameraOptions) -> Iterator[_At]:
 
 def _written(options: CameraOptions, out: Path, at: _At) -> int:
     convention = CONVENTIONS[options.convention or OPENCV.name]
-    print(write_cameras(out, at(None), convention, options.centers))
-    print(f"written to {out}, as {convention.title}")
+    show(write_cameras(out, at(None), convention, options.centers))
+    show(f"written to {out}, as {convention.title}")
     return AGREE
 
 
@@ -180,10 +181,10 @@ def _checked(options: CameraOptions, at: _At) -> int:
     wrong = [_other_than_points(v, own) for v, own in zip(views, cameras, strict=True)]
     notes = [_notes(v, one.view) for v, one in zip(views, scene, strict=True)]
     for line in found.lines():
-        print(f"{options.check.name if len(views) > 1 else names[0]}: {line}")
+        show(f"{options.check.name if len(views) > 1 else names[0]}: {line}")
     for each in (wrong, notes):
         for line, of in _shared(names, each).items():
-            print(f"{of}: {line}")
+            show(f"{of}: {line}")
     return AGREE if found.agrees and not any(wrong) else DIFFERENCES
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import exr, images
+from ... import exr, images, npz
 from ...camera_files.files import of_frames
 from ...certificate_file import save_certificate
 from ...comparison.animation import frames_named
@@ -25,7 +25,7 @@ from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.progress import Share
 from ...tracer.settings import Settings
-from ...wording import count_of
+from ...wording import count_of, show
 from ..arguments import (
     GivenSettings,
     Place,
@@ -177,7 +177,7 @@ def trace(options: TraceOptions) -> int:
     is_mesh = options.scene.suffix.lower() in mesh_formats()
     is_png = any(path.suffix.lower() == ".png" for path in options.out)
     if is_png and is_mesh and not options.settings.color:
-        print("each mesh has one flat colour: --color facing shows its shape")
+        show("each mesh has one flat colour: --color facing shows its shape")
     return AGREE
 
 
@@ -199,7 +199,7 @@ def _frames(options: TraceOptions, named: str, place: dict[str, Any]) -> None:
                 scene, manifest, stored = export_open_file(blender.context)
             said |= dict.fromkeys(manifest.remarks())
             _traced(options.of_frame(frame), scene, stored, place)
-        print(*said, sep="\n", end="\n" if said else "")
+        show(*said)
 
 
 def _traced(options: TraceOptions, scene: Scene, stored: Settings, place: dict[str, Any]) -> None:
@@ -221,13 +221,12 @@ def _traced(options: TraceOptions, scene: Scene, stored: Settings, place: dict[s
     if options.masks:
         masks.write(options.masks, frame, options.out[0].name)
     s = frame.statistics
-    print(
+    show(
         f"{frame.shape[1]} x {frame.shape[0]} pixels, {count_of(s.triangles, 'triangle')}, "
         f"{count_of(s.pairs_tested, 'pair')} tested in {s.seconds:.2f} s ({s.method}, "
         f"{settings.precision}): {', '.join(map(str, options.files))}"
     )
-    for line in s.required():
-        print(line)
+    show(*s.required())
 
 
 def _write(path: Path, frame: Frame, new: Path, step: int) -> None:
@@ -239,8 +238,7 @@ def _write(path: Path, frame: Frame, new: Path, step: int) -> None:
         exr.save(new, passes, cryptomatte.header(frame))
     else:
         passes = {name: values[::step] for name, values in frame.passes().items()}
-        with new.open("wb") as file:  # given a name, numpy would add .npz to it
-            np.savez_compressed(file, objects=np.array(frame.scene.objects, "U"), **passes)  # type: ignore[arg-type]  # none is "allow_pickle"
+        npz.save(new, {"objects": np.array(frame.scene.objects, "U")} | passes)
 
 
 def _rows_alone(scene: Scene, settings: Settings, first: int, last: int) -> Scene:
