@@ -210,6 +210,8 @@ class Comparison:
                 first = self.counts.examples.get(cause.key, ())[:3]
                 at = ", ".join(f"({x}, {y})" for x, y in first)
                 yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
+        if more := self.causes.not_asked:
+            yield f"  (nearly none of those asked first has a cause: {more:,} more were not asked)"
 
     def _of_other_colors(self) -> Iterator[str]:
         """Ask for the commonest reason why most surfaces differ, where no fault was found."""
