@@ -23,9 +23,9 @@ from .fault import (
     with_option,
     with_values,
 )
-from .film import FOCAL, FOCALS, OFFSET, ROLL
+from .film import CROPPED, FOCAL, FOCALS, OFFSET, ROLL
 from .fitting import fitting
-from .stand import MOVED, TURNED
+from .stand import MOVED, PLACED, TURNED
 
 # World space with Y up, as many formats have it, from Blender's with Z up.
 _Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
@@ -78,8 +78,10 @@ def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:
     return Numbers((float(width), 0.0, 0.0))
 
 
-_OFFSET, _FOCAL, _FOCALS, _ROLL = map(fitting, (OFFSET, FOCAL, FOCALS, ROLL))
-_MOVED, _PANNED = fitting(MOVED), fitting(TURNED)
+_OFFSET, _FOCAL, _FOCALS, _ROLL, _MOVED, _PANNED, _CROPPED, _PLACED = (
+    fitting(family, FOCALS, CROPPED, PLACED)
+    for family in (OFFSET, FOCAL, FOCALS, ROLL, MOVED, TURNED, CROPPED, PLACED)
+)
 _MIRRORED_X = options(_axes(lambda axes: axes * (-1, 1, 1)), lambda camera: flipped(camera, 0))
 _MIRRORED_Y = options(_axes(lambda axes: axes * (1, -1, 1)))
 _TRANSPOSED = options(_axes(np.transpose), _axes(np.transpose, at_origin=True))
@@ -179,6 +181,19 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         effort=Effort.CAMERA,
     ),
     Fault(
+        "cropped",
+        "the focal length is {percent:+.4g} % off, and the rays pass ({dx:+.3f}, {dy:+.3f}) px "
+        "beside: the picture was cropped or enlarged about another point than the camera's axis",
+        "A picture that is cropped and scaled has its principal point elsewhere; a focal length "
+        "changed about the picture's centre keeps a shift that should have grown with it.",
+        "compare the whole picture, and scale the principal point with the focal length",
+        of_camera(CROPPED.camera),
+        _CROPPED.find,
+        ("percent", "dx", "dy"),
+        refine=_CROPPED.refine,
+        effort=Effort.CAMERA,
+    ),
+    Fault(
         "camera_moved",
         "the camera is moved by {right:+.4g} m to its right, {up:+.4g} m upwards and "
         "{forward:+.4g} m forward: by {words} in the world",
@@ -213,6 +228,19 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
             ),
         ),
         words="angles to the right, upwards and about its axis",
+    ),
+    Fault(
+        "camera_placed",
+        "the camera stands elsewhere and looks elsewhere: {words}",
+        "A pose of another convention, another frame or another camera; a camera that was placed "
+        "by hand; a rig of several cameras in another order.",
+        "compare its world matrix with the one that the scene has",
+        of_camera(PLACED.camera),
+        _PLACED.find,
+        ("right", "up", "forward", "rightwards", "upwards", "anticlockwise"),
+        refine=_PLACED.refine,
+        effort=Effort.CAMERA,
+        words="a vector, and angles",
     ),
     Fault(
         "roll",

@@ -12,6 +12,7 @@ from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Region, ViewWindow
 from ...tracer.camera import pixel_size
 from .fault import Example, Fault, Option, options, with_option
+from .film import SENSOR
 
 Change = Callable[[Camera], Camera | None]
 
@@ -138,7 +139,6 @@ def _other_border(camera: Camera) -> Camera | None:
     return replace(camera, region=Region(r.x0, rows[0], r.x1, rows[1]))
 
 
-SENSOR = 36.0  # millimetres: the width that Blender's cameras have unless it is changed
 PARTS = (0.25, 0.5, 0.75, 2.0, 4.0)  # sizes for which a percentage of the resolution is tried
 
 _FIT = options(*(_fits(power, shifted) for power in (1, -1) for shifted in (True, False)))

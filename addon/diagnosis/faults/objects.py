@@ -242,7 +242,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _units_or_fitted,
         ("factor",),
         refine=SCALED.refine,
-        effort=Effort.SIZE,
+        effort=Effort.OBJECT,
     ),
     Fault(
         "scene_scaled",
@@ -263,7 +263,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _moved_or_by_points,
         ("x", "y", "z"),
         refine=MOVED.refine,
-        effort=Effort.PLACE,
+        effort=Effort.OBJECT,
         examples=(
             Example("moved_object", "the largest object moved by a pixel", _a_pixel_to_the_right),
         ),
@@ -290,6 +290,6 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         DISPLACED.find,
         ("distance",),
         refine=DISPLACED.refine,
-        effort=Effort.SIZE,
+        effort=Effort.OBJECT,
     ),
 )

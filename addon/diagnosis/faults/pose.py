@@ -19,7 +19,7 @@ from .climbing import Among, Right
 from .fault import Numbers, Values, instances_named, with_instances, with_meshes
 from .fitting import FINE_REACH, FINER, Fit, Traced
 from .looked import Looked
-from .search import Search
+from .search import ENCLOSING, Search
 
 FINEST = 1 / 128  # pixels
 FIRST = 1 / 4  # of the object's width: the first step
@@ -154,7 +154,8 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
         if fine and pose.camera:  # then the triangles near its rays stay
             traced = Traced(looked.of_it_alone, pose.camera, FINE_REACH, looked, looked.surface)
             known, among = traced.right, traced.among
-        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
+        few = ENCLOSING / max(len(looked.at[0]), 1)
+        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among, enclosing=few)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
     def find(evidence: Evidence) -> Work[list[Numbers]]:
