@@ -185,21 +185,6 @@ def _coded_times(factor: float, color: Array) -> Array:
     return curve_undone(factor * curve(np.clip(color, 0, 1)))
 
 
-def through(into: Transform, back: Transform, change: Transform) -> Transform:
-    """Return a transform that is applied in another encoding than linear values."""
-    return lambda color: back(change(into(color)))
-
-
-def saturated(share: float, weights: Sequence[float]) -> Transform:
-    """Return the transform that scales saturation; no channel becomes negative."""
-
-    def transform(color: Array) -> Array:
-        grey = (color @ np.array(weights))[..., None]
-        return np.maximum(grey + share * (color - grey), 0)
-
-    return transform
-
-
 def _cut_off(of: Transform, levels: int) -> Transform:
     """Return a transform that then rounds down to `levels` of sRGB's curve."""
 

@@ -241,34 +241,6 @@ def eight(values: np.ndarray, read: Colors = lambda v: v) -> np.ndarray:
     return read(np.rint(LEVELS * np.clip(values, 0, 1)) / LEVELS)
 
 
-def watermark(coded: bool) -> Fault:
-    """Return a picture with letters of stripes across its middle, half transparent, in white."""
-
-    def change(picture: np.ndarray) -> np.ndarray:
-        height, width = picture.shape[:2]
-        y, x = np.mgrid[:height, :width]
-        letters = (np.abs(y - height // 2) < 12) & (np.abs(x - width // 2) < width // 3)
-        letters &= (x % 11 < 4) | ((y - height // 2) % 9 < 3)
-        out = in_code(picture) if coded else picture.astype(np.float64)
-        white = 1 if coded else out[letters, 3:]  # coded ones are straight
-        out[letters, :3] = (out[letters, :3] + white) / 2
-        return out_of_code(out) if coded else out
-
-    label = f"a watermark, {'coded' if coded else 'linear'}"
-    return Fault("overlay", label, afterwards(change), {"opacity": 0.5})
-
-
-def _stamp(picture: np.ndarray) -> np.ndarray:
-    """Return the picture with a half-transparent box of stripes in its lower left corner."""
-    out = picture.copy()
-    height, width = out.shape[0] // 9, out.shape[1] // 4
-    box = out[-height - 6 : -6, 6 : 6 + width]
-    stripes = (np.arange(width) % 6 < 2) & (np.arange(height)[:, None] % 9 > 2)
-    ink = np.where(stripes[..., None], 0.95, 0.02)
-    box[..., :3] = 0.4 * box[..., :3] + 0.6 * ink * box[..., 3:]
-    return out
-
-
 PICTURE_FAULTS = (
     Fault("rows", "from the top", afterwards(np.flipud)),
     Fault("row_off", "one down", afterwards(lambda p: np.roll(p, 1, axis=0))),
@@ -314,7 +286,4 @@ PICTURE_FAULTS = (
     supersampled(2, coded=True),
     averaged(2),
     averaged(4),
-    watermark(coded=False),
-    watermark(coded=True),
-    Fault("overlay", "a box of stripes", afterwards(_stamp)),
 )

@@ -98,4 +98,4 @@ def test_no_resampling_is_told_beside_a_fault_of_an_object(solids):
     color = render(solids).color.copy()
     gray = color[..., :3].mean(axis=-1, keepdims=True)
     color[..., :3] = np.clip(gray + 1.25 * (color[..., :3] - gray), 0, 1)
-    assert not {"resampled", "jpeg", "filter_radius"} & set(names(diagnosis_of(solids, color)))
+    assert not {"resampled", "processed", "filter_radius"} & set(names(diagnosis_of(solids, color)))
