@@ -155,7 +155,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     ),
     Fault(
         "focal_length",
-        "the focal length is {percent:+.4g} % off: {words}",
+        "{words}",
         "An angle is halved or doubled, a vertical one (glTF's yfov) taken for a horizontal "
         "one, or a lens in millimetres goes with another sensor than the camera's.",
         "check the lens' unit, the sensor's width, and whether an angle is the whole one or half, "
@@ -165,7 +165,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         ("percent",),
         refine=_FOCAL.refine,
         effort=Effort.FILM,
-        words="the picture shows less than it should, or more",
+        words="the focal length, or an orthographic camera's scale, is some per cent off",
     ),
     Fault(
         "focal_lengths",

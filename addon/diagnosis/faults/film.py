@@ -110,15 +110,23 @@ def _beside(camera: Camera, dx: float, dy: float) -> str:
 
 
 def _focal(camera: Camera, percent: float) -> str:
-    """Say what a focal length does, and what it is for a sensor of Blender's own width."""
-    own = SENSOR / camera.window.size[0]
-    less = "less" if percent > 0 else "more"
+    """Say what the focal length is, for a sensor of Blender's own width; or an orthographic scale.
+
+    An orthographic camera has no focal length.
+    """
+    shows = f"the picture shows {'less' if percent > 0 else 'more'} than it should"
     if camera.projection is ORTHOGRAPHIC:
-        return f"the picture shows {less} than it should"
-    return (
-        f"{own * (1 + percent / 100):.4g} mm, not {own:.4g}, of a sensor {SENSOR:g} mm wide; the "
-        f"picture shows {less} than it should"
+        right = max(camera.window.size)
+        other = right / (1 + percent / 100)
+        off = 100 * (other / right - 1)
+        return (
+            f"the orthographic scale is {off:+.4g} % off: {other:.4g} m, not {right:.4g}; {shows}"
+        )
+    own = SENSOR / camera.window.size[0]
+    millimetres = (
+        f"{own * (1 + percent / 100):.4g} mm, not {own:.4g}, of a sensor {SENSOR:g} mm wide"
     )
+    return f"the focal length is {percent:+.4g} % off: {millimetres}; {shows}"
 
 
 OFFSET = Family(offset, lambda evidence: (1.0, 1.0), _beside, _correlated)

@@ -142,7 +142,11 @@ def _other_border(camera: Camera) -> Camera | None:
 PARTS = (0.25, 0.5, 0.75, 2.0, 4.0)  # sizes for which a percentage of the resolution is tried
 
 _FIT = options(*(_fits(power, shifted) for power in (1, -1) for shifted in (True, False)))
-_LEFT_OUT = options(_shifts(lambda camera, x, y: (0.0, 0.0)))
+_LEFT_OUT = options(
+    _shifts(lambda camera, x, y: (0.0, 0.0)),
+    _shifts(lambda camera, x, y: (0.0, y)),
+    _shifts(lambda camera, x, y: (x, 0.0)),
+)
 _SIGN = options(
     _shifts(lambda camera, x, y: (-x, -y)),
     _shifts(lambda camera, x, y: (-x, y)),
@@ -153,6 +157,8 @@ _UNIT = options(
     _shifts(lambda camera, x, y: (x * _aspect(camera), y)),
     _shifts(lambda camera, x, y: (x / _aspect(camera), y / _aspect(camera))),
     _shifts(lambda camera, x, y: (x * _aspect(camera), y * _aspect(camera))),
+    _shifts(lambda camera, x, y: (x, y * _aspect(camera))),
+    _shifts(lambda camera, x, y: (x / _aspect(camera), y)),
     _shifts(lambda camera, x, y: (x / 2, y / 2)),
     _shifts(lambda camera, x, y: (2 * x, 2 * y)),
 )
@@ -196,7 +202,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     ),
     Fault(
         "shift_left_out",
-        "the camera's shift is left out",
+        "the camera's shift is left out, both ways or one",
         "The renderer's camera has no shift, or the exporter doesn't write it.",
         "add shift X and Y",
         *_LEFT_OUT,
