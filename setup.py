@@ -7,6 +7,7 @@ PACKAGES = {  # by the folder that each stands in
     "packages/benchmarks": "reference_tracer_benchmarks",
     "packages/cluster": "reference_tracer_cluster",
     "packages/conformance": "reference_tracer_conformance",
+    "packages/meshes": "reference_tracer_meshes",
     "packages/processes": "reference_tracer_processes",
     "packages/verify": "reference_tracer_verify",
     "packages/scene_diff": "reference_tracer_scene_diff",

@@ -46,7 +46,10 @@ from .tracer.settings import Settings
 
 
 def load_scene(path: str | Path) -> Scene:
-    r"""Read a scene from a .npz, or from a mesh (.obj, .ply, .stl, .off, .glb, .gltf, .usd).
+    r"""Read a scene from a .npz, or from a mesh.
+
+    That is .obj, .ply, .off, .stl, .glb, .gltf, .usd, .usda, .usdc or .usdz: see
+    ``docs/commands.md`` for what is read of it, and what a library or Blender is needed for.
 
     A mesh has no camera: it is framed, at 960 x 540 pixels. A .blend is exported before, by
     ``reftrace export scene.blend --out scene.npz``.

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from .arrays import Array
+from .npz import save
 from .scene import Scene
-from .scene_files import save_arrays
 from .tracer.frame import Frame
 
 SCHEMA = "reference_tracer.certificate/2"
@@ -31,7 +31,7 @@ def save_certificate(path: str | Path, frame: Frame) -> None:
         "t": frame.t,
         "ties": np.array(rows, np.int64).reshape(-1, 3),
     }
-    save_arrays(path, _camera(frame.scene) | _surfaces(frame.scene) | answers)
+    save(path, _camera(frame.scene) | _surfaces(frame.scene) | answers)
 
 
 def _camera(scene: Scene) -> dict[str, Array]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import traceback
 from collections.abc import Callable
 
@@ -10,6 +11,7 @@ from .exr import MissingLibraryError
 from .pictures.picture import SizeError
 from .scene import SceneError
 from .tracer.memory import PictureTooLargeError
+from .wording import show, shown
 
 # A user can do something about these; any other error is our fault, and its traceback is wanted.
 EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
@@ -20,7 +22,13 @@ def words(error: BaseException) -> str:
     text = " ".join(str(error).split())
     if isinstance(error, MemoryError) and not isinstance(error, PictureTooLargeError):
         return f"there is not enough memory{text and f' ({text})'}: choose a smaller size"
-    return text or type(error).__name__
+    return shown(text or type(error).__name__)  # Blender prints its reports itself
+
+
+def show_traceback(error: BaseException) -> None:
+    """Print where an error was raised, indented: its text may look like any line."""
+    lines = "".join(traceback.format_exception(error)).splitlines()
+    show(*(f"  {line}" for line in lines), file=sys.stderr)
 
 
 def failure(work: Callable[..., object], *arguments: object) -> str:
@@ -30,6 +38,6 @@ def failure(work: Callable[..., object], *arguments: object) -> str:
     except (*EXPECTED, ValueError) as error:
         return words(error)
     except Exception as error:  # the user must hear of any error
-        traceback.print_exc()
+        show_traceback(error)
         return f"Reference Tracer failed: {type(error).__name__}: {error}"
     return ""

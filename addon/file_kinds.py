@@ -44,7 +44,7 @@ _KINDS = (
     _Kind("a .blend", (b"BLENDER-", b"BLENDER_", b"BLENDER1"), (".blend",)),
     _Kind("a .glb", (b"glTF",), (".glb", ".gltf")),
     _Kind("a .ply", (b"ply\n", b"ply\r"), (".ply",)),
-    _Kind("a zip archive", (b"PK\x03\x04",), (".npz",), "unpack it"),
+    _Kind("a zip archive", (b"PK\x03\x04",), (".npz", ".usdz"), "unpack it"),
     _Kind("a PDF", (b"%PDF-",), (), "name a file of another kind"),
 )
 # What files of a name begin with, in one of these ways; packed ones of Blender have zstd or gzip.

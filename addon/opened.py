@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from .framing import ANGLE, SIZE, Choice
-from .manifest import Effect, Manifest, ObjectEntry, Unmodelled
-from .mesh_files.contents import Contents
-from .mesh_files.load import load_meshes, scene_of_meshes
+from .framing import Choice
+from .manifest import Manifest, ObjectEntry
 from .scene import Scene, SceneError
 from .scene_files import Account, load_account, load_scene
 
@@ -20,38 +21,48 @@ class Opened(NamedTuple):
     manifest: Manifest
 
 
+@cache
+def mesh_formats() -> dict[str, Callable[[Path, Choice], Opened]]:
+    """Return what opens a mesh's file, by its suffix: packages beside the add-on do.
+
+    In Blender there is none: nothing in its windows opens a file of meshes.
+    """
+    from importlib.metadata import entry_points
+
+    out: dict[str, Callable[[Path, Choice], Opened]] = {}
+    for found in entry_points(group="reference_tracer.meshes"):
+        package = found.load()
+        out |= dict.fromkeys(package.FORMATS, package.open_meshes)
+    return out
+
+
 def open_scene(path: Path, choice: Choice | None = None) -> Opened:
     """Open a .npz or a mesh, which is framed where no camera is chosen.
 
     Raises
     ------
-    SceneError, OSError
+    SceneError, MissingLibraryError, OSError
         If there is no such scene, or it cannot be read.
     """
-    if path.suffix.lower() == ".npz":
+    suffix = path.suffix.lower()
+    if suffix == ".npz":
         scene = load_scene(path)
         return Opened(scene, file_manifest(path, scene, load_account(path)))
-    choice = choice or Choice()
-    contents = load_meshes(path, choice.up)
-    missing = tuple(Unmodelled(path.name, m, effect=Effect.UNPLACED) for m in contents.missing)
-    scene = _framed(path, contents, choice)
-    return Opened(scene, file_manifest(path, scene, Account(missing, contents.notes)))
-
-
-def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
-    size = choice.size(SIZE)
-    camera = choice.seen_by.camera if choice.seen_by else None
-    if choice.eye:
-        camera = choice.placed(*size)
-    try:
-        return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)
-    except SceneError as error:
-        raise SceneError(f"'{path}': {error}") from error
+    if suffix not in mesh_formats():
+        raise SceneError(f"'{path}' is none of .npz, {', '.join(mesh_formats())}")
+    return mesh_formats()[suffix](path, choice or Choice())
 
 
 def file_manifest(path: Path, scene: Scene, said: Account) -> Manifest:
     """Return the account of a scene that is opened without Blender."""
-    entries = tuple(_entry(scene, number, name) for number, name in enumerate(scene.objects))
+    used: list[list[int]] = [[] for _ in scene.objects]
+    for instance in scene.instances:
+        used[instance.object].append(instance.mesh)
+    planes = Counter(plane.object for plane in scene.planes)
+    entries = tuple(
+        _entry(scene, name, used[number], planes[number])
+        for number, name in enumerate(scene.objects)
+    )
     return Manifest(
         path.name,
         path.stem,
@@ -65,9 +76,8 @@ def file_manifest(path: Path, scene: Scene, said: Account) -> Manifest:
     )
 
 
-def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
-    used = [i.mesh for i in scene.instances if i.object == number]
-    planes = sum(p.object == number for p in scene.planes)
+def _entry(scene: Scene, name: str, used: list[int], planes: int) -> ObjectEntry:
+    """Return an object's entry: `used` has the mesh of each of its instances."""
     own = [scene.meshes[k] for k in set(used)]
     return ObjectEntry(
         name,

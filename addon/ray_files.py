@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from . import npz
 from .arrays import Array, Floats
-from .file_kinds import check_is_file
 from .scene import Scene, SceneError
 from .tracer.camera import Rays
 from .tracer.hits import NOTHING, Hits
@@ -24,12 +24,8 @@ def load_rays(path: Path) -> Rays:
         If there is no such file, an array is missing or has another shape or type, a number is not
         finite, or a direction is zero; the message names the array and the row.
     """
-    check_is_file(path)
-    try:
-        with np.load(path, allow_pickle=False) as held:
-            found = {name: held[name] for name in (ORIGINS, DIRECTIONS) if name in held.files}
-    except Exception as error:  # zip, zlib, numpy: each has its own ways to say no
-        raise SceneError(f"'{path}' cannot be read as an .npz of rays: {error}") from error
+    with npz.opened(path) as held:
+        found = {name: held[name] for name in (ORIGINS, DIRECTIONS) if name in held}
     origins, directions = (_vectors(path, found, name) for name in (ORIGINS, DIRECTIONS))
     counts = {v.shape[1] for v in (origins, directions)} - {1}
     if len(counts) > 1:
@@ -42,6 +38,7 @@ def load_rays(path: Path) -> Rays:
     return Rays(origins, directions)
 
 
+@np.errstate(all="ignore")  # what a number becomes is compared
 def _vectors(path: Path, found: dict[str, Array], name: str) -> Floats:
     """Return an array's rows as (3, n) float64."""
     if name not in found:
@@ -64,18 +61,20 @@ def save_hits(path: Path, scene: Scene, hits: Hits) -> None:
     on_mesh = hits.triangle != NOTHING
     ties = hits.ties
     rows = np.repeat(ties.start, ties.count) + _counted(ties.count)
-    np.savez_compressed(
+    npz.save(
         path,
-        t=hits.t,
-        object=scene.instance_objects[hits.instance],
-        instance=hits.instance,
-        triangle=hits.triangle,
-        barycentrics=np.where(on_mesh, hits.s, np.nan).T,
-        certainty=hits.certainty,
-        objects=np.array(scene.objects, dtype=str),
-        tie_ray=np.repeat(ties.ray, ties.count),
-        tie_instance=ties.instance[rows],
-        tie_triangle=ties.triangle[rows],
+        {
+            "t": hits.t,
+            "object": scene.instance_objects[hits.instance],
+            "instance": hits.instance,
+            "triangle": hits.triangle,
+            "barycentrics": np.where(on_mesh, hits.s, np.nan).T,
+            "certainty": hits.certainty,
+            "objects": np.array(scene.objects, dtype=str),
+            "tie_ray": np.repeat(ties.ray, ties.count),
+            "tie_instance": ties.instance[rows],
+            "tie_triangle": ties.triangle[rows],
+        },
     )
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from reference_tracer.file_kinds import check_is_file, mistaken
 from reference_tracer.images import open_picture
-from reference_tracer.mesh_files.load import READERS
 from reference_tracer.scene import SceneError
 from reference_tracer.scene_files import load_scene, save_scene
+from reference_tracer_meshes import FORMATS as READERS
 
 SUFFIXES = *READERS, ".npz", ".blend", ".png", ".exr", ".json"
 POINTER = b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n"
@@ -23,7 +23,7 @@ CASES = {
     "blend": (b"BLENDER-v402", {*SUFFIXES} - {".blend"}, r"is a \.blend: rename it"),
     "glb": (b"glTF\2\0\0\0", {*SUFFIXES} - {".glb", ".gltf"}, r"is a \.glb: rename it"),
     "ply": (b"ply\r\nformat", {*SUFFIXES} - {".ply"}, r"is a \.ply: rename it"),
-    "zip": (b"PK\3\4", {*SUFFIXES} - {".npz"}, "is a zip archive: unpack it"),
+    "zip": (b"PK\3\4", {*SUFFIXES} - {".npz", ".usdz"}, "is a zip archive: unpack it"),
     "noise": (b"\3\1\4\1\5", (".blend", ".npz", ".png", ".exr"), r"is no \.\w+, as its first"),
 }
 

@@ -37,6 +37,26 @@ def test_every_link_leads_into_the_pack(pack):
             assert (page.parent / link).exists(), (page.name, link)
 
 
+@pytest.mark.parametrize("folder", ["lessons", "lessons/de"])
+def test_worksheets_are_for_paper(folder, pack):
+    """They have the formulas that they speak of, with indices set, and no links; and room."""
+    for name in NAMES:
+        text = (pack / folder / "worksheets" / f"{name}.html").read_text("utf-8")
+        sheet = text[text.index("<main") : text.index("</main>")]
+        assert "<pre><code>" in sheet and "<a " not in sheet and "_s" not in sheet
+        assert ".worksheets > ol > li { break-inside: avoid; padding-bottom" in text
+    assert "n<sub>s1</sub> = (p₂ − p₃)" in sheet  # the triangle's
+
+
+def test_the_index_says_what_each_file_is_for_and_in_which_order(pack):
+    items = re.findall(
+        r'<li><a href="([^"]+)">[^<]+</a>: (.+)</li>', (pack / "index.html").read_text()
+    )
+    assert items[0][0] == "lessons/README.html" and all(what for _, what in items)
+    sheets = [Path(to).stem for to, _ in items if "worksheets" in to]
+    assert sheets == list(NAMES) and all((pack / to).exists() for to, _ in items)
+
+
 def test_it_has_what_a_lecturer_needs(pack):
     lessons = pack / "lessons"
     for kind in ("slides", "plans", "worksheets", "solutions"):

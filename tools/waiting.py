@@ -17,6 +17,7 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parents[1]
+REGISTER = "import bpy; from reference_tracer.blender import registration; registration.register()"
 SCENE = "sample_scenes/suzanne.blend"
 COMPARE = ["compare", SCENE]
 # What a comparison has Blender do: open the scene, draw a small picture to see how its rasteriser
@@ -44,6 +45,7 @@ for size in (48, int(sys.argv[2]), int(sys.argv[2])):
 """
 COMMANDS: dict[str, list[str]] = {
     "Blender alone: `import bpy`": ["-c", "import bpy"],
+    "the add-on registered": ["-c", REGISTER],
     "Blender alone: `compare`'s pictures": ["-c", BLENDER, SCENE, "960"],
     "`compare`": COMPARE,
     "Blender alone: `compare --width 1920`'s pictures": ["-c", BLENDER, SCENE, "1920"],
@@ -89,7 +91,7 @@ def main() -> None:
         (old, old_mb), (new, new_mb) = (
             [min(values) for values in zip(*of, strict=True)] for of in zip(*rounds, strict=True)
         )
-        print(f"| {name} | {old:.1f} | {new:.1f} | {new / old:.2f} | {old_mb:.0f} | {new_mb:.0f} |")
+        print(f"| {name} | {old:.2f} | {new:.2f} | {new / old:.2f} | {old_mb:.0f} | {new_mb:.0f} |")
         sys.stdout.flush()
 
 

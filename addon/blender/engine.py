@@ -9,25 +9,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from ..wording import say
-from .temporary import is_temporary
+from .temporary import ENGINE, is_temporary
 
 if TYPE_CHECKING:
-    from ..manifest import Manifest
-    from ..pictures.certificate import CameraCertificate
-    from ..scene import Scene
     from ..tracer.frame import Frame, Pass
     from ..tracer.hits import Statistics
     from ..tracer.settings import Settings
-    from .drawing.judge import Judge
 
-    Certified = tuple[Scene, Manifest, CameraCertificate | None]
-
-ENGINE = "REFERENCE_TRACER"
 SHOW_EVERY = 0.5  # seconds between showing rows, at least; it takes at most a tenth of the time
 
 
@@ -40,8 +33,6 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     bl_use_postprocess = True
     bl_use_eevee_viewport = True  # else there is no mode Material Preview
 
-    export_to: ClassVar[list[Any]]  # what is Certified, while a temporary scene is rendered
-
     # Blender calls it by position, where the stubs have keywords.
     def update_render_passes(self, scene: Any, renderlayer: Any) -> None:  # type: ignore[override]
         """Declare the passes to the compositor."""
@@ -51,11 +42,12 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     # The stubs have Blender's property of this name instead.
     def render(self, depsgraph: Any) -> None:  # type: ignore[override]
-        """Render one view layer of one frame; a temporary scene is only exported."""
+        """Render one view layer of one frame; nothing of a temporary scene."""
         from ..errors import failure
 
-        work = self._export if is_temporary(depsgraph.scene) else self._trace
-        if error := failure(work, depsgraph):
+        if is_temporary(depsgraph.scene):  # its evaluation is all that is wanted
+            return
+        if error := failure(self._trace, depsgraph):
             self.report({"ERROR"}, error)
 
     def view_update(self, context: Any, depsgraph: Any) -> None:
@@ -69,18 +61,18 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         """Draw such a view."""
         self.live.draw(self, context, depsgraph)
 
-    def _export(self, depsgraph: Any) -> None:
-        self.export_to.append(export_certified(depsgraph))
-
     def _trace(self, depsgraph: Any) -> None:
         """Export, trace and show one view layer of one frame, as long as Esc is not pressed."""
         from ..certified.arithmetic import AssumptionError
         from ..tracer.frame import Frame
         from .reading.export import export
+        from .reading.palettes import as_compared
 
         self.update_stats("", "Exporting")
-        scene, manifest = export(depsgraph)
+        scene, manifest = as_compared(depsgraph.scene, *export(depsgraph))
         say(*manifest.lines())
+        for note in manifest.notes:
+            self.report({"INFO"}, note[0].upper() + note[1:])
         frame = Frame.empty(scene)
         layer = depsgraph.view_layer.name
         passes = _enabled(depsgraph.view_layer)
@@ -155,53 +147,6 @@ def _enabled(layer: Any) -> tuple[Pass, ...]:
 
     chosen = layer.reference_tracer.passes
     return PASSES[0], *(p for p in PASSES if p.label in chosen)
-
-
-def export_certified(depsgraph: Any) -> Certified:
-    """Return what :func:`.reading.export.export` does, and how close its camera is to Blender's."""
-    from .reading.camera import certify_camera
-    from .reading.export import export
-
-    scene, manifest = export(depsgraph)
-    if not scene.camera.projection.is_linear:  # Blender has no matrix for it
-        return scene, manifest, None
-    return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
-
-
-def export_for_render(scene: Any) -> Certified:
-    """Return the *render* evaluation of a temporary scene, and set its engine to this one.
-
-    Such an evaluation exists only inside an engine: so the scene is rendered by this one.
-
-    Raises
-    ------
-    SceneError
-        If the scene cannot be traced.
-    """
-    from ..scene import SceneError
-    from .values import values_restored
-
-    scene.render.engine = ENGINE
-    exported: list[Certified] = []
-    ReferenceTracerEngine.export_to = exported
-    try:
-        # Else the frame would be that of the context's scene (5.2).
-        override = bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0])
-        with values_restored(), override:
-            bpy.ops.render.render(scene=scene.name)
-    except RuntimeError as error:  # Blender turns our report into one
-        raise SceneError(str(error).removeprefix("Error: ").strip()) from error
-    finally:
-        del ReferenceTracerEngine.export_to
-    return exported[0]
-
-
-def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:
-    """Return what a judge's picture is to be compared with, as :func:`export_certified` does."""
-    if not judge.needs_window:
-        return export_for_render(tmp)
-    with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
-        return export_certified(bpy.context.evaluated_depsgraph_get())
 
 
 register, unregister = bpy.utils.register_classes_factory((ReferenceTracerEngine,))

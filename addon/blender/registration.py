@@ -9,9 +9,19 @@ import bpy
 
 from . import engine
 from .reading import rendered
-from .ui import inspector, language, menus, panels, preferences, properties, split, study_panels
+from .ui import (
+    inspector,
+    language,
+    menus,
+    panels,
+    preferences,
+    properties,
+    split,
+    study_panels,
+    swatches,
+)
 from .ui.long_work import OPERATORS, LongWork
-from .ui.results import forget, remove_stale_images
+from .ui.results import forget, put_back, remember_editors
 
 MODULES = (
     language,
@@ -22,6 +32,7 @@ MODULES = (
     panels,
     study_panels,
     split,
+    swatches,
     rendered,
 )
 # The panels import the operators.
@@ -33,16 +44,20 @@ _commands: list[Any] = []  # that are registered
 
 @bpy.app.handlers.persistent
 def _file_closes(*_: Any) -> None:
-    """Forget the results of the file that is closed; Blender ends the operators that run."""
-    forget()
+    """Forget what ran in the file that is closed: Blender ends its operators."""
     rendered.forget()
     LongWork.running = ""
     inspector.REFERENCE_TRACER_OT_inspect.running = False
 
 
-@bpy.app.handlers.persistent
-def _file_opened(*_: Any) -> None:
-    remove_stale_images()
+_HANDLERS = {
+    "load_pre": _file_closes,
+    "load_post": forget,
+    "undo_pre": remember_editors,
+    "undo_post": put_back,
+    "redo_pre": remember_editors,
+    "redo_post": put_back,
+}
 
 
 def register(command: Callable[[list[str]], int] | None = None) -> None:
@@ -54,8 +69,8 @@ def register(command: Callable[[list[str]], int] | None = None) -> None:
     for module in MODULES:
         module.register()
     _register()
-    bpy.app.handlers.load_pre.append(_file_closes)
-    bpy.app.handlers.load_post.append(_file_opened)
+    for event, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, event).append(handler)
     if command:
         _commands.append(bpy.utils.register_cli_command("reference_tracer", command))
 
@@ -64,8 +79,8 @@ def unregister() -> None:
     """Undo :func:`register`."""
     while _commands:
         bpy.utils.unregister_cli_command(_commands.pop())
-    bpy.app.handlers.load_pre.remove(_file_closes)
-    bpy.app.handlers.load_post.remove(_file_opened)
+    for event, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, event).remove(handler)
     if LongWork.running:  # Blender tells no operator that its add-on is switched off
         context: Any = bpy.context
         window = context.window or context.window_manager.windows[0]

@@ -8,23 +8,28 @@ puts it back.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import bpy
 
 if TYPE_CHECKING:
     from ..pictures.palette import Palette
 
+B = TypeVar("B", bound=Any)
+
 # Custom properties. DRAWN marks what the add-on itself draws in a scene. The others mark a
-# temporary scene: the name of the user's, and the features that its judge does not show.
+# temporary scene: the name of the user's, and the features that its judge does not show. The first
+# is also on what was made for a scene, with that scene's name.
 DRAWN = "reference_tracer_drawn"
 _COPY_OF = "reference_tracer_copy_of"
 _IGNORED = "reference_tracer_ignored"
 _WHOLE = "reference_tracer_whole"
 
 HIDDEN_FACES = "hidden faces"  # a judge that ignores that Edit Mode hides them draws them
+
+ENGINE = "REFERENCE_TRACER"  # Blender's name of our own, which draws nothing of a temporary scene
 
 NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
@@ -56,22 +61,51 @@ def temporary_scene(
     copy[_COPY_OF] = scene.name_full
     if ignored is not None:
         copy[_IGNORED] = "\n".join(ignored)
-    name = copy.name_full
     try:
         _isolate(copy, layer or scene.view_layers[0].name)
-        with _in_palette(copy, palette):
+        with in_palette(copy, palette):
             yield copy
     finally:
-        own = [c for c in bpy.data.collections if c.get(_COPY_OF) == name]
-        # Under `blender --command` there is no window, and scenes.remove() would crash (4.3).
-        bpy.data.batch_remove([copy, *own])
+        remove(copy)
         for image in set(bpy.data.images) - images:
             if image.type == "RENDER_RESULT":
                 bpy.data.images.remove(image)
 
 
+def made_for(scene: Any, block: B) -> B:
+    """Return a data-block that goes when the add-on removes its scene, and not before.
+
+    While Blender renders, removing one may crash it (5.2).
+    """
+    block[_COPY_OF] = scene.name_full
+    return block
+
+
+def remove(scene: Any) -> None:
+    """Remove a scene of the add-on's, with what was made for it."""
+    data = bpy.data
+    kinds: tuple[Any, ...] = data.collections, data.objects, data.meshes, data.materials
+    kinds += data.cameras, data.images
+    own = [b for kind in kinds for b in kind if b.get(_COPY_OF) == scene.name_full]
+    # Under `blender --command` there is no window, and scenes.remove() would crash (4.3).
+    data.batch_remove([scene, *own])
+
+
+def show_in(tmp: Any, depsgraph: Any, colors: Mapping[str, Any]) -> None:
+    """Show objects in colours, by their names, in one evaluation of a temporary scene.
+
+    The user's objects stay as they are, and none is evaluated again.
+    """
+    for scene in (tmp, depsgraph.scene_eval):
+        scene.display.shading.color_type = "OBJECT"
+    for block in depsgraph.ids:
+        color = colors.get(block.original.name_full) if block.id_type == "OBJECT" else None
+        if color is not None:
+            block.color = (*color, 1.0)
+
+
 @contextmanager
-def _in_palette(scene: Any, palette: Palette | None) -> Iterator[None]:
+def in_palette(scene: Any, palette: Palette | None) -> Iterator[None]:
     """Show a temporary scene, which is not evaluated yet, in other colours, for a while."""
     import numpy as np
 

@@ -6,24 +6,14 @@ What he has moved but not keyed yet would be lost: `values_restored` puts it bac
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
 import bpy
 import numpy as np
 
-from ..arrays import Colors
 from .versions import curves
-
-
-@contextmanager
-def in_colors(objects: Sequence[Any], colors: Colors) -> Iterator[None]:
-    """Show objects in object colours (n, 3), for a while."""
-    opaque = np.column_stack((colors, np.ones(len(colors)))).astype(np.float32)
-    rows = dict(zip(objects, opaque, strict=True))
-    with untold(bpy.data.objects, "color", rows):
-        yield
 
 
 @contextmanager

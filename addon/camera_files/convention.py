@@ -19,6 +19,7 @@ FIRST = {HALF: 0.5, INTEGER: 0.0}
 CENTERS = tuple(FIRST)
 
 _HEAD = 1024  # bytes, in which a file of text begins
+_BEGINNINGS = b"{", b"[", b"<", b"extrinsic"  # of JSON, XML and MVSNet's text
 
 Files = dict[str, str]  # what is written, by name; of the single file the name is empty
 
@@ -44,11 +45,11 @@ class Source:
 
     @cached_property
     def text(self) -> str:
-        """What the file holds; "" of a folder, and of what begins as neither JSON nor XML."""
+        """What the file holds; "" of a folder, and of what begins as no file of cameras does."""
         if self.path.is_dir():
             return ""
         with self.path.open("rb") as file:
-            if not file.read(_HEAD).lstrip(codecs.BOM_UTF8 + b" \t\r\n").startswith((b"{", b"<")):
+            if not file.read(_HEAD).lstrip(codecs.BOM_UTF8 + b" \t\r\n").startswith(_BEGINNINGS):
                 return ""
             file.seek(0)
             return file.read().decode("utf-8-sig", errors="replace")
@@ -94,8 +95,8 @@ class Convention:
     # Whether a file may have the first pixel's centre at 0; False where its documents say 0.5, or
     # its files know no pixels.
     either_center: bool
-    # Takes views that it can say, and HALF or INTEGER.
-    write: Write
+    # Takes views that it can say, and HALF or INTEGER; None where files are only read.
+    write: Write | None
     # Whether a source is of this convention, and its views.
     is_of: Callable[[Source], bool]
     read: Callable[[Source], list[View]]

@@ -15,19 +15,38 @@ from .bop import BOP
 from .colmap import COLMAP
 from .convention import HALF, Convention, Files, Source, View
 from .gltf import GLTF
+from .kubric import KUBRIC
 from .mitsuba import MITSUBA
+from .mvsnet import MVSNET
 from .nerf import NERF
 from .open3d import OPEN3D
 from .opencv import OPENCV
 from .opengl import OPENGL
 from .pytorch3d import PYTORCH3D
+from .splatting import SPLATTING
 
 _WHOLE = re.compile(r"-?\d{1,18}")  # what more digits say is a name
 
 # The first that a file is of reads it.
 CONVENTIONS: dict[str, Convention] = {
-    own.name: own for own in (OPENCV, OPENGL, COLMAP, NERF, GLTF, MITSUBA, PYTORCH3D, OPEN3D, BOP)
+    own.name: own
+    for own in (
+        OPENCV,
+        OPENGL,
+        COLMAP,
+        NERF,
+        GLTF,
+        MITSUBA,
+        PYTORCH3D,
+        OPEN3D,
+        BOP,
+        SPLATTING,
+        KUBRIC,
+        MVSNET,
+    )
 }
+
+WRITTEN = {name: own for name, own in CONVENTIONS.items() if own.write}
 
 
 def texts(views: Sequence[View], convention: Convention, centers: str = HALF) -> Files:
@@ -42,6 +61,8 @@ def texts(views: Sequence[View], convention: Convention, centers: str = HALF) ->
         raise SceneError(
             f"--centers {centers}: {convention.title} has pixel centres at + 0.5, or none"
         )
+    if convention.write is None:
+        raise SceneError(f"files of {convention.title} are read, not written: {', '.join(WRITTEN)}")
     for view in views:
         check(view.camera, convention)
     return convention.write(views, centers)
@@ -50,7 +71,7 @@ def texts(views: Sequence[View], convention: Convention, centers: str = HALF) ->
 def check(camera: Camera, convention: Convention) -> None:
     """Raise a SceneError if a convention cannot say what a camera has."""
     if lacking := convention.lacks(camera):
-        able = [own.name for own in CONVENTIONS.values() if not own.lacks(camera)]
+        able = [own.name for own in WRITTEN.values() if not own.lacks(camera)]
         do = f"{', '.join(able)} can" if able else "none of the conventions can"
         raise SceneError(
             f"Camera '{camera.name}' has {' and '.join(lacking)}, which {convention.title} cannot "

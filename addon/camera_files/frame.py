@@ -25,7 +25,8 @@ LEFT_UP = np.diag((-1.0, 1.0, -1.0, 1.0))
 # Takes Blender's world, with Z up, to one with Y up: (x, y, z) is (x, z, -y) there.
 Y_UP_FROM_Z_UP = np.array(((1.0, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 # Where a file says no clip range: nothing but what is in the eye itself is left out.
-_UNCLIPPED = 1e-6, 1e12
+FARTHEST = 1e12
+_UNCLIPPED = 1e-6, FARTHEST
 # How far rounding may leave the last row of a matrix from 0 0 0 1, in its own numbers.
 _AFFINE = 1e-6
 
@@ -86,24 +87,26 @@ def pinhole(
 ) -> Camera:
     """Return the camera of K (3, 3) and a matrix (4, 4) into a camera space.
 
-    K has the centre of the first pixel at (center, center). A negative focal length or a skew is
-    applied: the camera's axes are mirrored or sheared by it.
+    K has the centre of the first pixel at (center, center), and any scale: it is of homogeneous
+    coordinates. Where its last number is negative, depths before the camera are (as in Kubric). A
+    negative focal length or a skew is applied: the camera's axes are mirrored or sheared by it.
 
     Raises
     ------
     SceneError
         If K is none, or the matrix has no inverse.
     """
-    k = k / (k[2, 2] or 1.0)
     if k[1, 0] or k[2, 0] or k[2, 1] or not (k[0, 0] and k[1, 1] and k[2, 2]):
         raise SceneError("its K is not of the form [[fx, skew, cx], [0, fy, cy], [0, 0, 1]]")
+    depth = np.diag((1.0, 1.0, np.sign(k[2, 2]), 1.0))  # negative before a camera along -Z
+    k = k / abs(k[2, 2]) @ depth[:3, :3]
     fx, fy, (cx, cy) = abs(k[0, 0]), abs(k[1, 1]), k[:2, 2] + (0.5 - center)
     plain = np.eye(4)
     plain[:2, :2] = k[:2, :2] / ((fx,), (fy,))
     width, height = size
     window = ViewWindow(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)
-    # K's v is downwards, as OpenCV's y; its skew is of that y.
-    world = inverse(OPENCV @ plain @ OPENCV @ axes @ camera_from_world)
+    # K is of OpenCV's camera space, and so is its skew.
+    world = inverse(OPENCV @ plain @ depth @ OPENCV @ axes @ camera_from_world)
     return seen_from(world, window, size, clip, name, projection)
 
 

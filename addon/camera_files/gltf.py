@@ -21,16 +21,13 @@ import numpy as np
 from ..arrays import Floats
 from ..checked_json import Content
 from ..framing import SIZE
-from ..mesh_files.gltf.container import open_container
-from ..mesh_files.gltf.document import Thing
-from ..mesh_files.gltf.nodes import read_tree
-from ..mesh_files.gltf.notes import Notes
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import PARALLEL
-from .json_files import dumped
+from .gltf_file import as_specified, item, open_gltf, read_tree
+from .json_files import dumped, radians_of
 
 
 def _write(views: Sequence[View], centers: str) -> Files:
@@ -81,48 +78,51 @@ def _is_of(source: Source) -> bool:
 
 
 def _read(source: Source) -> list[View]:
-    notes = Notes()
-    document = open_container(source.path, notes).document
-    tree = read_tree(document, notes)
-    found = []
-    for node, world in zip(tree.nodes, tree.worlds, strict=True):
-        number = node.refers("camera")
-        if number is not None:
-            own = document.thing("cameras", number, node.label)
-            found.append(_view(own, node.name or own.name, frame.Y_UP_FROM_Z_UP.T @ world, source))
+    with as_specified():
+        content, _ = open_gltf(source.path)
+        tree = read_tree(content)
+        found = []
+        for node, world in zip(tree.nodes, tree.worlds, strict=True):
+            if "camera" in node:
+                own = item(content, "cameras", node["camera"])
+                name = str(node.get("name") or own.get("name", ""))
+                label = f"camera {node['camera']}"
+                world = frame.Y_UP_FROM_Z_UP.T @ world
+                found.append(_view(own, label, name, world, source))
     if not found:
         raise SceneError("no node of it has a camera")
     return found
 
 
-def _view(own: Thing, name: str, world: Floats, source: Source) -> View:
-    kind = own.content.get("type")
-    lens = own.part(kind) if kind in ("perspective", "orthographic") else None
-    if lens is None:
-        raise SceneError(f"{own.label} is neither a perspective camera nor an orthographic one")
+def _view(own: Content, label: str, name: str, world: Floats, source: Source) -> View:
+    kind = own.get("type")
+    if kind not in ("perspective", "orthographic") or kind not in own:
+        raise SceneError(f"{label} is neither a perspective camera nor an orthographic one")
+    lens: Content = own[kind]
     parallel = kind == "orthographic"
     if parallel:
-        across, up = _number(lens, "xmag"), _number(lens, "ymag")
+        across, up = _number(lens, label, "xmag"), _number(lens, label, "ymag")
         aspect: float | None = across / up
     else:
-        up = float(np.tan(_number(lens, "yfov") / 2))
-        aspect = _number(lens, "aspectRatio") if "aspectRatio" in lens.content else None
-    size = _size(own, aspect, source)
+        _number(lens, label, "yfov")
+        up = float(np.tan(radians_of(lens, "yfov", f"{label}: ") / 2))
+        aspect = _number(lens, label, "aspectRatio") if "aspectRatio" in lens else None
+    size = _size(own, label, aspect, source)
     across = up * size[0] / size[1]
     axes = np.linalg.norm(world[:3, :3], axis=0)
     if not axes.all() or np.linalg.det(world[:3, :3]) < 0:
         raise SceneError(
-            f"the node of {own.label} has a scale that is zero or negative, and glTF ignores a "
+            f"the node of {label} has a scale that is zero or negative, and glTF ignores a "
             "scale: export the camera without"
         )
     world = world / (*axes, 1.0)
-    far = _number(lens, "zfar") if "zfar" in lens.content else np.inf
+    far = _number(lens, label, "zfar") if "zfar" in lens else np.inf
     return View(
         frame.seen_from(
             world,
             ViewWindow(-across, across, -up, up),
             size,
-            (_number(lens, "znear"), float(far)),
+            (_number(lens, label, "znear"), float(far)),
             name,
             ORTHOGRAPHIC if parallel else PERSPECTIVE,
         ),
@@ -130,16 +130,16 @@ def _view(own: Thing, name: str, world: Floats, source: Source) -> View:
     )
 
 
-def _number(lens: Thing, key: str) -> float:
-    value = lens.content.get(key)
+def _number(lens: Content, label: str, key: str) -> float:
+    value = lens.get(key)
     if not isinstance(value, int | float) or not 0 < value < np.inf:
-        raise SceneError(f"{lens.label} needs '{key}', a finite number above 0")
+        raise SceneError(f"{label} needs '{key}', a finite number above 0")
     return float(value)
 
 
-def _size(own: Thing, aspect: float | None, source: Source) -> tuple[int, int]:
+def _size(own: Content, label: str, aspect: float | None, source: Source) -> tuple[int, int]:
     """Return the picture's size: that of the extras, or as asked for, with the aspect ratio."""
-    extras = own.content.get("extras")
+    extras = own.get("extras")
     width, height = source.size
     ratio = aspect or SIZE[0] / SIZE[1]  # without one it is the picture's, whatever that is
     if width is None:
@@ -149,7 +149,7 @@ def _size(own: Thing, aspect: float | None, source: Source) -> tuple[int, int]:
     size: tuple[int, int] = asked.whole_size(extras if isinstance(extras, dict) else {}, _KEYS)
     if aspect is not None and abs(size[0] / size[1] / aspect - 1) > 1 / min(size):
         raise SceneError(
-            f"{own.label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
+            f"{label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
             "pixels: choose --width or --height alone"
         )
     return size

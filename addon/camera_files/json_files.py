@@ -7,6 +7,8 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from ..arrays import Floats
 from ..checked_json import Content, numbers, part
 from ..scene import Camera, SceneError
@@ -94,6 +96,20 @@ def flat(content: Content, key: str, where: str, count: int) -> Floats:
     if len(values) != count:
         raise SceneError(f"{where}{key} must be {count} finite numbers, not {len(values)}")
     return values
+
+
+def radians_of(content: Content, key: str, where: str) -> float:
+    """Return the whole angle of a lens.
+
+    Raises
+    ------
+    SceneError
+        If it is half a turn or more, as an angle in degrees is.
+    """
+    angle = float(numbers(content, key, where, ()))
+    if angle >= np.pi:
+        raise SceneError(f"{where}{key} is {angle:g}: it must be in radians, not in degrees")
+    return angle
 
 
 def dumped(content: Any) -> str:

@@ -24,7 +24,15 @@ from ..scene import SceneError
 from . import frame
 from .convention import HALF, Convention, Files, Source, View
 from .features import ASPECT, SHIFT
-from .json_files import CENTERS_KEY, dumped, first_center, has, objects, offset_of
+from .json_files import (
+    CENTERS_KEY,
+    dumped,
+    first_center,
+    has,
+    objects,
+    offset_of,
+    radians_of,
+)
 
 _LENSES = "fl_x", "fl_y", "cx", "cy"
 _DISTORTIONS = "k1", "k2", "k3", "k4", "p1", "p2", "is_fisheye"
@@ -124,7 +132,7 @@ def _focal_lengths(body: Content, where: str, size: tuple[int, int]) -> tuple[fl
         elif f"fl_{axis}" in body:
             found.append(float(numbers(body, f"fl_{axis}", where, ())))
         elif f"camera_angle_{axis}" in body:
-            angle = float(numbers(body, f"camera_angle_{axis}", where, ()))
+            angle = radians_of(body, f"camera_angle_{axis}", where)
             found.append(n / 2 / float(np.tan(angle / 2)))
         else:
             found.append(0.0)

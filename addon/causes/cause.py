@@ -7,7 +7,7 @@ difference picture read the record.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple, Self
 
@@ -44,6 +44,7 @@ class Cause(int):
     warns: bool = False  # with such a pixel the verdict is no better than 'warnings'
     rounding: bool = False  # Blender's own float32 arithmetic accounts for the pixel
     see_through: bool = False  # whole surfaces have it: they stay visible in the difference picture
+    place: str = ""  # after a count of pixels: '3 px at edges'; the label, if it is empty
     # For the documents, which are made of these.
     why: str = ""  # why it happens
     check: str = ""  # what is asked before a pixel gets the cause
@@ -78,6 +79,10 @@ class Cause(int):
     def in_words(self, figure: float, allowed: float, name: object = "") -> str:
         """Return the sentence with a pixel's numbers, or the name that its index stands for."""
         return self.sentence.format(figure=figure, allowed=allowed, name=name)
+
+    def count_in_words(self, pixels: int, words: Callable[[str], str] = str) -> str:
+        """Return so many pixels with the cause: '3 px at edges'; `words` translates."""
+        return f"{pixels:,} px {words(self.place or self.label)}"
 
     def to_dict(self) -> dict[str, int | str]:
         """Return the fields that JSON has of the cause."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import Bools, Bytes
 from ..pictures.identity import Identity, Shows
-from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Causes
+from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause, Causes
 from .explain import CAUSES
 
 EXAMPLES = 10  # pixels named of each cause
@@ -36,6 +36,12 @@ class Counts:
     def differ(self) -> int:
         """Those that differ, explained or not."""
         return self.explained + self.unexplained
+
+    def of_causes(self) -> Iterator[tuple[Cause, int]]:
+        """Yield the causes that some pixels have, and how many do."""
+        for cause in sorted(CAUSES):
+            if count := self.by_cause.get(cause.key):
+                yield cause, count
 
     @classmethod
     def of(cls, cause: Bytes) -> Counts:

@@ -7,7 +7,7 @@ the two sides agree. So it is of each object: one most of whose pixels do was no
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -78,15 +78,15 @@ class Excused:
 
     def lines(self) -> Iterator[str]:
         """Say which objects, or how much of the picture, rest on rounding, and what would help."""
+        found = [(one.line(), one.advice) for one in self.objects[:_TOLD]]
         if self.too_much:
-            yield (
-                f"{100 * self.share:.1f} % of this picture rests on rounding alone: "
-                f"{_named(self.by_cause)}"
-            )
-            yield from _advised(self.advice)
-        for one in self.objects[:_TOLD]:
-            yield one.line()
-            yield from _advised(one.advice)
+            share = f"{100 * self.share:.1f} % of this picture rests on rounding alone"
+            found.insert(0, (f"{share}: {_named(self.by_cause)}", self.advice))
+        said: dict[str, None] = {}  # what helps several is said once
+        for line, advice in found:
+            yield line
+            yield from (f"  to have it judged, {a}" for a in advice if a not in said)
+            said.update(dict.fromkeys(advice))
         if more := len(self.objects[_TOLD:]):
             yield f"nor were {more:,} other objects judged"
 
@@ -108,10 +108,6 @@ def _named(by_cause: Mapping[Cause, int]) -> str:
 
 def _keyed(by_cause: Mapping[Cause, int]) -> dict[str, int]:
     return {cause.key: n for cause, n in by_cause.items()}
-
-
-def _advised(advice: Iterable[str]) -> Iterator[str]:
-    yield from (f"  to have it judged, {line}" for line in advice)
 
 
 def excused(case: Case, frame: Frame, causes: Causes) -> Excused:

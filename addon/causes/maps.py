@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Bools, Bytes, Colors
 from ..certainty import Certainty
-from ..images import curve_undone
+from ..images import curve, curve_undone
 from ..runs import by_runs
 from .cause import Color
 from .explain import CAUSES
@@ -17,6 +17,7 @@ from .explain import CAUSES
 WRONG: Color = (1.0, 0.0, 0.0)
 DIM = 0.25  # the share of its light that the picture keeps
 HUE = 0.4  # the share of its colour: the rest is grey
+LEAST = 0.35  # of white on a screen: what differs by one level of 255
 RING = 6  # pixels from the one that is marked to its ring
 MOST_RINGS = 500  # of more pixels none is marked: they are found without
 _BLACK = np.array((0.0, 0.0, 0.0, 1.0), np.float32)
@@ -72,10 +73,18 @@ def certainty_map(color: Colors, certainty: Bytes) -> Colors:
 
 
 def difference_map(first: Colors, second: Colors) -> Colors:
-    """Return how far apart two pictures' colours are, in each channel."""
+    """Return how far apart two pictures' colours are in each channel, raised so that it is seen.
+
+    A difference of one of 255 sRGB levels is LEAST of white on a screen, and the largest is white.
+    Less than half a level, which storing may change, is black.
+    """
+    with np.errstate(invalid="ignore"):
+        one, other = (curve(np.maximum(c[..., :3], 0)) for c in (first, second))
+        apart = np.nan_to_num(np.abs(one - other), nan=1.0, posinf=1.0)
     out = np.ones(first.shape, np.float32)
-    np.abs(first[..., :3] - second[..., :3], out=out[..., :3])
-    return np.nan_to_num(out, copy=False, nan=1.0, posinf=1.0)
+    raised = curve_undone(LEAST + (1 - LEAST) * np.minimum(apart, 1))
+    out[..., :3] = np.where(apart < 0.5 / 255, 0, raised)
+    return out
 
 
 def ringed(color: Colors, where: Bools) -> Colors:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from ..comparison.animation import frames_named
 from ..methods import Method
 from ..scene import SceneError
 from ..tracer.settings import Precision, Settings
@@ -95,6 +96,17 @@ def refuse(given: object, names: Iterable[str], why: str) -> None:
         value = getattr(given, name, None)
         if value is not None and value is not False:  # 0 is given
             raise SceneError(f"{typed(name)} {why}")
+
+
+def check_frames(given: Namespace, of_one: Iterable[str]) -> None:
+    """Raise a SceneError if --frames names none, or stands beside an option for one frame."""
+    refuse(given, ("frame", *of_one), "is for one frame, not for --frames")
+    if not is_blend(given.scene):
+        raise SceneError(f"--frames is for a .blend: '{given.scene}' has one frame")
+    try:
+        frames_named(given.frames)
+    except ValueError as error:
+        raise SceneError(f"--frames {error}") from error
 
 
 def typed(name: str) -> str:

@@ -12,8 +12,9 @@ from ..camera_files.files import CONVENTIONS, is_seen_to_be, read
 from ..camera_files.files import chosen as chosen_view
 from ..file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
-from ..mesh_files.load import READERS
+from ..opened import mesh_formats
 from ..scene import SceneError
+from ..wording import show
 from .arguments import is_blend, refuse
 from .parser import COUNT, FINITE, POSITIVE, Parser, number
 
@@ -143,7 +144,7 @@ def check_kind(path: Path) -> None:
     if suffix == ".blend":
         return
     check_is_file(path)
-    if suffix == ".npz" or suffix in READERS:
+    if suffix == ".npz" or suffix in mesh_formats():
         return
     do = ""
     if not suffix:
@@ -152,7 +153,7 @@ def check_kind(path: Path) -> None:
         do = ": import it into Blender, and save a .blend"
     elif suffix.startswith(".blend"):
         do = ": a backup of Blender's is a .blend once it is renamed"
-    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(READERS)}{do}")
+    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(mesh_formats())}{do}")
 
 
 def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice:
@@ -165,7 +166,7 @@ def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice
         others.
     """
     check_kind(path)
-    is_mesh = path.suffix.lower() in READERS
+    is_mesh = path.suffix.lower() in mesh_formats()
     _refuse_without_camera(given, is_mesh)
     if is_mesh:
         refuse(given, _OF_BLEND, f"is for a .blend: '{path}' has no such thing")
@@ -178,7 +179,7 @@ def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice
     chosen = {name: getattr(given, name) for name in known}
     if views := _views(given, path if is_mesh else None, of_frames):
         for note in dict.fromkeys(note for view in views for note in view.notes):
-            print(f"{given.camera}: {note}", file=sys.stderr)
+            show(f"{given.camera}: {note}", file=sys.stderr)
         chosen["camera"] = None
         if len(views) > 1:
             chosen["views"] = views

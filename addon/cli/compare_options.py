@@ -6,7 +6,6 @@ from argparse import ArgumentTypeError, BooleanOptionalAction, Namespace
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..comparison.animation import frames_named
 from ..framing import Choice
 from ..pictures.data.given import KINDS, GivenData
 from ..pictures.palette import By
@@ -16,6 +15,7 @@ from .arguments import (
     GivenSettings,
     Place,
     add_settings,
+    check_frames,
     place_from,
     refuse,
     settings_from,
@@ -25,7 +25,20 @@ from .data_options import add_data, data_from
 from .parser import AT_LEAST_0, Parser
 
 # A frame of an animation stays the same whatever these are.
-_NOT_OF_A_FRAME = "scene", "out", "frames", "against", "data", "colors_out", "junit", "place"
+_NOT_OF_A_FRAME = (
+    "scene",
+    "out",
+    "only_colors",
+    "frames",
+    "against",
+    "data",
+    "colors_out",
+    "junit",
+    "place",
+)
+
+# Options that have no effect where the colours alone are written.
+_OF_COMPARISON = "judge", "against", *KINDS, "identity", "self_check", "trade", "extremes", "junit"
 
 # Options for a picture of unknown origin.
 _OF_GIVEN = "filter", "renderer"
@@ -38,6 +51,7 @@ class CompareOptions:
 
     scene: Path
     out: Path
+    only_colors: Path | None  # nothing is compared: the colours are written there
     settings: GivenSettings
     choice: Choice
     # Blender's picture; None for what the scene stores.
@@ -64,6 +78,10 @@ class CompareOptions:
     @classmethod
     def parsed(cls, given: Namespace) -> CompareOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
+        if given.out is None:
+            if given.colors_out is None:
+                raise SceneError("name a folder with --out, or --colors-out alone for the colours")
+            refuse(given, _OF_COMPARISON, "is for a comparison: name its folder with --out")
         _refuse_beside_frames(given)
         if given.judge == "all":
             refuse(given, ("colors_out",), "is for one judge, not for --judge all")
@@ -78,7 +96,8 @@ class CompareOptions:
             refuse(given, ("judge", "identity", "as_is"), why)
         return cls(
             scene=given.scene,
-            out=given.out,
+            out=given.out or Path(),
+            only_colors=None if given.out else given.colors_out,
             settings=settings_from(given),
             choice=choice_from(given, given.scene, given.frames is not None),
             judge=given.judge,
@@ -126,25 +145,17 @@ def _check_judge(judge: str, given: Namespace) -> None:
 def _refuse_beside_frames(given: Namespace) -> None:
     if given.frames is None:
         return
-    why = "is for one frame, not for --frames"
-    of_one = "frame", "against", *KINDS, "trade", "extremes", "diagnosis", "colors_out"
-    refuse(given, of_one, why)
+    check_frames(given, ("against", *KINDS, "trade", "extremes", "diagnosis", "colors_out"))
     if isinstance(given.colors, Path):
-        raise SceneError(f"--colors {given.colors} {why}")
+        raise SceneError(f"--colors {given.colors} is for one frame, not for --frames")
     if given.judge == "all":
         raise SceneError("--judge all is for one frame: name one judge with --frames")
-    try:
-        frames_named(given.frames)
-    except ValueError as error:
-        raise SceneError(f"--frames {error}") from error
 
 
 def add_options(parser: Parser) -> None:
     """Add the command's options."""
     parser.add_scene("scene.blend; with --against also scene.npz or a mesh")
-    parser.add_argument(
-        "--out", required=True, type=parser.path, metavar="DIR", help="folder for what is found"
-    )
+    parser.add_argument("--out", type=parser.path, metavar="DIR", help="folder for what is found")
     parser.add_argument(
         "--junit",
         type=parser.path_ending(".xml"),
@@ -180,7 +191,8 @@ def _add_colors(parser: Parser) -> None:
         "--colors-out",
         type=parser.path_ending(".json"),
         metavar="COLORS.JSON",
-        help="also write the colours of all objects in the view, for another renderer's picture",
+        help="also write the colours of all objects in the view, for another renderer's picture; "
+        "without --out nothing else",
     )
 
 

@@ -15,17 +15,17 @@ from typing import Any, NamedTuple
 from ..file_kinds import check_is_file
 from ..framing import Choice
 from ..manifest import Manifest
-from ..mesh_files.load import READERS
-from ..opened import open_scene
+from ..opened import mesh_formats, open_scene
 from ..scene import Scene, SceneError
 from ..tracer.settings import Settings
+from ..wording import show
 from . import running
 from .arguments import is_blend
 from .camera_options import check_kind
 
 PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
-SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(READERS)})"
+SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
 
 
 class OpenedFile(NamedTuple):
@@ -45,7 +45,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     lines = opened.manifest.lines()
     if not is_blend(path):  # there it is plain what is exported
         lines = opened.manifest.remarks()
-    print(*lines, sep="\n", end="\n" if lines else "")
+    show(*lines)
     return opened.scene, opened.settings
 
 

@@ -12,6 +12,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
+from ..wording import show
+
 Number = TypeVar("Number", int, float)
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
@@ -34,6 +36,10 @@ class Parser(ArgumentParser):
     def __init__(self, prog: str | None = None, **options: Any) -> None:
         """Keep the lines of the exit codes below the help."""
         super().__init__(prog, formatter_class=RawDescriptionHelpFormatter, **options)
+        self.color = False  # newer Pythons steer the terminal
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        show(*message.removesuffix("\n").split("\n"), file=file)
 
     def error(self, message: str) -> NoReturn:
         """Print the message and how to go on, and exit."""

@@ -13,11 +13,13 @@ import os
 import signal
 import sys
 import time
-import traceback
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass
 from typing import TextIO
+
+from ..wording import show, shown
 
 _NAMED = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "hung up"}
 # What ends the work, and in what word: those that this system has.
@@ -57,7 +59,7 @@ def run(work: Callable[[], int], program: str) -> int:
         except KeyboardInterrupt:
             code, word = ended()
             with suppress(OSError):
-                print(f"{program}: {word}", file=sys.stderr)
+                show(f"{program}: {word}", file=sys.stderr)
             return code
         except Exception as error:  # Python's own exit code for it, 1, means warnings here
             return _failed(error, program)
@@ -67,16 +69,16 @@ def run(work: Callable[[], int], program: str) -> int:
 
 def _failed(error: Exception, program: str) -> int:
     """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
-    from ..errors import EXPECTED, words
+    from ..errors import EXPECTED, show_traceback, words
     from ..pictures.picture import SizeError
     from .parser import INPUT_ERROR, SIZES_DIFFER
 
     said = words(error)
     with suppress(OSError):  # of stderr itself: there is nowhere else to say it
         if not isinstance(error, EXPECTED):
-            traceback.print_exception(error)
+            show_traceback(error)
             said = f"{type(error).__name__}: {error}"
-        print(f"{program}: {said}", file=sys.stderr)
+        show(f"{program}: {said}", file=sys.stderr)
     return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 
@@ -99,9 +101,12 @@ def keep_stdout() -> None:
     """Leave standard output to what Python prints: what C prints, as Blender does, goes to stderr.
 
     It is so until the process ends, since C may write what it has buffered only then. It is for
-    processes that do nothing else: a script that calls `main` keeps its streams.
+    processes that do nothing else: a script that calls `main` keeps its streams, and its warnings:
+    those of numpy, which print its source, are no words for a user.
     """
     _open_streams()
+    if not sys.warnoptions:
+        warnings.simplefilter("ignore")
     try:
         is_own = sys.stdout.fileno() == 1
     except (AttributeError, OSError):  # a stream without a descriptor, into which no C prints
@@ -204,13 +209,6 @@ def held() -> Iterator[None]:
         check()
 
 
-def printable(text: str) -> str:
-    """Return text that is safe to show: what steers a terminal, or is no letter, is spelt out."""
-    return "".join(
-        c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text
-    )
-
-
 named: list[str] = []  # what is done meanwhile, the innermost last
 
 
@@ -222,6 +220,7 @@ def meanwhile(words: str) -> Iterator[None]:
         yield
     finally:
         named.pop()
+        check()  # a handler of Blender's may have swallowed it
 
 
 @contextmanager
@@ -254,16 +253,16 @@ def progress_bar(
                 said = ", ".join(filter(None, (f"{100 * share:3.0f} %", doing(share))))
                 left = f", {past * (1 - share) / share:.0f} s left" if share > LEAST_SHARE else ""
                 with suppress(OSError):  # nobody reads it
-                    print(f"{said} ({past:.0f} s{left})", file=sys.stderr, flush=True)
+                    show(f"{said} ({past:.0f} s{left})", file=sys.stderr)
 
         yield tell
         return
     layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left{postfix}"
     with tqdm(total=1.0, bar_format=layout, leave=False) as bar:
 
-        def show(share: float) -> None:
+        def move(share: float) -> None:
             check()
-            bar.set_postfix_str(doing(share), refresh=False)
+            bar.set_postfix_str(shown(doing(share)), refresh=False)
             bar.update(share - bar.n)
 
-        yield show
+        yield move

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from threading import Event, Thread
 
+from ..wording import show
 from . import running
 
 
@@ -31,8 +32,7 @@ def watched(wait: Callable[[float], bool] | None = None) -> Iterator[None]:
             past += running.LINE_EVERY
             for words in running.named[-1:]:
                 with suppress(OSError, ValueError):  # nobody reads it; it is closed
-                    over_bar = "\r\033[K" if getattr(sys.stderr, "isatty", bool)() else ""
-                    print(f"{over_bar}{words} ({past:.0f} s)", file=sys.stderr, flush=True)
+                    show(f"{words} ({past:.0f} s)", file=sys.stderr)
 
     thread = Thread(target=tell, daemon=True)
     thread.start()

@@ -191,7 +191,7 @@ class Comparison:
             *(row.line() for row in self.methods),
             *self.required,
             *table(self.self_check),
-            f"verdict: {self.verdict}{self._but()}",
+            f"verdict: {self.verdict.in_words(self.counts).lower()}{self._but()}",
         ]
 
     def _but(self) -> str:
@@ -205,11 +205,10 @@ class Comparison:
 
     def _of_causes(self) -> Iterator[str]:
         """Say how many pixels have each cause, and where the first of them are."""
-        for cause in sorted(CAUSES):
-            if count := self.counts.by_cause.get(cause.key):
-                first = self.counts.examples.get(cause.key, ())[:3]
-                at = ", ".join(f"({x}, {y})" for x, y in first)
-                yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
+        for cause, count in self.counts.of_causes():
+            first = self.counts.examples.get(cause.key, ())[:3]
+            at = ", ".join(f"({x}, {y})" for x, y in first)
+            yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
         if more := self.causes.not_asked:
             yield f"  (nearly none of those asked first has a cause: {more:,} more were not asked)"
 

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from enum import StrEnum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..causes.counts import Counts
+
+BUT = ", but for "  # what an agreement leaves out
 
 
 class Verdict(StrEnum):
@@ -28,6 +34,15 @@ class Verdict(StrEnum):
     def gravity(self) -> int:
         """Its place among all of them, the gravest last."""
         return list(Verdict).index(self)
+
+    def in_words(self, counts: Counts, words: Callable[[str], str] = str) -> str:
+        """Return it in a line with the pixels that do not agree; `words` translates its parts."""
+        verdict = words(self.capitalize())
+        most_first = sorted(counts.of_causes(), key=lambda found: -found[1])
+        but = ", ".join(cause.count_in_words(n, words) for cause, n in most_first)
+        if not but:
+            return verdict
+        return f"{verdict}{words(BUT) if self is Verdict.AGREE else ': '}{but}"
 
     @classmethod
     def gravest(cls, verdicts: Iterable[Verdict]) -> Verdict:

@@ -25,6 +25,7 @@ _HEIGHT = 1.35 * SIZE
 _APART = 3.0  # on each side of a label, from the next one
 # Worse than a longer way: a label that leaves the drawing, or lies on another, a dot, a line.
 _OUTSIDE, _ON_LABEL, _ON_DOT, _ON_LINE = 1e5, 1e4, 600.0, 60.0
+_SAME = 1e-6  # lengths and costs that differ by less are equal: rounding differs among machines
 
 
 class Label(NamedTuple):
@@ -85,7 +86,7 @@ def placed(labels: Sequence[Label], lines: Sequence[Segment], room: Box) -> list
             cost = 0.0
             for more in _costs(place, taken, dots, lines, room):
                 cost += more
-                if cost >= least:  # what is slow to count comes last
+                if cost >= least - _SAME:  # what is slow to count comes last
                     break
             else:
                 best, least = place, cost
@@ -132,7 +133,8 @@ def _costs(
 
 def overlap(one: Box, other: Box) -> bool:
     """Return whether two boxes share more than an edge."""
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+    across = min(one[2], other[2]) - max(one[0], other[0])
+    return min(across, min(one[3], other[3]) - max(one[1], other[1])) > _SAME
 
 
 def crosses(line: Segment, box: Box) -> bool:
@@ -149,7 +151,7 @@ def crosses(line: Segment, box: Box) -> bool:
             continue
         ends = sorted(((least - start) / way, (most - start) / way))
         low, high = max(low, ends[0]), min(high, ends[1])
-    return low < high
+    return high - low > _SAME
 
 
 def _box(words: str, middle: Place) -> Box:

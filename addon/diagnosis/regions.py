@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from ..arrays import Array, Bools, Index, Places
+from ..arrays import Array, Bools, Bytes, Index, Places
 from ..pictures.identity import Identity
 from ..scene import Scene
 from ..tracer.frame import Frame
@@ -34,6 +34,7 @@ class Region:
     height: int
     pixels: int  # of the mask in it
     objects: tuple[str, ...] = ()  # that either side shows in these pixels, the largest first
+    cause: int = 0  # the number of the cause that most of its pixels have, if it was asked for
 
     @property
     def top(self) -> int:
@@ -61,7 +62,11 @@ def sides(scene: Scene, frame: Frame, identity: Identity | None) -> list[Side]:
 
 
 def regions(
-    mask: Bools, shown: Sequence[Side] = (), near: int = NEAR, most: int = MOST
+    mask: Bools,
+    shown: Sequence[Side] = (),
+    near: int = NEAR,
+    most: int = MOST,
+    causes: Bytes | None = None,
 ) -> list[Region]:
     """Return the regions of the pixels that a mask holds, those with the most pixels first.
 
@@ -75,6 +80,8 @@ def regions(
         for as long as there are more than `most`.
     most : int
         At least 1.
+    causes : (h, w) uint8, optional
+        The number of each pixel's cause.
 
     Returns
     -------
@@ -95,7 +102,11 @@ def regions(
     order = np.argsort(number, kind="stable")
     parts = np.split(order, np.flatnonzero(np.diff(number[order])) + 1)
     parts.sort(key=lambda part: (-len(part), part[0]))
-    return [_region(y[part], x[part], shown) for part in parts]
+    found = [_region(y[part], x[part], shown) for part in parts]
+    if causes is None:
+        return found
+    most_often = (int(np.argmax(np.bincount(causes[y[part], x[part]]))) for part in parts)
+    return [replace(region, cause=cause) for region, cause in zip(found, most_often, strict=True)]
 
 
 def _region(y: Places, x: Places, shown: Sequence[Side]) -> Region:

@@ -19,6 +19,7 @@ from ..scene import Scene, SceneError
 from .palette import By, GivenColors, Key, automatic_note, clear_palette, eight_bits, not_told_apart
 
 SCHEMA = "reference_tracer.colors/1"
+_LAST = "show the last colour"
 
 
 def owners_of(scene: Scene, owners: Sequence[str] = ()) -> tuple[str, ...]:
@@ -46,6 +47,7 @@ def text(scene: Scene, owners: Sequence[str]) -> str:
         found[scene.objects[plane.object], owner] = plane.color[None]
     content = {
         "schema": SCHEMA,
+        "slots_past_the_end": _LAST,
         "background": _color(scene.background) | {"alpha": float(scene.background[3])},
         "objects": [
             {"name": name, "instanced_by": owner, "slots": [_color(c) for c in colors]}
@@ -88,6 +90,8 @@ def _slots(content: Content) -> dict[Key, Colors]:
         raise SceneError(
             f"its schema is {schema!r}, not {SCHEMA!r}: --colors-out writes such files"
         )
+    if content.get("slots_past_the_end", _LAST) != _LAST:
+        raise SceneError(f"slots_past_the_end must be {_LAST!r}, as Blender has it")
     found: dict[Key, Colors] = {}
     for number, entry in enumerate(part(content, "objects", "", list)):
         where = f"objects[{number}]"
@@ -140,15 +144,23 @@ def in_colors(scene: Scene, by: By | GivenColors) -> tuple[Scene, tuple[str, ...
         notes = (automatic_note("file", pair),)
     if isinstance(by, GivenColors):
         by.check_known(scene.objects)
-        return _recolored(scene, by, owners), notes
+        return recolored(scene, by, owners), notes
     if by != By.OBJECT:
         return scene, notes
     clear = clear_palette(sorted(scene.objects)).colors
     given = GivenColors("--colors", {(name, name): c[None] for name, c in clear.items()})
-    return _recolored(scene, given, owners), notes
+    return recolored(scene, given, owners), notes
 
 
-def _recolored(scene: Scene, given: GivenColors, owners: Sequence[str]) -> Scene:
+def recolored(scene: Scene, given: GivenColors, owners: Sequence[str]) -> Scene:
+    """Return a scene in given colours; the owners are those of its instances, then its planes.
+
+    Raises
+    ------
+    SceneError
+        If an object in the view has none.
+    """
+
     def opaque(number: int, owner: str) -> Colors:
         colors = given.of(scene.objects[number], owner)
         return np.hstack((colors, np.ones((len(colors), 1), np.float32)))

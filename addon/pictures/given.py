@@ -30,7 +30,7 @@ class Making:
     filter_radius: float = 0.0  # pixels: how far its filter reaches; 0 for one sample a pixel
     dither: float | None = None  # noise, in levels of 8 bits; None: what Blender added by default
     default_dither: float = 0.0
-    engine: str = ""  # Blender's name of the engine that made it, or that its scene is set to
+    engine: str = ""  # Blender's name of the engine that made it, where that is known
     asked: str = "as was asked for"  # who chose the renderer
 
     def __post_init__(self) -> None:

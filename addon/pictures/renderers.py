@@ -186,8 +186,8 @@ def renderer_of(header: str, engine: str) -> tuple[Renderer, str]:
     header : str
         Which engine wrote the file's header: 'cycles', 'other' of Blender's; '' for no Blender.
     engine : str
-        Blender's name of the engine that made it, or that its scene is set to; '' where neither is
-        known.
+        Blender's name of the engine that made it; '' where that is not known. What a .blend is set
+        to is not what made a picture.
     """
     if header == "cycles":
         return RAYS, "as Cycles made it"

@@ -19,7 +19,9 @@ from .samples import PALETTE, Header, PngError
 _CRITICAL = {b"IHDR", b"PLTE", b"IDAT", b"IEND"}
 # What is applied or looked at here; then what says nothing of the pixels.
 _KNOWN = {b"tRNS", b"cICP", b"iCCP", b"sRGB", b"gAMA", b"cHRM", b"sBIT"}
-_IDLE = {b"tEXt", b"zTXt", b"iTXt", b"tIME", b"pHYs", b"bKGD", b"hIST", b"sPLT"}
+_IDLE = {b"tIME", b"bKGD", b"hIST", b"sPLT"}
+_OPTIONAL = 0x20  # of the first letter of a name, if it is small: not critical
+_SAFE = 0x20  # of the last: it stays true whatever the pixels are, such as a text
 _SRGB_CODES = bytes((1, 13, 0, 1))  # ITU-T H.273: BT.709's primaries, sRGB's curve, RGB, full range
 _SRGB_GAMMA = 45455  # 1/2.2, in units of 1/100,000
 # White, red, green, blue: x and y each, in the same units.
@@ -47,16 +49,17 @@ def remarks(
     PngError
         If a chunk that a reader must understand is not known, or one of them is damaged.
     """
-    for kind in sorted(repeated - _IDLE):
+    telling = {kind for kind in chunks if not _is_idle(kind)}
+    for kind in sorted(repeated & telling):
         if kind in _CRITICAL:
             raise PngError(f"it has more than one chunk {_name(kind)}")
         yield f"it has more than one chunk {_name(kind)}: the first one was looked at"
     if more:
         said = count_of(more, "byte behind its end is", "bytes behind its end are")
         yield f"{said} not looked at"
-    unknown = sorted(chunks.keys() - _CRITICAL - _KNOWN - _IDLE)
+    unknown = sorted(telling - _CRITICAL - _KNOWN)
     for kind in unknown:
-        if not kind[0] & 0x20:  # a capital: it is critical
+        if not kind[0] & _OPTIONAL:
             raise PngError(f"its chunk {_name(kind)} is not understood")
     try:
         yield from _of_color(chunks)
@@ -87,6 +90,11 @@ def _of_color(chunks: Mapping[bytes, bytes]) -> Iterator[str]:
             off = zip(struct.unpack(">8I", places), _SRGB_CHROMATICITIES, strict=True)
             if any(abs(own - srgb) > _ROUNDED for own, srgb in off):
                 yield f"its chunk cHRM names other primaries than sRGB's: {read}"
+
+
+def _is_idle(kind: bytes) -> bool:
+    """Return whether a chunk says nothing of the pixels (5.4, 14.2)."""
+    return kind in _IDLE or bool(kind[0] & _OPTIONAL and kind[3] & _SAFE)
 
 
 def _name(kind: bytes) -> str:

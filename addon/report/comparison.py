@@ -173,7 +173,8 @@ def differing_regions(comparison: Comparison) -> list[Region]:
     mask = cause == UNEXPLAINED
     if not mask.any():
         mask = np.isin(cause, [c for c in CAUSES if c.explains])
-    return regions(mask, sides(comparison.scene, comparison.frame, comparison.identity))
+    shown = sides(comparison.scene, comparison.frame, comparison.identity)
+    return regions(mask, shown, causes=cause)
 
 
 @contextmanager

@@ -13,8 +13,7 @@ from pathlib import Path
 
 _GIB = 1 << 30
 
-# The most bytes that a pixel takes at any time, in pictures of 1024 x 1024 pixels. Measured by
-# `tools/memory_a_pixel.py`, rounded up.
+# The most bytes that a pixel takes at any time in a large picture; a test runs commands in that.
 TRACED = 256  # while it is traced, and while the files of the picture are made
 COMPARED = 512  # while it is compared
 ALWAYS = 64 << 20  # bytes of temporaries of a picture of any size

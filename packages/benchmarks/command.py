@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
 from argparse import Namespace
 from pathlib import Path
 
 from reference_tracer.cli.parser import INTEGER, Parser
 from reference_tracer.cli.running import progress_bar
 from reference_tracer.report import folders
+from reference_tracer.wording import show
 
 from .options import BenchOptions
 
@@ -43,7 +45,10 @@ def bench(options: BenchOptions) -> int:
     with folders.made(options.out):
         with progress_bar() as progress:
             measured = run(options, progress)
-        report.write(options.out, measured)
-        print(table(measured))
-        print(f"written to {options.out}")
+        out = options.out / report.UNFINISHED if measured.interrupted else options.out
+        if measured.rows or not measured.interrupted:
+            report.write(out, measured)
+        show(*table(measured).split("\n"), *([f"written to {out}"] if out.exists() else []))
+        if not measured.interrupted:
+            shutil.rmtree(options.out / report.UNFINISHED, ignore_errors=True)
     return measured.interrupted

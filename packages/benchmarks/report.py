@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 SCHEMA = "reference_tracer.bench/1"
 TABLE, JSON, TIMES, PLOT = "bench.txt", "bench.json", "times.json", "bench.svg"
+UNFINISHED = "unfinished"  # the folder in the results' of a run until it ends
 
 _UNITS = {
     "_s": "CPU seconds, the median of the rounds, for a whole picture",
@@ -88,16 +89,13 @@ def write(directory: str | Path, bench: Bench) -> None:
     OSError
         If the folder cannot be written.
     """
-    directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
-    for name in (TIMES, PLOT):
-        (directory / name).unlink(missing_ok=True)  # an earlier one would pass for this run's
-    try:
-        if kept := suite(bench):
-            kept.dump(str(directory / TIMES))
-        if bench.rows:
-            plot.write(directory / PLOT, bench)
-    except MissingPeerError as error:
-        bench.note(str(error))
-    write_json(directory, bench)
-    (directory / TABLE).write_text(table(bench) + "\n", encoding="utf-8")
+    with folders.replacing(Path(directory), (TIMES, PLOT, TABLE, JSON)) as new:
+        try:
+            if kept := suite(bench):
+                kept.dump(str(new / TIMES))
+            if bench.rows:
+                plot.write(new / PLOT, bench)
+        except MissingPeerError as error:
+            bench.note(str(error))
+        write_json(new, bench)
+        (new / TABLE).write_text(table(bench) + "\n", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The options of `reftrace bench` -> a `Bench`, written to its folder row by row."""
+"""The options of `reftrace bench` -> a `Bench`, of which each row is written once it is there."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ from contextlib import closing
 from pathlib import Path
 
 from reference_tracer.cli import running
+from reference_tracer.report import folders
 from reference_tracer.tracer.progress import Work, result_of, scaled
+from reference_tracer.wording import show
 
 from .commands import measure_commands
 from .measure import METHODS, measure
 from .options import BenchOptions
 from .plan import Plan, plan
-from .report import write_json
+from .report import UNFINISHED, write_json
 from .rows import Bench, machine
 from .spread import measure_spread
 
@@ -33,24 +35,26 @@ def run(options: BenchOptions, progress: Callable[[float], None]) -> Bench:
         If the folder cannot be written.
     """
     wanted = plan(list(options.scenes), options.quick, options.repeats)
+    unfinished = options.out / UNFINISHED
     bench = Bench(machine(hasattr(os, "sched_setaffinity")), wanted.quick)
-    written = -1
+    written = 0
 
-    def show(share: float) -> None:
+    def keep(share: float) -> None:
         nonlocal written
         progress(share)
         if len(bench.rows) > written:  # so that even a crash leaves what was measured
-            write_json(options.out, bench)
+            folders.make(unfinished)
+            write_json(unfinished, bench)
             written = len(bench.rows)
 
     try:
         with closing(_all(wanted, bench, options.out)) as work:
-            result_of(work, show)
+            result_of(work, keep)
     except KeyboardInterrupt:
         bench.interrupted, word = running.ended()
         running.answered()
         done = f"{len(bench.rows) // len(METHODS)} of {len(wanted.cases)} pictures"
-        print(f"\nreftrace: {word}: {done} were measured", file=sys.stderr)
+        show(f"reftrace: {word}: {done} were measured", file=sys.stderr)
     return bench
 
 

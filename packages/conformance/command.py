@@ -9,13 +9,13 @@ from pathlib import Path
 
 from reference_tracer.cli.arguments import refuse
 from reference_tracer.cli.parser import AGREE, AT_LEAST_0, EXIT_CODES_HELP, POSITIVE, Parser, number
-from reference_tracer.cli.running import printable, progress_bar
-from reference_tracer.mesh_files.load import READERS
+from reference_tracer.cli.running import progress_bar
 from reference_tracer.pictures.renderers import RENDERERS
 from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.wording import count_of, say
+from reference_tracer.wording import count_of, say, show
+from reference_tracer_meshes import FORMATS
 from reference_tracer_processes.running import SECONDS, Limits, check_starts, words_of
 from reference_tracer_processes.sandbox import sandbox
 
@@ -55,7 +55,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument(
         "--ending",
-        choices=(*PICTURES, *READERS),
+        choices=(*PICTURES, *FORMATS),
         help="of {out}: a picture's (default .png), or of an exporter a mesh file's, which is "
         "traced through the scene's camera",
     )
@@ -108,8 +108,8 @@ def run(given: Namespace) -> int:
         with progress_bar() as progress:
             results = result_of(work, progress)
         report.write(given.out, program, results)
-    print(printable("\n".join(report.lines(results))))
-    print(f"written to {given.out}; open {given.out / report.PAGE} in a browser")
+    show(*report.lines(results))
+    show(f"written to {given.out}; open {given.out / report.PAGE} in a browser")
     return report.verdict(results).exit_code
 
 
@@ -117,7 +117,7 @@ def _write(folder: Path) -> int:
     scenes = kit_scenes()
     with folders.made(folder):
         write_kit(folder, scenes)
-    print(f"{count_of(len(scenes), 'scene')} written to {folder}")
+    show(f"{count_of(len(scenes), 'scene')} written to {folder}")
     return AGREE
 
 

@@ -15,7 +15,6 @@ from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.errors import EXPECTED, words
 from reference_tracer.images import open_picture
-from reference_tracer.mesh_files.load import READERS, load_meshes, scene_of_meshes
 from reference_tracer.opened import file_manifest
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.given import Making, picture_of_array, picture_of_file
@@ -27,6 +26,8 @@ from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import Account
 from reference_tracer.tracer.progress import Share, Work, scaled
 from reference_tracer.tracer.settings import Settings
+from reference_tracer_meshes import FORMATS
+from reference_tracer_meshes.load import load_meshes, scene_of_meshes
 from reference_tracer_processes.running import Limits, ProgramError, filled, run
 
 from .kit import CAMERA_Y_UP, FILES, write_kit
@@ -104,7 +105,7 @@ def _judged(program: Program, kit: KitScene, folder: Path) -> Work[Result]:
         seconds = time.monotonic() - began
         making = Making(program.renderer, program.filter_radius)
         scene = kit.scene
-        if program.ending in READERS:
+        if program.ending in FORMATS:
             colors = _one_color_each(scene)
             scene, _ = in_colors(scene, colors)
             shown = _picture_of_export(made, scene, colors, making)

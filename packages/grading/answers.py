@@ -25,7 +25,7 @@ class Answers:
     """What a function made of the checks: t (n,), barycentrics (n, 3)."""
 
     checks: Checks
-    t: Floats
+    t: Floats  # -inf: it raises
     s: Floats
 
     @property
@@ -58,28 +58,41 @@ class Answers:
     @property
     def tally(self) -> Tally:
         """How many are right."""
-        known = self.checks.known
+        known, raised = self.checks.known, np.isneginf(self.t)
         right = {
-            "surface": self.hit == known.hit,
+            "surface": (self.hit == known.hit) & ~raised,
             "t": self.both & ~self.wrong_t,
             "barycentrics": self.both & ~self.wrong_s,
         }
-        return Tally.of(self.hit | known.hit, known.doubt, right, self.checks.subject.weights)
+        counted = (self.hit | known.hit | raised) & self.counts
+        doubt = known.doubt & ~raised
+        return Tally.of(counted, doubt, right, self.checks.subject.weights)
 
     @cached_property
     def hit(self) -> Mask:
         """Where it says to hit, in front or behind."""
         return np.isfinite(self.t)
 
+    @property
+    def to_hit(self) -> Mask:
+        """Where it should say so."""
+        return self.checks.known.hit
+
+    @property
+    def counts(self) -> Mask:
+        """Which pairs are more than a means to tell mistakes apart."""
+        return ~self.checks.of(Group.ELSEWHERE)
+
     @cached_property
     def both(self) -> Mask:
-        """Where it says to hit, and does."""
-        return self.hit & self.checks.known.hit
+        """Where it says to hit, and does, and where that counts."""
+        return self.hit & self.checks.known.hit & self.counts
 
     @cached_property
     def wrong_hit(self) -> Mask:
         """Where it hits what it should not, or the other way round, without a doubt."""
-        return (self.hit != self.checks.known.hit) & ~self.checks.known.doubt
+        known = self.checks.known
+        return (self.hit != known.hit) & ~known.doubt & ~np.isneginf(self.t)
 
     @cached_property
     def wrong_t(self) -> Mask:

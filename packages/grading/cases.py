@@ -86,6 +86,11 @@ class TableAnswers:
         return np.isfinite(self.table[:, 0])
 
     @cached_property
+    def raised(self) -> Mask:
+        """Where it raises."""
+        return np.isneginf(self.table[:, 0])
+
+    @cached_property
     def to_hit(self) -> Mask:
         """Where it should."""
         return np.isfinite(self.cases.right[:, 0])
@@ -93,7 +98,7 @@ class TableAnswers:
     @cached_property
     def right(self) -> dict[str, Mask]:
         """Where each share of a score is right, by its name."""
-        same = self.hit == self.to_hit
+        same = (self.hit == self.to_hit) & ~self.raised
         with np.errstate(all="ignore"):
             near = np.abs(self.table - self.cases.right) <= self.cases.allowed
         parts = self.cases.subject.parts
@@ -107,7 +112,7 @@ class TableAnswers:
     def wrong(self) -> Mask:
         """Where anything is wrong, without a doubt."""
         right = np.stack(list(self.right.values())).all(axis=0)
-        return ~right & ~self.cases.doubt
+        return ~right & ~self.cases.doubt & ~self.raised
 
     @property
     def tests(self) -> tuple[Tests, ...]:
@@ -121,8 +126,8 @@ class TableAnswers:
     @property
     def tally(self) -> Tally:
         """How many are right."""
-        counted = self.hit | self.to_hit
-        return Tally.of(counted, self.cases.doubt, self.right, self.cases.subject.weights)
+        counted, doubt = self.hit | self.to_hit | self.raised, self.cases.doubt & ~self.raised
+        return Tally.of(counted, doubt, self.right, self.cases.subject.weights)
 
     @property
     def examples(self) -> list[WrongCase]:

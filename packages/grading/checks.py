@@ -41,6 +41,9 @@ class Group(IntEnum):
     BEHIND = 6  # the triangle is behind the ray's origin
     PARALLEL = 7  # the ray is parallel to the triangle's plane, exactly
     EMPTY = 8  # the triangle has no area: what is said of it is not held against anyone
+    ELSEWHERE = (
+        9  # anywhere in the plane, before or behind: wrong programs that hit nothing do here
+    )
 
 
 ORDINARY = Group.FRONT, Group.BACK, Group.WHOLE  # hits with nothing difficult about them
@@ -78,7 +81,8 @@ class Checks:
     @property
     def tells(self) -> NDArray[np.bool_]:
         """Which pairs tell: where the plane is met, and no rounding decides, (n,)."""
-        return ~self.known.doubt & ~self.of(Group.PARALLEL, Group.EMPTY)
+        told = ~self.known.doubt | self.of(Group.ELSEWHERE)
+        return told & ~self.of(Group.PARALLEL, Group.EMPTY)
 
     @property
     def firm(self) -> NDArray[np.bool_]:
@@ -112,6 +116,7 @@ def make_checks(seed: int = SEED) -> Checks:
         Group.BEHIND: (o, -d, p),
         Group.PARALLEL: _parallel(rng),
         Group.EMPTY: _empty(rng),
+        Group.ELSEWHERE: _elsewhere(rng),
     }
     numbers = [np.full(len(some[0]), group) for group, some in groups.items()]
     group = np.concatenate(numbers)
@@ -120,7 +125,8 @@ def make_checks(seed: int = SEED) -> Checks:
     o, d, p = (np.concatenate(parts) for parts in zip(*groups.values(), strict=True))
     truth = known(o, d, p)
     # d . n is exactly 0, and comes out so: there is nothing to round.
-    truth = replace(truth, doubt=truth.doubt & (group != Group.PARALLEL))
+    doubt = truth.doubt & (group != Group.PARALLEL) | (group == Group.ELSEWHERE)
+    truth = replace(truth, doubt=doubt)
     return Checks(o, d, p, group, twin, truth)
 
 
@@ -163,6 +169,14 @@ def _outside(rng: np.random.Generator) -> Floats:
     total = s.sum(axis=1, keepdims=True)
     s += np.where(s > 0, 1.5 - total, 0) / (s > 0).sum(axis=1, keepdims=True)
     return s / s.sum(axis=1, keepdims=True)
+
+
+def _elsewhere(rng: np.random.Generator) -> Pairs:
+    """Return rays through points all around their triangles, half of them behind the origin."""
+    s = rng.uniform(-1.5, 2, (EACH, 3))
+    s[:, 0] = 1 - s[:, 1] - s[:, 2]
+    o, d, p = _towards(rng, _triangles(rng), s)
+    return np.tile(o, (2, 1)), np.concatenate((d, -d)), np.tile(p, (2, 1, 1))
 
 
 def _beside(rng: np.random.Generator) -> Floats:

@@ -1,19 +1,23 @@
 """The folder of a class: a page for each student, with no other's name, and tables for the teacher.
 
-What is judged is written at once. So after Ctrl-C the same command goes on where it was: a student
-whose file, or whose program, and all options are the same is not judged again.
+After Ctrl-C the same command goes on where it was: a student whose file, or whose program, and all
+options are the same is not judged again. Students' programs run as their teacher: so all is written
+after they have ended, with a digest under a key that they could not read, and a record or a page
+that has another is not believed.
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
+import hmac
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import chain, count, islice
 from pathlib import Path
+from typing import Any
 
 from reference_tracer import __version__
 from reference_tracer.report.folders import write_json, write_text
@@ -43,11 +47,20 @@ class ClassFolder:
         What a reader calls the students.
     options : object
         All that they depend on besides the student: what differs is judged anew.
+    key : bytes, optional
+        What digests are made with; without it nobody's record is believed.
     """
 
     def __init__(
-        self, directory: Path, subject: Subject, names: Sequence[str], options: object = None
+        self,
+        directory: Path,
+        subject: Subject,
+        names: Sequence[str],
+        options: object = None,
+        key: bytes | None = None,
     ) -> None:
+        self._secret = key
+        self._new: dict[str, tuple[str, dict[str, Any]]] = {}  # pages and records, by name
         self._directory = directory
         self._subject = subject
         self._options = repr((subject.name, options))
@@ -59,17 +72,23 @@ class ClassFolder:
         return {name: said for name, said in found.items() if said}
 
     def keep(self, submission: Path | Run, j: Judgement) -> Student:
-        """Write a student's page, and what is said of him; return that.
+        """Keep a student's page, and what is said of him, for `save`; return that."""
+        said, text = student(j), page(j)
+        shown = hashlib.sha256(text.encode()).hexdigest()
+        self._new[j.name] = text, {"key": self._key(submission), "page": shown, "student": said}
+        return said
+
+    def save(self) -> None:
+        """Write what is kept, now that all programs have ended.
 
         Raises
         ------
         OSError
             If it cannot be written.
         """
-        said = student(j)
-        write_text(self._page(j.name), page(j))
-        write_json(self._record(j.name), {"key": self._key(submission), "student": said})
-        return said
+        for name, (text, record) in self._new.items():
+            write_text(self._page(name), text)
+            write_json(self._record(name), {"digest": self._digest(record), "record": record})
 
     def write(self, students: Sequence[Student], formats: Iterable[str] = ()) -> None:
         """Write the tables of all students.
@@ -95,11 +114,17 @@ class ClassFolder:
     def _kept(self, name: str, submission: Path | Run) -> Student | None:
         with suppress(OSError, ValueError, KeyError, TypeError):
             found = json.loads(self._record(name).read_text(encoding="utf-8"))
-            said = dict(found["student"])
-            is_same = found["key"] == self._key(submission) and self._page(name).exists()
-            if is_same and not said["errors"]:  # an error may have been the machine's
-                return said
+            record, said = found["record"], dict(found["record"]["student"])
+            shown = hashlib.sha256(self._page(name).read_bytes()).hexdigest()
+            is_ours = hmac.compare_digest(found["digest"], self._digest(record))
+            is_same = record["key"] == self._key(submission) and record["page"] == shown
+            if self._secret and is_ours and is_same and not said["errors"]:
+                return said  # an error may have been the machine's
         return None
+
+    def _digest(self, record: Mapping[str, Any]) -> str:
+        text = json.dumps(record, sort_keys=True)
+        return hmac.new(self._secret or b"", text.encode(), "sha256").hexdigest()
 
     def _page(self, name: str) -> Path:
         return self._directory / STUDENTS / f"{self._files[name]}.html"
@@ -115,13 +140,12 @@ class ClassFolder:
         """
         if isinstance(submission, Path):
             files = _with_imports(submission)
-            parts = [__version__, self._options, str(submission)]
         else:
             words = (part for word in submission.words for part in re.split(r"[\s=]", word))
             named = [file for word in words if word for file in _files_in(Path(word))]
             results = self._directory.resolve()  # may lie in such a folder
             files = [file for file in named if results not in file.resolve().parents]
-            parts = [__version__, self._options, str(submission), str(bool(sandbox()))]
+        parts = [__version__, self._options, str(submission), str(bool(sandbox()))]
         for path in files:
             with suppress(OSError):
                 parts.append(hashlib.sha256(path.read_bytes()).hexdigest())

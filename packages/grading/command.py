@@ -21,15 +21,15 @@ from reference_tracer.cli.parser import (
     Parser,
     number,
 )
-from reference_tracer.cli.running import printable, progress_bar
+from reference_tracer.cli.running import progress_bar
 from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.progress import Work, called, result_of, scaled
-from reference_tracer.wording import count_of, say
+from reference_tracer.wording import count_of, say, show
 from reference_tracer_processes.running import Limits
-from reference_tracer_processes.sandbox import sandbox
+from reference_tracer_processes.sandbox import sandbox, secret
 
 from .exchange import EXCHANGES
 from .external import Run
@@ -51,8 +51,9 @@ Judge what students wrote: ray/triangle tests, files with a function
 intersect(origins, directions, triangles) -> t, barycentrics, or another --subject.
 --template makes a file to begin with.
 
-It RUNS their code, in a process of its own with limits of time and memory. That is no sandbox:
-the code may read, write and send whatever you may. Read it first, or run this where that is safe.
+It RUNS their code, in a process of its own with limits of time and memory, and in bubblewrap where
+that works. Elsewhere that is no sandbox: the code may read, write and send whatever you may. Read
+it first, or run this where that is safe.
 """
 _CODES = f"""exit codes:
   {AGREE}  all of them are right
@@ -142,6 +143,12 @@ def add(parser: Parser) -> None:
         help="memory it may take, where the system can limit it (default %(default)g)",
     )
     parser.add_argument(
+        "--jobs",
+        type=COUNT,
+        metavar="N",
+        help="students that are run at a time (default: the cores)",
+    )
+    parser.add_argument(
         "--extremes", action="store_true", help="also find where it breaks at the extremes"
     )
     add_camera(parser)
@@ -159,23 +166,30 @@ def judge(options: JudgeOptions) -> int:
     from .judging import names
     from .tables import class_table
 
-    if any(isinstance(s, Run) for s in options.students) and not sandbox():
-        say("programs are not kept from the network or from your files: bubblewrap is missing")
+    if not sandbox():
+        say(
+            "students' code is not kept from the network or from your files, and nothing that was "
+            "judged before is believed: bubblewrap is missing"
+        )
     submissions = dict(zip(names(options.students), options.students, strict=True))
     with folders.made(options.out) if options.out else nullcontext():
         folder = _folder(options, submissions)
         found = folder.kept_of(submissions) if folder and not options.again else {}
         if found:
-            print(f"{count_of(len(found), 'student')} judged before, unchanged: not judged again")
+            show(f"{count_of(len(found), 'student')} judged before, unchanged: not judged again")
         new = {name: each for name, each in submissions.items() if name not in found}
         if new:
-            found |= _judged(options, new, folder)
+            try:
+                found |= _judged(options, new, folder)
+            finally:  # by Ctrl-C, too: who has been judged is not judged again
+                if folder:
+                    folder.save()
         students = [found[name] for name in submissions]
         if len(students) > 1:
-            print("\n".join(class_table(students)))
+            show(*class_table(students))
         if folder:
             folder.write(students, options.formats)
-            print(f"written to {options.out}")
+            show(f"written to {options.out}")
     return max(CODES[s["verdict"]] for s in students)
 
 
@@ -187,7 +201,7 @@ def _folder(options: JudgeOptions, submissions: Mapping[str, Path | Run]) -> Cla
         return None
     scenes = [(path.read_bytes(), choice) for path, choice in options.scenes]
     depends = scenes, options.pixels, options.time_limit, options.memory_limit, options.extremes
-    return ClassFolder(options.out, subject(options.subject), tuple(submissions), depends)
+    return ClassFolder(options.out, subject(options.subject), tuple(submissions), depends, secret())
 
 
 Named = tuple[str, Scene, Path]
@@ -200,18 +214,18 @@ def _judged(
     from .report import student
     from .tables import lines
 
-    printed: list[str] = []
+    printed: dict[str, list[str]] = {}
 
     def told(j: Judgement) -> Student:
-        printed.append(printable("\n".join(lines(j))))
+        printed[j.name] = [*lines(j), ""]
         return folder.keep(submissions[j.name], j) if folder else student(j)
 
     own = built_in() if options.subject == "triangle" else []
     opened = _opened(options.scenes) or own
     with progress_bar() as progress:
         found = result_of(_work(options, submissions, opened, told), progress)
-    for text in printed:
-        print(text, end="\n\n")
+    for name in found:
+        show(*printed[name])
     return found
 
 
@@ -233,7 +247,7 @@ def _work(
     hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     limits = Limits(options.time_limit, options.memory_limit)
     cases = subject(options.subject).cases()
-    judging = judge_all(submissions, cases, judged, hard, limits, told=told)
+    judging = judge_all(submissions, cases, judged, hard, limits, told=told, jobs=options.jobs)
     return (yield from scaled(called(judging, "judging"), 0.6, 0.4))
 
 
@@ -259,5 +273,5 @@ def _write_template(path: Path, name: str) -> int:
     template = Path(__file__).with_name("templates") / f"{name}.py"
     folders.write_text(path, template.read_text(encoding="utf-8"))
     option = "" if name == "triangle" else f" --subject {name}"
-    print(f"{path}: fill in the function, then: reftrace judge {path}{option}")
+    show(f"{path}: fill in the function, then: reftrace judge {path}{option}")
     return AGREE

@@ -10,7 +10,7 @@ from typing import IO
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 
 from .form import Form
 from .student_error import StudentError

@@ -8,12 +8,14 @@ own. It may still read what its user may. `docs/programs.md` says what it reads 
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
+import numpy as np
 from reference_tracer.arrays import Floats
 from reference_tracer_processes.running import KEPT, Limits, ProgramError, filled, run, words_of
 
@@ -33,6 +35,12 @@ class Run:
     command: str
     words: tuple[str, ...]
     exchange: str = "csv"  # one of EXCHANGES
+
+    @property
+    def own(self) -> Path | None:
+        """The last file or folder that it names: what the program lies in; else None."""
+        parts = [part for word in self.words for part in re.split(r"[\s=]", word)]
+        return next((Path(part) for part in reversed(parts) if part and Path(part).exists()), None)
 
     @classmethod
     def parsed(cls, command: str, exchange: str = "csv") -> Run:
@@ -67,7 +75,7 @@ class Program(Submission):
                 f"it answered {len(answers):,} lines of {len(question):,}: one for each is wanted"
             )
             raise StudentError("answer", text)
-        return answers
+        return np.where(np.isneginf(answers), np.inf, answers)  # of a miss it may write either
 
     def _run(self, folder: Path, rays: Floats) -> bytes:
         """Run the program, and return what it wrote as its answers.
@@ -88,7 +96,8 @@ class Program(Submission):
         ):
             began = time.monotonic()
             try:
-                run(words, own, replace(self.limits, seconds=self._left), (source, out, err))
+                limits = replace(self.limits, seconds=self._left)
+                run(words, own, limits, (source, out, err), started=self._runs)
             except ProgramError as error:
                 of_limit = f" of {self.limits.seconds:g} s for one scene"
                 text = error.message + of_limit * (error.kind == "time")

@@ -21,6 +21,7 @@ from .known import Ask
 from .matching import Match, differs, with_one, with_two
 from .programs import Mask
 from .subjects.subject import Cases
+from .submission import Submission
 
 ALONE = 3, 1  # sizes of the calls in which some cases are asked about again
 CALLS = 4  # of each size: a program is started for each
@@ -32,7 +33,7 @@ ALIKE = 1e-4
 MOST_WAYS = 4  # in which two mistakes may give the same answers: with more, they say nothing
 OTHERS = 2  # mistakes with the same answers that are mentioned
 UNRECOGNISED = "unrecognised_"
-UNEXPLAINED = {"no_hits", "all_hits"}
+UNEXPLAINED = "all_hits"  # of what never hits, two mistakes would say too little
 
 
 @dataclass(frozen=True)
@@ -81,13 +82,13 @@ class Tests(NamedTuple):
 
 
 def find_faults(answers: Answers) -> tuple[list[Fault], Match | None]:
-    """Return what is wrong with a function, and the wrong program of which that is all, if any."""
+    """Return what is wrong with a function, and a wrong program that answers as it does, if any."""
     if not answers.wrong.any():
         return [], None
     if ways := with_one(answers.cases, answers.table):
         return _matched(answers, ways)
     faults = _tested(answers, answers.wrong)
-    if any(f.name in UNEXPLAINED or f.name.startswith(UNRECOGNISED) for f in faults):
+    if any(f.name == UNEXPLAINED or f.name.startswith(UNRECOGNISED) for f in faults):
         ways = with_two(answers.cases, answers.table)
         if 0 < len(ways) <= MOST_WAYS:
             return _matched(answers, ways)
@@ -99,18 +100,34 @@ def _matched(answers: Answers, ways: Sequence[Match]) -> tuple[list[Fault], Matc
     theirs = answers.cases.answers(ways[0].program.answers(answers.cases.letters))
     left = answers.wrong & ~theirs.wrong  # that program is right there
     faults = _named(answers, ways)
-    return (faults + _tested(answers, left), None) if left.any() else (faults, ways[0])
+    return faults + _tested(answers, left), ways[0]
 
 
 def _named(answers: Answers, ways: Sequence[Match]) -> list[Fault]:
     """Return what is wrong with the first of some programs that no pair tells apart."""
     wrong = int(answers.wrong.sum())
-    others = dict.fromkeys(m.sentence for way in ways[1:] for m in way.wrong if len(way.wrong) == 1)
-    text = "".join(f"; or {other}" for other in list(others)[:OTHERS])
-    if text and len(others) > OTHERS:
-        text += f"; or one of {len(others) - OTHERS} others"
+    alone = dict.fromkeys(way.wrong[0].sentence for way in ways if len(way.wrong) == 1)
+    others = [sentence for sentence in alone if sentence != ways[0].wrong[0].sentence]
+    named = OTHERS + (len(others) == OTHERS + 1)  # "one of 1 others" says less than its name
+    text = "".join(f"; or {other}" for other in others[:named])
+    if len(others) > named:
+        text += f"; or one of {len(others) - named} others"
     rest = f" (no ray tells this from others{text})" if text else ""
     return [Fault(m.name, m.sentence + rest, wrong) for m in ways[0].wrong]
+
+
+def raising(student: Submission) -> list[Fault]:
+    """Return the fault that a function raises in some cases, with the first of them."""
+    if student.first is None:
+        return []
+    error, case = student.first
+    numbers = [
+        f"{given.name} = {array.tolist()}"
+        for given, array in zip(student.form.given, case, strict=True)
+    ]
+    where = f" in line {error.line}" * (error.line is not None)
+    text = f"it raises {error.message}{where}, as it does with {', '.join(numbers)}"
+    return [Fault("raises", text, student.raises)]
 
 
 def _tested(answers: Answers, among: Mask) -> list[Fault]:

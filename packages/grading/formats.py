@@ -15,7 +15,7 @@ from reference_tracer.report.junit import Judged, junit
 
 from .judging import CHECKS
 from .report import Student
-from .tables import wrong_names
+from .tables import VERDICTS, wrong_names
 
 Pages = Sequence[tuple[Student, str]]
 Files = Iterator[tuple[str, str]]
@@ -58,7 +58,7 @@ def as_gradescope(pages: Pages) -> Files:
         found = {
             "score": s["score"],
             "execution_time": s["seconds"],
-            "output": "\n".join(_sentences(s)) or "All right.",
+            "output": "\n".join([f"{VERDICTS[s['verdict']].capitalize()}.", *_sentences(s)]),
             "output_format": "text",
             "tests": tests,
         }
@@ -77,7 +77,10 @@ FORMATS: dict[str, Callable[[Pages], Files]] = {
 def _parts(s: Student) -> list[tuple[str, float, bool]]:
     """Return the checks and each scene: name, score, and whether all is right."""
     tallies = [(CHECKS, s["checks"]), *((k["name"], k["tally"]) for k in s["scenes"])]
-    parts = [(name, t["score"], t["score"] == 100) for name, t in tallies if t]
+    well = {CHECKS: not s["faults"]}  # some show in no share of a score
+    parts = [
+        (name, t["score"], t["score"] == 100 and well.get(name, True)) for name, t in tallies if t
+    ]
     return parts + [(error["where"], 0.0, False) for error in s["errors"]]
 
 

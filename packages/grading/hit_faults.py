@@ -11,22 +11,10 @@ import numpy as np
 from .answers import FEW, MOST, Answers
 from .checks import ORDINARY, Group
 from .faults import Found
+from .group_faults import always, never
 from .value_faults import FLOAT32, LOSSY, is_single
 
 RANDOM = 0.1, 0.9  # share of ordinary hits that an equality of floats loses
-
-
-def no_hits(a: Answers) -> Found:
-    """See whether it never says to hit."""
-    if not a.hit.any():
-        yield "no_hits", "it never reports a hit", a.wrong_hit
-
-
-def all_hits(a: Answers) -> Found:
-    """See whether it always says to hit."""
-    if a.hit.all():
-        text = "it reports a hit for every ray: where there is none, t must be np.inf"
-        yield "all_hits", text, a.wrong_hit
 
 
 def sign_of_t(a: Answers) -> Found:
@@ -148,8 +136,8 @@ def parallel(a: Answers) -> Found:
 
 
 HIT_TESTS = (
-    no_hits,
-    all_hits,
+    never,
+    always,
     sign_of_t,
     culling,
     sum_equals_one,

@@ -6,25 +6,28 @@ Whatever the file does wrong is in the `Judgement`: it is never an error of ours
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import chain, count
 from pathlib import Path
 from typing import TypeVar
 
+import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.cli.running import printable
-from reference_tracer.tracer.progress import Work, scaled
+from reference_tracer.tracer.progress import Work, result_of, scaled
+from reference_tracer.wording import printable
 from reference_tracer_processes.running import Limits
 
 from .examples import Example, find_examples
 from .external import Program, Run
 from .extremes import ExtremeRow, ExtremeScene, try_extremes
-from .faults import Fault, dependence, find_faults
+from .faults import Fault, dependence, find_faults, raising
 from .form import Form
 from .judged_scene import JudgedScene
 from .matching import Match
 from .names import distinct
-from .picture import Look, look
+from .picture import Look, in_scenes, look
 from .shared_edges import SharedEdges, try_edges
 from .student import Student
 from .student_error import StudentError
@@ -47,7 +50,10 @@ class Judgement:
     subject: Subject
     checks: Tally | None = None  # None: not finished
     faults: list[Fault] = field(default_factory=list)
-    alike: Match | None = None  # the wrong program that gives the same answers, everywhere
+    alike: Match | None = None  # a wrong program that gives the same answers to the checks
+    mended: list[Tally | None] = field(
+        default_factory=list
+    )  # with what is wrong with that put right
     wrong: list[WrongCase] = field(default_factory=list)  # some of the cases
     edges: SharedEdges | None = None  # None: it failed before
     scenes: list[str] = field(default_factory=list)  # the names of all
@@ -74,12 +80,17 @@ class Judgement:
     def score(self) -> float:
         """0 to 100: the file as it is, or with the mistakes put right, each at a cost.
 
-        They are put right only if they are all that is wrong: if the wrong program that they make
-        gives the file's own answers to the checks and in every scene.
+        What is put right is what the wrong program that they make answers as the file does. What
+        else is wrong stays wrong.
         """
-        if self.alike is None or self.errors:
+        if self.alike is None:
             return self.as_is
-        return max(self.as_is, 100 - COST * len(self.faults))
+        return max(self.as_is, round(self.put_right - COST * len(self.alike.wrong), 1))
+
+    @property
+    def put_right(self) -> float:
+        """0 to 100: what the file would have with its mistakes put right, if they cost nothing."""
+        return score_of(self.mended)
 
     @property
     def leaks(self) -> str:
@@ -103,6 +114,7 @@ def judge(
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
     name: str = "",
+    started: list[Submission] | None = None,
 ) -> Work[Judgement]:
     """Judge one file or program; yields the share of the work done.
 
@@ -120,10 +132,14 @@ def judge(
         The time is that of each scene, and of the cases.
     name : str, optional
         What a reader calls it; by default the file's name, or the command.
+    started : list of Submission, optional
+        Where the running program is entered, for who may stop it.
     """
     subject = cases.subject
     out = Judgement(name or names([submission])[0], subject, scenes=[s.name for s in scenes])
     with _started(submission, subject.form, limits) as student:
+        if started is not None:
+            started.append(student)
         try:
             _on_cases(out, student, cases)
         except StudentError as error:
@@ -133,6 +149,9 @@ def judge(
         for k, scene in enumerate(scenes):
             share = size / len(scenes)
             yield from scaled(_on_scene(out, student, scene), k * share, share)
+        out.faults = [*out.faults, *raising(student)]
+        if not (out.faults or out.errors or all(t and t.all_right for t in out.tallies)):
+            out.faults.append(in_scenes(out.looks))
         if extremes:
             yield from scaled(_on_extremes(out, student, extremes), size, 1 - size)
         out.seconds = student.seconds
@@ -147,11 +166,12 @@ def _started(submission: Path | Run, form: Form, limits: Limits | None) -> Submi
 
 
 def names(submissions: Sequence[Path | Run]) -> list[str]:
-    """Return what a reader calls each: a file's name, or a command; none twice."""
-    files = iter(distinct([s for s in submissions if isinstance(s, Path)]))
+    """Return what a reader calls each: its file's or folder's name, or a command; none twice."""
+    paths = [s.own if isinstance(s, Run) else s for s in submissions]
+    files = iter(distinct([path for path in paths if path]))
     out: list[str] = []
-    for each in submissions:
-        name = printable(each.command) if isinstance(each, Run) else next(files)
+    for each, path in zip(submissions, paths, strict=True):
+        name = next(files) if path or not isinstance(each, Run) else printable(each.command)
         numbered = chain([name], (f"{name} ({n})" for n in count(2)))
         out.append(next(own for own in numbered if own not in out))
     return out
@@ -159,30 +179,43 @@ def names(submissions: Sequence[Path | Run]) -> list[str]:
 
 def _on_cases(out: Judgement, student: Submission, cases: Cases) -> None:
     student.new_scene()
-    answers = cases.answers(cases.subject.rows(*student.ask(*cases.given)))
+    rows = cases.subject.rows(*student.ask(*cases.given))
+    rows[np.repeat(student.raised, len(rows) // len(student.raised))] = -np.inf
+    raises = student.raises
+    answers = cases.answers(rows)
     out.faults, out.alike = find_faults(answers)
     if depends := dependence(answers, student.ask):
         out.faults, out.alike = [*out.faults, *depends], None
     if cases.subject is TRIANGLE:
         out.edges = try_edges(student.ask)
+    student.raises = raises  # what is asked again counts once
     out.checks, out.wrong = answers.tally, answers.examples
+    if out.alike:
+        out.mended = [cases.answers(out.alike.put_right(cases.letters, rows)).tally]
 
 
 def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[None]:
     student.new_scene()
 
+    mended: list[tuple[Floats, ...]] = []
+
     def ask(*rays: Floats) -> tuple[Floats, ...]:
         replies = student.ask(*rays)
-        if out.alike and not out.alike.agrees(TRIANGLE.letters(*rays), TRIANGLE.rows(*replies)):
-            out.alike = None
+        if out.alike:
+            right = out.alike.put_right(TRIANGLE.letters(*rays), TRIANGLE.rows(*replies))
+            mended.append(TRIANGLE.form.answers(right))
         return replies
 
     try:
         found = yield from look(scene, ask, lambda: student.seconds)
         out.examples[scene.name] = find_examples(found, student.ask)
         out.looks.append(found)
+        if out.alike:
+            again = iter(mended)
+            out.mended.append(result_of(look(scene, lambda *_: next(again))).tally)
     except StudentError as error:
         out.errors.append((scene.name, error))
+        out.mended.append(None)
 
 
 def _on_extremes(out: Judgement, student: Submission, scenes: Sequence[ExtremeScene]) -> Work[None]:
@@ -200,14 +233,29 @@ def judge_all(
     limits: Limits | None = None,
     *,
     told: Callable[[Judgement], T],
+    jobs: int = 1,
 ) -> Work[dict[str, T]]:
-    """Judge several, each by itself, by what a reader calls them.
+    """Judge several, `jobs` at a time, each by itself, by what a reader calls them.
 
     Returns what is made of each judgement once it is there: it holds pictures, and is not kept.
     """
-    out = {}
-    share = 1 / max(len(submissions), 1)
-    for k, (name, each) in enumerate(submissions.items()):
-        work = judge(each, cases, scenes, extremes, limits, name)
-        out[name] = told((yield from scaled(work, k * share, share)))
-    return out
+    shares = dict.fromkeys(submissions, 0.0)
+    started: list[Submission] = []
+
+    def judged(name: str) -> T:
+        work = judge(submissions[name], cases, scenes, extremes, limits, name, started)
+        found = result_of(work, partial(shares.__setitem__, name))
+        if any(each.stopped for each in started):
+            raise CancelledError
+        return told(found)
+
+    with ThreadPoolExecutor(jobs) as pool:
+        found = {name: pool.submit(judged, name) for name in submissions}
+        try:
+            while wait(found.values(), 0.1).not_done:
+                yield sum(shares.values()) / len(shares)
+            return {name: future.result() for name, future in found.items()}
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+            for each in started:
+                each.stop()

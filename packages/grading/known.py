@@ -6,16 +6,23 @@ N = |p2 - p1| x |p3 - p1| (all terms with +), the longest edge L, n the normal a
 
     e  = K u (|arm| . N + |t| |d| . N) / |d . n|        of t, from the plane
     dx = |d| e + 4 u (|o| + |t d| + |p|)                of the point
-    ds = K u k^2 + k dx / L
-    dt = e + K u k^2 L / |d|
+    dv = K u |d| . (|a| x |b| + |b| x |c| + |c| x |a|) / |d . n|, a b c the corners less o
+    ds = K u k^2 + k dx / L + dv
+    dt = e + (K u k^2 + dv) L / |d|
 
 These are the textbook's formulas, term by term, each term's size times some roundings u = 2^-53: n
 carries an error of some u N; t that of two products with n; x = o + t d that of t; and s_i is
 n . n_si / |n|^2, whose n_si has the error of x times an edge, and which cancels once more where the
 triangle is a needle. Möller and Trumbore's is of a lower degree, so that the bound holds for it.
-The last term is for formulas that find t between the corners' depths, by the barycentrics. K is not
-small: it stands for every order of summation, and for formulas that are somewhat worse. Where n . n
-leaves float64's range there is no bound at all.
+dv is for barycentrics as signed volumes, s_1 = d . (c x b) / (d . n): by backward analysis each
+volume, of degree 3, is that of corners which are moved by some roundings of their own distance from
+o, each volume by others. A change of b by u |b| moves d . (c x b) by u |d| . (|c| x |b|): that is
+the condition of the pair, and no formula from these data can be held to less.
+The last term of dt is for formulas that find t between the corners' depths: t d is the sum of the
+s_i times the arms, so that errors whose sum is 0 move it by theirs times what the arms differ by,
+at most L; one component of t d, the largest, is not below |d| / sqrt 3, which K has room for.
+K is not small: it stands for every order of summation, and for formulas that are somewhat worse.
+Where n . n leaves float64's range there is no bound at all.
 What is nearer to an edge than ds is *in doubt*: float64 may say either.
 """
 
@@ -109,7 +116,10 @@ def allowed(rays: Rays, corners: Floats, t: Floats) -> tuple[Floats, Floats]:
     )
     point = np.abs(d).sum(axis=0) * of_t + 4 * U * far
     shape = longest * longest / size
-    of_s = ROUNDINGS * U * shape * shape
+    arms = np.abs(corners - o)
+    volumes = [dot(np.abs(d), cross_magnitude(arms[k - 1], arms[k])) for k in range(3)]
+    of_volumes = np.sum(volumes, axis=0) / np.abs(dot(d, n))
+    of_s = ROUNDINGS * U * (shape * shape + of_volumes)
     s_allowed = of_s + shape * point / longest
     t_allowed = of_t + of_s * longest / np.sqrt(dot(d, d))
     bounded = (square >= LEAST) & np.isfinite(square)

@@ -46,6 +46,15 @@ class Match:
         """Return whether the program gives these replies, too."""
         return alike(replies, self.program.answers(asked), self.right.parts)
 
+    def put_right(self, asked: Letters, replies: Floats) -> Floats:
+        """Return what a function would reply with this put right: all that it explains is right.
+
+        Where it does not reply as the wrong program does, something else is wrong: that stays.
+        """
+        other = differs(replies, self.program.answers(asked), self.right.parts, DIGITS)
+        kept = np.isneginf(replies[:, 0]) | (other & (other.mean() > FEW))
+        return np.where(kept[:, None], replies, self.right.answers(asked))
+
 
 def with_one(cases: Cases, replies: Floats) -> list[Match]:
     """Return the wrong programs with one mutation that answer as a function did, (n, m)."""

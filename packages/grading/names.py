@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 
 
 def distinct(paths: Sequence[Path]) -> list[str]:

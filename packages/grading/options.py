@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from argparse import Namespace
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,6 +30,7 @@ class JudgeOptions:
     time_limit: float  # seconds for each scene
     memory_limit: int  # bytes
     extremes: bool
+    jobs: int  # how many students are run at a time
     again: bool  # also those who were judged before
     formats: tuple[str, ...]  # what is written besides the pages and the JSON
 
@@ -73,6 +75,7 @@ class JudgeOptions:
             time_limit=given.time_limit,
             memory_limit=int(given.memory_limit * 2**30),
             extremes=given.extremes,
+            jobs=given.jobs or os.cpu_count() or 1,
             again=given.again,
             formats=tuple(dict.fromkeys(given.format or ())),
         )

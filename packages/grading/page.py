@@ -49,12 +49,13 @@ MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe 
     Mark.WRONG_T: (0, 158, 115),
     Mark.WRONG_BARYCENTRICS: (236, 200, 30),
     Mark.WRONG_T_AND_BARYCENTRICS: (122, 98, 12),
+    Mark.RAISED: (255, 0, 255),
 }
 _DIM = 0.35
 _WARNING = (
     "These numbers were made by <strong>running the students' own code</strong>, in a process of "
-    "its own with a time limit. That is not a sandbox: the code could do whatever the one who "
-    "started it may. This page itself runs nothing."
+    "its own with a time limit, in bubblewrap where that works. Elsewhere that is not a sandbox: "
+    "the code could do whatever the one who started it may. This page itself runs nothing."
 )
 
 
@@ -74,7 +75,8 @@ def class_page(pages: Sequence[tuple[Student, str]], title: str) -> str:
         verdict = _verdict(s["verdict"])
         rows.append((name, f"{s['score']:.1f}", verdict, escape(", ".join(wrong_names(s)))))
     table = _table(("file", "score", "verdict", "what is wrong"), rows, words=(0, 2, 3))
-    return _whole(f"Students’ {title}, judged", [table])
+    warning = f'<p class="warning">{_WARNING}</p>'
+    return _whole(f"Students’ {title}, judged", [warning, table])
 
 
 def _whole(title: str, content: Sequence[str]) -> str:
@@ -85,7 +87,6 @@ def _whole(title: str, content: Sequence[str]) -> str:
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f"<style>{_STYLE.read_text(encoding='utf-8')}</style></head><body><main>",
         f"<h1>{escape(title)}</h1>",
-        f'<p class="warning">{_WARNING}</p>',
         *content,
         "</main></body></html>",
         "",
@@ -140,8 +141,7 @@ def _student(j: Judgement) -> str:
 
 
 def _error(where: str, error: StudentError) -> str:
-    lines = dict.fromkeys(f"{file}, line {n}: {text}" for file, n, _, text in error.trace)
-    trace = "\n".join(lines)
+    trace = "\n".join(error.lines)
     return (
         f'<div class="error"><strong>The file’s own error, in {escape(where)}</strong> '
         f"({error.kind}): {escape(error.message)}<pre>{escape(trace)}</pre></div>"

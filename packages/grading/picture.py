@@ -6,7 +6,7 @@ and the boundary apart.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -18,6 +18,7 @@ from reference_tracer.tracer.nearest import within_clip
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.world import world_corners
 
+from .faults import UNRECOGNISED, Fault
 from .judged_scene import JudgedScene, arrays
 from .known import Ask, known
 from .subjects.triangle import TRIANGLE
@@ -37,6 +38,7 @@ class Mark(IntEnum):
     WRONG_T = 7  # the right triangle and barycentrics, with a t that is off by more than rounding
     WRONG_BARYCENTRICS = 8  # the right triangle and t, and not the right barycentrics
     WRONG_T_AND_BARYCENTRICS = 9  # the right triangle, and neither
+    RAISED = 10  # one of the pairs that its ray needs raises an exception
 
 
 EXCUSED = Mark.EDGE, Mark.DEPTH_TIE
@@ -80,9 +82,11 @@ def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> W
     """
     began, count = clock(), len(judged.t)
     reported = np.zeros(count, bool)  # the true triangle is said to be hit
+    raised = np.zeros(count, bool)
     found = []
     for done, (some, truth, *question) in enumerate(judged.questions()):
         t, s = ask(*question)
+        raised[some.pixel[np.isneginf(t)]] = True
         hit = np.flatnonzero(np.isfinite(t) & within_clip(judged.scene.camera, t))
         pixel, instance, triangle = some.pixel[hit], some.instance[hit], some.triangle[hit]
         true = (instance == judged.instance[pixel]) & (triangle == judged.triangle[pixel])
@@ -91,7 +95,16 @@ def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> W
         yield done / len(judged.pairs)
     hits, really = _nearest(judged, found)
     false = (hits.triangle != NOTHING) & ~really
-    return _judged(judged, hits, false, reported, clock() - began)
+    return _judged(judged, hits, false, reported, raised, clock() - began)
+
+
+def in_scenes(looks: Sequence[Look]) -> Fault:
+    """Return as a fault what is wrong in scenes where no check shows anything."""
+    wrong = {k.judged.name: k.tally.total - min(k.tally.right.values()) for k in looks}
+    text = "the checks are right, and some pixels are wrong: " + ", ".join(
+        f"{count:,} in {name}" for name, count in wrong.items() if count
+    )
+    return Fault(f"{UNRECOGNISED}pixels", text, sum(wrong.values()))
 
 
 def _nearest(judged: JudgedScene, found: list[tuple]) -> tuple[Hits, NDArray[np.bool_]]:
@@ -116,9 +129,10 @@ def _judged(
     hits: Hits,
     false: NDArray[np.bool_],
     reported: NDArray[np.bool_],
+    raised: NDArray[np.bool_],
     seconds: float,
 ) -> Look:
-    wrong = _wrong_surface(judged, hits)
+    wrong = _wrong_surface(judged, hits) | raised
     mark = np.full(len(wrong), Mark.RIGHT, np.uint8)
     mark[wrong] = Mark.WRONG_ORDER
     missed = ~reported & (judged.triangle != NOTHING)
@@ -131,7 +145,8 @@ def _judged(
     edge = judged.ambiguous | judged.near_edge
     mark[wrong & edge] = Mark.EDGE
     mark[wrong & judged.near_tie & ~edge] = Mark.DEPTH_TIE
-    on_triangle = (judged.triangle != NOTHING) | (hits.triangle != NOTHING)
+    mark[raised] = Mark.RAISED
+    on_triangle = (judged.triangle != NOTHING) | (hits.triangle != NOTHING) | raised
     right = ~wrong & (hits.triangle != NOTHING)
     t_right, s_right = _values(judged, hits, np.flatnonzero(right))
     inside = right & ~judged.boundary
@@ -139,7 +154,7 @@ def _judged(
     mark[inside & ~t_right] = Mark.WRONG_T
     mark[inside & ~t_right & ~s_right] = Mark.WRONG_T_AND_BARYCENTRICS
     parts = {"surface": ~wrong, "t": right & t_right, "barycentrics": right & s_right}
-    tally = Tally.of(on_triangle, judged.boundary, parts, TRIANGLE.weights)
+    tally = Tally.of(on_triangle, judged.boundary & ~raised, parts, TRIANGLE.weights)
     color = shading.colors(judged.scene, hits).reshape(judged.color.shape)
     h, w = judged.shape
     return Look(judged, hits, color, mark.reshape(h, w), int(wrong.sum()), tally, seconds)

@@ -1,15 +1,14 @@
 """A student's file as a function: run in a process of its own, with limits.
 
 In goes what its function is given; out come the answers, or a `StudentError` which says what the
-student's code did wrong. Nothing that it does ends or stops this process. That is no sandbox: the
-code may read and write whatever its user may.
+student's code did wrong. Nothing that it does ends or stops this process. In bubblewrap, where that
+is, it writes nothing and reaches nobody (`processes/sandbox.py`); else it may do what its user may.
 """
 
 from __future__ import annotations
 
 import json
 import os
-import signal
 import subprocess
 import sys
 import threading
@@ -21,7 +20,8 @@ from typing import IO
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer_processes.running import KEPT, Limits, kill
+from reference_tracer_processes.running import KEPT, Limits, how, kill
+from reference_tracer_processes.sandbox import kept_in
 
 from .form import Form
 from .student_error import StudentError, parsed
@@ -30,10 +30,6 @@ from .submission import Submission
 _LONGEST = 1 << 20  # bytes of a line that answers
 
 _CHILD = Path(__file__).with_name("child.py")
-_ADVICE = {  # what numpy says of it -> what a student needs to know
-    "read-only": "the arrays that the function is given must not be changed: write a = a - b, "
-    "not a -= b, or copy them first",
-}
 
 
 class Student(Submission):
@@ -42,7 +38,6 @@ class Student(Submission):
     def __init__(self, path: Path, form: Form, limits: Limits | None = None) -> None:
         super().__init__(form, limits)
         self.path = Path(path).resolve()
-        self._process: subprocess.Popen[bytes] | None = None
 
     def _answered(self, question: Floats) -> Floats:
         if self._process is None:
@@ -75,9 +70,12 @@ class Student(Submission):
     def _start(self) -> None:
         own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
         own |= {"PYTHONHASHSEED": "0", "PYTHONIOENCODING": "utf-8", "PYTHONDONTWRITEBYTECODE": "1"}
+        own["PYTHONUNBUFFERED"] = "1"  # what is printed is there when it is ended
         memory = str(self.limits.memory)
-        self._process = subprocess.Popen(
-            [sys.executable, "-P", str(_CHILD), str(self.path), memory, self.form.to_json()],
+        words = [sys.executable, "-P", str(_CHILD), str(self.path), memory, self.form.to_json()]
+        libraries = Path(sys.base_prefix), Path(sys.prefix), Path(np.__file__).parents[1]
+        process = subprocess.Popen(
+            kept_in(words, None, own, self.path.parent, libraries),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -85,7 +83,8 @@ class Student(Submission):
             env=os.environ | own,
             start_new_session=True,  # Ctrl-C is for this process, which ends that one
         )
-        self._reader = threading.Thread(target=self._listen, args=(self._process.stderr,))
+        self._runs(process)
+        self._reader = threading.Thread(target=self._listen, args=(process.stderr,))
         self._reader.daemon = True
         self._reader.start()
         with self._watched() as (_, back):
@@ -123,7 +122,8 @@ class Student(Submission):
                 text = f"took longer than the time limit of {self.limits.seconds:g} s for one scene"
                 text += " (does it ever end? If it is only slow, raise it with --time-limit)"
                 raise StudentError("time", text) from error
-            raise StudentError("ended", _how(code)) from error
+            text = f"the process {how(code)}, before it had answered"
+            raise StudentError("ended", text) from error
         finally:
             watch.cancel()
             self._left -= time.monotonic() - began
@@ -136,22 +136,15 @@ class Student(Submission):
         if not line.endswith(b"\n") and len(line) < _LONGEST:
             raise EOFError
         try:
-            answer = parsed(line)
+            seconds, errors = parsed(line, self.limits.memory)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             text = "its process answered something that is no answer: does the file write to other"
             text += " streams than the standard ones, or change numpy or json?"
             raise StudentError("ended", text) from error
-        if isinstance(answer, float):
-            return answer
-        kind, message, trace = answer
-        for sign, advice in _ADVICE.items():
-            if sign in message:
-                message += f" ({advice})"
-        if kind == "memory":
-            message += f" (the limit is {self.limits.memory / 2**30:.3g} GiB)"
-        if kind == "exit":
-            message += " (the file must not call sys.exit or quit)"
-        raise StudentError(kind, message, trace)
+        if seconds is None:
+            raise errors[0]
+        self._errors += errors[:1]
+        return seconds
 
 
 def _read(stream: IO[bytes], size: int) -> bytes:
@@ -159,11 +152,3 @@ def _read(stream: IO[bytes], size: int) -> bytes:
     if len(data) < size:
         raise EOFError
     return data
-
-
-def _how(code: int) -> str:
-    """Say how the process ended, in the middle of its work."""
-    if code < 0:
-        name = signal.Signals(-code).name
-        return f"the process was ended by {name} (a fault in a library, or memory has run out?)"
-    return f"the process ended itself, with exit code {code}, before it had answered"

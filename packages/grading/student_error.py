@@ -1,14 +1,22 @@
-"""What a student's process answers -> the seconds that it took, or what it did wrong."""
+"""What a student's process answers -> the seconds that it took, and what it did wrong."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 
 KINDS = frozenset({"syntax", "exception", "answer", "exit", "memory", "time", "ended"})
+# What an error is, or what numpy says of it -> what a student needs to know.
+_ADVICE = {
+    "exit": "the file must not call sys.exit or quit",
+    "memory": "the limit is {:.3g} GiB",
+    "read-only": "the arrays that the function is given must not be changed: write a = a - b, "
+    "not a -= b, or copy them first",
+}
 
 
 class StudentError(Exception):
@@ -27,6 +35,11 @@ class StudentError(Exception):
         """The line of the student's file where it happened, if there is one."""
         return self.trace[-1][1] if self.trace else None
 
+    @property
+    def lines(self) -> list[str]:
+        """The lines of its own files that lead there, each once."""
+        return list(dict.fromkeys(f"{file}, line {n}: {text}" for file, n, _, text in self.trace))
+
     def to_dict(self) -> dict[str, Any]:
         """Return the error as JSON can hold it."""
         names = "file", "line", "function", "text"
@@ -38,8 +51,8 @@ class StudentError(Exception):
         }
 
 
-def parsed(line: bytes) -> float | tuple[str, str, tuple[tuple, ...]]:
-    """Return the seconds that an answer has taken, or an error's kind, message and trace.
+def parsed(line: bytes, memory: int) -> tuple[float | None, list[StudentError]]:
+    """Return the seconds that an answer has taken, None if there is none, and errors.
 
     The student's code shares the process that writes it, and may have written it: nothing is taken
     for granted.
@@ -49,11 +62,19 @@ def parsed(line: bytes) -> float | tuple[str, str, tuple[tuple, ...]]:
         seconds = float(answer.get("seconds", 0.0))
         if not 0 <= seconds < np.inf:
             raise ValueError(seconds)
-        return seconds
-    if answer["kind"] not in KINDS:
-        raise ValueError(answer["kind"])
+        return seconds, [_error(each, memory) for each in answer.get("raised", ())]
+    return None, [_error(answer, memory)]
+
+
+def _error(answer: Mapping[str, Any], memory: int) -> StudentError:
+    kind, message = answer["kind"], printable(answer["message"])
+    if kind not in KINDS:
+        raise ValueError(kind)
     trace = tuple(
         (printable(file), None if number is None else int(number), printable(name), printable(text))
         for file, number, name, text in answer["trace"]
     )
-    return answer["kind"], printable(answer["message"]), trace
+    for sign, advice in _ADVICE.items():
+        if sign == kind or (kind == "exception" and sign in message):
+            message += f" ({advice.format(memory / 2**30)})"
+    return StudentError(kind, message, trace)

@@ -39,6 +39,7 @@ MARKS = {
     Mark.WRONG_T: "wrong t",
     Mark.WRONG_BARYCENTRICS: "wrong barycentrics",
     Mark.WRONG_T_AND_BARYCENTRICS: "wrong t and wrong barycentrics",
+    Mark.RAISED: "an exception is raised",
 }
 NO_BOUNDARY = (
     "boundary -: no ray that counts there passes an edge, or two surfaces, within rounding"
@@ -62,7 +63,7 @@ def lines(j: Judgement) -> list[str]:
         out += wrapped(put_right(j))
     for where, error in j.errors:
         out += wrapped(f"its own error, in {where}: {error.message}")
-        out += dict.fromkeys(f"    {file}, line {n}: {text}" for file, n, _, text in error.trace)
+        out += [f"    {line}" for line in error.lines]
     for fault in j.faults:
         out += wrapped(f"{fault.name} ({fault.pairs:,} checks): {fault.sentence}")
     if j.leaks:
@@ -89,8 +90,9 @@ def wrapped(text: str) -> list[str]:
 
 def put_right(j: Judgement) -> str:
     """Return why a file has more points than its answers."""
-    mistakes = count_of(len(j.faults), "mistake")
-    return f"{j.as_is:.1f} as it is: with {mistakes} put right all is right, less {COST:g} for each"
+    mistakes = count_of(len(j.alike.wrong) if j.alike else 0, "mistake")
+    rest = "all is right" if j.put_right == 100 else f"it has {j.put_right:.1f}"
+    return f"{j.as_is:.1f} as it is: with {mistakes} put right {rest}, less {COST:g} for each"
 
 
 def held_rows(j: Judgement) -> list[tuple[str, ...]]:

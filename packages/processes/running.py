@@ -7,13 +7,13 @@ import shlex
 import shutil
 import signal
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from reference_tracer.cli.running import printable
+from reference_tracer.wording import printable
 
 from .sandbox import kept_in, limited
 
@@ -75,6 +75,7 @@ def run(
     limits: Limits,
     streams: tuple[IO[bytes] | None, IO[bytes], IO[bytes]],
     boxed: bool = True,
+    started: Callable[[subprocess.Popen[bytes]], None] = lambda _: None,
 ) -> None:
     """Run a command until it ends, and end what it has started.
 
@@ -88,6 +89,8 @@ def run(
         Its standard input, output and error.
     boxed : bool
         Whether it is kept in the sandbox, where there is one.
+    started : callable, optional
+        Takes the process, for who may end it.
 
     Raises
     ------
@@ -108,6 +111,7 @@ def run(
         )
     except OSError as error:
         raise ProgramError("ended", f"it cannot be started: {error}") from error
+    started(process)
     try:
         code = process.wait(max(limits.seconds, 0.0))
     except subprocess.TimeoutExpired as error:
@@ -116,7 +120,7 @@ def run(
         kill(process)
         process.wait()
     if code:
-        raise ProgramError("ended", f"{_how(code)}: {_last(err)}".rstrip(": "))
+        raise ProgramError("ended", f"the program {how(code)}: {_last(err)}".rstrip(": "))
 
 
 def kill(process: subprocess.Popen[bytes]) -> None:
@@ -128,11 +132,13 @@ def kill(process: subprocess.Popen[bytes]) -> None:
             process.kill()
 
 
-def _how(code: int) -> str:
-    if code < 0:
-        known = {s.value: s.name for s in signal.Signals}  # not all of the realtime ones
-        return f"the program was ended by {known.get(-code, f'signal {-code}')}"
-    return f"the program ended with exit code {code}"
+def how(code: int) -> str:
+    """Say how a process ended: in the sandbox, 128 and a signal's number are its exit code."""
+    known = {s.value: s.name for s in signal.Signals}  # not all of the realtime ones
+    if code < 0 or code - 128 in known:
+        number = -code if code < 0 else code - 128
+        return f"was ended by {known.get(number, f'signal {number}')}"
+    return f"ended with exit code {code}"
 
 
 def _last(file: IO[bytes]) -> str:

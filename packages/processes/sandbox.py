@@ -1,11 +1,16 @@
-"""What a program of others may see, write and take: in bubblewrap, and by the system's limits."""
+"""What a program of others may see, write and take: in bubblewrap, and by the system's limits.
+
+What is kept for a later run carries a digest under a `secret`, which no program in the sandbox can
+read: its folder is empty there.
+"""
 
 from __future__ import annotations
 
 import os
+import secrets
 import shutil
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -28,7 +33,7 @@ _SANDBOX = (
     *(word for folder in _HIDDEN for word in ("--tmpfs", str(folder))),
     "--clearenv",
 )
-_KEPT_ENVIRONMENT = "PATH", "LANG", "HOME", "JAVA_HOME"
+_KEPT_ENVIRONMENT = "PATH", "LANG", "HOME", "JAVA_HOME", "PYTHONPATH"
 
 
 @cache
@@ -40,31 +45,66 @@ def sandbox() -> tuple[str, ...]:
     return _SANDBOX if tried.returncode == 0 else ()
 
 
-def kept_in(words: list[str], folder: Path, environment: dict[str, str]) -> list[str]:
+def secret() -> bytes | None:
+    """Return the user's key, made at first; None where programs could read it."""
+    path = _secrets() / "key"
+    with suppress(OSError):
+        if sandbox():
+            path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            with suppress(FileExistsError), os.fdopen(_created(path), "wb") as file:
+                file.write(secrets.token_bytes(32))
+            return path.read_bytes() or None
+    return None
+
+
+def _created(path: Path) -> int:
+    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+
+
+def _secrets() -> Path:
+    state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    return (Path(state) / "reference_tracer").resolve()
+
+
+def kept_in(
+    words: list[str],
+    folder: Path | None,
+    environment: dict[str, str],
+    start: Path | None = None,
+    libraries: Sequence[Path] = (),
+) -> list[str]:
     """Return the command that runs another one in the sandbox; without a sandbox, that one.
 
     Parameters
     ----------
     words : list of str
-    folder : Path
+    folder : Path, optional
         The one that it may write to.
     environment : dict of str to str
         What it is told besides what is kept of the user's.
+    start : Path, optional
+        Where it is started: by default where this process is.
+    libraries : sequence of Path, optional
+        What it needs to see, besides what its words name.
     """
     if not (kept := sandbox()):
         return words
     own = environment | {k: os.environ[k] for k in _KEPT_ENVIRONMENT if k in os.environ}
-    return [*kept, *_seen(words, folder, own), "--", *words]
-
-
-def _seen(words: list[str], folder: Path, environment: dict[str, str]) -> Iterator[str]:
-    """Yield the sandbox's options for what a program may see and write, and its environment."""
     named = [Path(word).resolve() for word in words if os.path.exists(word)]
-    folders = [path if path.is_dir() else path.parent for path in named]
-    for path in dict.fromkeys((*named, *folders, Path.cwd())):
+    seen = [*libraries, *named, *(path if path.is_dir() else path.parent for path in named)]
+    options = _seen([*seen, start or Path.cwd()], folder, own)
+    return [*kept, *options, "--chdir", str(start or Path.cwd()), "--", *words]
+
+
+def _seen(paths: list[Path], folder: Path | None, environment: dict[str, str]) -> Iterator[str]:
+    """Yield the sandbox's options for what a program may see and write, and its environment."""
+    for path in dict.fromkeys(paths):
         if not any(hidden.is_relative_to(path) for hidden in _HIDDEN):
             yield from ("--ro-bind", str(path), str(path))
-    yield from ("--bind", str(folder), str(folder), "--chdir", str(Path.cwd()))
+    if _secrets().is_dir():
+        yield from ("--tmpfs", str(_secrets()))
+    if folder:
+        yield from ("--bind", str(folder), str(folder))
     for name, value in environment.items():
         yield from ("--setenv", name, value)
 

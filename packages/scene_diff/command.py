@@ -15,10 +15,10 @@ from reference_tracer.cli.opening import SOURCES, open_blend, open_file
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, EXIT_CODES_HELP, Parser
 from reference_tracer.cli.running import meanwhile
 from reference_tracer.framing import Choice
-from reference_tracer.mesh_files.load import READERS
+from reference_tracer.opened import mesh_formats
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.wording import count_of
+from reference_tracer.wording import count_of, show
 
 from .differences import differences
 from .geometry import Objects
@@ -70,17 +70,16 @@ def diff(options: DiffOptions) -> int:
     paths = options.first, options.second
     for path in paths:
         check_kind(path)
-    if not any(path.suffix.lower() in READERS for path in paths):
+    if not any(path.suffix.lower() in mesh_formats() for path in paths):
         refuse(options, ("up",), "is for meshes: in a scene Z is up")
     first, second = (side(path, options.up) for path in paths)
     found = differences(first.scene, second.scene, first.variants)
-    for line in (*first.remarks, *second.remarks):
-        print(line)
+    show(*first.remarks, *second.remarks)
     for difference in found:
-        print(*difference.lines(), sep="\n")
+        show(*difference.lines())
     counts = [count_of(len(Objects.of(s.scene).triangles), "object") for s in (first, second)]
     how = count_of(len(found), "difference") if found else "the same"
-    print(f"{counts[0]} and {counts[1]}: {how}")
+    show(f"{counts[0]} and {counts[1]}: {how}")
     if options.json:
         content = {"schema": SCHEMA, "differences": [d.to_dict() for d in found]}
         folders.write_text(options.json, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
@@ -105,7 +104,7 @@ def side(path: Path, up: str | None) -> Side:
             whole = next((v.scene for v in made if v.fault == WHOLE), None)
             scene = whole or export_open_file(context)[0]
         return Side(scene, tuple(v for v in made if v.fault != WHOLE))
-    is_mesh = path.suffix.lower() in READERS
+    is_mesh = path.suffix.lower() in mesh_formats()
     opened = open_file(path, Choice(up=up) if is_mesh and up else Choice())
     if not opened.scene.instances:
         raise SceneError(f"'{path}' holds no object with triangles")

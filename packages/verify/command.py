@@ -8,6 +8,7 @@ from pathlib import Path
 from reference_tracer.cli.parser import AGREE, COUNT, DIFFERENCES, INPUT_ERROR, Parser
 from reference_tracer.cli.running import meanwhile
 from reference_tracer.scene import SceneError
+from reference_tracer.wording import show
 
 _CODES = f"""exit codes:
   {AGREE}  every pixel that was checked sees what the file says
@@ -46,8 +47,8 @@ def verify(given: Namespace) -> int:
         raise SceneError(f"there is no file '{given.file}'")
     try:
         with meanwhile("checking"):
-            print(f"{given.file}: {verified(given.file, given.sample)}")
+            show(f"{given.file}: {verified(given.file, given.sample)}")
     except RefusedError as error:
-        print(f"{given.file}: refused: {error}")
+        show(f"{given.file}: refused: {error}")
         return DIFFERENCES
     return AGREE

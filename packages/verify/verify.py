@@ -27,6 +27,7 @@ from __future__ import annotations
 import argparse
 import random
 import re
+import warnings
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache, lru_cache, reduce
@@ -63,7 +64,8 @@ class RefusedError(Exception):
 
 def only(what: str, found: Any, known: Any) -> None:
     """Refuse what is not known."""
-    if unknown := [str(each) for each in found if each not in known]:
+    # numpy makes texts of a file that are none: `ascii` takes those, too
+    if unknown := [ascii(str(each))[1:-1] for each in found if each not in known]:
         raise RefusedError(f"not covered: {what} {', '.join(unknown[:9])}")
 
 
@@ -73,12 +75,22 @@ def demand(true: Any, otherwise: str) -> None:
         raise RefusedError(otherwise)
 
 
+def shown(line: str) -> str:
+    """Return a line that neither steers a terminal nor fills it, whatever a file says."""
+    if len(line) > 2000:
+        line = f"{line[:1000]} ... {line[-1000:]}"
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+
+
 class Certificate:
     """A file's scene in world space, and its answers."""
 
     @np.errstate(all="ignore")  # what overflows is looked at, or is not
     def __init__(self, path: str) -> None:
-        with np.load(path, allow_pickle=False) as file:
+        with warnings.catch_warnings(action="ignore"), np.load(path, allow_pickle=False) as file:
+            length = file.zip.fp.seek(0, 2)
+            size = sum(each.file_size for each in file.zip.infolist())
+            demand(size <= max(2**28, 100 * length), "it unpacks to far more than itself")
             only("schema", [str(file["certificate"])], ["reference_tracer.certificate/2"])
             only("array", file.files, ["certificate", "camera", *ARRAYS])
             demand(len(file.files) == len(set(file.files)), "an array is in the file twice")
@@ -89,6 +101,7 @@ class Certificate:
             is_of = " ".join(map(str, (found.dtype.str[1:], *found.shape)))
             demand(re.fullmatch(known, is_of), f"{name} is of {is_of}, not {known}")
         camera, window, pixels, clip, *surfaces, self.seen, self.t, ties = arrays
+        demand(sum(map(len, (*surfaces, ties))) <= 2**20 + length, "more rows than its length has")
         self.right, self.up, self.back, self.eye = camera[:3].T[..., None]
         self.aside = self.right + 0.4 * self.up  # few edges are parallel to this
         self.clip = clip.tolist()
@@ -115,6 +128,7 @@ class Certificate:
         only("vertex", np.unique(triangles).tolist(), range(len(vertices)))
         only("triangle", np.unique(instances).tolist(), range(len(triangles) + 1))
         demand((instances[:, 0] <= instances[:, 1]).all(), "an instance ends before it begins")
+        demand(np.diff(instances).sum() <= 2**24, "not covered: more than 16,777,216 triangles")
         self.names, corners = [], []
         for number, (m, (begin, end)) in enumerate(zip(matrices, instances.tolist(), strict=True)):
             x, y, z = vertices[triangles[begin:end].T].transpose(2, 0, 1)
@@ -470,9 +484,9 @@ def main() -> None:
     parser.add_argument("file")
     parser.add_argument("--sample", type=int, metavar="ROWS", help="check so many, at random")
     try:
-        print(verified(**vars(parser.parse_args())))
+        print(shown(verified(**vars(parser.parse_args()))))
     except RefusedError as error:
-        parser.exit(2, f"refused: {error}\n")
+        parser.exit(2, shown(f"refused: {error}") + "\n")
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from reference_tracer_benchmarks import run as bench_run
 from reference_tracer_benchmarks.measure import measure
 from reference_tracer_benchmarks.plan import COMMANDS, Case, Plan
 from reference_tracer_benchmarks.plot import figure, largest
-from reference_tracer_benchmarks.report import JSON, PLOT, SCHEMA, TABLE, TIMES, write
+from reference_tracer_benchmarks.report import JSON, PLOT, SCHEMA, TABLE, TIMES, UNFINISHED, write
 from reference_tracer_benchmarks.rows import Bench, CommandRow, Row, machine
 from reference_tracer_benchmarks.scenes import CAMERAS, SCALED, SUBJECTS
 from reference_tracer_benchmarks.tables import table
@@ -190,18 +190,18 @@ def test_interrupted_it_leaves_what_was_measured(tmp_path, monkeypatch, capsys):
         for share in work:
             yield share
             if len(bench.rows) == 4:
-                written = read(tmp_path)  # before the end, too
+                written = read(tmp_path / UNFINISHED)  # before the end, too
                 assert len(written["rows"]) >= 2 and not written["interrupted"]
                 raise KeyboardInterrupt
 
     monkeypatch.setattr(bench_run, "plan", tiny_plan)
     monkeypatch.setattr(bench_run, "measure", interrupted)
     assert main(["bench", "--out", str(tmp_path)]) == INTERRUPTED
-    found = read(tmp_path)
+    found = read(tmp_path / UNFINISHED)
     assert found["interrupted"] and len(found["rows"]) == 4
     both = capsys.readouterr()
     assert "interrupted: 2 of 4 pictures" in both.err and "Interrupted" in both.out
-    assert (tmp_path / PLOT).is_file()
+    assert (tmp_path / UNFINISHED / PLOT).is_file() and not (tmp_path / JSON).exists()
 
 
 def test_interrupted_at_once(tmp_path, monkeypatch, capsys):
@@ -211,8 +211,30 @@ def test_interrupted_at_once(tmp_path, monkeypatch, capsys):
 
     monkeypatch.setattr(bench_run, "measure", interrupted)
     assert main(["bench", "cube", "--out", str(tmp_path)]) == INTERRUPTED
-    assert read(tmp_path)["rows"] == [] and not (tmp_path / PLOT).exists()
+    assert not any(tmp_path.iterdir())
     assert "nothing was measured" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("rows", [0, 4])
+def test_an_older_result_outlives_a_run_that_is_interrupted(rows, bench, tmp_path, monkeypatch):
+    def interrupted(plan, measured, cache):
+        measured.rows += bench.rows[:rows]
+        yield 0.0
+        raise KeyboardInterrupt
+
+    write(tmp_path, bench)
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    monkeypatch.setattr(bench_run, "measure", interrupted)
+    assert main(["bench", "cube", "--out", str(tmp_path)]) == INTERRUPTED
+    assert {p.name: p.read_bytes() for p in tmp_path.iterdir() if p.is_file()} == before
+    assert (tmp_path / UNFINISHED).exists() == bool(rows)
+
+
+def test_a_run_that_ends_leaves_nothing_unfinished(tmp_path, monkeypatch):
+    monkeypatch.setattr(bench_run, "plan", tiny_plan)
+    (tmp_path / UNFINISHED).mkdir()
+    assert main(["bench", "--out", str(tmp_path)]) == AGREE
+    assert not (tmp_path / UNFINISHED).exists()
 
 
 @pytest.mark.parametrize(

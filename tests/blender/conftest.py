@@ -16,7 +16,8 @@ import numpy as np
 import pytest
 import reference_tracer
 from reference_tracer.blender import registration
-from reference_tracer.blender.engine import export_for_render
+from reference_tracer.blender.evaluating import export_for_render
+from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.blender.reading.export import export as export_depsgraph
 from reference_tracer.blender.temporary import temporary_scene
@@ -75,6 +76,18 @@ def export() -> SimpleNamespace:
         render=_export_render,
         modes={"VIEWPORT": _export_viewport, "RENDER": _export_render},
     )
+
+
+@pytest.fixture
+def shown_otherwise(monkeypatch):
+    """Have Blender's picture of each comparison go through a function."""
+
+    def change(changed):
+        real = compare_module._picture
+        picture = lambda pixels, **options: real(changed(pixels), **options)  # noqa: E731
+        monkeypatch.setattr(compare_module, "_picture", picture)
+
+    return change
 
 
 @pytest.fixture

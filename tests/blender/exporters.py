@@ -21,10 +21,10 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 from reference_tracer.blender.reading.export import export
-from reference_tracer.mesh_files.load import load_meshes, scene_of_meshes
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Scene
 from reference_tracer.tracer.vector import transform_points
+from reference_tracer_meshes.load import load_meshes, scene_of_meshes
 
 from .exporter_scenes import SCENES, make_scene
 from .scenes import Build
@@ -144,10 +144,9 @@ def _without_keys() -> None:
 
 
 _USD = {
-    "posed_rig": Cell("bones are written as a skeleton, which is not read", _at_rest),
     "shape_keys": Cell("shape keys are written apart, and not read", _without_keys),
     "modifiers": Cell("subdivision is written as a scheme, and not read", _as_cages),
-    "curves": Cell("a curve is written as a curve, which is not read", lambda: _hide("Curve")),
+    "curves": Cell("a curve is written as hair, which is named", lambda: _hide("Curve")),
     "hidden_and_empty": _EYE,
 }
 CELLS: dict[tuple[str, str], Cell] = {

@@ -121,6 +121,11 @@ def test_trace_uses_what_the_scene_stores(small, tmp_path, reftrace):
     assert (tmp_path / "deeper" / "picture.png").is_file()
     done = reftrace("trace", small, "--out", tmp_path / "picture.png", "--method", "textbook")
     assert "textbook" in done.stdout
+    certificate = tmp_path / "certificate.npz"  # which proves something: it is not of this method
+    done = reftrace("trace", small, "--certificate", certificate)
+    assert done.returncode == 0 and "certified" in done.stdout and certificate.is_file()
+    done = reftrace("trace", small, "--certificate", certificate, "--method", "textbook")
+    assert "--certificate: textbook proves nothing" in done.stderr
 
 
 def test_trade(small, reftrace):

@@ -31,13 +31,6 @@ def verdict(out) -> dict:
     return json.loads((out / "comparison.json").read_text(encoding="utf-8"))
 
 
-def replaced_picture(monkeypatch, change):
-    real = compare_module.picture
-    monkeypatch.setattr(
-        compare_module, "picture", lambda *args, **options: change(real(*args, **options))
-    )
-
-
 def test_0_the_pictures_agree(saved, out, capsys):
     assert in_blender.run(["compare", "--out", str(out)]) == 0
     assert sorted(p.name for p in out.iterdir()) == [
@@ -66,15 +59,15 @@ def test_1_something_is_not_modelled(saved, out):
     assert found["pixels"]["unexplained"] == 0 < found["pixels"]["by_cause"]["not_modelled"]
 
 
-def test_2_differences_that_no_cause_explains(saved, out, monkeypatch):
-    replaced_picture(monkeypatch, lambda picture: np.ascontiguousarray(picture[::-1]))
+def test_2_differences_that_no_cause_explains(saved, out, shown_otherwise):
+    shown_otherwise(lambda picture: np.ascontiguousarray(picture[::-1]))
     assert in_blender.run(["compare", "--no-diagnosis", "--out", str(out)]) == 2
     assert verdict(out)["verdict"] == "differences"
     assert verdict(out)["pixels"]["unexplained"] > 100
 
 
-def test_3_the_sizes_do_not_match(saved, out, monkeypatch, capsys):
-    replaced_picture(monkeypatch, lambda picture: picture[:-1])
+def test_3_the_sizes_do_not_match(saved, out, shown_otherwise, capsys):
+    shown_otherwise(lambda picture: picture[:-1])
     assert in_blender.run(["compare", "--out", str(out)]) == 3
     found = verdict(out)
     assert found["verdict"] == "failed"
@@ -87,7 +80,7 @@ def test_3_also_where_blender_made_another_size(saved, out, monkeypatch, capsys)
     from reference_tracer.blender.drawing import picture
 
     real = picture.read
-    monkeypatch.setattr(picture, "read", lambda path: real(path)[:, :-1])
+    monkeypatch.setattr(picture, "read", lambda *of: real(*of)[:, :-1])
     assert in_blender.run(["compare", "--out", str(out)]) == 3
     assert "63 x 36" in capsys.readouterr().err
     assert verdict(out)["verdict"] == "failed"
@@ -148,7 +141,7 @@ def test_4_an_exception_of_its_own(kind, saved, out, monkeypatch, capsys):
     def fail(*args, **options):
         raise kind("on purpose")
 
-    monkeypatch.setattr(compare_module, "picture", fail)
+    monkeypatch.setattr(compare_module, "_picture", fail)
     assert in_blender.run(["compare", "--out", str(out)]) == 4
     assert "on purpose" in capsys.readouterr().err
     assert verdict(out)["error"]["type"] == kind.__name__

@@ -12,9 +12,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.drawing.cycles import FARTHEST
 from reference_tracer.blender.drawing.judges import JUDGES
-from reference_tracer.blender.jobs import compare as compare_module
+from reference_tracer.blender.temporary import leave_out
 from reference_tracer.causes.cause import NOT_DECIDABLE
 from reference_tracer.causes.embree import LARGEST
 from reference_tracer.comparison.comparing import trace_and_compare
@@ -238,16 +239,13 @@ def test_what_is_missing_far_away_is_found(build, compare, monkeypatch):
     build.camera()
     far = build.mesh("Far", [(-1, -1, 0), (1e6, 0, 0), (-1, 1, 0)], [(0, 1, 2)])
     build.square("Behind", 30.0, location=(0, 0, -5), color=(0, 1, 0, 1))
-    real = compare_module.picture
+    real = drawings.stand_ins
 
-    def without(*args, **options):
-        far.hide_render = True
-        try:
-            return real(*args, **options)
-        finally:
-            far.hide_render = False
+    def without(tmp, layer, *rest):
+        leave_out(tmp, layer, [far])
+        return real(tmp, layer, *rest)
 
-    monkeypatch.setattr(compare_module, "picture", without)
+    monkeypatch.setattr(drawings, "stand_ins", without)
     assert compare(judge="CYCLES", identity=False).counts.unexplained > 1000
 
 

@@ -110,7 +110,7 @@ def test_a_colour_attribute_that_not_all_have_is_refused(solids, build, compare)
 def attributes(build, monkeypatch):
     """A mesh with a colour attribute, and EEVEE that stops before its shader takes long."""
 
-    def stop(scene, layer):
+    def stop(scene, layer, depsgraph):
         raise SceneError("it would draw")
 
     build.scene(48, 27, "VERTEX")

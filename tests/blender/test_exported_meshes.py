@@ -8,7 +8,7 @@ from itertools import pairwise
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.mesh_files.load import load_meshes
+from reference_tracer_meshes.load import load_meshes
 
 # With their default options, but for the axes: those of Blender's own.
 Z_UP = {"forward_axis": "Y", "up_axis": "Z"}
@@ -20,23 +20,22 @@ EXPORTERS = {
 }
 
 
-def faces(rng, bend):
-    """Return faces of 3 to 11 corners, many of them concave, each in its own plane.
+def faces(rng, bend, least):
+    """Return faces of 3 to 11 corners, each in its own plane, and none that crosses itself.
 
     Corners are multiples of 1/64, which six decimals hold. `bend` is how far they may be off their
-    planes, in metres.
+    planes, in metres; `least` the smallest radius, and 40 the largest, in such units.
     """
     out = []
     while len(out) < 250:
         count = int(rng.integers(3, 12))
-        angles = (np.arange(count) + rng.uniform(0, 0.8, count)) * 2 * np.pi / count
-        radii = rng.uniform(8, 40, count)
+        angles = (np.arange(count) + rng.uniform(0, 0.3, count)) * 2 * np.pi / count
+        radii = rng.uniform(least, 40, count)
         flat = np.column_stack((radii * np.cos(angles), radii * np.sin(angles))).round()
-        axes = rng.integers(-2, 3, (2, 3))
-        if np.cross(*axes).any():
-            off = (64 * bend * rng.normal(size=(count, 3))).round()
-            place = 64 * 10 * np.array((len(out) % 16, len(out) // 16, 0))
-            out.append((flat @ axes + off + place) / 64)
+        axes = np.array(((2, 0, 1), (0, 2, -1)))[:, rng.permutation(3)]
+        off = (64 * bend * rng.normal(size=(count, 1))).round() * np.cross(*axes) / 8
+        place = 64 * 10 * np.array((len(out) % 16, len(out) // 16, 0))
+        out.append((flat @ axes + off.round() + place) / 64)
     return out
 
 
@@ -61,18 +60,39 @@ def as_set(triangles):
     return out
 
 
-@pytest.mark.parametrize("name", EXPORTERS)
-@pytest.mark.parametrize("bend", [0.0, 0.1, 1.0])
-def test_the_triangles_are_blenders(name, bend, tmp_path, rng):
-    own = make(faces(rng, bend))
+def read(name, tmp_path):
     path = tmp_path / f"faces.{name}"
     EXPORTERS[name](filepath=str(path))
     found = load_meshes(path)
     (placed,) = found.placed
-    read = placed.mesh.vertices[placed.mesh.triangles]
-    assert len(read) == len(own) > 1000
-    assert as_set(read) == as_set(own)
-    assert name == "stl" or bool(bend) == any("not flat" in note for note in found.notes)
+    return placed.mesh.vertices[placed.mesh.triangles], found.notes
+
+
+@pytest.mark.parametrize("name", EXPORTERS)
+@pytest.mark.parametrize("bend", [0.0, 0.1])
+def test_the_triangles_of_convex_faces_are_blenders(name, bend, tmp_path, rng):
+    own = make(faces(rng, bend, 39.5))
+    found, notes = read(name, tmp_path)
+    assert len(found) == len(own) > 1000
+    assert as_set(found) == as_set(own)
+    assert name == "stl" or bool(bend) == any("not flat" in note for note in notes)
+
+
+@pytest.mark.parametrize("name", EXPORTERS)
+def test_concave_faces_have_blenders_areas(name, tmp_path, rng):
+    """Whichever way each is cut: a face is where its place is, in squares of ten metres."""
+    own = make(faces(rng, 0.0, 8))
+    found, notes = read(name, tmp_path)
+    assert not any("not flat" in note for note in notes)
+    totals = []
+    for triangles in (own, found):
+        a, b, c = np.moveaxis(np.asarray(triangles, np.float64), 1, 0)
+        squares = np.rint(a[:, :2] / 10).astype(int) @ (1, 100)
+        total = np.zeros((squares.max() + 1, 3))
+        np.add.at(total, squares, np.cross(b - a, c - a))
+        totals.append(total)
+    assert np.allclose(*totals, atol=1e-9) and np.abs(totals[0]).sum() > 100
+    assert as_set(found) != as_set(own) or name == "stl"
 
 
 @pytest.mark.parametrize("name", [name for name in EXPORTERS if name != "stl"])

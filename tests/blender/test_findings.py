@@ -8,8 +8,8 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.drawing.camera_object import copy_camera
-from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import findings, results
 from reference_tracer.blender.ui.results import Kind
@@ -42,18 +42,18 @@ def seen(build):
 @contextmanager
 def drawn_otherwise(monkeypatch, owner, name, value):
     """Have Blender draw with another value than was exported, as a handler might set it."""
-    real = compare_module.picture
+    real = drawings.picture
 
-    def picture(*args, **options):
+    def picture(*args):
         before = getattr(owner, name)
         setattr(owner, name, value)
         try:
-            return real(*args, **options)
+            return (yield from real(*args))
         finally:
             setattr(owner, name, before)
 
     with monkeypatch.context() as patched:
-        patched.setattr(compare_module, "picture", picture)
+        patched.setattr(drawings, "picture", picture)
         yield
 
 
@@ -109,20 +109,18 @@ def test_an_object_that_was_found_is_selected(seen, monkeypatch):
     assert [t.guess.object for t in told] == [name]
     for other in scene.objects:
         other.select_set(True)
-    assert OPS.select_finding(number=0) == {"FINISHED"}
+    assert OPS.select_object(name=name) == {"FINISHED"}
     assert bpy.context.selected_objects == [obj] == [bpy.context.view_layer.objects.active]
-    with pytest.raises(RuntimeError, match="tells 1 faults"):
-        OPS.select_finding(number=1)
     obj.name = "Renamed"
     with pytest.raises(RuntimeError, match=f"no object '{name}' now"):
-        OPS.select_finding(number=0)
+        OPS.select_object(name=name)
 
 
 def test_without_a_finding_there_is_no_button(seen):
-    assert not OPS.select_finding.poll() and not OPS.copy_camera.poll()
+    assert not OPS.copy_camera.poll()
     OPS.compare()
     assert found() is None
-    assert not OPS.select_finding.poll() and not OPS.copy_camera.poll()
+    assert not OPS.copy_camera.poll()
 
 
 class Drawn(list):

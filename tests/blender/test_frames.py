@@ -11,6 +11,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from PIL import Image
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import results
@@ -241,14 +242,13 @@ def test_an_interruption_keeps_what_is_done(moving, run, out, monkeypatch, capsy
 
 def changed_at(monkeypatch, change) -> None:
     """Have Blender's picture of each frame go through a function of its number."""
-    real = compare_module.picture
+    real = compare_module._picture
 
-    def changed(tmp, *args, **options):
-        drawn = real(tmp, *args, **options)
-        other = change(tmp.frame_current)
-        return drawn if other is None else np.ascontiguousarray(other(drawn))
+    def changed(pixels, **options):
+        other = change(bpy.context.scene.frame_current)
+        return real(np.ascontiguousarray(other(pixels)) if other else pixels, **options)
 
-    monkeypatch.setattr(compare_module, "picture", changed)
+    monkeypatch.setattr(compare_module, "_picture", changed)
 
 
 def test_differences_and_failures_are_worse_than_warnings(moving, run, out, monkeypatch, capsys):
@@ -335,3 +335,47 @@ def test_reftrace_goes_on_where_it_ended(moving, out, reftrace):
         assert [int(n) for n in re.findall(r"^frame (\d):", ended.stderr, re.M)] == told
     assert not (out / "comparison.json").exists()
     assert [row["frame"] for row in table(out)["frames"]] == [3, 1, 2]
+
+
+def test_each_frame_is_traced_as_it_is_by_itself(moving, tmp_path, capsys):
+    """Pictures, all passes and masks, under the names that `camera --frames` gives them."""
+    files = (("--out", "png"), ("--out", "exr"), ("--certificate", "npz"))
+    wanted = [w for o, end in files for w in (o, str(tmp_path / f"all/####.{end}"))]
+    masks = str(tmp_path / "masks/####")
+    assert in_blender.run(["trace", "--frames", "2-4:2", *wanted, "--masks", masks]) == 0
+    assert bpy.context.scene.frame_current == 1
+    for frame in (2, 4):
+        moving.frame_set(frame)
+        alone = [w for o, end in files for w in (o, str(tmp_path / f"one/{frame:04d}.{end}"))]
+        own = str(tmp_path / f"own/{frame:04d}")
+        assert in_blender.run(["trace", *alone, "--masks", own]) == 0
+    for found, single in (("all", "one"), ("masks", "own")):
+        names = {p.relative_to(tmp_path / found) for p in (tmp_path / found).rglob("*.*")}
+        assert names == {p.relative_to(tmp_path / single) for p in (tmp_path / single).rglob("*.*")}
+        assert len(names) == 6
+        for name in names:
+            assert (tmp_path / found / name).read_bytes() == (tmp_path / single / name).read_bytes()
+    moving.frame_set(1)
+    assert in_blender.run(["camera", "--frames", "2-4:2", "--out", str(tmp_path / "c.json")]) == 0
+    text = (tmp_path / "c.json").read_text("utf-8")
+    assert re.findall(r"\d{4}\.png", text) == ["0002.png", "0004.png"]
+
+
+def test_frames_are_seen_by_their_own_cameras(moving, tmp_path, seen_by):
+    given = ["--camera", seen_by("r_1.png", "r_2.png", "r_4.png"), "--frames", "2-4:2"]
+    assert in_blender.run(["trace", *given, "--out", str(tmp_path / "all/####.png")]) == 0
+    pictures = [Image.open(tmp_path / f"all/000{frame}.png") for frame in (2, 4)]
+    assert [picture.size[0] for picture in pictures] == [28, 32]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--out", "picture.png"), "needs a number, as in ####.png"),
+        (("--out", "####.png", "--frame", "2"), "--frame is for one frame"),
+        (("--out", "####.png", "--frames", "4-1"), "ends before it begins"),
+    ],
+)
+def test_frames_that_are_none(moving, capsys, options, said):
+    assert in_blender.run(["trace", "--frames", "1-2", *options]) == 4
+    assert said in capsys.readouterr().err

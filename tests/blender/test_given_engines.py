@@ -53,7 +53,7 @@ def test_another_fault_has_another_name(toy, solids):
     OPS.compare()
     [found] = results.content(Kind.COMPARISON, solids).diagnosis.told
     assert found.guess.object == "Green" and found.fault.name != "pixel_offset"
-    assert OPS.select_finding(number=0) == {"FINISHED"}
+    assert OPS.select_object(name="Green") == {"FINISHED"}
     assert bpy.context.selected_objects == [bpy.data.objects["Green"]]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.engine import ENGINE
 from reference_tracer.blender.reading import rendered
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
@@ -88,6 +89,19 @@ def test_a_result_has_no_excuse_of_a_rasteriser_that_did_not_render_it(
     solids.render.engine = "BLENDER_WORKBENCH"
     compare(judge="WORKBENCH")  # which renders a copy of the scene
     assert renderer() == unknown
+
+
+def test_a_file_is_excused_by_what_it_says_of_its_maker_alone(solids, reftrace, tmp_path):
+    """The scene may be set to a rasteriser, and another engine have rendered the picture."""
+    picture, scene = tmp_path / "picture.png", tmp_path / "scene.blend"
+    solids.render.engine = "REFERENCE_TRACER"
+    solids.render.filepath = str(picture)
+    bpy.ops.render.render(write_still=True)
+    solids.render.engine = "BLENDER_WORKBENCH"
+    bpy.ops.wm.save_as_mainfile(filepath=str(scene), copy=True)
+    done = reftrace("compare", scene, "--against", picture, "--out", tmp_path / "out")
+    assert "BLENDER_WORKBENCH" not in done.stdout
+    assert "nothing says that it was rasterised" in done.stdout
 
 
 def test_the_engine_of_a_result_goes_with_its_scene(rendered_png, solids):
@@ -211,3 +225,28 @@ def test_without_a_render_there_is_no_result(solids):
     solids.reference_tracer.judge = "RENDER_RESULT"
     with pytest.raises(RuntimeError, match="no Render Result: render it first"):
         OPS.compare()
+
+
+@pytest.mark.parametrize(("colors", "number"), [("AUTOMATIC", 2), ("OBJECT", 2), ("VIEWPORT", 1)])
+def test_a_render_tells_grey_objects_apart_as_a_comparison_does(colors, number, build, capfd):
+    """F12 of a new scene, whose objects share a colour; and it agrees with what was rendered."""
+    scene = build.scene(96, 54)
+    scene.render.film_transparent = True
+    scene.display.shading.color_type = "MATERIAL"
+    for name, x in (("Left", -1.5), ("Right", 0.5)):
+        corners = [(x, 5, -1), (x + 1, 5, -1), (x + 1, 5, 1), (x, 5, 1)]
+        build.mesh(name, corners, [(0, 1, 2, 3)])
+    build.camera((0, 0, 0), (np.pi / 2, 0, 0))
+    stored = scene.reference_tracer
+    stored.colors = colors
+    stored.judge = "RENDER_RESULT"
+    scene.render.engine = ENGINE
+    bpy.ops.render.render()
+    said = capfd.readouterr()
+    told = "the viewport's colours do not tell 'Left' from 'Right'" in said.out + said.err
+    assert told == (colors == "AUTOMATIC")
+    OPS.compare()
+    found = results.content(Kind.COMPARISON, scene)
+    seen = found.picture[found.picture[..., 3] > 0]
+    assert len(np.unique(seen, axis=0)) == number
+    assert found.verdict == "agree" and found.counts.differ == 0

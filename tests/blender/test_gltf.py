@@ -8,10 +8,10 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Euler, Matrix
-from reference_tracer.mesh_files.gltf import read_gltf
 from reference_tracer.tracer.vector import transform_points
+from reference_tracer_meshes.gltf import read as read_gltf
 
-from ..mesh_files.gltf_build import Build, inverse_binds
+from ..meshes.gltf_build import Build, inverse_binds
 
 # Blender's matrices, poses and shape keys are float32: each rounds by 6e-8 of the scene's size.
 ROUNDINGS = 32 * 2.0**-24

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.drawing.judges import judge_named
-from reference_tracer.blender.drawing.picture import picture, prepare_scene
+from reference_tracer.blender.drawing.picture import drawn_once, prepare_scene
 from reference_tracer.blender.jobs.against import gather_against
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.blender.jobs.stepping import bake_bodies
@@ -191,8 +191,8 @@ def own_picture() -> np.ndarray:
     """The user's own scene, not a copy of it, as Workbench draws it in constant colours."""
     scene = bpy.context.scene
     engine = judge_named("WORKBENCH", True)
-    prepare_scene(scene, True)
-    return picture(scene, scene.view_layers[0].name, engine, export_camera(scene), True)
+    prepare_scene(scene, engine, True)
+    return drawn_once(scene, scene.view_layers[0].name, engine, export_camera(scene), True)
 
 
 @pytest.mark.parametrize("make", daily(MAY_BE_UPSET), ids=name_of)

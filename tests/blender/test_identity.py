@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.temporary import leave_out
 from reference_tracer.pictures.identity import NOTHING
 from reference_tracer.pictures.palette import By
 
@@ -95,19 +96,12 @@ def test_what_is_linked_animated_and_modified_stays(build, compare):
     assert found == []
 
 
-def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
+def test_a_wrong_colour_is_no_wrong_object(build, compare, shown_otherwise):
     """Blender's picture with two colours swapped: the same objects in other colours."""
-    from reference_tracer.blender.jobs import compare as compare_module
-
     build.scene()
     build.solids()
     build.corner_camera(lens=40)
-    real = compare_module.picture
-    monkeypatch.setattr(
-        compare_module,
-        "picture",
-        lambda *a, **k: np.ascontiguousarray(real(*a, **k)[..., [2, 1, 0, 3]]),
-    )
+    shown_otherwise(lambda pixels: np.ascontiguousarray(pixels[..., [2, 1, 0, 3]]))
     found = compare()
     shows = found.counts.unexplained_shows
     assert found.verdict == "differences"
@@ -122,13 +116,13 @@ def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch)
     build.scene(color_type="SINGLE")
     build.solids()
     build.corner_camera(lens=40)
-    real = drawings.picture
+    real = drawings._owners
 
-    def lacking(tmp, *rest):
-        tmp.objects["Green"].hide_render = True
-        return real(tmp, *rest)
+    def lacking(drawing, tmp, names):
+        leave_out(tmp, drawing.layer, [tmp.objects["Green"]])
+        return real(drawing, tmp, names)
 
-    monkeypatch.setattr(drawings, "picture", lacking)
+    monkeypatch.setattr(drawings, "_owners", lacking)
     found = compare(colors=By.VIEWPORT)
     shows = found.counts.unexplained_shows
     assert found.verdict == "differences"

@@ -24,7 +24,7 @@ from reference_tracer.blender.drawing import judges
 drawn = []
 
 @contextmanager
-def set_up(scene, layer):
+def set_up(scene, layer, depsgraph):
     drawn.append(layer)
     yield
 

@@ -59,6 +59,23 @@ def test_a_missing_library(build, saved, export, entries):
         assert not lent.hidden
 
 
+def test_an_empty_picture_for_want_of_a_library(build, saved, export, compare):
+    """Its collection is linked into the scene: no object is left that would say so."""
+    path = library(build, saved)
+    bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
+    (kit,) = linked(path, collections=["Kit"]).collections
+    bpy.context.scene.collection.children.link(kit)
+    build.corner_camera()
+    path.unlink()
+    saved.reopen()
+    for run in export.modes.values():
+        assert found(run()[1]) == {"missing library": ("//library.blend", "collection 'Kit'")}
+    said = "verdict: warnings (missing library of '//library.blend'; the picture is empty)"
+    assert compare().lines()[-1] == said
+    bpy.context.view_layer.layer_collection.children[0].exclude = True
+    assert found(export.render()[1]) == {}
+
+
 def test_a_library_that_is_there(build, saved, export):
     linked_scene(build, saved, keep=True)
     scene, manifest = export.render()
@@ -123,22 +140,18 @@ def test_what_is_not_seen_is_no_warning(build, saved, export):
         assert found(run()[1]) == {}
 
 
-def test_a_warning_that_explains_nothing(build, saved, compare, monkeypatch):
+def test_a_warning_that_explains_nothing(build, saved, compare, shown_otherwise):
     """The verdict is *warnings*; where the library's object was to be, a wrong pixel is wrong."""
-    from reference_tracer.blender.jobs import compare as compare_module
-
     linked_scene(build, saved)
     comparison = compare()
     assert comparison.verdict == "warnings"
     assert comparison.counts.not_judged.pixels == comparison.counts.unexplained == 0
-    real = compare_module.picture
 
-    def with_the_object(*args, **options):
-        picture = real(*args, **options)
-        picture[12:20, 30:38] = (0.9, 0.1, 0.1, 1)
-        return picture
+    def with_the_object(pixels):
+        pixels[12:20, 30:38] = (0.9, 0.1, 0.1, 1)
+        return pixels
 
-    monkeypatch.setattr(compare_module, "picture", with_the_object)
+    shown_otherwise(with_the_object)
     comparison = compare(diagnose=False)
     assert comparison.counts.unexplained == 64
     assert comparison.verdict == "differences"
@@ -183,25 +196,33 @@ def test_a_missing_camera(build, saved, export):
         export.viewport()
 
 
-@pytest.mark.parametrize("linked_in", [True, False])
-def test_a_node_that_this_blender_does_not_know(linked_in, build, saved, export):
+@pytest.mark.parametrize("use", ["evaluated", "not linked", "switched off", "named alone"])
+def test_a_node_that_this_blender_does_not_know(use, build, saved, export):
+    """It counts where a modifier that is on evaluates it: a property may name any tree."""
+
     class Foreign(bpy.types.GeometryNode):
         bl_idname, bl_label = "ForeignNode", "Foreign"
 
         def init(self, context):
             self.outputs.new("NodeSocketVector", "Offset")
 
-    tree, (node,) = build.nodes(build.cube("User"), "GeometryNodeSetPosition")
+    user = build.cube("User")
+    tree, (node,) = build.nodes(user, "GeometryNodeSetPosition")
+    if use == "named alone":
+        user.modifiers.clear()
+        user["logic"] = tree
+    elif use == "switched off":
+        user.modifiers[0].show_render = user.modifiers[0].show_viewport = False
     bpy.utils.register_class(Foreign)
     try:
         foreign = tree.nodes.new("ForeignNode")
-        if linked_in:
+        if use != "not linked":
             tree.links.new(foreign.outputs[0], node.inputs["Offset"])
     finally:
         bpy.utils.unregister_class(Foreign)
     saved.reopen()
     named = {"missing type of node": ("Foreign", "node group 'Nodes' of 'User'")}
-    assert found(export.render()[1]) == (named if linked_in else {})
+    assert found(export.render()[1]) == (named if use == "evaluated" else {})
 
 
 def test_a_script_that_does_not_run_is_a_note(build, saved, export):

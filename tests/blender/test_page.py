@@ -7,7 +7,7 @@ import re
 
 import bpy
 import pytest
-from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui import results, studies
 from reference_tracer.blender.ui.long_work import LongWork
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
@@ -58,8 +58,8 @@ def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
     result_of(results.keep_comparison(comparison))
     name = bpy.context.scene.name
     trade = result_of(tradeoff.measure(comparison.scene, 12, 2, name))
-    results.keep_trade(trade)
-    results.keep_extremes(result_of(extremes.measure(quick(SCENARIOS[:1]), 40)))
+    studies.keep_trade(trade)
+    studies.keep_extremes(result_of(extremes.measure(quick(SCENARIOS[:1]), 40)))
     assert open_page(tmp_path) == {"FINISHED"}
     found = held(tmp_path)
     assert found["trade"]["advice"] == trade.advice and "<svg" in found["trade"]["plot"]

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer import images
-from reference_tracer.blender.jobs import compare as compare_module
+from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.jobs.against import gather_against
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.cli import in_blender
@@ -57,18 +57,12 @@ def commonest(picture):
     return ordered[0], ordered[min(1, len(ordered) - 1)]
 
 
-def exchanged(monkeypatch):
-    """Have Blender's picture show the two commonest colours in one another's place."""
-    real = compare_module.picture
-
-    def changed(*args, **options):
-        picture = real(*args, **options).copy()
-        first, second = commonest(picture)
-        here, there = ((picture == c).all(axis=-1) for c in (first, second))
-        picture[here], picture[there] = second, first
-        return picture
-
-    monkeypatch.setattr(compare_module, "picture", changed)
+def exchanged(picture):
+    """Show the two commonest colours in one another's place."""
+    first, second = commonest(picture)
+    here, there = ((picture == c).all(axis=-1) for c in (first, second))
+    picture[here], picture[there] = second, first
+    return picture
 
 
 @pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
@@ -86,23 +80,20 @@ def test_an_ordinary_scene_has_a_color_for_each_object(ordinary, compare, judge)
 
 
 @pytest.mark.parametrize("identity", [True, False])
-def test_objects_that_are_exchanged_are_found(ordinary, compare, monkeypatch, identity):
+def test_objects_that_are_exchanged_are_found(ordinary, compare, shown_otherwise, identity):
     """In one grey they were not."""
-    exchanged(monkeypatch)
+    shown_otherwise(exchanged)
     assert compare(colors=By.VIEWPORT, identity=identity).verdict == "agree"
     found = compare(identity=identity)
     assert found.verdict == "differences" and found.counts.unexplained > 100
 
 
-def test_an_object_in_another_ones_color_is_found(ordinary, compare, monkeypatch):
-    real = compare_module.picture
-
-    def recolored(*args, **options):
-        picture = real(*args, **options)
+def test_an_object_in_another_ones_color_is_found(ordinary, compare, shown_otherwise):
+    def recolored(picture):
         first, second = commonest(picture)
         return np.where((picture == first).all(axis=-1, keepdims=True), second, picture)
 
-    monkeypatch.setattr(compare_module, "picture", recolored)
+    shown_otherwise(recolored)
     assert compare(colors=By.VIEWPORT).verdict == "agree"
     found = compare()
     assert found.verdict == "differences" and found.counts.unexplained > 100
@@ -142,7 +133,7 @@ def test_the_scene_keeps_its_own_after_an_error(ordinary, compare, monkeypatch, 
 
     bpy.context.view_layer.update()
     before = state()
-    monkeypatch.setattr(compare_module, "picture", failing)
+    monkeypatch.setattr(drawings, "picture", failing)
     with pytest.raises(RuntimeError, match="no picture"):
         compare(colors=colors)
     found = [d for d in differences(before, state()) if "/names/images" not in d[0]]
@@ -266,8 +257,11 @@ def test_what_the_file_lacks_or_has_too_much_is_named(ordinary, compare, tmp_pat
 def test_the_command_line_writes_and_takes_them(ordinary, tmp_path, capsys):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     palette, out = tmp_path / "colors.json", str(tmp_path / "out")
+    assert in_blender.run(["compare", "--colors-out", str(palette)]) == 0
+    alone, told = palette.read_bytes(), capsys.readouterr().out
+    assert "clear colour of its own" in told and "verdict" not in told
     assert in_blender.run(["compare", "--colors-out", str(palette), "--out", out]) == 0
-    assert "clear colour of its own" in capsys.readouterr().out
+    assert palette.read_bytes() == alone
     case = gather_case(bpy.context, colors=By.OBJECT)
     images.save_png(tmp_path / "other.png", images.to_display(case.picture.color))
     against = "compare", "--against", str(tmp_path / "other.png"), "--out", out

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.ui import differing, results
+from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.differing import texts_of
 from reference_tracer.blender.ui.operators import REFERENCE_TRACER_OT_compare
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.causes.cause import AGREE, UNEXPLAINED
@@ -24,9 +26,21 @@ def named():
 
 def test_an_image_of_ours_is_written_again():
     first = results.show(results.TRACED, PICTURE)
-    again = results.show(results.TRACED, 0.5 * np.ones((8, 3, 4), np.float32))
-    assert again == first and tuple(again.size) == (3, 8) and named() == [results.TRACED]
-    assert again.pixels[0] == 0.5
+    users = bpy.data.textures.new("Shows it", "IMAGE")
+    users.image = first
+    for _ in range(3):
+        again = results.show(results.TRACED, 0.5 * np.ones((8, 3, 4), np.float32))
+        assert tuple(again.size) == (3, 8) and again.pixels[0] == 0.5 and not again.is_dirty
+        assert named() == [results.TRACED] and users.image == again
+
+
+def test_an_image_has_what_it_was_given_to_the_bit():
+    color = np.random.default_rng(0).normal(size=(5, 7, 4)).astype(np.float32)
+    color[0, :3, 0] = np.nan, np.inf, -0.0
+    shown = results.show(results.TRACED, color)
+    found = np.empty_like(color)
+    shown.pixels.foreach_get(found.ravel())
+    assert np.array_equal(found.view(np.uint32), color.view(np.uint32))
 
 
 def test_an_image_of_the_users_is_left_alone(tmp_path):
@@ -39,12 +53,39 @@ def test_an_image_of_the_users_is_left_alone(tmp_path):
 
 def test_an_image_that_the_user_saved_is_the_users(tmp_path):
     saved = results.show(results.TRACED, PICTURE)
-    saved.filepath_raw, saved.file_format = str(tmp_path / "kept.exr"), "OPEN_EXR"
+    assert saved.pixels[0] == 1
+    saved.filepath_raw = str(tmp_path / "kept.exr")
     saved.save()
-    saved.source = "FILE"
     for _ in range(3):
-        assert results.show(results.TRACED, 0 * PICTURE) != saved
-    assert len(named()) == 2 and saved.pixels[0] > 0.99
+        again = results.show(results.TRACED, 0 * PICTURE)
+    assert named() == [results.TRACED, "kept.exr"] and again.pixels[0] == 0
+    saved.reload()
+    results.remove(results.TRACED)
+    assert saved.pixels[0] == 1 and not saved.is_runtime_data and not saved.get(results.MARK)
+
+
+def test_an_image_whose_path_blender_has_made_relative_is_still_ours(tmp_path):
+    results.show(results.TRACED, PICTURE)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.file.make_paths_relative()
+    assert results.ours(results.TRACED).filepath.startswith("//")
+    results.show(results.TRACED, PICTURE)
+    assert named() == [results.TRACED]
+
+
+def test_twenty_rounds_take_the_memory_of_one():
+    used = []
+    for _ in range(20):
+        shown = results.show(results.TRACED, np.ones((1024, 1024, 4), np.float32))
+        assert shown.pixels[0] == 1  # it is loaded, 16 MB
+        used.append(int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[1]) * 4096)
+    assert used[-1] - used[1] < 64e6 and named() == [results.TRACED]
+
+
+def test_an_image_that_the_user_packed_is_written_again():
+    results.show(results.TRACED, PICTURE).pack()
+    again = results.show(results.TRACED, 0 * PICTURE)
+    assert named() == [results.TRACED] and again.pixels[0] == 0
 
 
 def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compare):
@@ -62,50 +103,106 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
     found = result_of(results.keep_comparison(told)).regions
     assert [(r.left, r.bottom, r.pixels) for r in found] == [(40, 20, 3)]
     assert bpy.ops.reference_tracer.frame_region(number=0) == {"FINISHED"}
+    assert not bpy.context.selected_objects  # it moves the picture alone
+    assert bpy.ops.reference_tracer.select_object(name=found[0].objects[0]) == {"FINISHED"}
     assert [o.name for o in bpy.context.selected_objects] == [found[0].objects[0]]
     with pytest.raises(RuntimeError, match="has 1 regions"):
         bpy.ops.reference_tracer.frame_region(number=1)
     assert not bpy.ops.reference_tracer.show_image.poll()  # there is no editor
-    assert listed() == [f"3 px: {found[0].objects[0]}"]
+    assert texts_of(found[0])[0] == f"3 px unexplained (40, 20): {found[0].objects[0]}"
     cause[20, 40:43] = AGREE
-    cause[-2:, :2] = UNEXPLAINED  # where both sides see nothing
-    result_of(results.keep_comparison(told))
-    assert listed() == ["4 px: Background"]
+    cause[-2:, :2] = EDGE  # where both sides see nothing
+    found = result_of(results.keep_comparison(told)).regions
+    height = len(cause)
+    assert [texts_of(r)[0] for r in found][1:2] == [f"4 px at edges (0, {height - 2}): Background"]
 
 
-def listed():
-    """Return the words of the buttons that frame regions."""
-    words = []
-
-    def operator(name, text, translate):
-        words.append(text)
-        return SimpleNamespace()
-
-    column = SimpleNamespace(operator=operator)
-    differing.draw_regions(SimpleNamespace(column=lambda align: column), bpy.context)
-    return words
-
-
-def test_another_file_has_no_result(build, compare):
+def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, compare, tmp_path):
     build.scene()
     build.solids()
     build.corner_camera()
     result_of(results.keep_comparison(compare()))
+    for name in ("first", "second"):
+        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / f"{name}.blend"))
+        assert results.latest(Kind.COMPARISON, bpy.context.scene).regions is not None
+    with pytest.raises(RuntimeError, match="Cannot read"):
+        bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "missing.blend"))
     assert results.latest(Kind.COMPARISON, bpy.context.scene)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     assert results.latest(Kind.COMPARISON, bpy.context.scene) is None
 
 
-def test_a_file_that_was_saved_while_an_image_was_shown_has_none_when_it_is_opened(tmp_path):
-    """Blender stores that there was an image, and not what was in it; what was saved stays."""
-    shown = results.show(results.DIFFERENCE, PICTURE)
-    own = results.show(results.TRACED, PICTURE)
-    own.pack()  # as by "Save 1 modified image"
-    shown.use_fake_user = own.use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
-    assert named() == [results.TRACED]
-    assert bpy.data.images[results.TRACED].pixels[0] == 1.0
+def test_a_file_that_is_saved_has_none_of_it(tmp_path):
+    """Nor grows, whatever uses them; a picture that an older add-on's user packed stays his."""
+    path = tmp_path / "saved.blend"
+    packed = bpy.data.images.new("Reference Tracer Difference", 2, 2)
+    packed["reference_tracer"] = packed.name
+    packed.pack()
+    packed.use_fake_user = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    before = path.stat().st_size
+    for name in (results.DIFFERENCE, results.TRACED):
+        results.show(name, np.ones((400, 400, 4), np.float32)).use_fake_user = True
+    results.ours(results.TRACED).pack()
+    results.show_text(bpy.context, "Reference Tracer Pixel", 1000 * "line\n").use_fake_user = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    assert path.stat().st_size <= before + 100  # 100: what is packed is not of the same bytes
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    assert named() == ["Reference Tracer Difference"] and not bpy.data.texts
+    assert results.ours(results.DIFFERENCE) is None
+
+
+def test_undo_is_the_users():
+    """It leaves the latest of what is shown, and takes no step of its own."""
+    moved = bpy.data.objects.new("Moved", None)
+    bpy.context.scene.collection.objects.link(moved)
+    bpy.ops.ed.undo_push(message="Add")
+    for x in (1.0, 2.0):
+        results.show(results.TRACED, x * PICTURE)
+        results.show_text(bpy.context, "Reference Tracer Pixel", f"at {x}")
+        bpy.data.objects["Moved"].location.x = x
+        bpy.ops.ed.undo_push(message="Move")
+    for step, x in (("undo", 1.0), ("undo", 0.0), ("redo", 1.0), ("redo", 2.0)):
+        getattr(bpy.ops.ed, step)()
+        assert bpy.data.objects["Moved"].location.x == x
+        assert named() == [results.TRACED] and results.ours(results.TRACED).pixels[0] == 2
+        [text] = bpy.data.texts
+        assert text == results.ours(text.name) and text.as_string().strip() == "at 2.0"
+
+
+def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, compare):
+    build.scene()
+    build.solids()
+    build.corner_camera()
+    first, second = compare(), compare()
+    work = results.keep_comparison(second)
+    next(work)
+    work.close()
+    assert not named()
+    for found, then in (
+        (first, first),  # complete
+        (replace(first, diagnosis=None), first),  # of the same pictures
+        (second, None),
+    ):
+        work = results.keep_comparison(found)
+        if found is first:
+            result_of(work)
+        next(work, None)
+        work.close()
+        assert results.content(Kind.COMPARISON, bpy.context.scene) is then
+        assert bool(named()) == (then is not None)
+
+
+def test_a_comparison_that_fails_leaves_no_other_one_on_the_screen(build):
+    build.scene()
+    build.solids()
+    camera = build.corner_camera()
+    bpy.ops.reference_tracer.compare()
+    assert results.ours(results.TRACED)
+    camera.data.type = "PANO"
+    with pytest.raises(RuntimeError, match="fisheye"):
+        bpy.ops.reference_tracer.compare()
+    assert results.latest(Kind.COMPARISON, bpy.context.scene) is None and not named()
 
 
 def test_a_comparison_is_told_in_another_scene_too(build, compare, capsys):

@@ -10,7 +10,7 @@ import bpy
 import pytest
 from reference_tracer.blender.ui import language
 from reference_tracer.causes.explain import CAUSES
-from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.comparison.verdict import BUT, Verdict
 from reference_tracer.derivation.document import CERTAINTY_SENTENCES
 from reference_tracer.translations import tables
 
@@ -57,6 +57,15 @@ def sources():
     return drawn, held
 
 
+def stages():
+    """Yield the words for what long work does at a time."""
+    for file in BLENDER.parent.rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "called":
+                if isinstance(node.args[1], ast.Constant):
+                    yield node.args[1].value
+
+
 def fields(text):
     return sorted((name, form) for _, name, form, _ in Formatter().parse(text) if name is not None)
 
@@ -65,7 +74,7 @@ def fields(text):
 def test_a_language_has_each_text_and_no_other(table):
     drawn, held = sources()
     computed = {*CERTAINTY_SENTENCES.values(), *(v.capitalize() for v in Verdict)}
-    computed |= {cause.label.capitalize() for cause in CAUSES}
+    computed |= {cause.place or cause.label for cause in CAUSES[1:]} | {BUT, *stages()}
     shown = {*declared(), *drawn, *computed} - {""}
     shown -= {"Presets"}  # Blender's own name for a menu of presets of which one was removed
     assert {"Trace and Compare", "Watertight", "Needles", "{} differ, {} open"} < shown

@@ -7,7 +7,7 @@ import os
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.values import in_colors
+from reference_tracer.blender.values import untold
 from reference_tracer.pictures.palette import By
 
 from .test_unchanged import differences, state
@@ -60,10 +60,10 @@ def test_each_object_gets_its_own_colour_and_its_own_back(build, kit):
         obj.color = (number / 16, 0.5, 0.25, 1.0)
     before = {o: o.color[:] for o in bpy.data.objects}
     some = [o for o in bpy.context.scene.objects if o.type != "CAMERA"]
-    new = np.linspace(0, 1, 3 * len(some), dtype=np.float32).reshape(-1, 3)
-    with in_colors(some, new):
+    new = np.linspace(0, 1, 4 * len(some), dtype=np.float32).reshape(-1, 4)
+    with untold(bpy.data.objects, "color", dict(zip(some, new, strict=True))):
         for obj, color in zip(some, new, strict=True):
-            assert np.allclose(obj.color[:3], color)
+            assert np.allclose(obj.color, color)
         for obj in set(before) - set(some):
             assert obj.color[:] == before[obj]
     assert before == {o: o.color[:] for o in bpy.data.objects}
@@ -74,17 +74,17 @@ def test_a_wrong_instance_of_the_same_colour_is_still_found(build, compare, kit,
     from reference_tracer.blender.drawing import drawings
 
     overridden(build, kit, False)
-    real = drawings.picture
+    real = drawings._owners
 
-    def lacking(scene, *args):
+    def lacking(*args):
         empty = bpy.data.objects["Kit"]
         kept, empty.instance_type = empty.instance_type, "NONE"
         try:
-            return real(scene, *args)
+            return (yield from real(*args))
         finally:
             empty.instance_type = kept
 
-    monkeypatch.setattr(drawings, "picture", lacking)
+    monkeypatch.setattr(drawings, "_owners", lacking)
     assert compare(colors=By.VIEWPORT).counts.unexplained > 100
 
 

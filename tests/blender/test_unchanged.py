@@ -194,11 +194,11 @@ def test_a_second_comparison_adds_nothing(user_scene):
 @pytest.mark.parametrize(
     ("module", "where"),
     [
-        (compare_module, "picture"),
-        (compare_module, "export_for_judge"),
-        (compare_module, "with_identity"),
+        (compare_module, "export_certified"),
         (drawings, "prepare_scene"),
         (drawings, "stand_ins"),
+        (drawings, "picture"),
+        (drawings, "_owners"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
@@ -217,13 +217,13 @@ def test_nothing_is_changed_by_an_error(kind, module, where, user_scene, monkeyp
 
 def test_nothing_is_changed_by_an_error_after_the_picture_was_drawn(user_scene, monkeypatch):
     """While the planes' stand-ins are there."""
-    real = compare_module.picture
+    real = drawings.picture
 
     def fail(*args, **options):
-        real(*args, **options)
+        yield from real(*args, **options)
         raise RuntimeError("on purpose")
 
-    monkeypatch.setattr(compare_module, "picture", fail)
+    monkeypatch.setattr(drawings, "picture", fail)
     before = state()
     with pytest.raises(RuntimeError, match="on purpose"):
         bpy.ops.reference_tracer.compare()

@@ -123,21 +123,17 @@ def test_explains_the_pixels_that_it_changes(make, build, compare):
     assert any(OF_OBJECTS[make] in line for line in comparison.manifest.lines())
 
 
-def test_explains_nothing_elsewhere(build, compare, monkeypatch):
+def test_explains_nothing_elsewhere(build, compare, shown_otherwise):
     """A pixel outside of the bounds stays unexplained."""
-    from reference_tracer.blender.jobs import compare as compare_module
-
     build.scene()
     transparent_material(build)
     build.camera((0, 0, 8))
-    real = compare_module.picture
 
-    def with_a_fault(*args, **options):
-        picture = real(*args, **options)
-        picture[0, 0] = (1, 0, 0, 1)
-        return picture
+    def with_a_fault(pixels):
+        pixels[0, 0] = (1, 0, 0, 1)
+        return pixels
 
-    monkeypatch.setattr(compare_module, "picture", with_a_fault)
+    shown_otherwise(with_a_fault)
     comparison = compare()
     assert comparison.counts.unexplained == 1
     assert comparison.verdict == "differences"

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
+
 import numpy as np
 from reference_tracer.arrays import Floats
+from reference_tracer.camera_files.convention import View
+from reference_tracer.camera_files.files import WRITTEN, texts
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, ViewWindow
 
@@ -60,3 +65,29 @@ KINDS = {
     "mirrored axes": {"mirrored": True},
     "axes that are not at right angles": {"sheared": True},
 }
+
+
+def written(name: str, views: Sequence[View]) -> dict[str, str]:
+    """Files of a convention, also of one that is only read."""
+    return texts(views, WRITTEN[name]) if name in WRITTEN else {"": kubric(views, 1, 1)}
+
+
+def kubric(views: Sequence[View], across: float, up: float) -> str:
+    """Kubric's file of views that share a lens; K is in so many units across the picture."""
+    camera = views[0].camera
+    width, height = camera.window.size
+    x, y = camera.window.left / width, camera.window.top / height
+    k = [(across / width, 0, across * x), (0, -up / height, -up * y), (0, 0, -1)]
+    own = {
+        "K": k,
+        "positions": [view.camera.world_from_camera[:3, 3].tolist() for view in views],
+        "quaternions": [_quaternion(view.camera.world_from_camera[:3, :3]) for view in views],
+    }
+    size = camera.width, camera.height
+    return json.dumps({"camera": own, "metadata": {"resolution": size, "num_frames": len(views)}})
+
+
+def _quaternion(r: Floats) -> list[float]:
+    """w, x, y, z of a rotation by less than half a turn, from its skew part."""
+    w = np.sqrt(1 + np.trace(r)) / 2
+    return [w, *((r - r.T)[(2, 0, 1), (1, 2, 0)] / (4 * w))]

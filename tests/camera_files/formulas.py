@@ -144,6 +144,24 @@ def bop(files: Files, points: np.ndarray) -> np.ndarray:
     return np.stack((x / z, y / z))
 
 
+def splatting(files: Files, points: np.ndarray) -> np.ndarray:
+    """3D Gaussian splatting: `position` and `rotation` are world from OpenCV's camera space."""
+    (camera,) = json.loads(files[""])
+    x, y, z = np.linalg.solve(camera["rotation"], points - np.array(camera["position"])[:, None])
+    middle = camera["width"] / 2, camera["height"] / 2
+    return np.stack((camera["fx"] * x / z + middle[0], camera["fy"] * y / z + middle[1]))
+
+
+def mvsnet(files: Files, points: np.ndarray) -> np.ndarray:
+    """MVSNet: K [R | t], row by row."""
+    ((name, text),) = files.items()
+    head, rows = text.removeprefix("extrinsic").split("intrinsic")
+    t, k = np.array(head.split(), float), np.array(rows.split()[:9], float)
+    assert name.endswith("_cam.txt") and text.startswith("extrinsic")
+    x, y, z = k.reshape(3, 3) @ (t.reshape(4, 4) @ homogeneous(points))[:3]
+    return np.stack((x / z, y / z))
+
+
 FORMULAS = {
     "opencv": opencv,
     "opengl": opengl,
@@ -154,4 +172,6 @@ FORMULAS = {
     "pytorch3d": pytorch3d,
     "open3d": open3d,
     "bop": bop,
+    "splatting": splatting,
+    "mvsnet": mvsnet,
 }

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.camera_files.convention import INTEGER, View
-from reference_tracer.camera_files.files import CONVENTIONS, chosen, read, texts
+from reference_tracer.camera_files.files import WRITTEN, chosen, read, texts
 from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.scene import Camera, SceneError, ViewWindow
 from reference_tracer.tracer.camera import camera_rays, film_of
@@ -39,10 +39,10 @@ def apart(found, expected):
     return np.abs(found - expected).max()
 
 
-@pytest.mark.parametrize("name", CONVENTIONS)
+@pytest.mark.parametrize("name", WRITTEN)
 def test_its_formula_agrees_with_the_tracers_rays(name, tmp_path):
     """Over all pairs of what a camera may have; what it cannot say is refused by name."""
-    rng, convention = np.random.default_rng(3), CONVENTIONS[name]
+    rng, convention = np.random.default_rng(3), WRITTEN[name]
     said = refused = 0
     for first, second in combinations(KINDS, 2):
         own = camera(rng, **(KINDS[first] | KINDS[second]))
@@ -70,19 +70,19 @@ def test_its_formula_agrees_with_the_tracers_rays(name, tmp_path):
     assert (said and refused) or name == "opengl"
 
 
-@pytest.mark.parametrize("name", CONVENTIONS)
+@pytest.mark.parametrize("name", WRITTEN)
 def test_a_panorama_is_refused(name):
     own = Camera(np.eye(4), ViewWindow(-1, 1, -0.5, 0.5), 8, 4, EQUIRECTANGULAR)
     with pytest.raises(SceneError, match="a panoramic projection"):
-        texts([View(own, "0001.png", 1)], CONVENTIONS[name])
+        texts([View(own, "0001.png", 1)], WRITTEN[name])
 
 
-@pytest.mark.parametrize("name", [n for n, c in CONVENTIONS.items() if c.either_center])
+@pytest.mark.parametrize("name", [n for n, c in WRITTEN.items() if c.either_center])
 def test_centers_at_integers_are_half_a_pixel_less_and_said(name, tmp_path):
     rng = np.random.default_rng(4)
     own = camera(rng)
     views = [View(own, "0001.png", 1)]
-    half, whole = (texts(views, CONVENTIONS[name], centers) for centers in ("half", INTEGER))
+    half, whole = (texts(views, WRITTEN[name], centers) for centers in ("half", INTEGER))
     assert half != whole
     film, points = rays_of(own, rng)
     (again,) = read(on_disk(whole, tmp_path / "integer"), size=(own.width, own.height))
@@ -90,19 +90,19 @@ def test_centers_at_integers_are_half_a_pixel_less_and_said(name, tmp_path):
     assert apart(np.stack((x, own.height - y)), film) < SHARP
 
 
-@pytest.mark.parametrize("name", [n for n, c in CONVENTIONS.items() if not c.either_center])
+@pytest.mark.parametrize("name", [n for n, c in WRITTEN.items() if not c.either_center])
 def test_centers_at_integers_are_refused_where_a_file_cannot_say_so(name):
     own = camera(np.random.default_rng(4))
     with pytest.raises(SceneError, match="--centers integer"):
-        texts([View(own, "0001.png", 1)], CONVENTIONS[name], INTEGER)
+        texts([View(own, "0001.png", 1)], WRITTEN[name], INTEGER)
 
 
-@pytest.mark.parametrize("name", CONVENTIONS)
+@pytest.mark.parametrize("name", WRITTEN)
 def test_several_frames_are_found_by_name_and_by_number(name, tmp_path):
     rng = np.random.default_rng(5)
     cameras = [camera(rng) for _ in range(3)]
     views = [View(own, f"{n:04d}.png", n) for n, own in zip((3, 8, 13), cameras, strict=True)]
-    path = on_disk(texts(views, CONVENTIONS[name]), tmp_path / "many")
+    path = on_disk(texts(views, WRITTEN[name]), tmp_path / "many")
     found = read(path, size=(640, 360))
     assert len(found) == 3
     for which in ("8", found[1].name, Path(found[1].name).stem):
@@ -117,11 +117,11 @@ def test_several_frames_are_found_by_name_and_by_number(name, tmp_path):
 
 
 @pytest.mark.parametrize("far", [1e3, 1e6])
-@pytest.mark.parametrize("name", CONVENTIONS)
+@pytest.mark.parametrize("name", WRITTEN)
 def test_far_from_the_origin_only_digits_are_lost(name, far, tmp_path):
     """A point that is `far` away has as few digits left in any convention that adds t."""
     rng = np.random.default_rng(6)
     own = camera(rng, far=far)
-    files = texts([View(own, "0001.png", 1)], CONVENTIONS[name])
+    files = texts([View(own, "0001.png", 1)], WRITTEN[name])
     film, points = rays_of(own, rng)
     assert apart(FORMULAS[name](files, points), film) < 1e-12 * far * own.width / 0.1

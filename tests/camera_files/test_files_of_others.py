@@ -6,12 +6,19 @@ What is expected is written out from each program's documents.
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import View
 from reference_tracer.camera_files.files import chosen, read
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import SceneError
+from reference_tracer.tracer.camera import film_of
+
+from .cameras import camera as any_camera
+from .cameras import kubric
 
 SENSOR = """<scene version="3.0.0">
   <default name="wide" value="640"/>
@@ -245,3 +252,69 @@ def test_instant_ngps_degrees_come_first(tmp_path):
     content["rolling_shutter"] = [0, 0, 0.1]
     path.write_text(json.dumps(content))
     assert "rolling_shutter is not applied" in read(path)[0].notes[0]
+
+
+def same(first, second):
+    """Whether two cameras see points in the same places."""
+    points = first.origin[:, None] + first.world_from_camera[:3, :3] @ np.array(
+        [[-0.2, 0.3, 0.1], [0.1, -0.1, 0.2], [-1.0, -2.0, -30.0]]
+    )
+    return np.allclose(film_of(first, points)[:2], film_of(second, points)[:2], atol=1e-8)
+
+
+@pytest.mark.parametrize("in_pixels", [False, True])
+def test_kubrics_k_is_of_a_camera_that_looks_along_minus_z(in_pixels, tmp_path):
+    """In shares of the picture, as today, or in pixels, as at first."""
+    rng = np.random.default_rng(8)
+    first = any_camera(rng, shift=(0.05, -0.1))
+    second = any_camera(rng)
+    views = [View(first, "", 1), View(replace(second, window=first.window), "", 2)]
+    path = tmp_path / "metadata.json"
+    path.write_text(kubric(views, *((640, 360) if in_pixels else (1, 1))), encoding="utf-8")
+    found = read(path)
+    assert [view.name for view in found] == ["rgba_00000.png", "rgba_00001.png"]
+    for view, own in zip(found, views, strict=True):
+        assert same(view.camera, own.camera)
+
+
+@pytest.mark.parametrize("factor", [1.0, 2.5, -1.0, -3.0])
+def test_k_is_of_any_scale_and_negative_where_depths_are(factor, tmp_path):
+    """x = K (R X + t) is homogeneous: with -1 in K, R has its rows y and z turned."""
+    own = any_camera(np.random.default_rng(9), shift=(0.1, 0.2))
+    flip = np.diag((1.0, -1, -1)) if factor < 0 else np.eye(3)
+    pose = frame.camera_from_world(own)
+    k = abs(factor) * frame.k_of(own) @ flip
+    content = {
+        "width": own.width,
+        "height": own.height,
+        "K": k.tolist(),
+        "R": (flip @ pose[:3, :3]).tolist(),
+        "t": (flip @ pose[:3, 3]).tolist(),
+    }
+    path = tmp_path / "camera.json"
+    path.write_text(json.dumps(content), encoding="utf-8")
+    (view,) = read(path)
+    assert same(own, view.camera) and np.allclose(view.camera.forward, own.forward)
+
+
+@pytest.mark.parametrize("key", ["camera_angle_x", "camera_angle_y"])
+def test_an_angle_in_degrees_is_refused(key, tmp_path):
+    content = {"w": 640, "h": 360, key: 50.0, "frames": [{"transform_matrix": np.eye(4).tolist()}]}
+    path = tmp_path / "transforms.json"
+    path.write_text(json.dumps(content), encoding="utf-8")
+    with pytest.raises(SceneError, match=f"{key} is 50.*radians.*degrees"):
+        read(path)
+
+
+def test_an_angle_of_gltf_in_degrees_is_refused(tmp_path):
+    lens = {"yfov": 50.0, "znear": 0.1}
+    content = {
+        "asset": {"version": "2.0"},
+        "cameras": [{"type": "perspective", "perspective": lens}],
+        "nodes": [{"camera": 0}],
+        "scenes": [{"nodes": [0]}],
+    }
+    path = tmp_path / "camera.gltf"
+    path.write_text(json.dumps(content), encoding="utf-8")
+    with pytest.raises(SceneError, match=r"yfov is 50: .*radians.*degrees"):
+        read(path)

@@ -11,18 +11,18 @@ from reference_tracer.camera_files.files import CONVENTIONS, read, texts
 from reference_tracer.scene import SceneError
 
 from ..fuzz.mutations import mutated
-from .cameras import camera
+from .cameras import camera, written
 from .test_conventions import on_disk
 
 CASES = 40
-AS_TEXT = {"colmap", "mitsuba"}
+AS_TEXT = {"colmap", "mitsuba", "mvsnet"}
 
 
 def changed_at_random(name, folder, count):
     """Read a file with one change, as often as asked; returns how many could be read."""
     rng = np.random.default_rng(21)
     views = [View(camera(rng), f"{n:04d}.png", n) for n in (1, 2)]
-    files = texts(views, CONVENTIONS[name])
+    files = written(name, views)
     done = 0
     for _ in range(count):
         which = sorted(files)[rng.integers(len(files))]

@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.causes.checks.edges import EDGE
+from reference_tracer.causes.excused import Excused, Unjudged
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
@@ -166,3 +168,14 @@ def test_a_few_pixels_are_no_warning(make):
     assert 0 < found.excused.share <= 0.02
     assert found.verdict == "agree" and not found.excused.advice
     assert not np.isnan(found.excused.share)
+
+
+def test_an_advice_that_helps_several_is_said_once():
+    both, own = "move the scene to the origin", "raise the clip start"
+    objects = tuple(
+        Unjudged(name, 60, 100, {EDGE: 60}, advice)
+        for name, advice in (("A", (both,)), ("B", (both, own)), ("C", (own,)))
+    )
+    lines = list(Excused(180, 200, {EDGE: 180}, (both,), objects).lines())
+    assert [sum(advice in line for line in lines) for advice in (both, own)] == [1, 1]
+    assert len(lines) == 6 and own in lines[4]  # below the first that it helps

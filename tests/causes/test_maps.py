@@ -8,16 +8,18 @@ from reference_tracer.causes.explain import AGREE, EDGE
 from reference_tracer.causes.maps import (
     DIM,
     HUE,
+    LEAST,
     MOST_RINGS,
     RING,
     WRONG,
     cause_map,
     certainty_map,
+    difference_map,
     dimmed,
     ringed,
 )
 from reference_tracer.certainty import Certainty
-from reference_tracer.images import to_display
+from reference_tracer.images import curve, curve_undone, to_display
 
 RED = (*WRONG, 1)
 
@@ -119,3 +121,16 @@ def test_many_pixels_need_no_rings():
     assert ringed(color, where) is color
     where.flat[: MOST_RINGS + 1] = True
     assert ringed(color, where) is color
+
+
+def test_a_difference_of_one_level_is_seen_and_rounding_is_not():
+    """Between any two neighbouring levels of sRGB, dark or bright."""
+    levels = np.arange(255)[None, :, None] / 255 * np.ones(4)
+    first = curve_undone(levels).astype(np.float32)
+    for step, least, most in ((1, LEAST, LEAST + 0.01), (0.4, 0, 0), (255, 1, 1)):
+        second = curve_undone(np.minimum(levels + step / 255, 1)).astype(np.float32)
+        if step == 255:
+            first, second = first[:, :1], second[:, :1]
+        shown = curve(difference_map(first, second)[..., :3])
+        assert (shown >= least - 1e-3).all() and (shown <= most + 1e-3).all()
+    assert (difference_map(np.full((1, 1, 4), np.nan), np.ones((1, 1, 4))) == 1).all()

@@ -90,7 +90,9 @@ def test_small_triangles(projection, part, monkeypatch):
 
 @pytest.mark.parametrize("projection", [PERSPECTIVE, EQUIRECTANGULAR])
 def test_boxes_without_room_are_found(projection, monkeypatch):
+    """In which scene the rounding of a processor needs the room is looked for."""
     monkeypatch.setattr(candidates, "SAFETY", 0)
     monkeypatch.setattr(equirectangular, "_ANGLE", -1e-3)  # else 1e-9
     with pytest.raises(AssertionError, match=r"\(\d+, \d\)"):
-        test_boxes_of_triangles(projection, 0)
+        for part in range(40):
+            test_boxes_of_triangles(projection, part)

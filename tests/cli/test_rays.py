@@ -109,7 +109,7 @@ def test_a_row_alone_and_none(scene, run):
         ({"origins": np.array([["a", "b", "c"]])}, "origins holds (1, 3) of <U1"),
         ({"origins": np.full((5, 3), [[1], [2], [np.nan], [0], [0]])}, "row 2 of origins"),
         ({"origins": np.full((5, 3), 2**53 + 1)}, "numbers that float64 does not"),
-        ({"origins": np.array([object()])}, "cannot be read as an .npz of rays"),
+        ({"origins": np.array([object()])}, "origins holds objects of Python"),
     ],
 )
 def test_rays_that_are_wrong_are_refused_by_name(change, said, scene, run):

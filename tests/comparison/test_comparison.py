@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.causes.cause import Causes
-from reference_tracer.causes.counts import count_pixels
+from reference_tracer.causes.counts import Counts, count_pixels
 from reference_tracer.causes.explain import (
     AGREE,
     CAUSES,
@@ -211,6 +211,17 @@ def test_lines_say_the_verdict_and_every_cause(scene):
     assert f"not modelled: {found.counts.by_cause['not_modelled']}" in text
     assert "verdict: differences" in text and "workbench" in text
     assert "PSNR infinite" in "\n".join(compared(scene, render(scene).color).lines())
+
+
+def test_a_verdict_says_what_it_leaves_out(scene):
+    cause = np.zeros((4, 5), np.uint8)
+    assert Verdict.AGREE.in_words(Counts.of(cause)) == "Agree"
+    cause[0, :3] = EDGE
+    assert Verdict.AGREE.in_words(Counts.of(cause)) == "Agree, but for 3 px at edges"
+    cause[1] = UNEXPLAINED  # which no agreement leaves out
+    said = "Differences: 5 px unexplained, 3 px at edges"
+    assert Verdict.DIFFERENCES.in_words(Counts.of(cause)) == said
+    assert mixed(scene).lines()[-1].startswith("verdict: differences: ")
 
 
 @pytest.mark.parametrize("shape", [(16, 21, 4), (20, 16, 4), (16, 20, 3)])

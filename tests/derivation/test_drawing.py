@@ -173,6 +173,20 @@ def test_labels_keep_off_one_another_and_off_lines():
         assert sum(len(p.words.split(", ")) for p in out) == 6  # joined ones have all names
 
 
+def test_rounding_moves_no_label():
+    """Processors round last bits differently: of places as good the first is taken."""
+    rng = np.random.default_rng(7)
+    for _ in range(40):
+        points = rng.integers(2, 14, (5, 2)) * 25.0
+        drawings = []
+        for off in (0.0, *rng.uniform(-1e-10, 1e-10, (3, 5, 2))):
+            ends = (points + off).tolist()
+            labels = [Label(f"p{k}", tuple(p)) for k, p in enumerate(ends)]
+            found = placed(labels, list(itertools.pairwise(ends)), (0, 0, 400, 400))
+            drawings.append([label.middle for label in found])
+        assert np.ptp(drawings, axis=0).max() < 1e-6
+
+
 def test_points_in_one_place_share_a_label():
     out = placed([Label("a", (100, 100)), Label("b", (103, 101))], [], (0, 0, 400, 300))
     assert [p.words for p in out] == ["a, b"]

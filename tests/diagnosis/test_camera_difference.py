@@ -127,6 +127,56 @@ def rolled(camera):
     )
 
 
+def in_opencv(camera, change):
+    """The camera with its [R | t] of OpenCV changed, (R, t, C) -> (R, t)."""
+    pose = frame.camera_from_world(camera)
+    r, t = change(pose[:3, :3], pose[:3, 3], camera.origin)
+    k = frame.matrix_of(*frame.intrinsics(camera))
+    return frame.pinhole(k, frame.pose(r, t), (WIDTH, HEIGHT), None, "")
+
+
+def inverse_of_opencv(camera):
+    return in_opencv(camera, lambda r, t, c: (r.T, c))
+
+
+def transposed_in_opencv(camera):
+    return in_opencv(camera, lambda r, t, c: (r.T, t))
+
+
+def place_for_t(camera):
+    return in_opencv(camera, lambda r, t, c: (r, c))
+
+
+def t_for_place(camera):
+    """A camera-to-world matrix of OpenCV's axes, with the t of world-to-camera."""
+    return in_opencv(camera, lambda r, t, c: (r, -r @ t))
+
+
+def left_handed(camera):
+    """Y mirrored in the world, and in the camera's space: still a rotation."""
+    flip = np.diag((1.0, -1, 1))
+    return in_opencv(camera, lambda r, t, c: (flip @ r @ flip, -flip @ r @ flip @ flip @ c))
+
+
+def x_forward(camera):
+    """The world turned by a quarter about Z."""
+    quarter = np.array([[0, -1.0, 0], [1, 0, 0], [0, 0, 1]])
+    return in_opencv(camera, lambda r, t, c: (r @ quarter.T, t))
+
+
+def shift_up_left_out(camera):
+    return with_k(camera, lambda fx, fy, cx, cy: (fx, fy, cx, HEIGHT / 2))
+
+
+def sides_exchanged(camera):
+    by = (WIDTH - HEIGHT) / 2
+    return with_k(camera, lambda fx, fy, cx, cy: (fx, fy, cx - by, cy + by))
+
+
+def divided(camera):
+    return with_k(camera, lambda fx, fy, cx, cy: (fx / WIDTH, fy / HEIGHT, cx / WIDTH, cy / HEIGHT))
+
+
 def mirrored(camera):
     return with_world(camera, lambda cv: cv @ np.diag((-1, 1, 1, 1)))
 
@@ -145,6 +195,20 @@ MISTAKES = {
     moved: ["camera_moved"],
     rolled: ["roll"],
     mirrored: ["mirrored_x"],
+    inverse_of_opencv: ["matrix_inverted"],
+    transposed_in_opencv: ["matrix_transposed"],
+    place_for_t: ["place_for_translation"],
+    t_for_place: ["place_for_translation"],
+    left_handed: ["handedness"],
+    x_forward: ["quarter_turn"],
+    shift_up_left_out: ["shift_left_out"],
+    sides_exchanged: ["sides_exchanged"],
+    divided: ["k_divided"],
+    lambda c: longer(inverse_of_opencv(c)): ["matrix_inverted", "focal_length"],
+    lambda c: longer(transposed_in_opencv(c)): ["matrix_transposed", "focal_length"],
+    lambda c: longer(place_for_t(c)): ["place_for_translation", "focal_length"],
+    lambda c: longer(opencv_for_opengl(c)): ["forward", "focal_length"],
+    lambda c: opencv_for_opengl(inverse_of_opencv(c)): ["forward", "matrix_inverted"],
     lambda c: shift_left_out(half_pixel(c)): ["shift_left_out"],
     lambda c: half_pixel(shift_left_out(c)): ["shift_left_out", "pixel_offset"],
     lambda c: longer(y_up(c)): ["y_up", "focal_length"],
@@ -164,6 +228,34 @@ def test_a_mistake_is_named(mistake, own):
     found = difference(own, mistake(own))
     assert not found.agrees and found.largest > 0.5
     assert [step.fault.name for step in found.steps] == MISTAKES[mistake]
+
+
+def test_every_way_of_a_mistake_is_told_apart_from_a_camera_that_is_moved(own):
+    """A camera near the one of a mistake does not get its name."""
+    for mistake in (inverse_of_opencv, transposed_in_opencv, place_for_t, left_handed, x_forward):
+        matrix = mistake(own).world_from_camera.copy()
+        matrix[:3, 3] += 0.01
+        near = replace(mistake(own), world_from_camera=matrix)
+        names = [step.fault.name for step in difference(own, near).steps]
+        assert "camera_moved" in names, mistake.__name__
+
+
+def test_what_two_mistakes_explain_both_are_said(own):
+    """Of a camera on the world's origin the place says nothing: its matrix is inverted, or R is."""
+    matrix = own.world_from_camera.copy()
+    matrix[:3, 3] = 0
+    there = replace(own, world_from_camera=matrix)
+    found = difference(there, inverse_of_opencv(there))
+    names = [[step.fault.name for step in steps] for steps in found.explanations]
+    assert names == [["matrix_transposed"], ["matrix_inverted"]] and "or:" in found.lines()
+
+
+def test_the_sentences_say_which(own):
+    assert difference(own, shift_up_left_out(own)).lines()[1] == "the camera's shift up is left out"
+    assert "OpenCV's axes" in difference(own, opencv_for_opengl(own)).lines()[1]
+    lines = difference(own, inverse_of_opencv(own)).lines()
+    assert "camera-to-world in place of world-to-camera" in lines[1]
+    assert not any("half" in line for line in difference(own, shift_up_left_out(own)).lines()[1:])
 
 
 def test_the_numbers_are_those_of_the_mistake(own):

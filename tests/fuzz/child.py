@@ -33,15 +33,26 @@ from reference_tracer.derivation.derivation import derive_pixel  # noqa: E402
 from reference_tracer.errors import EXPECTED, words  # noqa: E402
 from reference_tracer.framing import Choice  # noqa: E402
 from reference_tracer.images import read_picture  # noqa: E402
+from reference_tracer.pictures.data.depth import DEPTH  # noqa: E402
+from reference_tracer.pictures.data.files import read as read_data  # noqa: E402
+from reference_tracer.ray_files import load_rays  # noqa: E402
 from reference_tracer.rendering import render  # noqa: E402
 from reference_tracer.scene import Region  # noqa: E402
+from reference_tracer_verify.verify import RefusedError, verified  # noqa: E402
 
 PICTURES = ".png", ".exr"
+OTHERS = {  # by the begin of a file's name
+    "depth": lambda path: read_data(path, DEPTH),
+    "rays": load_rays,
+    "certificate": verified,
+}
 
 
 def read(path: Path, thorough: bool) -> None:
     """Read a file as the commands do, and use what it holds."""
-    if path.suffix in PICTURES:
+    if (kind := path.stem.partition(" ")[0]) in OTHERS:
+        OTHERS[kind](path)
+    elif path.suffix in PICTURES:
         picture = read_picture(path)
         assert picture.color.dtype == np.float32 and picture.color.shape[2:] == (4,)
     elif path.suffix == ".json":
@@ -78,7 +89,7 @@ def main() -> None:
         number = case % len(valid)
         suffix = valid[number].suffix
         other = contents[rng.integers(len(contents))]
-        path = Path(FOLDER, f"hostile{suffix}")
+        path = Path(FOLDER, f"{valid[number].stem} hostile{suffix}")
         path.write_bytes(mutated(suffix, contents[number], rng, other))
         signal.alarm(PATIENCE)
         try:
@@ -86,9 +97,8 @@ def main() -> None:
             found[f"{suffix} read"] += 1
         except Exception as error:
             said = words(error)
-            if isinstance(error, EXPECTED) and (
-                path.name in said or isinstance(error, MemoryError)
-            ):
+            names = path.name in said or isinstance(error, (MemoryError, RefusedError))
+            if isinstance(error, (*EXPECTED, RefusedError)) and names:
                 found[f"{suffix} refused"] += 1
             else:
                 lines = traceback.format_exception(error)[-4:]

@@ -19,15 +19,19 @@ import pytest
 import trimesh
 from PIL import Image
 from reference_tracer import exr, images
+from reference_tracer.certificate_file import save_certificate
 from reference_tracer.derivation import reproducer
 from reference_tracer.derivation.candidates import gather_pixel
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.scene_files import save_scene
+from reference_tracer.tracer.settings import Settings
 
-from ..mesh_files.gltf_build import rich
+from ..meshes import gltf_build
 
 DAILY, LONG, AT_ONCE = 1_000, 100_000, 20_000
-SUFFIXES = {".npz", ".json", ".png", ".exr", ".obj", ".ply", ".off", ".stl", ".glb", ".gltf"}
+PICTURES, ARRAYS = {".png", ".exr"}, {".npz", ".npy"}
+SUFFIXES = {*PICTURES, *ARRAYS, ".json", ".obj", ".ply", ".off", ".stl", ".glb", ".gltf"}
 
 
 @pytest.fixture
@@ -42,6 +46,11 @@ def folder(make, tmp_path, rng):
     camera = make.camera(8, 8, eye=(0, 0, 5))
     scene = Scene(camera, (quad, plain), instances, planes, rng.random(4), ("A", "B"))
     save_scene(valid / "scene.npz", scene)
+    frame = render(scene, Settings("certified"))
+    save_certificate(valid / "certificate.npz", frame)
+    np.save(valid / "depth.npy", frame.t)
+    np.savez_compressed(valid / "depth.npz", depth=frame.t, objects=np.array(scene.objects))
+    np.savez(valid / "rays.npz", origins=rng.normal(size=(9, 3)), directions=np.ones((1, 3)))
     text = reproducer.text(gather_pixel(scene, 4, 4, source="scene.npz"))
     (valid / "pixel.json").write_text(text)
     shape = trimesh.creation.box()
@@ -52,7 +61,7 @@ def folder(make, tmp_path, rng):
     several = trimesh.Scene([shape, trimesh.creation.icosahedron()])
     several.export(valid / "several.glb")
     several.export(valid / "several.obj")
-    (valid / "rich.gltf").write_text(rich().with_data_uri())
+    (valid / "plain.gltf").write_text(gltf_build.plain().with_data_uri())
     picture = rng.integers(0, 256, (9, 11, 4), dtype=np.uint8)
     images.save_png(valid / "own.png", picture)
     Image.fromarray(picture[..., :3]).quantize(9).save(valid / "palette.png", transparency=1)

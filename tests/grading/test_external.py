@@ -162,7 +162,19 @@ np.savetxt(sys.argv[2], np.column_stack((t, s)), fmt="%.17g", delimiter=",")
     other = result_of(judge(run, checks, []))
     assert [f.name for f in other.faults] == [f.name for f in file.faults] == ["t_sign"]
     assert other.score == file.score and other.checks == file.checks
-    assert names([run, path]) == [run.command, "bridge.py"]
+
+
+def test_a_program_has_the_name_of_its_authors_folder_or_file(tmp_path):
+    for name in ("anna", "bob"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "ray.js").write_text("")
+    commands = {
+        f"java -Xms16m -cp {tmp_path / 'anna'} Ray {{rays}} {{answers}}": "anna",
+        f"node {tmp_path / 'anna' / 'ray.js'}": "anna/ray.js",
+        f"node --max={tmp_path / 'bob' / 'ray.js'} {{rays}}": "bob/ray.js",
+        "nothing of this -is there": "nothing of this -is there",
+    }
+    assert names([Run.parsed(command) for command in commands]) == list(commands.values())
 
 
 @pytest.mark.parametrize(

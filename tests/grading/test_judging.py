@@ -12,12 +12,12 @@ from reference_tracer.scene import SceneError
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
+from reference_tracer_grading.checks import Group
 from reference_tracer_grading.examples import find_examples
 from reference_tracer_grading.extremes import extreme_scenes, held, plain, try_extremes
 from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.judging import judge
 from reference_tracer_grading.picture import Mark, look
-from reference_tracer_grading.student_error import StudentError
 from reference_tracer_grading.subjects.triangle import TRIANGLE
 from reference_tracer_grading.tally import Tally, score_of
 from reference_tracer_processes.running import Limits
@@ -258,6 +258,26 @@ def test_judge(two, checks, right, wrong_text, written):
     assert behind.verdict == "wrong" and behind.looks[0].tally.score == 100 > behind.score
 
 
+def test_what_raises_is_wrong_and_the_rest_counts(two, checks, no_guard, written):
+    """Named with its ray and triangle: asked one by one, only those that raise are wrong."""
+    found = result_of(judge(written(no_guard), checks, [two]))
+    [fault] = found.faults
+    assert (fault.name, found.verdict, found.errors) == ("raises", "wrong", [])
+    assert "ZeroDivisionError" in fault.sentence and "directions = [" in fault.sentence
+    flat = checks.of(Group.PARALLEL, Group.EMPTY)
+    assert 0 < fault.pairs <= flat.sum() and found.checks.right["surface"] == 2600
+    assert found.looks[0].tally.score == 100 and 90 < found.score < 100
+
+
+def test_wrong_without_a_fault_is_named(two, checks, right, written):
+    text = right["textbook"].replace(
+        "x = o", "t *= 1 + 1e-9 * np.isin(triangles[:, 0, 0], (-3.1, 3.3))\n    x = o"
+    )
+    found = result_of(judge(written(text), checks, [two]))
+    assert found.verdict == "wrong" and [f.name for f in found.faults] == ["unrecognised_pixels"]
+    assert "in two" in found.faults[0].sentence
+
+
 def test_boundary_verdict(tied, checks, right, written):
     strict = right["moller_trumbore"].replace(">= 0", "> 0")
     assert result_of(judge(written(strict), checks, [tied])).verdict == "boundary"
@@ -270,9 +290,10 @@ def test_failing_in_a_scene_only(two, tied, checks, right, written):
         f"{head}    if (directions == directions[0]).all(): raise OSError('no')\n    o, d ={rest}"
     )
     found = result_of(judge(written(text), checks, [tied, two]))
-    assert found.verdict == "failed"
-    assert [where for where, _ in found.errors] == ["the checks"]  # calls of one ray
-    assert found.score == 0
+    assert found.verdict == "wrong" and found.errors == []
+    assert [f.name for f in found.faults] == ["depends_on_the_call", "raises"]  # calls of one ray
+    assert set(marks(found.looks[0])) == {"raised", "right"} and found.looks[0].tally.score == 0
+    assert found.score == pytest.approx(66.6)
     slow = right["textbook"].replace(
         "    o, d =", "    import time; time.sleep(2.0 * (directions == directions[0]).all() * "
         "(len(directions) > 9))\n    o, d ="
@@ -313,5 +334,4 @@ def test_an_error_at_the_extremes(two, checks, right, written):
         "    o, d =", "    assert abs(origins).max() < 1e99\n    o, d ="
     )
     found = result_of(judge(written(text), checks, [two], scenes))
-    assert [(where, e.kind) for where, e in found.errors] == [("the extremes", "exception")]
-    assert isinstance(found.errors[0][1], StudentError) and found.score == 100
+    assert found.extremes[0].pixels == {"raised": found.extremes[0].rays} and found.score == 100

@@ -12,9 +12,9 @@ from reference_tracer_grading.checks import make_checks
 from reference_tracer_grading.faults import find_faults
 from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.judging import judge
-from reference_tracer_grading.matching import alike
+from reference_tracer_grading.matching import LEAST, Match, alike
 from reference_tracer_grading.mutations import mutations
-from reference_tracer_grading.subjects.triangle import TRIANGLE, letters
+from reference_tracer_grading.subjects.triangle import MOLLER_TRUMBORE, TRIANGLE, letters
 from reference_tracer_grading.tally import COST
 
 from .reordering import rewritten
@@ -138,9 +138,12 @@ def judged(text, written, subject):
     return result_of(judge(written(text), make_checks(), [subject]))
 
 
-def test_a_forgotten_minus_costs_its_share(right, written, subject):
-    """Every hit is lost with it: the file would have 0."""
+@pytest.mark.parametrize("of_a_miss", ["{}", "np.where(hit[:, None], {}, 0)"])
+def test_a_forgotten_minus_costs_its_share(of_a_miss, right, written, subject):
+    """Every hit is lost with it: the file would have 0, also if a miss has no barycentrics."""
     text = right["textbook"].replace("t = -dot", "t = dot")
+    s = "np.stack((s1, s2, s3), axis=1)"
+    text = text.replace(s, of_a_miss.format(s))
     found = judged(text, written, subject)
     assert [f.name for f in found.faults] == ["t_sign"] and "minus is missing" in (
         found.faults[0].sentence
@@ -157,6 +160,24 @@ def test_an_exchanged_cross_product(right, written, subject):
     assert len(both.faults) == 2 and both.score == 100 - 2 * COST
 
 
+def test_every_mistake_that_hits_anything_is_put_right():
+    """Whatever a program gives beside a miss; signs and orders hit something somewhere."""
+    checks, named = make_checks(), set()
+    for mutation in mutations(MOLLER_TRUMBORE):
+        table = Match(MOLLER_TRUMBORE, (mutation,)).program.answers(checks.letters)
+        table[~np.isfinite(table[:, 0]), 1:] = 0
+        if (
+            np.isfinite(table[checks.tells, 0]).sum() < LEAST
+            or not checks.answers(table).wrong.any()
+        ):
+            continue
+        _, found = find_faults(checks.answers(table))
+        assert found, mutation
+        assert checks.answers(found.put_right(checks.letters, table)).tally.score == 100, mutation
+        named.add(mutation.name)
+    assert {"a_sign", "h_order", "q_order", "r_order"} < named and len(named) > 30
+
+
 def test_what_a_scene_shows_beside_it_is_not_forgiven(right, written, subject):
     """The mistake explains the checks; in the scene something else is wrong, too."""
     text = right["textbook"].replace("t = -dot", "t = dot")
@@ -166,7 +187,8 @@ def test_what_a_scene_shows_beside_it_is_not_forgiven(right, written, subject):
     assert more != text
     found = judged(more, written, subject)
     assert [f.name for f in found.faults] == ["t_sign"]
-    assert found.alike is None and found.score == found.as_is
+    assert [tally.score == 100 for tally in found.mended] == [True, False]
+    assert found.score == max(found.as_is, found.put_right - COST) < 100 - COST
 
 
 @pytest.mark.parametrize(
@@ -181,5 +203,5 @@ def test_who_has_more_wrong_has_no_more_points(old, new, more, right, written, s
     """What a mutation does not explain is named, too, and is not forgiven."""
     swapped = right["textbook"].replace("stack((s1, s2, s3)", "stack((s1, s3, s2)")
     both = judged(swapped.replace(old, new), written, subject)
-    assert both.alike is None and both.score == both.as_is < 100 - COST
+    assert both.score < 100 - COST
     assert more in [f.name for f in both.faults]

@@ -29,7 +29,7 @@ from reference_tracer_grading.page import MARK_COLORS, marked
 from reference_tracer_grading.picture import Mark
 from reference_tracer_grading.report import student
 from reference_tracer_grading.subjects.triangle import TRIANGLE
-from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, class_table, lines
+from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, VERDICTS, class_table, lines
 from reference_tracer_processes.running import Limits
 
 TEXT = """
@@ -47,6 +47,7 @@ def intersect(o, d, p):
     s = np.stack([dot(n, np.cross(a - b, x - b)) for a, b in edges], axis=1) / dot(n, n)[:, None]
     return np.where((s >= 0).all(axis=1) & (t > 0), t, np.inf), s
 """
+KEY = b"a key of 32 bytes, or of any other"
 FILES = {
     "right.py": TEXT,
     "swapped.py": TEXT.replace("(p3, p1), (p1, p2)", "(p1, p2), (p3, p1)"),
@@ -68,7 +69,7 @@ def judged(make, tmp_path_factory):
     extremes = result_of(extreme_scenes([s for s in SCENARIOS if s.name == "tiny"]))
     paths = {name: folder / name for name in FILES}
     limits = Limits(seconds=3)
-    work = judge_all(paths, make_checks(), [subject], extremes, limits, told=lambda j: j)
+    work = judge_all(paths, make_checks(), [subject], extremes, limits, told=lambda j: j, jobs=2)
     return result_of(work)
 
 
@@ -76,7 +77,9 @@ def judged(make, tmp_path_factory):
 def written(judged, tmp_path_factory):
     folder = tmp_path_factory.mktemp("judged")
     kept = ClassFolder(folder, TRIANGLE, list(judged))
-    kept.write([kept.keep(folder / name, j) for name, j in judged.items()], FORMATS)
+    said = [kept.keep(folder / name, j) for name, j in judged.items()]
+    kept.save()
+    kept.write(said, FORMATS)
     return folder
 
 
@@ -152,7 +155,8 @@ def test_page(written, judged):
     for each in (page, *own):
         assert not each.open  # every element is closed, in the right order
         assert "script" not in each.tags and "i" not in each.tags and "b" not in each.tags
-        assert "running the students' own code" in each.text and "not a sandbox" in each.text
+        # The teacher's warning is not for his students.
+        assert ("running the students' own code" in each.text) == (each is page)
     assert all(x.startswith("data:image/png;base64,") for each in own for x in each.links)
     assert sum(each.tags.count("img") for each in own) == 3 * 4  # four came to the scene's end
     text = "".join(each.text for each in own)
@@ -245,7 +249,9 @@ def test_an_example_of_every_mark(judged):
 def test_it_needs_no_library_for_pictures(judged, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "PIL", None)
     kept = ClassFolder(tmp_path, TRIANGLE, ["swapped.py"])
-    kept.write([kept.keep(tmp_path / "swapped.py", judged["swapped.py"])])
+    said = [kept.keep(tmp_path / "swapped.py", judged["swapped.py"])]
+    kept.save()
+    kept.write(said)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["judge.html", "judge.json", "students"]
     # Who is judged alone has no table of a class.
     assert "wrong pixels" in (tmp_path / "judge.html").read_text(encoding="utf-8")
@@ -264,6 +270,8 @@ def test_what_other_programs_read(written, judged):
         assert bool(failed) == (j.verdict != "right")
     results = [json.loads(p.read_text()) for p in (written / "gradescope").rglob("results.json")]
     assert sorted(r["score"] for r in results) == sorted(j.score for j in judged.values())
+    verdicts = sorted(VERDICTS[j.verdict].capitalize() for j in judged.values())
+    assert sorted(r["output"].partition(".\n")[0].rstrip(".") for r in results) == verdicts
     assert all(0 <= t["score"] <= t["max_score"] for r in results for t in r["tests"])
 
 
@@ -275,16 +283,43 @@ def test_who_has_not_changed_is_not_judged_again(judged, tmp_path):
     files = {name: tmp_path / name for name in ("right.py", "swapped.py")}
     for name, path in files.items():
         path.write_text(FILES[name], encoding="utf-8")
-    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(files), "options")
+    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(files), "options", KEY)
     for name, path in files.items():
         kept.keep(path, judged[name])
-    again = ClassFolder(tmp_path / "out", TRIANGLE, list(files), "options")
+    kept.save()
+    again = ClassFolder(tmp_path / "out", TRIANGLE, list(files), "options", KEY)
     assert set(again.kept_of(files)) == set(files)
-    assert not ClassFolder(tmp_path / "out", TRIANGLE, list(files), "others").kept_of(files)
+    assert not ClassFolder(tmp_path / "out", TRIANGLE, list(files), "others", KEY).kept_of(files)
     files["right.py"].write_text(FILES["right.py"] + "#", encoding="utf-8")
     assert set(kept.kept_of(files)) == {"swapped.py"}
     (tmp_path / "out" / "students" / "swapped.py.json").write_text("{")
     assert not kept.kept_of(files)
+
+
+@pytest.mark.parametrize("change", ["score", "page", "key", "all"])
+def test_a_record_is_checked_before_it_is_believed(change, judged, tmp_path):
+    """A hostile program edited others' marks and pages: neither is believed without the key."""
+    files = {"right.py": tmp_path / "right.py"}
+    files["right.py"].write_text(FILES["right.py"])
+
+    def folder(key):
+        return ClassFolder(tmp_path / "out", TRIANGLE, list(files), key=key)
+
+    kept = folder(KEY)
+    kept.keep(files["right.py"], judged["right.py"])
+    assert not (tmp_path / "out").exists()  # nothing yet that a program could change
+    kept.save()
+    assert folder(KEY).kept_of(files)
+    record, page = (tmp_path / "out" / "students" / f"right.py.{e}" for e in ("json", "html"))
+    if change == "score":
+        record.write_text(record.read_text().replace('"score": 100', '"score": 12'))
+    if change == "page":
+        page.write_text(page.read_text() + "<script>alert(1)</script>")
+    if change == "all":  # written anew, as by this program, with another key
+        forger = folder(b"another")
+        forger.keep(files["right.py"], judged["right.py"])
+        forger.save()
+    assert not folder(None if change == "key" else KEY).kept_of(files)
 
 
 def test_who_imports_a_file_that_has_changed_is_judged_again(judged, tmp_path):
@@ -292,8 +327,9 @@ def test_who_imports_a_file_that_has_changed_is_judged_again(judged, tmp_path):
     (tmp_path / "helper.py").write_text("import deeper\n")
     (tmp_path / "deeper.py").write_text("x = 1\n")
     files = {"own.py": tmp_path / "own.py"}
-    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(files))
+    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(files), key=KEY)
     kept.keep(files["own.py"], replace(judged["right.py"], name="own.py"))
+    kept.save()
     assert kept.kept_of(files)
     (tmp_path / "deeper.py").write_text("x = 2\n")
     assert not kept.kept_of(files)
@@ -303,8 +339,9 @@ def test_an_error_is_not_kept(judged, tmp_path):
     """It may have been the machine's: a compiler that was missing, a memory that was full."""
     path = tmp_path / "broken.py"
     path.write_text(FILES["broken.py"])
-    kept = ClassFolder(tmp_path / "out", TRIANGLE, ["broken.py"])
+    kept = ClassFolder(tmp_path / "out", TRIANGLE, ["broken.py"], key=KEY)
     kept.keep(path, judged["broken.py"])
+    kept.save()
     assert not kept.kept_of({"broken.py": path})
 
 
@@ -317,8 +354,9 @@ def test_a_name_is_no_formula(judged):
 def test_a_program_that_is_compiled_anew_is_judged_again(judged, tmp_path):
     (tmp_path / "Own.class").write_bytes(b"1")
     runs = {"own": Run.parsed(f"java -cp {tmp_path} Own")}
-    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(runs))
+    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(runs), key=KEY)
     kept.keep(runs["own"], replace(judged["right.py"], name="own"))
+    kept.save()
     assert kept.kept_of(runs)
     (tmp_path / "Own.class").write_bytes(b"2")
     assert not kept.kept_of(runs)

@@ -12,6 +12,9 @@ from reference_tracer_grading.student import Student
 from reference_tracer_grading.student_error import StudentError
 from reference_tracer_grading.subjects.triangle import FORM
 from reference_tracer_processes.running import KEPT, Limits
+from reference_tracer_processes.sandbox import sandbox, secret
+
+from .conftest import running
 
 HEAD = "import os, sys\nimport numpy as np\n\ndef intersect(o, d, p):\n    "
 NOTHING = "return np.full(len(o), np.inf), np.zeros((len(o), 3))"
@@ -44,7 +47,7 @@ HOSTILE = {
     "writes": (HEAD + "o -= 1\n    " + NOTHING, "exception", "must not be changed"),
     "sorts": (HEAD + "p.sort()\n    " + NOTHING, "exception", "must not be changed"),
     "reads input": (HEAD + "input()", "exception", "EOFError"),
-    "of one ray": (HEAD + "ox, oy, oz = o\n    " + NOTHING, "exception", "a row for each ray"),
+    "of one ray": (HEAD + "if o[0] > 0: pass\n    " + NOTHING, "exception", "a row for each ray"),
     "changes json": ("import json\njson.dumps = lambda *_: '{}'", "ended", "no answer"),
     "forges an error": (
         "import json, os\nfor fd in range(3, 9):\n    try: os.write(fd, json.dumps("
@@ -105,6 +108,29 @@ def test_its_own_error(name, written):
     assert error.to_dict()["line"] == error.line
 
 
+def test_what_raises_is_asked_case_by_case(written):
+    """The others' answers are as they were; a program's own -inf is a miss, and no exception."""
+    text = (
+        HEAD
+        + "assert 3 not in o[:, 0]\n    "
+        + "return np.where(o[:, 0] == 4, -np.inf, 7), p[:, 0]"
+    )
+    rays = np.repeat(np.arange(9.0)[:, None], 3, 1), np.ones((9, 3)), np.ones((9, 3, 3))
+    with Student(written(text), FORM) as student:
+        t, s = student.ask(*rays)
+        assert student.raised.tolist() == [k == 3 for k in range(9)] and student.raises == 1
+        error, (origin, *_) = student.first
+        assert "AssertionError" in error.message and error.line == 5 and (origin == 3).all()
+        assert (
+            np.flatnonzero(~np.isfinite(t)).tolist() == [3, 4] and (np.delete(s, 3, 0) == 1).all()
+        )
+
+
+def test_what_raises_in_a_call_and_in_none_of_its_cases_is_the_functions_own(written):
+    text = HEAD + "assert len(o) < 3\n    " + NOTHING
+    assert failure(written(text)).kind == "exception"
+
+
 def test_the_line_is_the_files_own(written):
     text = (
         "import numpy as np\n\ndef helper(x):\n    return np.linalg.inv(x)\n\n"
@@ -159,30 +185,18 @@ def test_what_it_prints(written):
     assert len(student.said) == KEPT and student.said.startswith("x" * 100)
 
 
-def test_nothing_of_it_is_left(written, tmp_path):
+def test_nothing_of_it_is_left(written):
     """What it has started ends with it, and Ctrl-C of the terminal is not for it."""
-    text = (
-        "import subprocess\nchild = subprocess.Popen(['sleep', '60'])\n"
-        f"open({str(tmp_path / 'pid')!r}, 'w').write(str(child.pid))\n" + HEAD + NOTHING
-    )
+    seconds = f"60.{os.getpid()}"  # no other process sleeps as long
+    text = f"import subprocess\nsubprocess.Popen(['sleep', '{seconds}'])\n" + HEAD + NOTHING
     with Student(written(text), FORM) as student:
         student.ask(*RAYS)
-        pid = int((tmp_path / "pid").read_text())
-        os.kill(pid, 0)
+        assert running(seconds)
     for _ in range(100):
-        if not alive(pid):
+        if not running(seconds):
             break
         time.sleep(0.05)
-    assert not alive(pid)
-
-
-def alive(pid):
-    """Whether a process runs; one that has ended, and that nobody has asked about, does not."""
-    try:
-        with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
-            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
-    except OSError:
-        return False
+    assert not running(seconds)
 
 
 LIVING_ON = {  # what outlives the student's process, and holds its streams open
@@ -192,9 +206,8 @@ LIVING_ON = {  # what outlives the student's process, and holds its streams open
 
 
 @pytest.mark.parametrize("kind", LIVING_ON)
-def test_nobody_waits_for_what_lives_on(kind, written, tmp_path):
-    own = f"open({str(tmp_path / 'pid')!r}, 'w').write(str(os.getpid()))\n"
-    text = f"import subprocess, time, os\n{own}{LIVING_ON[kind]}{HEAD}{NOTHING}"
+def test_nobody_waits_for_what_lives_on(kind, written):
+    text = f"import subprocess, time, os\n{LIVING_ON[kind]}{HEAD}{NOTHING}"
     began = time.monotonic()
     with Student(written(text), FORM) as student:
         assert np.isinf(student.ask(*RAYS)[0]).all()
@@ -202,8 +215,24 @@ def test_nobody_waits_for_what_lives_on(kind, written, tmp_path):
         assert np.isinf(student.ask(*RAYS)[0]).all()
         student._process.kill()
         with pytest.raises(StudentError, match=r"SIGKILL|before it had answered"):
-            student.ask(*RAYS)
+            for _ in range(100):  # in the sandbox it is ended a moment later
+                student.ask(*RAYS)
+                time.sleep(0.05)
     assert time.monotonic() - began < 10
+
+
+def test_what_it_may_reach(written, tmp_path):
+    """In the sandbox it writes nothing, and does not see the key that records are signed with."""
+    key, other = secret(), written("50", "other_record.json")
+    text = (
+        f"import glob\nkeys = glob.glob({str(tmp_path / 'state' / '*' / '*')!r})\n"
+        f"try:\n    open({str(other)!r}, 'w').write('100')\nexcept OSError:\n    pass\n{HEAD}"
+        "return np.full(5, len(keys)), p[:, 0]"
+    )
+    with Student(written(text), FORM) as student:
+        assert (student.ask(*RAYS)[0] == 0).all()
+    assert (other.read_text() == "50") == bool(sandbox())
+    assert bool(key) == bool(sandbox()) and key == secret()
 
 
 def test_two_processes_give_one_answer(written):

@@ -59,13 +59,16 @@ class Noting:
 
     def label(self, text="", icon="NONE", **options):
         self.layout.label(text=text, icon=icon, **options)
-        self.note("label", text, icon)
+        self.note("label", text, icon, swatch=options.get("icon_value"))
 
     def operator(self, idname, text=None, icon="NONE", **options):
         family, name = idname.split(".")
         label = getattr(getattr(bpy.ops, family), name).get_rna_type().name
         made = self.layout.operator(idname, text=text, icon=icon, **options)
-        self.note("button", label if text is None else text, icon)
+        if text == "":  # an icon alone
+            object.__setattr__(self, "width", self.width - ICON * scale())
+        swatch = options.get("icon_value")
+        self.note("button", label if text is None else text, icon, swatch=swatch)
         return made
 
     def menu(self, idname, text=None, icon="NONE"):
@@ -84,16 +87,19 @@ class Noting:
         elif is_split and text is None:
             self.note("name", known.name, "NONE", NAME)
 
-    def note(self, kind, text, icon, share=1.0):
+    def note(self, kind, text, icon, share=1.0, swatch=None):
         text = _shown(text)
         entry = {"kind": kind, "text": text, "icon": icon, "room": self.width * share}
         if self.shared and kind == "button":
-            self.items.append(entry)
+            if text:
+                self.items.append(entry)
             for item in self.items:
                 item["room"] = self.width / len(self.items)
         self.found.setdefault("drawn", []).append(entry)
         blf.size(0, bpy.context.preferences.ui_styles[0].widget.points * scale())
-        entry["width"] = blf.dimensions(0, text)[0] + (ICON * scale() if icon != "NONE" else 0)
+        entry["width"] = blf.dimensions(0, text)[0] + (
+            ICON * scale() if icon != "NONE" or swatch else 0
+        )
 
 
 def _shown(text):

@@ -22,7 +22,7 @@ sys.path.insert(0, "/project/tests/blender")
 
 from toy_engine import ToyEngine
 
-SELECT, APPLY = "reference_tracer.select_finding(", "reference_tracer.copy_camera("
+SELECT, APPLY = "reference_tracer.select_object(", "reference_tracer.copy_camera("
 SHOW, MAKE_ACTIVE = "reference_tracer.show_put_right(", "reference_tracer.activate_copy("
 
 

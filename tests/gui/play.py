@@ -27,6 +27,7 @@ import interruption_stories
 import lesson_stories
 import page_stories
 import seen_stories
+import session_stories
 import stories
 import study_stories
 import viewport_stories
@@ -47,6 +48,7 @@ STORIES = {
         lesson_stories,
         page_stories,
         seen_stories,
+        session_stories,
         study_stories,
         viewport_stories,
     )
@@ -61,6 +63,8 @@ SMALL_LARGE = 800, 450, 0.5
 SMALL = 640, 360, 0.5
 SIZES = {  # of other stories
     "panel": LARGE,
+    "second_day": LARGE,
+    "first_result": (1000, 600, 1.0),
     **dict.fromkeys(("compared_images", "in_images"), SMALL_LARGE),
     **dict.fromkeys(
         (story.__name__ for story in lesson_stories.STORIES),

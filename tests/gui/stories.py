@@ -128,10 +128,6 @@ def compare():
             break
     yield
     screenshot("compare_difference")
-    with bpy.context.temp_override(window=window()):
-        noted["undo"] = list(bpy.ops.ed.undo())
-    yield
-    noted["after_undo"] = [i.name for i in bpy.data.images if i.name.startswith("Reference Tracer")]
 
 
 def engines():
@@ -284,7 +280,7 @@ def no_camera():
     yield from until(compared)
     noted["comparison"] = result().content.to_dict()
     with bpy.context.temp_override(window=window()):
-        noted["undo"] = [list(bpy.ops.ed.undo()) for _ in range(2)]
+        noted["undo"] = list(bpy.ops.ed.undo())
     yield
     noted["cameras"] = [o.name for o in bpy.data.objects if o.type == "CAMERA"]
 

@@ -23,6 +23,7 @@ blender --command extension server-generate --repo-dir .
 python3 -m http.server --bind 127.0.0.1 8000 &
 until (: </dev/tcp/127.0.0.1/8000) 2>/dev/null; do sleep 0.1; done
 """
+SCENE = "exercise_triangle"
 USE = "blender {scene} --command reference_tracer compare --out {folder}/compared"
 
 
@@ -48,8 +49,28 @@ def test_it_is_installed_from_an_address_as_the_document_says(blender):
     assert (out / "compared" / "page.html").exists()
 
 
+def test_it_is_installed_by_a_script_as_the_readme_says(blender):
+    """The next Blender has it, too."""
+    out = blender.out / "by_script"
+    shutil.rmtree(out, ignore_errors=True)
+    (out / "user").mkdir(parents=True)
+    [package] = (PROJECT / "dist").glob("reference_tracer-*.zip")
+    shutil.copy(package, out)
+    readme = (PROJECT / "README.md").read_text("utf-8")
+    [command] = re.findall(r"^blender -b .+$", readme, re.M)
+    folder, scene = f"/project/out/gui/{out.name}", "/project/sample_scenes/exercise_triangle.blend"
+    script = "\n".join(["set -e", f"cd {folder}", command, USE.format(folder=folder, scene=scene)])
+    user = f"BLENDER_USER_RESOURCES={folder}/user"
+    done = subprocess.run(
+        [WHOLE_BLENDER, "run", "env", user, "bash", "-c", script], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "verdict: agree" in done.stdout
+
+
 @pytest.mark.story("from_disk")
 def test_it_goes_and_comes_in_an_open_window(noted):
-    assert noted["gone"] == {"panel": False, "scene": False, "modules": []}
+    assert noted["gone"] == {"panel": False, "scene": False, "images": 0, "modules": []}
     assert noted["installed"] == noted["again"] == ["FINISHED"]  # the second time, over itself
     assert noted["verdict"] == "agree"
+    assert noted["written"] == [f"{SCENE}/compare/comparison.json"]  # as the Preferences say

@@ -32,6 +32,23 @@ def test_no_two_buttons_have_one_icon(noted):
     assert len(set(noted["icons"])) == len(noted["icons"])
 
 
+@pytest.mark.story("first_result")
+def test_the_first_result_says_what_it_is(noted):
+    assert noted["running"] == [0, "Trace and Compare, Blender draws the scene  (Esc: cancel)"]
+    first, *_ = noted["panel"]
+    assert first[0] == "label" and first[1].startswith("Trace and Compare")  # in the button's place
+    assert any("Esc" in text for _, text in noted["panel"])
+    assert noted["image"] == "Reference Tracer Traced"
+    pixels, left, bottom = noted["region"]
+    [header] = noted["header"]
+    assert re.fullmatch(r"Agree, but for \d+ px at edges", header)
+    assert noted["texts"][0] == f"{pixels} px at edges ({left}, {bottom}): Cube"
+    assert noted["marks"] == dict.fromkeys(("TRACED", "DIFFERENCE", "CAUSES", "BOTH"), True)
+    said = " ".join(noted["inspector"])
+    assert "In the Comparison" in said and "Viewport" in said
+    assert "px from the centre the tracer sees" in said  # the cause, with its numbers
+
+
 OURS = [f"Reference Tracer {name}" for name in ("Blender", "Causes", "Difference", "Traced")]
 
 
@@ -41,7 +58,7 @@ def test_the_result_opens_as_a_render_does_and_esc_goes_back(noted):
     assert shows_none is None and "IMAGE_EDITOR" not in none[0]
     [areas], image = noted["AREA"]["once"]
     assert areas.count("IMAGE_EDITOR") == 1 and len(areas) == len(none[0])
-    assert image == "Reference Tracer Difference"
+    assert image == "Reference Tracer Traced"
     assert noted["SCREEN"]["once"] == [[["IMAGE_EDITOR"]], image]
     assert noted["WINDOW"] == [[none[0], ["IMAGE_EDITOR"]], image]
     for mode in ("NONE", "AREA", "SCREEN"):
@@ -54,7 +71,7 @@ def test_the_result_opens_as_a_render_does_and_esc_goes_back(noted):
 def test_the_result_opens_where_a_render_is_still_shown(noted):
     for mode in ("AREA", "SCREEN"):
         [[areas, rendered], [after, image]] = noted[mode]
-        assert rendered == "Render Result" and image == "Reference Tracer Difference"
+        assert rendered == "Render Result" and image == "Reference Tracer Traced"
         assert after == areas
 
 
@@ -62,7 +79,7 @@ def test_the_result_opens_where_a_render_is_still_shown(noted):
 def test_the_line_divides_the_traced_picture_from_the_other(noted):
     both = noted["both"]
     assert both["apart"] > 0.8  # so it is seen whose each pixel is
-    assert both["left"] < 0.02 and both["right"] < 0.02
+    assert both["left"] < 0.05 and both["right"] < 0.05  # a screen's pixel may be that of two
     assert noted["coarse"] < 0.1
     assert noted["dragged"][0] == pytest.approx(noted["dragged"][1], abs=0.005)
 
@@ -74,8 +91,9 @@ def test_a_region_is_framed_in_the_picture_and_in_the_view(noted):
     assert noted["framed"] == ["FINISHED"] and all(noted["inside"])
     across, width = noted["across"]
     assert across < 40 * (width + 16)  # enlarged
-    assert noted["selected"] == noted["regions"][0][1][:1] and noted["moved"] > 0.1
-    assert noted["editing"] == pytest.approx(1)  # nothing is selected then, so nothing framed
+    [still, selected], [moved, shown] = noted["moved"]
+    assert still == 0 and selected != shown  # a click on a region moves the picture alone
+    assert moved > 0.1 and shown == noted["regions"][0][1][:1]
 
 
 @pytest.mark.story("status_bar")
@@ -100,9 +118,6 @@ def test_a_sample_scene_is_opened_as_a_new_file_and_not_over_unsaved_changes(not
 
 
 @pytest.mark.story("left_behind")
-def test_images_are_used_again_and_go_with_undo_and_with_another_file(noted):
-    once = {name: int(name == "Reference Tracer Difference") for name in OURS}
-    assert noted["once"] == noted["twice"] == noted["again"] == noted["reopened"] == once
-    run, moved, first, redone = noted["undone"]
-    assert run == moved == once and first == {} and redone.keys() == once.keys()
-    assert noted["loaded"] == {}
+def test_images_and_their_editor_are_used_again(noted):
+    once = {name: int(name == "Reference Tracer Traced") for name in OURS}
+    assert noted["once"] == noted["twice"] == noted["reopened"] == once

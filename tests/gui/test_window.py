@@ -21,7 +21,6 @@ def test_button_leaves_four_images_and_nothing_else(noted):
     assert noted["changed"] == {}
     assert noted["new"] == {"images": sorted(noted["images"])}
     assert noted["render_result_kept"]
-    assert noted["after_undo"] == []  # one step
 
 
 @pytest.mark.story("engines")
@@ -77,7 +76,7 @@ def test_a_camera_is_added_by_a_button_and_taken_away_by_undo(noted):
     assert noted["pressed"] == ["FINISHED"]
     assert noted["comparison"]["scene"]["camera"] == "Camera"
     assert noted["comparison"]["verdict"] == "agree"
-    assert noted["undo"] == [["FINISHED"]] * 2 and noted["cameras"] == []
+    assert noted["undo"] == ["FINISHED"] and noted["cameras"] == []
 
 
 @pytest.mark.story("compare_error")

@@ -113,6 +113,7 @@ def changed(content, change):
         (lambda c: slot(c).update(srgb=[1, 2, 3]), "leave out srgb, or make both the same"),
         (lambda c: c.update(schema="another"), "--colors-out writes such files"),
         (lambda c: c.update(objects={}), "objects must be a list"),
+        (lambda c: c.update(slots_past_the_end="black"), "must be 'show the last colour'"),
     ],
 )
 def test_what_is_wrong_is_named(scene, files, tmp_path, capsys, change, said):

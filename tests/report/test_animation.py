@@ -47,6 +47,7 @@ def test_few_frames_make_a_page_too(rows, tmp_path):
     report.write(tmp_path, "shot.blend", FRAMES, rows)
     page = (tmp_path / report.PAGE).read_text(encoding="utf-8")
     assert f"{len(rows)} of 30 frames are done" in page
+    assert len(re.findall(r"<(?:h2|text)[^>]*>Pixels that differ", page)) == 1
     assert "nan" not in page
 
 

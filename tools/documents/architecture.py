@@ -48,9 +48,13 @@ blender/ui/long_work.py LongWork.invoke
     blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
       blender/jobs/compare.py compare_open_file
         blender/jobs/compare.py gather_case
-          blender/jobs/compare.py _exported
-            blender/engine.py export_for_judge
-          blender/drawing/picture.py picture
+          blender/jobs/compare.py _Export
+            blender/evaluating.py export_certified
+          blender/drawing/drawings.py Plan.drawn
+            blender/drawing/drawings.py Plan._drawn
+              blender/drawing/drawings.py _turns
+                blender/drawing/drawings.py _picture
+                  blender/drawing/picture.py picture
         comparison/comparing.py compared
           comparison/comparing.py trace_and_compare
             rendering.py steps

@@ -14,6 +14,7 @@ from mdit_py_plugins.anchors import anchors_plugin
 
 PRINTED = "plans", "worksheets", "solutions"  # folders whose documents are PDFs, too
 _FIGURE = re.compile(r"<!-- (?:[a-z][a-z0-9_]*|/) -->")
+_INDEX = re.compile(r"\b([a-z])_(s?[\dᵢ])\b")  # n_s1: set on paper as an index
 _TITLE = re.compile(r"^# (.+)$", re.M)
 _STYLE = """
 :root { color-scheme: light dark; }
@@ -24,7 +25,11 @@ td, th { border: 1px solid #8886; padding: .25rem .6rem; text-align: left; }
 pre { overflow-x: auto; padding: .7rem 1rem; background: #8882; font-size: 13px; }
 li { margin: .35rem 0; }
 summary { cursor: pointer; }
-@media print { body { margin: 0; font-size: 12pt; } nav { display: none; } }
+@media print {
+  body { margin: 0; font-size: 12pt; }
+  nav { display: none; }
+  .worksheets > ol > li { break-inside: avoid; padding-bottom: 4.5cm; } /* for the answer */
+}
 """
 
 
@@ -54,10 +59,19 @@ def page(path: Path, docs: Path) -> str:
     markdown = MarkdownIt("commonmark", {"html": True}).enable("table")
     markdown.use(anchors_plugin, max_level=4, slug_func=anchor)
     tokens = markdown.parse(text)
+    on_paper = path.parent.name == "worksheets"
+    if on_paper:  # the formulas that it speaks of are its lesson's
+        lesson = markdown.parse(unmarked(path.parents[1] / path.name))
+        first = next(k for k, token in enumerate(tokens) if token.type == "ordered_list_open")
+        tokens[first:first] = [token for token in lesson if token.type == "code_block"]
     for token in tokens:
-        if token.children:
+        if token.children and on_paper:
+            token.children = [t for t in token.children if not t.type.startswith("link_")]
+        elif token.children:
             token.children = list(_linked(token.children, path.parent, docs))
     body = markdown.renderer.render(tokens, markdown.options, {})
+    if on_paper:
+        body = _INDEX.sub(r"\1<sub>\2</sub>", body)
     lessons = docs / "lessons"
     own = [folder for folder in translations(lessons) if path.is_relative_to(folder)]
     index = [lessons, *own][-1] / "README.md"
@@ -67,7 +81,8 @@ def page(path: Path, docs: Path) -> str:
         links["PDF"] = f"{path.stem}.pdf"
     nav = " · ".join(f'<a href="{to}">{name}</a>' for name, to in links.items())
     language = own[0].name if own else "en"
-    return as_page(title(text), f"<nav>{nav}</nav>\n{body}", language)
+    main = f'<main class="{path.parent.name}">\n{body}</main>\n'
+    return as_page(title(text), f"<nav>{nav}</nav>\n{main}", language)
 
 
 def as_page(title: str, body: str, language: str = "en") -> str:

@@ -17,8 +17,9 @@ from ...manifest import Effect, Manifest, Unmodelled
 from ...pictures.picture import Picture
 from ...scene import SceneError
 from ..reading.colors import slot_materials
+from ..reading.export import export
 from ..reading.unmodelled import TRANSPARENCY
-from .drawings import Drawing, with_identity, with_what_draws_itself
+from .drawings import Drawing, with_what_draws_itself
 
 
 def behind(
@@ -44,17 +45,18 @@ def behind(
     left = _see_through(drawing.manifest, set(case.scene.objects), color_type)
     if not left:
         return None
-    without = replace(drawing, left_out=tuple(left))
+    plan = replace(drawing, left_out=tuple(left))
+
+    def export_without(_: Any, used: dict[str, Any], depsgraph: Any) -> Drawing:
+        return Drawing.of(plan, *export(depsgraph))
+
     try:
-        without = without.exported_again()
-        with without.begun() as (tmp, scene):
-            shown = made(without.picture(tmp, drawing.like_for_like))
-        if identity:
-            shown = with_identity(without, shown)
-        shown, manifest = with_what_draws_itself(without, shown)
+        drawn = plan.drawn(export_without, identity)
+        shown = replace(made(drawn.pixels), owners=drawn.owners)
+        shown, manifest = with_what_draws_itself(drawn.drawing, shown, identity)
     except (SceneError, RuntimeError):  # nothing is left that could be seen
         return None
-    rest = Case(scene, manifest, case.settings, shown, tracer=case.tracer)
+    rest = Case(drawn.scene, manifest, case.settings, shown, tracer=case.tracer)
     return Behind(rest, frozenset(u.object for u in left))
 
 

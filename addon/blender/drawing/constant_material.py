@@ -1,25 +1,24 @@
 """Shows the viewport's constant colours in an engine that draws materials.
 
 One emission material is the override of a whole view layer, since materials are the user's own and
-stay as they are. It asks for the viewport colour of the face's slot by its data path. It lives as
-long as one picture. For as long, the camera has no depth of field and sees no lights, and random
-colours are set as the objects' own. The temporary scene has no world: one may hold a fog.
+stay as they are. It asks for the viewport colour of the face's slot by its data path. As they are
+evaluated, the camera has no depth of field and sees no lights, and random colours are the objects'
+own. The temporary scene has no world: one may hold a fog.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from functools import partial
 from typing import Any, NamedTuple
 
 import bpy
-import numpy as np
 
 from ...scene import GREY, SceneError
 from ..reading.colors import random_color, slot_materials
-from ..temporary import drawn
-from ..values import in_colors, is_animated, untold
+from ..temporary import made_for, show_in
+from ..values import is_animated
 from ..versions import WITHOUT_ATTRIBUTE
 
 Color = tuple[float, ...]
@@ -30,40 +29,29 @@ _OF_OBJECT = "material_slots[{}].material.diffuse_color"
 
 
 @contextmanager
-def constant_colors(scene: Any, layer: str) -> Iterator[None]:
-    """Have an engine with materials draw a temporary scene in constant colours, for a while.
+def constant_colors(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
+    """Have an engine with materials draw a temporary scene's evaluation in constant colours.
 
     Raises
     ------
     SceneError
         If the colours are ones that a material cannot ask for.
     """
-    with ExitStack() as stack:
-        if scene.display.shading.color_type == "RANDOM":
-            scene.view_layers[layer].update()  # or its list lacks the stand-ins of infinite planes
-            objects = drawn(scene, layer)
-            colors = np.array([random_color(o)[:3] for o in objects], np.float32).reshape(-1, 3)
-            scene.display.shading.color_type = "OBJECT"
-            stack.enter_context(in_colors(objects, colors))
-        lens = scene.camera.data.dof
-        material = bpy.data.materials.new("Reference Tracer Constant")
-        blurred = lens.use_dof
-        lamps = [o for o in bpy.data.objects if o.type == "LIGHT"]  # instances may be of any
-        unseen = dict.fromkeys(lamps, np.bool_(False))
-        stack.enter_context(untold(bpy.data.objects, "visible_camera", unseen))
-        try:
-            lens.use_dof = False
-            _emission(material, scene, layer)
-            scene.world = None
-            scene.view_layers[layer].use_solid = True
-            scene.view_layers[layer].material_override = material
-            yield
-        finally:
-            bpy.data.materials.remove(material)
-            lens.use_dof = blurred
+    objects = [block for block in depsgraph.ids if block.id_type == "OBJECT"]
+    if scene.display.shading.color_type == "RANDOM":
+        show_in(scene, depsgraph, {o.original.name_full: random_color(o)[:3] for o in objects})
+    for lamp in (o for o in objects if o.type == "LIGHT"):
+        lamp.visible_camera = False
+    scene.camera.evaluated_get(depsgraph).data.dof.use_dof = False
+    material = made_for(scene, bpy.data.materials.new("Reference Tracer Constant"))
+    _emission(material, scene, layer, depsgraph)
+    scene.world = None
+    scene.view_layers[layer].use_solid = True
+    scene.view_layers[layer].material_override = material
+    yield
 
 
-def _emission(material: Any, scene: Any, layer: str) -> None:
+def _emission(material: Any, scene: Any, layer: str, depsgraph: Any) -> None:
     material.use_nodes = True
     tree = material.node_tree
     shading = scene.display.shading
@@ -78,7 +66,7 @@ def _emission(material: Any, scene: Any, layer: str) -> None:
         of_vertices = partial(_vertex_color, scene.view_layers[layer].objects)
         make: dict[str, Callable[..., Any]] = {"OBJECT": _object_color, "VERTEX": of_vertices}
         own: Callable[..., Any] = make.get(shading.color_type, _material_color)
-        tree.links.new(own(tree, partial(_slots_of, scene, layer)), color)
+        tree.links.new(own(tree, partial(_slots_of, depsgraph)), color)
 
 
 def _object_color(tree: Any, _: object = None) -> Any:
@@ -134,22 +122,21 @@ class _Slots(NamedTuple):
                 colors.add(())  # what it is by then
 
 
-def _slots_of(scene: Any, layer: str) -> _Slots:
-    """Return what a temporary scene may show in material slots, at least in one.
+def _slots_of(depsgraph: Any) -> _Slots:
+    """Return what an evaluated scene, and the file, may show in material slots, at least in one.
 
     Raises
     ------
     SceneError
         If there are more slots than a material can ask for.
     """
-    made = {o for o in bpy.data.objects if any(m.type == "NODES" for m in o.modifiers)}
-    slots = _Slots([set()], (_OF_MESH, _OF_OBJECT) if made else (_OF_OBJECT,))
+    is_made = any(m.type == "NODES" for o in bpy.data.objects for m in o.modifiers)
+    slots = _Slots([set()], (_OF_MESH, _OF_OBJECT) if is_made else (_OF_OBJECT,))
     for obj in bpy.data.objects:  # instances may be of any object
         slots.add(obj)
-    if made and not _add_what_nodes_make(slots, scene, layer, made):
-        every = {None, *((*m.diffuse_color,) for m in bpy.data.materials)}
-        least = min(len(bpy.data.materials), SLOTS)  # a mesh may get any of them
-        slots = slots._replace(colors=[every] * max(len(slots.colors), least))
+    if is_made:
+        for instance in depsgraph.object_instances:
+            slots.add(instance.object)
     if len(slots.colors) > SLOTS:
         raise SceneError(
             f"A mesh has {len(slots.colors)} material slots, and a material can be asked for "
@@ -157,26 +144,6 @@ def _slots_of(scene: Any, layer: str) -> _Slots:
             "compare with Workbench."
         )
     return slots
-
-
-def _add_what_nodes_make(slots: _Slots, scene: Any, layer: str, made: set[Any]) -> bool:
-    """Add the slots of what geometry nodes make; return whether all of that is known.
-
-    The viewport's evaluation says it: what it does not have is not known, nor what nodes make
-    otherwise in a render.
-    """
-    nodes = (node.bl_idname for group in bpy.data.node_groups for node in group.nodes)
-    modifiers = (m for obj in made for m in obj.modifiers if m.type == "NODES")
-    if "GeometryNodeIsViewport" in nodes or any(m.show_viewport < m.show_render for m in modifiers):
-        return False
-    shown = scene.view_layers[layer]
-    shown.update()
-    seen = set()
-    for instance in shown.depsgraph.object_instances:
-        seen |= {o.original for o in (instance.object, instance.parent) if o}
-        slots.add(instance.object)
-    makers = {o for o in shown.objects if o in made or o.instance_type != "NONE"}
-    return makers <= seen
 
 
 def _material_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:

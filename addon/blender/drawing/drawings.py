@@ -7,10 +7,10 @@ without them. The user's objects are drawn, never copies of them: those have no 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import bpy
 import numpy as np
@@ -18,14 +18,14 @@ import numpy as np
 from ...arrays import Colors
 from ...causes.checks.unmodelled import covered
 from ...manifest import Effect, Manifest, Unmodelled
-from ...pictures.identity import MOST_OBJECTS, NOTHING, UNKNOWN, Owners, colors_of, decode
+from ...pictures.identity import MOST_OBJECTS, NOTHING, Owners, colors_of, decode
 from ...pictures.palette import VIEWPORT, Palette
 from ...pictures.picture import DrawnOver, Picture
 from ...scene import Scene, SceneError
-from ..engine import export_for_judge
+from ..evaluating import Turns, evaluated
 from ..reading.unmodelled import HAIR, is_hair
-from ..temporary import drawn, leave_out, temporary_scene
-from ..values import in_colors, is_animated, untold
+from ..temporary import drawn, in_palette, leave_out, show_in, temporary_scene
+from ..values import is_animated, untold
 from .judge import Judge
 from .picture import picture, prepare_scene
 from .shading import anti_aliasing, use_view_shading
@@ -55,10 +55,38 @@ class Plan:
         ):
             if self.view_shading:
                 use_view_shading(tmp, self.view_shading)
-            used = prepare_scene(tmp, self.like_for_like)
+            used = prepare_scene(tmp, self.judge, self.like_for_like)
             used["shading_of"] = "3D view" if self.view_shading else "scene"
             used["anti_aliasing"] = anti_aliasing(tmp, self.judge, self.like_for_like)
             yield tmp, used | {"colors": self.palette.by.value}
+
+    def drawn(self, export: Export, identity: bool) -> Drawn:
+        """Have Blender evaluate the scene once, export it and draw it.
+
+        With `identity` it is also found whose surface each pixel shows, unless something that draws
+        itself is to be left out for that.
+        """
+        if not any(self._is_changed(obj) for obj in bpy.data.objects):
+            return self._drawn(export, identity)
+        with self.prepared() as (tmp, used):
+            drawing = evaluated(tmp, self.layer, None, _exported(tmp, used, export))
+            with in_palette(tmp, drawing.palette):
+                turns = _turns(tmp, used, lambda *_: drawing, identity)
+                return evaluated(tmp, self.layer, self.judge, turns)
+
+    def _is_changed(self, obj: Any) -> bool:
+        """Return whether what is drawn of an evaluation is another one once it is exported.
+
+        A plane leaves the scene, and what shares its collection is copied anew; to read a mesh in
+        Edit Mode changes which faces a render hides.
+        """
+        is_edited = obj.mode == "EDIT" and not self.judge.needs_window
+        return is_edited or obj.reference_tracer.infinite_plane
+
+    def _drawn(self, export: Export, identity: bool) -> Drawn:
+        """Export and draw one evaluation."""
+        with self.prepared() as (tmp, used):
+            return evaluated(tmp, self.layer, self.judge, _turns(tmp, used, export, identity))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,31 +101,73 @@ class Drawing(Plan):
         """Return the drawing of what was exported by a plan, or by another drawing."""
         return cls(**vars(plan) | {"exported": exported, "manifest": manifest})
 
-    @contextmanager
-    def begun(self) -> Iterator[tuple[Any, Scene]]:
-        """Give a new temporary scene, set up as for the first picture, and as :meth:`planes_in`."""
-        with self.prepared() as (tmp, _), self.planes_in(tmp) as scene:
-            yield tmp, scene
+    def again(self, features: Sequence[Unmodelled] = (), identity: bool = False) -> Drawn:
+        """Draw the scene anew, without some features that draw themselves."""
+        plan = replace(self, left_out=(*self.left_out, *features))
+        return plan._drawn(lambda *_: Drawing.of(plan, self.exported, self.manifest), identity)
 
-    def planes_in(self, tmp: Any) -> AbstractContextManager[Scene]:
-        """Have planes drawn, for a while; gives the scene with them in the colours drawn."""
-        owners = self.manifest.owners[len(self.exported.instances) :]
-        return stand_ins(tmp, self.layer, self.exported, owners)
 
-    def exported_again(self) -> Drawing:
-        """Export the scene without what is left out."""
-        with self.prepared() as (tmp, _):
-            exported, manifest, _ = export_for_judge(tmp, self.layer, self.judge)
-        return Drawing.of(self, exported, manifest)
+class Drawn(NamedTuple):
+    """What Blender has drawn of one evaluation."""
 
-    def picture(self, tmp: Any, like_for_like: bool) -> Colors:
-        """Draw a temporary scene; raises what :func:`.picture.picture` does."""
-        return picture(tmp, self.layer, self.judge, self.exported.camera, like_for_like)
+    drawing: Drawing
+    scene: Scene  # what was exported, its planes in the colours drawn
+    pixels: Colors
+    owners: Owners | None  # whose surface each pixel shows, if that was asked for and is known
 
-    def without(self, features: Sequence[Unmodelled]) -> Colors:
-        """Draw the scene without some features that draw themselves."""
-        with self.begun() as (tmp, _), left_out(tmp, self.layer, features):
-            return self.picture(tmp, self.like_for_like)
+
+# Exports an evaluated depsgraph, given the temporary scene and the settings that it is drawn with.
+Export: TypeAlias = Callable[[Any, dict[str, Any], Any], Drawing]
+
+
+def _exported(tmp: Any, used: dict[str, Any], export: Export) -> Turns[Drawing]:
+    return export(tmp, used, (yield False))
+
+
+def _turns(tmp: Any, used: dict[str, Any], export: Export, identity: bool) -> Turns[Drawn]:
+    """Export an evaluation, have it drawn, and again in a colour for each object."""
+    depsgraph = yield False
+    drawing = export(tmp, used, depsgraph)
+    manifest = drawing.manifest
+    of_planes = manifest.owners[len(drawing.exported.instances) :]
+    scene = stand_ins(tmp, drawing.layer, drawing.exported, of_planes)
+    gone = {(u.object, u.feature) for u in drawing.left_out}
+    identity &= all((u.object, u.feature) in gone for u in separable(manifest))
+    names = _owner_names(drawing, tmp) if identity else {}
+    pixels = yield from _picture(drawing, tmp, depsgraph, drawing.like_for_like, not names)
+    owners = (yield from _owners(drawing, tmp, names)) if names else None
+    return Drawn(drawing, scene, pixels, owners)
+
+
+def _picture(
+    drawing: Drawing, tmp: Any, depsgraph: Any, like_for_like: bool, is_last: bool = True
+) -> Turns[Colors]:
+    """Have a temporary scene drawn as its judge does it."""
+    judge = drawing.judge
+    set_up = judge.set_up(tmp, drawing.layer, depsgraph) if like_for_like else nullcontext()
+    return (yield from picture(tmp, judge, drawing.exported.camera, set_up, is_last))
+
+
+def _owner_names(drawing: Drawing, tmp: Any) -> dict[str, str]:
+    """Return whose surface each object of a temporary scene shows, by their names.
+
+    There is none if there are more objects than colours can tell apart.
+    """
+    planes = [o for o in tmp.collection.objects if STANDS_FOR in o]
+    objects = (*drawn(tmp, drawing.layer), *planes)
+    owners = {o.name_full: o.get(STANDS_FOR) or o.name_full for o in objects}
+    return owners if len(set(owners.values())) <= MOST_OBJECTS else {}
+
+
+def _owners(drawing: Drawing, tmp: Any, owners: Mapping[str, str]) -> Turns[Owners]:
+    """Draw a temporary scene again, in a colour for each owner, and return whose each pixel is."""
+    names = tuple(dict.fromkeys(owners.values()))
+    colors = dict(zip(names, colors_of(len(names)), strict=True))
+    prepare_scene(tmp, drawing.judge, True)
+    depsgraph = yield False
+    show_in(tmp, depsgraph, {name: colors[owner] for name, owner in owners.items()})
+    pixels = yield from _picture(drawing, tmp, depsgraph, True)
+    return Owners.of(names, decode(pixels, len(names)), drawing.manifest.owners)
 
 
 @contextmanager
@@ -137,21 +207,28 @@ def _without_hair(objects: set[str]) -> Iterator[None]:
         yield
 
 
-def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, Manifest]:
+def with_what_draws_itself(
+    drawing: Drawing, shown: Picture, identity: bool = False
+) -> tuple[Picture, Manifest]:
     """Return a picture of Blender's with where hair and the like are, and what is beneath them.
 
-    In the manifest those that are nowhere to be seen have no effect.
+    With `identity`, whose surface is beneath them is found, too. In the manifest those that are
+    nowhere to be seen have no effect.
     """
     manifest = drawing.manifest
     features = {n: u for n, u in enumerate(manifest.unmodelled) if u.effect is Effect.DRAWN}
     if not features:
         return shown, manifest
-    separate = _separate(manifest)
-    beneath = drawing.without(separate) if separate else shown.color
+    separate = separable(manifest)
+    beneath = shown.color
+    if separate:
+        without = drawing.again(separate, identity)
+        beneath = without.pixels
+        shown = replace(shown, owners=without.owners)
     over = (shown.color != beneath).any(axis=-1)  # by however little
     known = np.where(over[..., None], beneath, np.float32(np.nan))
     if len(separate) < len(features):  # what lies beneath goes with it: that is not known
-        over |= (beneath != drawing.without(list(features.values()))).any(axis=-1)
+        over |= (beneath != drawing.again(list(features.values())).pixels).any(axis=-1)
     number = np.full(over.shape, NOTHING, np.int32)
     number[over] = min(features)
     unmodelled = list(manifest.unmodelled)
@@ -173,43 +250,15 @@ def drawn_by_others(drawing: Drawing) -> DrawnOver | None:
     if not any(u.effect is Effect.DRAWN for u in drawing.manifest.unmodelled):
         return None
     try:
-        with drawing.begun() as (tmp, _):
-            shown = Picture(drawing.picture(tmp, True))
+        shown = Picture(drawing.again().pixels)
     except (SceneError, RuntimeError):  # there is nothing to draw with: all that it may cover
         return None
     drawn = with_what_draws_itself(drawing, shown)[0].drawn
     return drawn and DrawnOver(drawn.feature)
 
 
-def _separate(manifest: Manifest) -> list[Unmodelled]:
+def separable(manifest: Manifest) -> list[Unmodelled]:
     """Return what draws itself and can be left out without leaving out what is traced."""
     traced = {e.name for e in manifest.objects if e.exported} | set(manifest.owners)
     drawn_itself = (u for u in manifest.unmodelled if u.effect is Effect.DRAWN)
     return [u for u in drawn_itself if u.feature == HAIR or traced.isdisjoint((u.object, *u.by))]
-
-
-def with_identity(drawing: Drawing, shown: Picture) -> Picture:
-    """Return a picture of Blender's with whose surface each pixel shows.
-
-    With more objects than colours can tell apart, the picture is returned as it is. What draws
-    itself is left out where that is possible.
-    """
-    manifest = drawing.manifest
-    with drawing.begun() as (tmp, _), left_out(tmp, drawing.layer, _separate(manifest)):
-        # The layer's own list has the stand-ins of planes once it is evaluated: that is too early.
-        planes = [o for o in tmp.collection.objects if STANDS_FOR in o]
-        objects = list(dict.fromkeys((*drawn(tmp, drawing.layer), *planes)))
-        owners = [o.get(STANDS_FOR) or o.name_full for o in objects]
-        names = tuple(dict.fromkeys(owners))
-        if len(names) > MOST_OBJECTS:
-            return shown
-        number = {name: n for n, name in enumerate(names)}
-        prepare_scene(tmp, True)
-        tmp.display.shading.color_type = "OBJECT"
-        own_colors = [o.color[:] for o in objects if is_animated(o, "color")]
-        with in_colors(objects, colors_of(len(names))[[number[owner] for owner in owners]]):
-            owner = decode(drawing.picture(tmp, True), len(names))
-    if own_colors:  # these objects show their own colours, which may be other objects' numbers
-        of_animated = decode(np.array([own_colors], np.float32), len(names))
-        owner[np.isin(owner, of_animated[of_animated >= 0])] = UNKNOWN
-    return replace(shown, owners=Owners.of(names, owner, manifest.owners))

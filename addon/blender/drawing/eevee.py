@@ -8,24 +8,13 @@ first says so.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from contextlib import contextmanager
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
-from .judge import Judge
+from .judge import Judge, constant_colors
 
 if TYPE_CHECKING:
     from ...scene import Scene
-
-
-@contextmanager
-def _one_sample_a_pixel(scene: Any, layer: str) -> Iterator[None]:
-    from .constant_material import constant_colors
-
-    scene.eevee.taa_render_samples = 1
-    scene.render.filter_size = 0.0
-    with constant_colors(scene, layer):
-        yield
 
 
 def _check_colors(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
@@ -86,7 +75,8 @@ EEVEE = Judge(
     number=3,
     engine="BLENDER_EEVEE",
     ignores=("display type", "transparency", "texture", "in-front drawing"),
-    set_up=_one_sample_a_pixel,
+    settings=(("eevee.taa_render_samples", 1), ("render.filter_size", 0.0)),
+    set_up=constant_colors,
     check_colors=_check_colors,
     solid=False,
     random_instances=False,

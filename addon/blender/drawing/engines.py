@@ -11,9 +11,8 @@ from typing import Any
 
 import bpy
 
-from ..engine import ENGINE
-from .constant_material import constant_colors
-from .judge import Judge
+from ..temporary import ENGINE
+from .judge import Judge, constant_colors
 
 _OWN = ("BLENDER_", "CYCLES", ENGINE)  # how the names of engines begin that are no add-on's
 

@@ -15,8 +15,15 @@ if TYPE_CHECKING:
     from ...scene import Scene
 
 
-def _as_it_is(scene: Any, layer: str) -> AbstractContextManager[None]:
+def _as_it_is(scene: Any, layer: str, depsgraph: Any) -> AbstractContextManager[None]:
     return nullcontext()
+
+
+def constant_colors(scene: Any, layer: str, depsgraph: Any) -> AbstractContextManager[None]:
+    """Show the colours of an evaluated scene by a material, as `constant_material.py` does."""
+    from . import constant_material
+
+    return constant_material.constant_colors(scene, layer, depsgraph)
 
 
 def _any(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
@@ -42,8 +49,10 @@ class Judge:
     engine: str | None = None  # Blender's name of it; None: the drawing of the viewport
     # Features that it does not show like for like: they explain none of its pixels.
     ignores: tuple[str, ...] = ()
-    # Sets a temporary scene and its view layer up to be drawn in constant colours, for a while.
-    set_up: Callable[[Any, str], AbstractContextManager[None]] = _as_it_is
+    # Of a temporary scene, like for like, by their paths.
+    settings: tuple[tuple[str, Any], ...] = ()
+    # Sets such a scene, its view layer and its evaluation up to be drawn in constant colours.
+    set_up: Callable[[Any, str, Any], AbstractContextManager[None]] = _as_it_is
     # Pixels: how far its samples may lie from a pixel's centre, like for like.
     sample_radius: float = 0.0
     # Pixels from its centre that its anti-aliasing mixes. Workbench's samples lie within a pixel

@@ -7,7 +7,7 @@ Everything is set on a temporary copy of the user's scene, and what cannot be is
 from __future__ import annotations
 
 import tempfile
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +16,10 @@ import numpy as np
 
 from ...arrays import Colors
 from ...pictures.picture import SizeError
-from ...scene import Camera, SceneError
-from ..values import values_restored
-from ..versions import ENGINES, set_format
+from ...scene import Camera
+from ..evaluating import Turns, evaluated
+from ..temporary import made_for
+from ..versions import set_format
 from .judge import Judge
 
 # What a picture that can be compared needs: property of the scene, and value.
@@ -48,14 +49,14 @@ _LIKE_FOR_LIKE = {
 }
 
 
-def prepare_scene(scene: Any, like_for_like: bool) -> dict[str, Any]:
-    """Set a temporary scene up for a picture that can be compared; return what was set.
+def prepare_scene(scene: Any, judge: Judge, like_for_like: bool) -> dict[str, Any]:
+    """Set a temporary scene up for a judge's picture to be compared; return what was set.
 
     Like for like means flat light, no effects, no anti-aliasing, a transparent film and raw
     colours. Where the colours come from stays the user's choice. The picture is one 32-bit EXR,
     like for like or not.
     """
-    settings = _ALWAYS | _LIKE_FOR_LIKE if like_for_like else _ALWAYS
+    settings = _ALWAYS | _LIKE_FOR_LIKE | dict(judge.settings) if like_for_like else _ALWAYS
     for path, value in settings.items():
         owner, _, name = path.rpartition(".")
         setattr(scene.path_resolve(owner), name, value)
@@ -72,21 +73,27 @@ def prepare_scene(scene: Any, like_for_like: bool) -> dict[str, Any]:
     }
 
 
-def picture(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:
-    """Return Blender's picture of a prepared temporary scene.
+def picture(
+    scene: Any,
+    judge: Judge,
+    camera: Camera,
+    set_up: AbstractContextManager[None],
+    is_last: bool = True,
+) -> Turns[Colors]:
+    """Have a prepared temporary scene drawn, in work that has its evaluation; return the picture.
 
     Parameters
     ----------
     scene : bpy.types.Scene
         The temporary scene.
-    layer : str
-        Its view layer.
     judge : Judge
         The engine that draws.
     camera : Camera
         Its region says which pixels are the picture's: the viewport ignores the render border.
-    like_for_like : bool
-        Whether the judge sets the scene up for constant colours.
+    set_up : context manager
+        For as long as Blender draws.
+    is_last : bool
+        Whether no other picture is made of this evaluation.
 
     Returns
     -------
@@ -95,22 +102,19 @@ def picture(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like:
 
     Raises
     ------
-    SceneError, RuntimeError
+    RuntimeError
         If Blender made no picture.
     SizeError
         If it made one of another size.
     """
     with tempfile.TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "picture")
-        with judge.set_up(scene, layer) if like_for_like else nullcontext():
-            try:
-                _draw(scene, layer, judge)
-            except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
-                raise SceneError(f"{judge.name} draws no picture: {error}") from error
+        with set_up:
+            yield not is_last
         found = list(Path(folder).glob("picture*.exr"))
         if len(found) != 1:
             raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")
-        pixels = read(found[0])
+        pixels = read(scene, found[0])
     region = camera.region
     if judge.needs_window and pixels.shape[:2] == (camera.height, camera.width):
         pixels = pixels[region.y0 : region.y1, region.x0 : region.x1]
@@ -122,34 +126,27 @@ def picture(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like:
     return np.ascontiguousarray(pixels)
 
 
-def _draw(scene: Any, layer: str, judge: Judge) -> None:
-    """Have Blender draw a scene, and write the picture to the scene's path."""
-    if judge.needs_window:
-        # Adding a window, area or region to the override crashes Blender (4.3, 5.2).
-        with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer]):
-            bpy.ops.render.opengl(view_context=False, write_still=True)
-        return
-    scene.render.engine = ENGINES.get(judge.engine or "", judge.engine)
-    with values_restored():
-        bpy.ops.render.render(scene=scene.name, write_still=judge.known)
-    if not judge.known:
-        # Blender crashes if it is to write, within the render, what an engine did not finish (5.2).
-        result = next(image for image in bpy.data.images if image.type == "RENDER_RESULT")
-        try:
-            result.save_render(f"{scene.render.filepath}.exr", scene=scene)
-        except RuntimeError:
-            raise SceneError(f"{judge.label} made no picture: see the console.") from None
+def drawn_once(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:
+    """Have a prepared temporary scene evaluated and drawn; return its :func:`picture`."""
+
+    def turns() -> Turns[Colors]:
+        depsgraph = yield False
+        set_up = judge.set_up(scene, layer, depsgraph) if like_for_like else nullcontext()
+        return (yield from picture(scene, judge, camera, set_up))
+
+    return evaluated(scene, layer, judge, turns())
 
 
-def read(path: Path, colorspace: str = "") -> Colors:
-    """Return a picture's file as Blender reads it, in a colour space: (h, w, 4), row 0 below."""
-    image: Any = bpy.data.images.load(str(path))
-    try:
-        if colorspace:
-            image.colorspace_settings.name = colorspace
-        width, height = image.size
-        pixels = np.empty(width * height * 4, np.float32)
-        image.pixels.foreach_get(pixels)
-        return pixels.reshape(height, width, 4)
-    finally:
-        bpy.data.images.remove(image)
+def read(scene: Any, path: Path, colorspace: str = "") -> Colors:
+    """Return a picture's file as Blender reads it, in a colour space: (h, w, 4), row 0 below.
+
+    It is read for a temporary scene.
+    """
+    image: Any = made_for(scene, bpy.data.images.load(str(path)))
+    if colorspace:
+        image.colorspace_settings.name = colorspace
+    width, height = image.size
+    pixels = np.empty(width * height * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    image.buffers_free()
+    return pixels.reshape(height, width, 4)

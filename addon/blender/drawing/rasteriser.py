@@ -18,9 +18,10 @@ from ...arrays import Bools, Floats
 from ...pictures.bounds import SNAPPING
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, SceneError, ViewWindow
+from ..temporary import made_for, remove
 from .camera_object import add_camera
 from .judge import Judge
-from .picture import picture, prepare_scene
+from .picture import drawn_once, prepare_scene
 
 # How far beside a centre the edges lie, in pixels: four steps to a bit, and none on a bit's own.
 OFFSETS = 2.0 ** -(np.arange(4 * 2, 4 * 14) / 4 + 1 / 8)
@@ -71,17 +72,18 @@ def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
     window = ViewWindow(-across, across, -up, up)
     camera = Camera(matrix, window, *size, ORTHOGRAPHIC, 0.1, 100.0)
     scene: Any = bpy.data.scenes.new("Reference Tracer Rasteriser")
-    mesh = _quads(moved)
-    scene.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
-    looking = add_camera(scene, camera).data
+    mesh = made_for(scene, _quads(moved))
+    scene.collection.objects.link(made_for(scene, bpy.data.objects.new(mesh.name, mesh)))
+    looking = made_for(scene, add_camera(scene, camera))
+    made_for(scene, looking.data)
     try:
-        prepare_scene(scene, True)
+        prepare_scene(scene, judge, True)
         shading = scene.display.shading
         shading.color_type = "SINGLE"  # whatever else the file holds
         color = np.array(shading.single_color)
-        shown = picture(scene, scene.view_layers[0].name, judge, camera, True)
+        shown = drawn_once(scene, scene.view_layers[0].name, judge, camera, True)
     finally:
-        bpy.data.batch_remove([*scene.collection.objects, scene, mesh, looking])
+        remove(scene)
     drawn = shown[shown[..., 3] > 0.5][:, :3]
     if len(drawn) and not np.allclose(np.median(drawn, axis=0), color, atol=_NEAR):
         raise SceneError(

@@ -6,8 +6,7 @@ alone, and the objects that were marked as infinite planes are left out of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -18,15 +17,14 @@ from ...arrays import Colors, Floats
 from ...scene import Plane, Scene
 from ..reading.colors import random_color
 from ..reading.view_volume import polygon
-from ..temporary import leave_out
+from ..temporary import leave_out, made_for
 
 # A custom property of the polygon: the name of the object that is the plane.
 STANDS_FOR = "reference_tracer_stands_for"
 
 
-@contextmanager
-def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iterator[Scene]:
-    """Show polygons in a temporary Blender scene in place of its infinite planes, for a while.
+def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Scene:
+    """Show polygons in a temporary Blender scene in place of its infinite planes.
 
     Parameters
     ----------
@@ -39,43 +37,37 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iter
     owners : sequence of str
         For each plane, the object that is marked as one.
 
-    Yields
-    ------
+    Returns
+    -------
     Scene
         The exported scene as it is to be compared. Random colours come from names: there the planes
         take the colours of their polygons.
     """
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
-    objects: list[Any] = []
     planes: list[Plane] = []
-    try:
-        if marked:
-            leave_out(tmp, layer, marked)
-        for plane, owner in zip(scene.planes, owners, strict=True):
-            corners = polygon(scene.camera, plane)
-            if len(corners):
-                objects.append(_stand_in(tmp, corners, scene.camera.origin, plane.color))
-                objects[-1][STANDS_FOR] = owner
-                if tmp.display.shading.color_type == "RANDOM":
-                    plane = replace(plane, color=np.array(random_color(objects[-1]), np.float32))
-            planes.append(plane)
-        yield replace(scene, planes=tuple(planes))
-    finally:
-        for obj in objects:
-            bpy.data.materials.remove(obj.data.materials[0])
-            bpy.data.meshes.remove(obj.data)  # takes the object with it
+    if marked:
+        leave_out(tmp, layer, marked)
+    for plane, owner in zip(scene.planes, owners, strict=True):
+        corners = polygon(scene.camera, plane)
+        if len(corners):
+            obj = _stand_in(tmp, corners, scene.camera.origin, plane.color)
+            obj[STANDS_FOR] = owner
+            if tmp.display.shading.color_type == "RANDOM":
+                plane = replace(plane, color=np.array(random_color(obj), np.float32))
+        planes.append(plane)
+    return replace(scene, planes=tuple(planes))
 
 
 def _stand_in(tmp: Any, corners: Floats, eye: Floats, color: Colors) -> Any:
     # Vertices are float32: the nearer one lies to the object's origin, the more digits it keeps. So
     # the origin is the corner that the camera sees largest.
     nearest = corners[np.argmin(((corners - eye) ** 2).sum(axis=1))]
-    material = bpy.data.materials.new("Infinite Plane")
+    material = made_for(tmp, bpy.data.materials.new("Infinite Plane"))
     material.diffuse_color = (*color[:3], 1.0)
-    mesh = bpy.data.meshes.new("Infinite Plane")
+    mesh = made_for(tmp, bpy.data.meshes.new("Infinite Plane"))
     mesh.from_pydata((corners - nearest).tolist(), [], [list(range(len(corners)))])
     mesh.materials.append(material)
-    obj = bpy.data.objects.new("Infinite Plane", mesh)
+    obj: Any = made_for(tmp, bpy.data.objects.new("Infinite Plane", mesh))
     obj.location = nearest.tolist()
     obj.color = material.diffuse_color
     tmp.collection.objects.link(obj)

@@ -10,7 +10,7 @@ from .judge import Judge
 
 
 @contextmanager
-def _without_anti_aliasing(scene: Any, layer: str) -> Iterator[None]:
+def _without_anti_aliasing(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
     """Switch off the user preference that alone decides on a window's anti-aliasing, for a while.
 
     The mark that preferences were changed is put back, too: else Blender would save them on exit.

@@ -31,7 +31,7 @@ from ...tracer.settings import Settings
 from ..drawing.drawings import Drawing, Plan, drawn_by_others
 from ..drawing.judges import AUTO, judge_named
 from ..drawing.picture import read
-from ..engine import export_for_render
+from ..evaluating import export_for_render
 from ..reading.export import export
 from ..reading.palettes import automatic, noted, palette_by
 from ..temporary import go_to, temporary_scene
@@ -197,7 +197,7 @@ def _saved(tmp: Any, table: Colors) -> Floats:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "colours.png"
             image.save_render(str(path), scene=tmp)
-            return curve_undone(read(path, "Non-Color")[0, :, :3].astype(np.float64))
+            return curve_undone(read(tmp, path, "Non-Color")[0, :, :3].astype(np.float64))
     finally:
         bpy.data.images.remove(image)
 

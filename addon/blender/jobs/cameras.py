@@ -19,7 +19,7 @@ from ...pictures.certificate import known_points
 from ...report.cameras import SceneCamera
 from ...scene import Region
 from ..reading.camera import export_camera, film_of_blender
-from .stepping import visited
+from .stepping import stepped
 
 
 def cameras(frames: Sequence[int] | None = None) -> Iterator[SceneCamera]:
@@ -34,14 +34,7 @@ def cameras(frames: Sequence[int] | None = None) -> Iterator[SceneCamera]:
     if frames is None:
         yield _camera(scene.frame_current)
         return
-    own = scene.frame_current
-    try:
-        for frame in visited(scene, [*frames]):
-            scene.frame_set(frame)
-            if frame in frames:
-                yield _camera(frame)
-    finally:
-        scene.frame_set(own)
+    yield from map(_camera, stepped(scene, [*frames]))
 
 
 def _camera(frame: int) -> SceneCamera:

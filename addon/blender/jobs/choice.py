@@ -21,7 +21,7 @@ from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, SceneError, ViewWindow
 from ...tracer.camera import film_of
 from ..drawing.camera_object import add_camera, place_camera
-from ..engine import export_for_render
+from ..evaluating import export_for_render
 from ..reading.camera import export_camera, pixel_height, resolution
 from ..temporary import temporary_scene
 from .stepping import bake_bodies, visited

@@ -6,8 +6,7 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -29,19 +28,19 @@ from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory, give_back
 from ...tracer.progress import Work
 from ..drawing.behind import behind
-from ..drawing.drawings import Drawing, Plan, with_identity, with_what_draws_itself
+from ..drawing.drawings import Drawing, Plan, with_what_draws_itself
 from ..drawing.judge import Judge
 from ..drawing.judges import judge_or_none
-from ..drawing.picture import picture
 from ..drawing.rasteriser import snapping_of
 from ..drawing.shading import of_shading, solid_shading
-from ..engine import export_for_judge
+from ..evaluating import export_certified, export_for_judge
 from ..paths import made_folder
 from ..reading.camera import export_camera
+from ..reading.export import export
 from ..reading.palettes import automatic, noted, palette_by
 from ..reading.unmodelled import by_handlers
-from ..temporary import go_to
-from ..values import values_restored
+from ..temporary import go_to, show_in
+from ..values import is_animated, values_restored
 from .given import gather_given
 from .open_file import Choices
 from .variants import variants
@@ -71,17 +70,15 @@ def gather_case(context: Any, **choices: Any) -> Case:
     plan = _planned(context, chosen, judge)
     user = plan.scene
     layer = plan.layer
+    snapping = snapping_of(judge)  # its drawing is the first, which may differ from the others
+    there = _names(user)
     is_automatic = plan.like_for_like and chosen.colors == By.AUTOMATIC
-    with _exported(plan, is_automatic) as (tmp, used, drawing, certificate):
-        there = _names(user)
-        later = _a_frame_later(tmp, layer, judge) if chosen.self_check else None
-        snapping = snapping_of(judge)  # its drawing is the first, which may differ from the others
-        made = partial(_picture, judge=judge, used=used, snapping=snapping)
-        with drawing.planes_in(tmp) as scene:
-            shown = made(picture(tmp, layer, judge, scene.camera, plan.like_for_like))
-    if chosen.identity:
-        shown = with_identity(drawing, shown)
-    shown, manifest = with_what_draws_itself(drawing, shown)
+    exporting = _Export(plan, is_automatic)
+    drawing, scene, pixels, owners = plan.drawn(exporting, chosen.identity)
+    made = partial(_picture, judge=judge, used=exporting.used, snapping=snapping)
+    shown = replace(made(pixels), owners=owners)
+    later = _a_frame_later(drawing) if chosen.self_check else None
+    shown, manifest = with_what_draws_itself(drawing, shown, chosen.identity)
     if there != _names(user):
         manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(user)))
     case = Case(
@@ -90,7 +87,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
         # Like for like, Blender's picture has one sample in a pixel: so has the traced one.
         replace(chosen.settings, samples=1) if plan.like_for_like else chosen.settings,
         shown,
-        certificate,
+        exporting.certificate,
         self_check=chosen.self_check,
         next_frame=later,
         tracer=chosen.tracer,
@@ -113,37 +110,41 @@ def _planned(context: Any, chosen: Choices, judge: Judge) -> Plan:
     return Plan(scene, context.view_layer.name, judge, not chosen.as_is, shading, palette)
 
 
-@contextmanager
-def _exported(
-    plan: Plan, is_automatic: bool
-) -> Iterator[tuple[Any, dict[str, Any], Drawing, CameraCertificate | None]]:
-    """Export a scene in the colours that are wanted, and refuse what the judge cannot draw.
+class _Export:
+    """Exports a scene in the colours that are wanted, and refuses what the judge cannot draw."""
 
-    Gives the temporary scene, the settings that it is drawn with, what was exported of it, and how
-    close its camera is to Blender's.
-    """
-    with plan.prepared() as (tmp, used):
-        scene, manifest, certificate = export_for_judge(tmp, plan.layer, plan.judge)
-        palette = automatic(plan.scene, scene, manifest) if is_automatic else plan.palette
-        own = replace(plan, palette=palette)
-        if palette.by == plan.palette.by:
-            manifest = noted(palette, scene, manifest)
-            if certificate:
-                certificate.check()
-            if plan.like_for_like and used["color_type"] == "RANDOM":
-                plan.judge.check_random(scene, manifest.owners)
-            if plan.like_for_like:
-                objects = tmp.view_layers[plan.layer].objects
-                plan.judge.check_colors(scene, used["color_type"], objects)
-            if not plan.like_for_like:
-                of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
-                name = f"scene '{plan.scene.name}'"
-                of_scene = (replace(u, object=name) for u in of_picture)
-                manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_scene))
-            yield tmp, used, Drawing.of(own, scene, manifest), certificate
-            return
-    with _exported(own, False) as found:
-        yield found
+    used: dict[str, Any]  # the settings that the scene is drawn with
+    certificate: CameraCertificate | None  # how close its camera is to Blender's
+
+    def __init__(self, plan: Plan, is_automatic: bool) -> None:
+        self._plan = plan
+        self._is_automatic = is_automatic
+
+    def __call__(self, tmp: Any, used: dict[str, Any], depsgraph: Any) -> Drawing:
+        plan = self._plan
+        meshes: dict[Any, Any] = {}
+        scene, manifest, self.certificate = export_certified(depsgraph, meshes)
+        if self._is_automatic:
+            plan = replace(plan, palette=automatic(plan.scene, scene, manifest))
+        palette = plan.palette
+        if palette.by != self._plan.palette.by:
+            animated = {o.name_full for o in bpy.data.objects if is_animated(o, "color")}
+            show_in(tmp, depsgraph, {n: c for n, c in palette.colors.items() if n not in animated})
+            used |= {"color_type": "OBJECT", "colors": palette.by.value}
+            scene, manifest = export(depsgraph, meshes)
+        self.used = used
+        manifest = noted(palette, scene, manifest)
+        if self.certificate:
+            self.certificate.check()
+        if plan.like_for_like and used["color_type"] == "RANDOM":
+            plan.judge.check_random(scene, manifest.owners)
+        if plan.like_for_like:
+            plan.judge.check_colors(scene, used["color_type"], tmp.view_layers[plan.layer].objects)
+        else:
+            of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
+            of_scene = (replace(u, object=f"scene '{plan.scene.name}'") for u in of_picture)
+            manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_scene))
+        return Drawing.of(plan, scene, manifest)
 
 
 def _names(scene: Any) -> list[str]:
@@ -166,12 +167,12 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
     )
 
 
-def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
-    """Return the scene of the next frame, and go back to this one."""
-    now = tmp.frame_current
-    with values_restored():
+def _a_frame_later(drawing: Drawing) -> Scene:
+    """Return the scene of the next frame."""
+    with drawing.prepared() as (tmp, _), values_restored():
+        now = tmp.frame_current
         go_to(tmp, now + 1)
-        later, _, _ = export_for_judge(tmp, layer, judge)
+        later, _, _ = export_for_judge(tmp, drawing.layer, drawing.judge)
         go_to(tmp, now)
     return later
 

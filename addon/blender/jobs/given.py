@@ -23,6 +23,7 @@ from ..drawing.judge import Judge
 from ..drawing.judges import RENDER_RESULT
 from ..reading.camera import export_camera
 from ..reading.pictures import image_file, render_result
+from ..temporary import ENGINE
 from ..versions import DITHER
 from .against import gather_against
 from .open_file import Choices
@@ -66,11 +67,11 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
     else:
         dither = DITHER * context.scene.render.dither_intensity
         file = image_file(context.scene.reference_tracer.image)
-        engine = context.scene.render.engine
-        making = replace(making, default_dither=dither, engine=engine)
+        making = replace(making, default_dither=dither)
         shown = picture_of_file(file, export_camera(context.scene), making)
     colors = chosen.colors
-    if colors == By.AUTOMATIC and (chosen.as_is or not judge):
+    has_ours = judge or (chosen.judge == RENDER_RESULT and making.engine == ENGINE)
+    if colors == By.AUTOMATIC and (chosen.as_is or not has_ours):
         colors = By.VIEWPORT
     case = gather_against(context, shown, chosen.settings, chosen.self_check, colors)
     return replace(case, tracer=chosen.tracer)
@@ -79,10 +80,13 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
 def _rendered(drawing: Drawing, judge: Judge, like_for_like: bool, making: Making) -> Picture:
     """Have an engine render what was exported."""
     own = replace(drawing, judge=judge, like_for_like=like_for_like)
-    with own.begun() as (tmp, scene):
-        if like_for_like and tmp.display.shading.color_type == "RANDOM":
+
+    def export(_: Any, used: dict[str, Any], depsgraph: Any) -> Drawing:
+        if like_for_like and used["color_type"] == "RANDOM":
             judge.check_random(drawing.exported, drawing.manifest.owners)
-        pixels = own.picture(tmp, like_for_like)
+        return own
+
+    _, scene, pixels, _ = own.drawn(export, identity=False)
     shown = picture_of_array(pixels, scene.camera, making)
     source = Source(
         judge.name,

@@ -15,7 +15,7 @@ from ..drawing.judge import Judge
 from ..drawing.judges import ENGINE
 from ..drawing.picture import prepare_scene
 from ..drawing.workbench import WORKBENCH
-from ..engine import export_for_judge
+from ..evaluating import export_for_judge
 from ..reading.camera import export_camera
 from ..temporary import everything, temporary_scene
 
@@ -75,7 +75,7 @@ def export_open_file(
     export_camera(scene)  # first: its errors name the user's scene, say what to do
     with temporary_scene(scene, layer, judge.ignores if judge else None, palette) as tmp:
         if judge:
-            prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
+            prepare_scene(tmp, judge, stored.shading == "LIKE_FOR_LIKE")
         with everything(tmp) if whole else nullcontext():
             exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)
     return exported, manifest, stored.settings()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import bpy
@@ -18,6 +18,18 @@ def visited(scene: Any, frames: list[int]) -> Iterable[int]:
     if frames and (any(modifiers) or any(nodes)):
         return range(min(scene.frame_start, frames[0]), frames[-1] + 1)
     return frames
+
+
+def stepped(scene: Any, frames: list[int]) -> Iterator[int]:
+    """Yield each of some sorted frames once the scene is there; it goes back in the end."""
+    own = scene.frame_current, scene.frame_subframe
+    try:
+        for frame in visited(scene, frames):
+            scene.frame_set(frame)
+            if frame in frames:
+                yield frame
+    finally:
+        scene.frame_set(own[0], subframe=own[1])
 
 
 def bake_bodies(scene: Any, last: int) -> None:

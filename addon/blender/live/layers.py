@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import textwrap
 import time
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -122,12 +123,22 @@ def draw_words(text: str, region: Any, scale: float) -> None:
     size = _SIZE * scale
     lines = textwrap.wrap(text, max(16, int(0.7 * region.width / (size * _LETTER))))
     blf.size(0, size)
-    blf.color(0, 1, 1, 1, 1)
-    blf.enable(0, blf.SHADOW)
-    blf.shadow(0, 6, 0, 0, 0, 1)  # an outline: the background may be white, too
+    placed = []
     for number, line in enumerate(lines):
         width, _ = blf.dimensions(0, line)
         y = region.height / 2 + (len(lines) / 2 - number) * 1.5 * size
-        blf.position(0, (region.width - width) / 2, y, 0)
-        blf.draw(0, line)
+        placed.append((line, (region.width - width) / 2, y))
+    draw_outlined(placed)
+
+
+def draw_outlined(texts: Iterable[tuple[str, float, float]]) -> None:
+    """Draw texts at places, in the font's size, white with an outline: on any background."""
+    import blf
+
+    blf.color(0, 1, 1, 1, 1)
+    blf.enable(0, blf.SHADOW)
+    blf.shadow(0, 6, 0, 0, 0, 1)
+    for text, x, y in texts:
+        blf.position(0, x, y, 0)
+        blf.draw(0, text)
     blf.disable(0, blf.SHADOW)

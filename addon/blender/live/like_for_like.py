@@ -12,7 +12,10 @@ from typing import Any
 
 import bpy
 
+from ...arrays import Colors
 from ...causes.case import Case
+from ...manifest import Manifest
+from ...pictures.certificate import CameraCertificate
 from ...pictures.picture import Picture, Source
 from ...pictures.sampling import Sampling
 from ...scene import Camera, Scene, SceneError
@@ -22,10 +25,11 @@ from ..drawing.picture import picture, prepare_scene
 from ..drawing.rasteriser import snapping_of
 from ..drawing.stand_ins import stand_ins
 from ..drawing.viewport import VIEWPORT
+from ..evaluating import Turns, evaluated
 from ..reading.camera import certify_camera
 from ..reading.export import NO_SURFACE, export
 from ..reading.visible import in_view, types_left_out
-from ..temporary import drawn, leave_out, temporary_scene
+from ..temporary import drawn, leave_out, made_for, temporary_scene
 
 AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
 
@@ -47,30 +51,36 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     """
     window, shown = _view_of(space)
     layer = window.view_layer
+    snapping = snapping_of(VIEWPORT)  # its drawing is the first, which may differ from the others
     with temporary_scene(window.scene, layer.name, VIEWPORT.ignores) as tmp:
         _leave_out_unseen(tmp, layer, shown)
-        prepare_scene(tmp, True)
+        prepare_scene(tmp, VIEWPORT, True)
         tmp.render.use_border = False  # it is of the camera's picture, not of this one
-        looking = add_camera(tmp, _from_before(scene.camera)).data
-        try:
-            with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer.name]):
-                depsgraph = bpy.context.evaluated_depsgraph_get()
-                exported, manifest = export(depsgraph)
-                certificate = certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
-            snapping = snapping_of(VIEWPORT)
-            planes = [scene.objects[p.object] for p in scene.planes]
-            with stand_ins(tmp, layer.name, scene, planes) as traced:
-                pixels = picture(tmp, layer.name, VIEWPORT, scene.camera, True)
-        finally:
-            bpy.data.cameras.remove(looking)  # and the object with it
+        looking = made_for(tmp, add_camera(tmp, _from_before(scene.camera)))
+        made_for(tmp, looking.data)
+        work = _turns(tmp, layer.name, scene)
+        traced, manifest, certificate, pixels = evaluated(tmp, layer.name, VIEWPORT, work)
     drawn_picture = Picture(
         pixels,
         Source(VIEWPORT.name, bpy.app.version_string),
         # Blender stores the view's own camera rounded again: its samples lie so far off.
         sampling=Sampling(certificate.largest if certificate else 0.0, snapping=snapping),
     )
-    traced = replace(traced, background=exported.background)
     return Case(traced, manifest, settings, drawn_picture, certificate)
+
+
+def _turns(
+    tmp: Any, layer: str, scene: Scene
+) -> Turns[tuple[Scene, Manifest, CameraCertificate | None, Colors]]:
+    """Draw a view's scene, and return it as it is to be compared, with what is known of it."""
+    depsgraph = yield False
+    exported, manifest = export(depsgraph)
+    certificate = certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
+    planes = [scene.objects[p.object] for p in scene.planes]
+    traced = replace(stand_ins(tmp, layer, scene, planes), background=exported.background)
+    set_up = VIEWPORT.set_up(tmp, layer, depsgraph)
+    pixels = yield from picture(tmp, VIEWPORT, scene.camera, set_up)
+    return traced, manifest, certificate, pixels
 
 
 def _view_of(space: int) -> tuple[Any, Any]:

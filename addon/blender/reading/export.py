@@ -7,7 +7,7 @@ returned.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -45,10 +45,11 @@ class Parts:
         return Scene(camera, self.meshes, self.instances, self.planes, background, self.objects)
 
 
-def export(depsgraph: Any) -> tuple[Scene, Manifest]:
+def export(depsgraph: Any, known: dict[Any, Read | None] | None = None) -> tuple[Scene, Manifest]:
     """Return what the tracer is to see of an evaluated depsgraph, and what the manifest says of it.
 
-    The depsgraph's mode decides on visibility and modifier levels.
+    The depsgraph's mode decides on visibility and modifier levels. What is `known` of its meshes is
+    not read again, and the others are added: a mesh in Edit Mode can be read once alone.
 
     Raises
     ------
@@ -59,11 +60,29 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
     camera = export_camera(scene)
     hiding = HIDDEN_FACES not in (ignored_features(depsgraph.scene) or ())
     read = partial(read_mesh, viewport=depsgraph.mode == "VIEWPORT", hiding=hiding)
+    if known is not None:
+        read = partial(_read_once, known, read)
     seen, shown, meshes = visible(depsgraph, scene.display.shading, read)
     unseen = set() if is_whole(scene) else _outside(camera, shown, meshes)
     parts, owners = assemble(seen, shown, meshes, unseen)
     manifest = _manifest(depsgraph, camera.name, seen, meshes)
     return parts.scene(camera, background(scene)), replace(manifest, owners=owners)
+
+
+def _read_once(
+    known: dict[Any, Read | None], read: Callable[[Any, str, bool], Read | None], *args: Any
+) -> Read | None:
+    """Return what is known of an object's mesh, or read it; what had colours may be without."""
+    obj, name, with_colors = args
+    is_edited = obj.original.data is not None and obj.original.data.is_editmode
+    key = name if is_edited else obj.data.as_pointer()
+    if key not in known:
+        known[key] = read(*args)
+    found = known[key]
+    if found is None or with_colors:
+        return found
+    mesh, left_out = found
+    return replace(mesh, corner_colors=None), left_out
 
 
 def assemble(

@@ -54,7 +54,8 @@ def missing(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterat
     lost = [*_placeholders(users), *named]
     if not (lost or bpy.app.autoexec_fail):
         return
-    reached = _reached(users, _first(drawn, layer, shown))
+    reached = _reached(users, _first(drawn, layer, mode, shown))
+    reached = _without_idle_trees(reached, mode)
     lost = [thing for thing in lost if thing.block in reached]
     if drawn.display.shading.color_type not in _OF_MATERIALS:
         lost = [thing for thing in lost if thing.block.id_type != "MATERIAL"]
@@ -118,15 +119,44 @@ def _named(block: Any) -> str:
     return f"{block.bl_rna.name.lower()} '{block.name}'"
 
 
-def _first(drawn: Any, layer: Any, shown: Collection[str]) -> Iterator[Any]:
+def _first(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterator[Any]:
     """Yield what is seen without being used by anything else."""
     yield drawn
     yield drawn.camera
+    yield from _gone_collections(layer.layer_collection, mode)
     there = set(layer.objects)
     for obj in bpy.data.objects:  # those of a background scene are shown, too
         is_shown = obj.name_full in shown and obj.type not in (*_UNSEEN, "CAMERA")
         if is_shown or (obj.is_missing and obj in there):
             yield obj
+
+
+def _gone_collections(parent: Any, mode: str) -> Iterator[Any]:
+    """Yield the placeholders of collections that a view layer, or a part of it, would show."""
+    for child in parent.children:
+        own = child.collection
+        hidden = own.hide_render if mode == "RENDER" else own.hide_viewport or child.hide_viewport
+        if not (child.exclude or hidden):
+            if own.is_missing:
+                yield own
+            yield from _gone_collections(child, mode)
+
+
+def _without_idle_trees(reached: set[Any], mode: str) -> set[Any]:
+    """Return the data-blocks without the trees of nodes that no modifier evaluates.
+
+    A property of an object's may name any tree, such as an add-on's.
+    """
+    flag = "show_render" if mode == "RENDER" else "show_viewport"
+    modifiers = (m for b in reached if b.id_type == "OBJECT" for m in b.modifiers)
+    left = [m.node_group for m in modifiers if m.type == "NODES" and getattr(m, flag)]
+    active: set[Any] = set()
+    while left:
+        tree = left.pop()
+        if tree and tree not in active:
+            active.add(tree)
+            left += [getattr(node, "node_tree", None) for node in tree.nodes]
+    return {b for b in reached if b.id_type != "NODETREE" or b in active}
 
 
 def _reached(users: _Users, first: Iterable[Any]) -> set[Any]:

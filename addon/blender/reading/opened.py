@@ -9,10 +9,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import bpy
+
+from ...wording import show
 
 _reports: dict[str, tuple[str, ...]] = {}  # by the file's path: of the one that was opened last
 
@@ -26,7 +29,7 @@ def open_file(path: Path) -> None:
         If it cannot be opened, with Blender's reason. What was open before then still is.
     """
     said: list[str] = []
-    with _heard() as loaded, redirect_stdout(sys.stderr):  # Blender writes its reports by Python
+    with _heard() as loaded, _reports_shown():
         try:
             bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
         except RuntimeError as error:
@@ -35,6 +38,17 @@ def open_file(path: Path) -> None:
             said = [line.removeprefix("Error: ").strip() for line in str(error).splitlines()]
     _reports.clear()
     _reports[bpy.data.filepath] = tuple(line for line in said if line)
+
+
+@contextmanager
+def _reports_shown() -> Iterator[None]:
+    """Print on standard error what Blender reports by Python, once it has opened a file."""
+    printed = StringIO()
+    try:
+        with redirect_stdout(printed):
+            yield
+    finally:
+        show(*printed.getvalue().splitlines(), file=sys.stderr)
 
 
 @contextmanager

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...arrays import Colors
 from ...manifest import Manifest
+from ...pictures.colors_file import recolored
 from ...pictures.palette import (
     VIEWPORT,
     By,
@@ -22,7 +23,7 @@ from ...pictures.palette import (
     clear_palette,
     not_told_apart,
 )
-from ...scene import Scene, SceneError
+from ...scene import GREY, Scene, SceneError
 from ..temporary import NOT_DRAWN
 from .colors import slot_materials
 
@@ -89,6 +90,29 @@ def automatic(scene: Any, exported: Scene, manifest: Manifest) -> Palette:
         return clear_palette(_object_names(scene), automatic_note("viewport", pair))
     except SceneError as error:
         return Palette(By.VIEWPORT, note=f"'{pair[0]}' and '{pair[1]}' share a colour: {error}")
+
+
+def as_compared(scene: Any, exported: Scene, manifest: Manifest) -> tuple[Scene, Manifest]:
+    """Return what a render exported in the clear colours that a comparison would have it in.
+
+    With other choices of colours it stays as it is, in those of the viewport.
+
+    Raises
+    ------
+    SceneError
+        If there are more objects than colours.
+    """
+    by = By(scene.reference_tracer.colors.lower())
+    if by == By.AUTOMATIC:
+        palette = automatic(scene, exported, manifest)
+    else:
+        palette = palette_by(scene, by) if by == By.OBJECT else VIEWPORT
+    if palette.by == By.OBJECT:
+        whose = zip(exported.instance_objects, manifest.owners, strict=False)
+        grey = np.array(GREY[:3], np.float32)  # of what instances, and is of a type without colour
+        slots = {(exported.objects[n], o): palette.colors.get(o, grey)[None] for n, o in whose}
+        exported = recolored(exported, GivenColors("--colors", slots), manifest.owners)
+    return exported, noted(palette, exported, manifest)
 
 
 def noted(palette: Palette, exported: Scene, manifest: Manifest) -> Manifest:

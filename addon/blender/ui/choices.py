@@ -38,7 +38,8 @@ PALETTES: tuple[Item, ...] = (
     (
         "AUTOMATIC",
         "Automatic",
-        "The viewport's colours where they tell objects apart, else a clear colour for each object",
+        "The viewport's colours where they tell objects apart, else a clear colour for each "
+        "object; F12 does the same",
         0,
     ),
     ("VIEWPORT", "Viewport", "The colours that the scene's solid shading has", 1),

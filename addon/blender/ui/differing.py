@@ -1,4 +1,4 @@
-"""The list of the regions that differ: a click frames one, in Image Editors and in 3D views."""
+"""The legend of the causes, and the list of the regions that differ: a click goes to one."""
 
 from __future__ import annotations
 
@@ -6,27 +6,30 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
-from bpy.props import IntProperty
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
+from bpy.props import IntProperty, StringProperty
 
 from . import results, shown
+from .layout import fit, wrapped
 from .long_work import Answer, named
 from .results import Kind
+from .swatches import swatch
 
 if TYPE_CHECKING:
     from ...diagnosis.regions import Region
 
 LISTED = 8
-_AROUND = 8  # pixels of the picture that are shown around a region, at least
+OBJECT_MODE = "Leave the mode that the active object is in: Tab"
+_AROUND = 24  # pixels of the picture that are shown around a region, at least
+_BESIDE = 0.85  # of a panel's width, beside the button that goes to the view
 
 
 @named
 class REFERENCE_TRACER_OT_frame_region(bpy.types.Operator):
     bl_label = "Frame Region"
-    bl_description = (
-        "Enlarge this region in the Image Editors that show the comparison, select the object that "
-        "it shows, and frame that in the 3D views that do not look through the camera"
-    )
-    bl_options = {"REGISTER", "UNDO"}
+    bl_description = "Enlarge this region in the Image Editors that show the comparison"
+    bl_options = set()  # it changes no data
 
     number: IntProperty(
         name="Number",
@@ -35,75 +38,139 @@ class REFERENCE_TRACER_OT_frame_region(bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
+    @classmethod
+    def description(cls, context: Any, properties: Any) -> str:
+        """Return what the region is, too: the button may have no room for it."""
+        found = _regions(context)[properties.number :][:1]
+        return "\n".join((*(texts_of(r)[0] for r in found), tip_(cls.bl_description)))
+
     def execute(self, context: Any) -> Answer:
         from ...scene import SceneError
 
-        found = results.latest(Kind.COMPARISON, context.scene)
-        regions = found.regions if found else ()
-        if self.number >= len(regions):
-            raise SceneError(f"The comparison has {len(regions)} regions, numbered from 0.")
-        region = regions[self.number]
-        is_selected = context.mode == "OBJECT" and _select(context, region.objects)
-        for window in () if bpy.app.background else context.window_manager.windows:
-            for area in window.screen.areas:
-                _frame(window, area, region, is_selected)
+        found = _regions(context)
+        if self.number >= len(found):
+            raise SceneError(f"The comparison has {len(found)} regions, numbered from 0.")
+        for window, area in _areas(context, "IMAGE_EDITOR"):
+            if shown.chosen(area.spaces.active):
+                _enlarge(window, area, found[self.number])
         return {"FINISHED"}
 
 
-def _select(context: Any, names: tuple[str, ...]) -> bool:
-    """Select the first of these objects that the view layer has, alone, and make it active.
+@named
+class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
+    bl_label = "Select"
+    bl_description = (
+        "Select this object alone, make it active, and frame it in the 3D views that do not look "
+        "through the camera"
+    )
+    bl_options = {"REGISTER", "UNDO"}
 
-    Returns whether there is one.
-    """
-    by_name = {o.name_full: o for o in context.view_layer.objects}
-    found = next((by_name[name] for name in names if name in by_name), None)
-    if found is not None:
+    name: StringProperty(
+        name="Name", description="The object, by its full name", options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it in Object Mode."""
+        if context.mode != "OBJECT":
+            cls.poll_message_set(rpt_(OBJECT_MODE))
+        return context.mode == "OBJECT"
+
+    def execute(self, context: Any) -> Answer:
+        from ...scene import SceneError
+
+        layer = context.view_layer
+        found = next((o for o in context.scene.objects if o.name_full == self.name), None)
+        if found is None:
+            raise SceneError(
+                f"Scene '{context.scene.name}' has no object '{self.name}' now: it is instanced "
+                "from elsewhere, or was renamed or removed since the comparison."
+            )
+        if found not in set(layer.objects):
+            raise SceneError(
+                f"'{self.name}' is not in view layer '{layer.name}': its collection is excluded."
+            )
         for obj in context.selected_objects:
             obj.select_set(False)
         found.select_set(True)
-        context.view_layer.objects.active = found
-    return found is not None
+        layer.objects.active = found
+        if not found.select_get():
+            said = rpt_(
+                "'{}' is active, but hidden in this view: Blender selects only what is seen"
+            )
+            self.report({"WARNING"}, said.format(self.name))
+        for window, area in _areas(context, "VIEW_3D"):
+            if area.spaces.active.region_3d.view_perspective != "CAMERA":
+                inside = next(r for r in area.regions if r.type == "WINDOW")
+                with context.temp_override(window=window, area=area, region=inside):
+                    bpy.ops.view3d.view_selected()
+        return {"FINISHED"}
 
 
-def _frame(window: Any, area: Any, region: Region, is_selected: bool) -> None:
-    """Enlarge a region in an Image Editor, or frame its object in a 3D view if it is selected."""
+def _areas(context: Any, kind: str) -> list[tuple[Any, Any]]:
+    """Return the areas of a type in all windows, with their windows; none without a window."""
+    windows = () if bpy.app.background else context.window_manager.windows
+    return [(w, area) for w in windows for area in w.screen.areas if area.type == kind]
+
+
+def _enlarge(window: Any, area: Any, region: Region) -> None:
+    """Enlarge a region in an Image Editor."""
     inside = next(r for r in area.regions if r.type == "WINDOW")
-    space = area.spaces.active
+    around = max(_AROUND, region.width // 2, region.height // 2)
+    width, height = area.spaces.active.image.size
+    low = region.left - around, region.bottom - around
+    high = region.left + region.width + around, region.top + 1 + around
     with bpy.context.temp_override(window=window, area=area, region=inside):
-        if shown.chosen(space):
-            around = max(_AROUND, region.width // 2, region.height // 2)
-            width, height = space.image.size
-            ends = (
-                (region.left - around, region.bottom - around),
-                (
-                    region.left + region.width + around,
-                    region.top + 1 + around,
-                ),
-            )
-            view = inside.view2d
-            (x0, y0), (x1, y1) = (
-                view.view_to_region(x / width, y / height, clip=False) for x, y in ends
-            )
-            bpy.ops.image.view_zoom_border(xmin=x0, xmax=x1, ymin=y0, ymax=y1)
-        elif space.type == "VIEW_3D" and space.region_3d.view_perspective != "CAMERA":
-            if is_selected:
-                bpy.ops.view3d.view_selected()
-
-
-def draw_regions(layout: Any, context: Any) -> None:
-    """Draw the largest regions, each with a button that frames it."""
-    found = results.latest(Kind.COMPARISON, context.scene)
-    regions = found.regions if found else ()
-    column = layout.column(align=True)
-    for number, region in enumerate(regions[:LISTED]):
-        shows = region.objects[0] if region.objects else iface_("Background")
-        text = f"{region.pixels:,} px: {shows}"
-        button = column.operator(
-            REFERENCE_TRACER_OT_frame_region.bl_idname, text=text, translate=False
+        view = inside.view2d
+        (x0, y0), (x1, y1) = (
+            view.view_to_region(x / width, y / height, clip=False) for x, y in (low, high)
         )
-        button.number = number
-    if more := len(regions[LISTED:]):
+        bpy.ops.image.view_zoom_border(xmin=x0, xmax=x1, ymin=y0, ymax=y1)
+
+
+def _regions(context: Any) -> tuple[Region, ...]:
+    found = results.latest(Kind.COMPARISON, context.scene)
+    return found.regions if found else ()
+
+
+def draw_causes(layout: Any, context: Any) -> None:
+    """Draw each cause in its colour with its pixels, and a button for each of the first regions."""
+    from ...causes.explain import BY_NUMBER
+
+    comparison = results.content(Kind.COMPARISON, context.scene)
+    if comparison is None:
+        return
+    for cause, count in comparison.counts.of_causes():
+        said = cause.count_in_words(count, iface_)
+        wrapped(layout, context, said, swatch=swatch(cause))
+    column = layout.column(align=True)
+    for number, region in enumerate(_regions(context)[:LISTED]):
+        cause = BY_NUMBER[region.cause]
+        row = column.row(align=True)
+        texts = texts_of(region)
+        text = next((text for text in texts if fit(context, [text], _BESIDE)), texts[-1])
+        to = row.operator(
+            REFERENCE_TRACER_OT_frame_region.bl_idname,
+            text=text,
+            icon_value=swatch(cause),
+            translate=False,
+        )
+        to.number = number
+        if region.objects:
+            select = REFERENCE_TRACER_OT_select_object.bl_idname
+            row.operator(select, text="", icon="VIEW3D").name = region.objects[0]
+    if more := len(_regions(context)[LISTED:]):
         column.label(text=iface_("and {} more regions").format(more))
+
+
+def texts_of(region: Region) -> tuple[str, str, str]:
+    """Return a region's pixels, cause, place and object in a line; then less, for less room."""
+    from ...causes.explain import BY_NUMBER
+
+    many = BY_NUMBER[region.cause].count_in_words(region.pixels, iface_)
+    shows = region.objects[0] if region.objects else iface_("Background")
+    at = f"({region.left}, {region.bottom})"
+    return f"{many} {at}: {shows}", f"{many} {at}", f"{region.pixels:,} px {at}"
 
 
 class IMAGE_PT_reference_tracer_shown(bpy.types.Panel):
@@ -117,9 +184,5 @@ class IMAGE_PT_reference_tracer_shown(bpy.types.Panel):
         return shown.chosen(context.space_data) is not None
 
     def draw(self, context: Any) -> None:
-        """Draw the switch, the line's place, and the regions."""
-        layout: Any = self.layout
-        shown.draw_switch(layout.column(align=True), context.space_data)
-        if shown.chosen(context.space_data) == "BOTH":
-            layout.prop(context.window_manager.reference_tracer, "split", slider=True)
-        draw_regions(layout, context)
+        """Draw the legend and the regions; the header has the switch."""
+        draw_causes(self.layout, context)

@@ -62,7 +62,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         "Derive what one pixel sees, step by step, in float32, float64 and exactly. The text "
         "'Reference Tracer Pixel' has all of it, the panel the key numbers"
     )
-    bl_options = {"UNDO"}
+    bl_options = set()  # what it leaves is a result; the objects of the ray are a step of their own
 
     x: IntProperty(name="X", description="The pixel's column, from the left", min=0)
     y: IntProperty(name="Y", description="The pixel's row, from the bottom", min=0)
@@ -80,7 +80,6 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
 
     def execute(self, context: Any) -> Answer:
         from ...derivation import document
-        from . import ray_objects
 
         found = derive_here(context, self.x, self.y, self.source)
         said = document.answer_sentence(found)
@@ -90,7 +89,8 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         results.keep(Kind.PIXEL, found, [said], context.scene.name)
         results.show_text(context, TEXT, document.document_markdown(found))
         if self.draw_ray:
-            ray_objects.draw(context.scene, found)
+            draw: Any = bpy.ops.reference_tracer.draw_ray  # type: ignore[attr-defined]
+            draw("EXEC_DEFAULT", True)
         results.redraw(context)
         self.report({"INFO"}, f"({self.x}, {self.y}): {said}")
         return {"FINISHED"}

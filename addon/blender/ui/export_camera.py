@@ -16,9 +16,9 @@ _items: list[tuple[str, str, str]] = []  # Blender does not keep the texts that 
 
 
 def _conventions(operator: Any, context: Any) -> list[tuple[str, str, str]]:
-    from ...camera_files.files import CONVENTIONS
+    from ...camera_files.files import WRITTEN
 
-    _items[:] = _items or [(name, own.title, own.file) for name, own in CONVENTIONS.items()]
+    _items[:] = _items or [(name, own.title, own.file) for name, own in WRITTEN.items()]
     return _items
 
 
@@ -61,12 +61,12 @@ class REFERENCE_TRACER_OT_export_camera(  # type: ignore[misc]  # Blender's own 
 
     def check(self, context: Any) -> bool:  # type: ignore[override]  # the stub returns nothing
         """Give the file the ending of the convention; returns whether the name is another now."""
-        from ...camera_files.files import CONVENTIONS
+        from ...camera_files.files import WRITTEN
 
-        ending = Path(CONVENTIONS[self.convention].file).suffix
+        ending = Path(WRITTEN[self.convention].file).suffix
         before = self.filepath
         path = Path(before)
-        endings = {Path(c.file).suffix for c in CONVENTIONS.values()}
+        endings = {Path(c.file).suffix for c in WRITTEN.values()}
         if not path.suffix or path.suffix in endings:
             self.filepath = str(path.with_suffix(ending))
         return self.filepath != before
@@ -74,7 +74,7 @@ class REFERENCE_TRACER_OT_export_camera(  # type: ignore[misc]  # Blender's own 
     def execute(self, context: Any) -> Answer:
         """Write the camera, or those of all frames."""
         from ...camera_files.convention import HALF, INTEGER
-        from ...camera_files.files import CONVENTIONS
+        from ...camera_files.files import WRITTEN
         from ...report.cameras import write_cameras
         from ..jobs.animation import frames_of
         from ..jobs.cameras import cameras
@@ -82,7 +82,7 @@ class REFERENCE_TRACER_OT_export_camera(  # type: ignore[misc]  # Blender's own 
 
         frames = frames_of(context.scene) if self.animation else None
         centers = INTEGER if self.integer_centers else HALF
-        convention = CONVENTIONS[self.convention]
+        convention = WRITTEN[self.convention]
         line = write_cameras(absolute(self.filepath), list(cameras(frames)), convention, centers)
         say(line)
         self.report({"INFO"}, line)

@@ -14,6 +14,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import IntProperty
 
 from . import results
+from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object
 from .layout import wrapped
 from .long_work import Answer, named
 from .results import Kind
@@ -49,7 +50,7 @@ class _OfFinding:
             own.poll_message_set(rpt_("There is no comparison whose diagnosis has found something"))
             return False
         if cls.in_object_mode and context.mode != "OBJECT":
-            own.poll_message_set(rpt_("Leave the mode that the active object is in: Tab"))
+            own.poll_message_set(rpt_(OBJECT_MODE))
             return False
         return True
 
@@ -67,39 +68,6 @@ class _OfFinding:
         if self.number >= len(found):
             raise SceneError(f"The diagnosis tells {len(found)} faults, numbered from 0.")
         return found[self.number]
-
-
-@named
-class REFERENCE_TRACER_OT_select_finding(_OfFinding, bpy.types.Operator):
-    bl_label = "Select"
-    bl_description = "Select the object that the diagnosis tells, alone, and make it active"
-    bl_options = {"REGISTER", "UNDO"}
-
-    def execute(self, context: Any) -> Answer:
-        from ...scene import SceneError
-
-        name = self.told(context).guess.object
-        layer = context.view_layer
-        found = next((o for o in context.scene.objects if o.name_full == name), None)
-        if found is None:
-            raise SceneError(
-                f"Scene '{context.scene.name}' has no object '{name}' now: it is instanced from "
-                "elsewhere, or was renamed or removed since the comparison."
-            )
-        if found not in set(layer.objects):
-            raise SceneError(
-                f"'{name}' is not in view layer '{layer.name}': its collection is excluded."
-            )
-        for obj in context.selected_objects:
-            obj.select_set(False)
-        found.select_set(True)
-        layer.objects.active = found
-        if not found.select_get():
-            said = rpt_(
-                "'{}' is active, but hidden in this view: Blender selects only what is seen"
-            )
-            self.report({"WARNING"}, said.format(name))
-        return {"FINISHED"}
 
 
 @named
@@ -160,7 +128,7 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
         "Show the picture that this is wrong in, the traced one or the other, as it is with this "
         "and what was found before it put right"
     )
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = set()  # it changes no data
     in_object_mode = False
 
     def execute(self, context: Any) -> Answer:
@@ -172,6 +140,8 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
             raise SceneError(f"No picture shows it put right: {said}.")
         show = show_where_shown if bpy.app.background else open_as_render
         show(context, results.show(results.PUT_RIGHT, color))
+        kept: Any = results.latest(Kind.COMPARISON, context.scene)
+        kept.shown[:] = [self.number]
         return {"FINISHED"}
 
 
@@ -199,7 +169,7 @@ def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
             if number == _copied_for(context):
                 box.operator(REFERENCE_TRACER_OT_activate_copy.bl_idname)
         elif told.guess.object in here:
-            box.operator(REFERENCE_TRACER_OT_select_finding.bl_idname).number = number
+            box.operator(REFERENCE_TRACER_OT_select_object.bl_idname).name = told.guess.object
         if number in _put_right(context):
             box.operator(REFERENCE_TRACER_OT_show_put_right.bl_idname).number = number
         if not told.alternative:

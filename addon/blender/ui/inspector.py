@@ -1,7 +1,7 @@
 """The pixel inspector: a click on a pixel shows how it comes about.
 
-`picking.py` finds the pixel under the mouse; `reference_tracer.explain` does the work, with a step
-of undo for each click.
+`picking.py` finds the pixel under the mouse; `reference_tracer.explain` does the work. A ray that
+is drawn is a step of undo.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
             if found is None:
                 return {"PASS_THROUGH"}
             draw_ray = context.window_manager.reference_tracer.draw_ray
-            # As a button does it: with a step of undo of its own.
+            # As a button does it: a ray that is drawn is a step of undo.
             ops: Any = bpy.ops
             ops.reference_tracer.explain("EXEC_DEFAULT", True, **found._asdict(), draw_ray=draw_ray)
         except (SceneError, RuntimeError) as error:  # what an operator reports is one, too

@@ -18,6 +18,7 @@ _NAME, _VALUE = 0.37, 0.58  # those of a setting's name and of what stands besid
 _SIDE = 66  # a sidebar's, which has tabs, too
 _MARGINS = {"WINDOW": 50}
 _ICON = 22
+_BETWEEN = 8  # two columns, and in a box
 _PROPERTIES = {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "render"}
 _SIDEBAR = {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Reference Tracer"}
 
@@ -47,16 +48,21 @@ def short_name(row: Any) -> str:
     return f"{name[0].upper()}{name[1:]} {row.precision.removeprefix('float')}"
 
 
-def draw_facts(layout: Any, facts: Iterable[tuple[str, str]]) -> None:
-    """Draw names and values, a line each."""
+def draw_facts(layout: Any, context: Any, facts: Iterable[tuple[str, str]]) -> None:
+    """Draw names and values in two columns, or as sentences where one has no room."""
+    names, values = zip(*((iface_(name), iface_(value)) for name, value in facts), strict=True)
+    if not (fit(context, names, _NAMES, _BETWEEN) and fit(context, values, 1 - _NAMES, _BETWEEN)):
+        for name, value in zip(names, values, strict=True):
+            wrapped(layout, context, f"{name}: {value}")
+        return
     split = layout.split(factor=_NAMES)
     columns = split.column(align=True), split.column(align=True)
     columns[1].alignment = "RIGHT"
     for column in columns:
         column.scale_y = 0.8
-    for fact in facts:
-        for column, text in zip(columns, fact, strict=True):
-            column.label(text=text)
+    for column, texts in zip(columns, (names, values), strict=True):
+        for text in texts:
+            column.label(text=text, translate=False)
 
 
 def folded(layout: Any, key: str, title: str) -> Any:
@@ -107,14 +113,16 @@ def _measured(context: Any, share: float, icon: float) -> tuple[float, float]:
     return preferences.ui_styles[0].widget.points * scale, width
 
 
-def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE") -> None:
-    """Draw a sentence in as many lines as the panel's width needs."""
-    size, width = _measured(context, 1.0, _ICON if icon != "NONE" else 0)
+def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE", swatch: int = 0) -> None:
+    """Draw a sentence in as many lines as the panel's width needs, beside an icon or a swatch."""
+    has_icon = bool(swatch) or icon != "NONE"
+    size, width = _measured(context, 1.0, _ICON if has_icon else 0)
     column = layout.column(align=True)
     column.scale_y = 0.8
     for line in lines(iface_(text), width, size):
-        column.label(text=line, icon=icon, translate=False)
-        icon = "BLANK1" if icon != "NONE" else icon
+        column.label(text=line, icon=icon, icon_value=swatch, translate=False)
+        icon = "BLANK1" if has_icon else icon
+        swatch = 0
 
 
 @lru_cache(256)  # a panel is drawn many times a second

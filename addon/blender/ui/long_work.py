@@ -8,7 +8,6 @@ with progress, the time left, and Esc. Only one runs at a time.
 from __future__ import annotations
 
 import time
-import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar
 
@@ -20,7 +19,7 @@ from ...tracer.progress import Work, doing, result_of
 from ...wording import say
 from ..versions import RELATIVE
 from .preferences import default_folder
-from .results import redraw
+from .results import Kind, drop, redraw
 
 if TYPE_CHECKING:
     from bpy.stub_internal.rna_enums import OperatorReturnItems
@@ -35,6 +34,9 @@ T = TypeVar("T", bound=type)
 SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
+
+# Where it is said how far the work is: types of areas, and of regions in them.
+_SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
 
 OPERATORS: list[type] = []  # to be registered
 
@@ -59,12 +61,15 @@ def named(operator: T) -> T:
 class LongWork(Mixin):
     """Mixed into an operator with long work, which gives its `begin` and its `finish`."""
 
-    bl_options = {"UNDO"}  # what it leaves is one step
+    bl_options = set()  # it leaves results, which no undo step has
 
     running: ClassVar[str] = ""  # the label of the one that is, in whichever window
+    said: ClassVar[str] = ""  # what it does, how far it is, and how to end it
+    share: ClassVar[float] = 0.0  # of its work that is done
     _work: ClassVar[Work[Any]]  # of that one
     _timer: ClassVar[Any]
     _told: ClassVar[set[int]] = set()  # the addresses of the workspaces whose status bar says so
+    kind: Kind | None = None  # of its result: if it fails, the one before is dropped
     needs_camera: ClassVar[bool] = False
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
@@ -118,6 +123,7 @@ class LongWork(Mixin):
         self._began = time.monotonic()
         self._shown = self._began
         LongWork.running = self.bl_label
+        LongWork.share = 0.0
         self.pressed = True
         self._say(context, rpt_(self.announced))
         return {"RUNNING_MODAL"}
@@ -160,13 +166,17 @@ class LongWork(Mixin):
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
         left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
-        self._say(context, doing(share), f": {int(100 * share)} %{left}")
+        LongWork.share = share
+        self._say(context, rpt_(doing(share)), f": {int(100 * share)} %{left}")
 
     def _say(self, context: Any, what: str, rest: str = "") -> None:
-        """Say in the status bar what is done, how far it is, and how to end it."""
-        said = ", ".join(filter(None, (self.doing or rpt_(self.bl_label), what))) + rest
+        """Say where the user looks what is done, how far it is, and how to end it."""
+        said = self.doing or ", ".join(filter(None, (rpt_(self.bl_label), what)))
+        said += rest
+        LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"
         LongWork._told.add(context.workspace.as_pointer())
-        context.workspace.status_text_set(f"{said}  ({rpt_('Esc: cancel')})")
+        context.workspace.status_text_set(LongWork.said)
+        _redraw_said(context)
 
     def cancel(self, context: Any) -> None:
         """Stop, as Blender itself asks for at quitting or loading a file."""
@@ -183,6 +193,7 @@ class LongWork(Mixin):
             if workspace.as_pointer() in LongWork._told:
                 workspace.status_text_set(None)
         LongWork._told.clear()
+        _redraw_said(context)
 
     def _end(self, context: Any, result: Any) -> Answer:
         """Show the result, and report it."""
@@ -193,12 +204,27 @@ class LongWork(Mixin):
         return {"FINISHED"}
 
 
-def failed(operator: Any, error: Exception) -> Answer:
-    """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
-    from ...errors import EXPECTED, words
+def _redraw_said(context: Any) -> None:
+    """Have what says how far the work is drawn again, and nothing that costs more."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            for region in area.regions:
+                if (area.type, region.type) in _SAID_IN:
+                    region.tag_redraw()
 
+
+def failed(operator: Any, error: Exception) -> Answer:
+    """Have an operator report an error, with a traceback if it is a fault of ours, and end.
+
+    What is on the screen is not taken for its result.
+    """
+    from ...errors import EXPECTED, show_traceback, words
+
+    if kind := getattr(operator, "kind", None):
+        drop(kind, bpy.context.scene)
+        redraw(bpy.context)
     if not isinstance(error, EXPECTED):
-        traceback.print_exception(error)
+        show_traceback(error)
     operator.report({"ERROR"}, words(error))
     return {"CANCELLED"}
 

@@ -15,9 +15,10 @@ from bl_ui.utils import PresetPanel
 
 from .export_camera import REFERENCE_TRACER_OT_export_camera
 from .long_work import named
+from .outcome import draw_in_header
 from .properties import ReferenceTracerScene
 from .samples import REFERENCE_TRACER_MT_samples
-from .shown import draw_switch
+from .shown import chosen, draw_switch
 
 _GROUP = ReferenceTracerScene.__name__
 _SHIPPED = str(Path(__file__).parent)  # has presets/reference_tracer/
@@ -82,6 +83,8 @@ def _draw_in_export(menu: Any, context: Any) -> None:
 
 
 def _draw_in_header(header: Any, context: Any) -> None:
+    if chosen(context.space_data):
+        draw_in_header(header.layout, context)
     draw_switch(header.layout.row(align=True), context.space_data)
 
 

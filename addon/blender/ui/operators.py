@@ -27,6 +27,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         "Trace the scene by the chosen method, and compare every pixel with Blender's own "
         "picture. The textbook's formulas and the proven picture are listed side by side"
     )
+    kind: Kind | None = Kind.COMPARISON
     needs_camera = True
     announced = "Blender draws the scene"
     _is_shown = False
@@ -58,12 +59,13 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
                     redraw(context)
 
     def _show(self, context: Any, comparison: Any, share: float) -> Work[None]:
-        """Keep a comparison, and show the user the difference, once; the share stays."""
+        """Keep a comparison, and show the user the traced picture, once; the share stays."""
         yield from mapped(results.keep_comparison(comparison), lambda _: share)
         if not self._is_shown:
             show = open_as_render if self.pressed else show_where_shown
-            show(context, results.ours(results.DIFFERENCE))
+            show(context, results.ours(results.TRACED))
             self._is_shown = True
+            self.kind = None
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Print the comparison; report its first line."""
@@ -79,6 +81,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         "Trace the scene, and compare it with the picture of each engine, Blender's own and those "
         "of add-ons: which of them shows a wrong object, where, and why"
     )
+    kind = Kind.ENGINES
     needs_camera = True
     announced = "Blender draws the scene"
 
@@ -106,6 +109,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         "Step the scene through its frames, and compare each; the worst are listed first. Esc "
         "keeps the frames that are done. Afterwards the scene is at its frame again"
     )
+    kind = Kind.FRAMES
     needs_camera = True
     alone = True
 

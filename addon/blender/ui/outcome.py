@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 from bpy.app.translations import pgettext_iface as iface_
 
 from ..drawing.judges import label_of
-from . import operators
-from .differing import draw_regions
+from . import operators, results
+from .differing import draw_causes
 from .findings import draw_findings
 from .layout import draw_facts, short_name, wrapped
+from .long_work import LongWork
+from .results import Kind
 
 if TYPE_CHECKING:
-    from ...causes.counts import PixelCounts
     from ...comparison.comparison import Comparison
 
 Facts = Iterator[tuple[str, str]]  # names and values
@@ -22,24 +23,37 @@ Facts = Iterator[tuple[str, str]]  # names and values
 
 def draw_outcome(layout: Any, context: Any, comparison: Comparison) -> None:
     """Draw the verdict, the way to the page, and what differs and why."""
-    icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
-    counts = comparison.counts
-    verdict = iface_(comparison.verdict.capitalize())
-    said = iface_("{}: {:,} px differ").format(verdict, counts.differ)
-    wrapped(layout, context, said, icon)
+    text, icon = _verdict(comparison)
+    wrapped(layout, context, text, icon)
     layout.operator(operators.REFERENCE_TRACER_OT_open_page.bl_idname, icon="URL")
     for line in comparison.excused.lines():
         wrapped(layout, context, line.strip(), "ERROR")
     draw_findings(layout, context, comparison)
-    draw_facts(layout, _of_pixels(counts))
-    draw_regions(layout, context)
+    draw_causes(layout, context)
+
+
+def draw_in_header(layout: Any, context: Any) -> None:
+    """Draw the verdict beside the picture of a comparison, or how far the work on it is."""
+    comparison = results.content(Kind.COMPARISON, context.scene)
+    if LongWork.running:
+        layout.progress(factor=LongWork.share)
+        layout.label(text=LongWork.said, translate=False)
+    elif comparison:
+        text, icon = _verdict(comparison)
+        layout.label(text=text, icon=icon, translate=False)
+
+
+def _verdict(comparison: Comparison) -> tuple[str, str]:
+    """Return the verdict in a line, and its icon."""
+    icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
+    return comparison.verdict.in_words(comparison.counts, iface_), icon
 
 
 def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
     """Draw the metrics, and what each method needed and got wrong."""
     from ...diagnosis.fault_rows import table
 
-    draw_facts(layout, _measured(comparison))
+    draw_facts(layout, context, _measured(comparison))
     other = iface_(label_of(comparison.case.picture.source))
     wrapped(layout, context, f"{iface_('Compared with')} {other}")
     for row in comparison.methods:
@@ -49,24 +63,9 @@ def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
             ("Wrong", wrong),
             ("Ambiguous", f"{row.ambiguous:,} px"),
         ]
-        draw_facts(layout.box(), facts)
+        draw_facts(layout.box(), context, facts)
     for line in (*comparison.required, *table(comparison.self_check)[:1]):
         wrapped(layout, context, line)
-
-
-def _of_pixels(pixels: PixelCounts) -> Facts:
-    """Yield how many pixels agree; how many differ, by cause, and in and around surfaces."""
-    from ...causes.explain import CAUSES
-
-    counts = {"Agree": pixels.agree}
-    for cause in sorted(CAUSES)[1:]:
-        if count := pixels.by_cause.get(cause.key):
-            counts[cause.label.capitalize()] = count
-    if pixels.differ:
-        counts["Inside surfaces"] = pixels.interior.differ
-        counts["Along edges"] = pixels.boundary.differ
-    for label, count in counts.items():
-        yield label, f"{count:,} px"
 
 
 def _measured(comparison: Comparison) -> Facts:

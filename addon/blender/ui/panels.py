@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +11,10 @@ from bpy.app.translations import pgettext_iface as iface_
 
 from ...methods import Method
 from ..drawing.judges import JUDGES
-from ..engine import ENGINE
+from ..temporary import ENGINE
 from . import operators, results, samples
 from .layout import Part, both, button, draw_facts, folded, setting, wrapped
+from .long_work import LongWork
 from .menus import REFERENCE_TRACER_PT_presets
 from .outcome import draw_figures, draw_outcome
 from .results import Kind
@@ -49,9 +50,13 @@ class _Main(Part):
         layout = self.layout
         if context.scene.camera is None:
             button(layout, context, operators.REFERENCE_TRACER_OT_frame_all, "CAMERA_DATA")
-        row = layout.row()
-        row.scale_y = 1.4
-        button(row, context, operators.REFERENCE_TRACER_OT_compare, "RENDER_STILL")
+        if LongWork.running:
+            layout.progress(factor=LongWork.share)
+            wrapped(layout, context, LongWork.said)
+        else:
+            row = layout.row()
+            row.scale_y = 1.4
+            button(row, context, operators.REFERENCE_TRACER_OT_compare, "RENDER_STILL")
         comparison = results.content(Kind.COMPARISON, context.scene)
         if comparison:
             draw_outcome(layout, context, comparison)
@@ -94,7 +99,10 @@ def _draw_more(layout: Any, context: Any) -> None:
     button(layout, context, operators.REFERENCE_TRACER_OT_compare_all, "RENDERLAYERS")
     for row in results.content(Kind.ENGINES, context.scene) or ():
         box = layout.box()
-        draw_facts(box, _of_engine(row))
+        name, verdict = _of_engine(row)
+        wrapped(box, context, f"{iface_(name)}: {verdict}")
+        if row.wrong_objects is not None:
+            draw_facts(box, context, [("Wrong object", f"{row.wrong_objects:,} px")])
         for line in filter(None, (row.error, *row.not_judged)):
             wrapped(box, context, line, "ERROR")
     button(layout, context, operators.REFERENCE_TRACER_OT_compare_animation, "RENDER_ANIMATION")
@@ -102,16 +110,14 @@ def _draw_more(layout: Any, context: Any) -> None:
         _draw_frames(layout.box(), context, *found)
 
 
-def _of_engine(row: EngineRow) -> Iterator[tuple[str, str]]:
+def _of_engine(row: EngineRow) -> tuple[str, str]:
+    """Return an engine's name, and the verdict on its picture."""
     from ..drawing.engines import others
 
     judge = JUDGES.get(row.engine) or others().get(row.engine)
-    yield judge.label if judge else row.engine, str(row.verdict).capitalize()
-    if row.counts:
-        yield "Differ", f"{row.counts.differ:,} px"
-        yield "Unexplained", f"{row.counts.unexplained:,} px"
-    if row.wrong_objects is not None:
-        yield "Wrong object", f"{row.wrong_objects:,} px"
+    verdict = row.verdict
+    said = verdict.in_words(row.counts, iface_) if row.counts else iface_(verdict.capitalize())
+    return judge.label if judge else row.engine, said
 
 
 def _draw_frames(layout: Any, context: Any, path: Path, rows: Sequence[FrameRow]) -> None:

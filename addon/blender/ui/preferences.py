@@ -12,7 +12,7 @@ from ..versions import RELATIVE
 
 
 class ReferenceTracerPreferences(bpy.types.AddonPreferences):
-    bl_idname = __package__.rsplit(".", 2)[0]  # what has `addon/blender`: the extension
+    bl_idname = __package__.removesuffix(".blender.ui").removesuffix(".addon")  # the extension
 
     folder: StringProperty(
         name="Results",

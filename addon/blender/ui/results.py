@@ -1,12 +1,14 @@
 """Keeps the latest of each kind of result for the panels, and shows it in images and texts.
 
-What the panels show is not stored in the .blend: it is about one moment.
+They belong to the session, as a render does. Blender stores no data-block that is marked as runtime
+data. A picture is shown from a file of the session's, so there is nothing in it to be saved. No
+undo step need have them: undo takes them away, and they are put back.
 """
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cache
@@ -15,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ...methods import Method
 from ...tracer.progress import Work, by_rows, scaled
 
 if TYPE_CHECKING:
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
     from ...comparison.comparison import Comparison
     from ...diagnosis.diagnosis import Told
     from ...diagnosis.regions import Region
-    from ...study.extremes import ExtremesRow
-    from ...study.trade import Trade
 
 # A name: so the class of a result need not be imported.
 Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES")
@@ -33,14 +32,14 @@ BLENDER = "Reference Tracer Blender"
 DIFFERENCE = "Reference Tracer Difference"
 CAUSES = "Reference Tracer Causes"
 PUT_RIGHT = "Reference Tracer Put Right"
-MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
+MARK = "reference_tracer_result"  # a custom property of our images and texts: their name
+_SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of an area
 
 
 @dataclass(frozen=True, eq=False)
 class Result:
     """What a panel shows; computed once, since panels are drawn many times a second."""
 
-    file: str
     content: Any  # what the kind says
     lines: tuple[str, ...]  # sentences; a panel shows the first
     scene: str | None = None  # None: of no scene
@@ -48,17 +47,20 @@ class Result:
     regions: tuple[Region, ...] = ()  # where it differs, the largest first
     # By the number of a fault that is told: the picture that it changes, put right.
     put_right: Mapping[int, Colors] = field(default_factory=dict)
+    shown: list[int] = field(default_factory=list)  # of the fault that is shown put right
     # The numbers of the faults that a copy of the camera was added for, by its `session_uid`.
     copies: dict[int, int] = field(default_factory=dict)
 
 
 _latest: dict[Kind, Result] = {}
+_files: dict[str, tuple[str, str]] = {}  # of our images, with their colour spaces, and texts
+_made: dict[str, int] = {}  # from these: the latest one's `session_uid`
+_seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
 
 
-def keep_comparison(comparison: Comparison) -> Work[Result]:
+def _kept(comparison: Comparison) -> Work[Result]:
     """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
-    from ...causes.cause import AGREE
-    from ...causes.maps import cause_map, difference_map, ringed
+    from ...causes.maps import cause_map, difference_map
     from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
 
@@ -70,7 +72,6 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     yield 0.2
     pair = traced, comparison.picture
     apart = yield from scaled(by_rows(difference_map, *pair), 0.2, 0.3)
-    apart = ringed(apart, cause != AGREE)
     yield 0.5
     show(DIFFERENCE, apart)
     yield 0.6
@@ -83,37 +84,20 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     for number, _, color in pictures_put_right(comparison):
         right[number] = color
         yield 1.0
-    if stale := ours(PUT_RIGHT):
-        bpy.data.images.remove(stale)
+    remove(PUT_RIGHT)
     found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
     _latest[Kind.COMPARISON] = replace(found, regions=regions, put_right=right)
     return _latest[Kind.COMPARISON]
 
 
-def keep_trade(trade: Trade) -> Result:
-    """Remember a trade, and write its plot for the browser."""
-    from ...report import trade as trade_report
-
-    page = _page("trade", trade_report.picture(trade))
-    return keep(Kind.TRADE, trade, [trade.advice], trade.scene, page)
-
-
-def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
-    """Remember where each method breaks, and write the plot of it for the browser."""
-    from ...report import extremes as extremes_report
-
-    page = _page("extremes", extremes_report.picture(rows))
-    wrong = sum(r.lost + r.doubled for r in rows if Method(r.method).is_proven)
-    lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
-    return keep(Kind.EXTREMES, tuple(rows), lines, page=page)
-
-
-def _page(name: str, drawn: str) -> str:
-    from ...report import folders, plots
-
-    path = session_folder() / f"{name}.html"
-    folders.write_text(path, plots.page(f"Reference Tracer {name}", drawn))
-    return path.as_uri()
+def keep_comparison(comparison: Comparison) -> Work[Result]:
+    """Remember a comparison, and show its pictures; ended in between, there is none."""
+    try:
+        return (yield from _kept(comparison))
+    finally:
+        found = _latest.get(Kind.COMPARISON)
+        if found is None or found.content.causes is not comparison.causes:
+            _forget_comparison()  # the pictures are of two
 
 
 @cache
@@ -126,16 +110,14 @@ def keep(
     kind: Kind, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
 ) -> Result:
     """Remember a result of a kind, for :func:`latest`."""
-    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, page)
+    _latest[kind] = Result(content, tuple(lines), scene, page)
     return _latest[kind]
 
 
 def latest(kind: Kind, scene: Any) -> Result | None:
-    """Return the latest result of a kind, if it is of this scene in the file that is open."""
+    """Return the latest result of a kind, if it is of this scene."""
     found = _latest.get(kind)
-    if found and found.file == bpy.data.filepath and found.scene in (None, scene.name):
-        return found
-    return None
+    return found if found and found.scene in (None, scene.name) else None
 
 
 def content(kind: Kind, scene: Any) -> Any:
@@ -144,32 +126,87 @@ def content(kind: Kind, scene: Any) -> Any:
     return found and found.content
 
 
-def forget() -> None:
-    """Drop all results, as when another file is opened."""
+def drop(kind: Kind, scene: Any) -> None:
+    """Drop a scene's result of a kind, with its pictures."""
+    if latest(kind, scene):
+        del _latest[kind]
+        if kind is Kind.COMPARISON:
+            _forget_comparison()
+
+
+def _forget_comparison() -> None:
+    _latest.pop(Kind.COMPARISON, None)
+    for name in (TRACED, BLENDER, DIFFERENCE, CAUSES, PUT_RIGHT):
+        remove(name)
+
+
+@bpy.app.handlers.persistent
+def forget(*_: Any) -> None:
+    """Drop all results, with what shows them, as when another file is opened."""
     _latest.clear()
-
-
-def remove_stale_images() -> None:
-    """Remove our images from a file that was just opened: what was shown of them was not stored."""
-    for image in bpy.data.images[:]:
-        if image.get(MARK) and image.source == "GENERATED":
-            bpy.data.images.remove(image)
+    for name in tuple(_files):
+        remove(name)
 
 
 def show(name: str, color: Colors) -> Any:
-    """Put linear RGBA (h, w, 4) into our image of this name; make it if there is none."""
+    """Show linear RGBA (h, w, 4) as our image of this name, in place of the one that there is."""
     import numpy as np
 
     height, width = color.shape[:2]
-    image = _ours(bpy.data.images, name, lambda i: i.source != "GENERATED")
-    if image is None:
-        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
-        image[MARK] = name
-    elif tuple(image.size) != (width, height):
-        image.scale(width, height)
+    image: Any = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+    linear = image.colorspace_settings.name
+    image.colorspace_settings.is_data = True  # it is written as it is
+    image.alpha_mode = "CHANNEL_PACKED"
     image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
-    image.update()
-    return image
+    image.filepath_raw = str(Path(bpy.app.tempdir, f"{name}.exr"))
+    image.file_format = "OPEN_EXR"
+    image.save()
+    _files[name] = image.filepath_raw, linear
+    bpy.data.images.remove(image)
+    remember_editors()
+    shown = _loaded(name)
+    _fill_editors()
+    return shown
+
+
+def _loaded(name: str) -> Any:
+    """Load our image or text from its file, in place of the one that there is."""
+    path, linear = _files[name]
+    block: Any
+    if linear:
+        block = bpy.data.images.load(path)
+        block.colorspace_settings.name = linear
+    else:
+        block = bpy.data.texts.load(path, internal=True)
+    _give_up(name, block)
+    block.name = name
+    block[MARK] = name
+    block.is_runtime_data = True
+    _made[name] = block.session_uid
+    return block
+
+
+def remove(name: str) -> None:
+    """Remove our image or text of a name, if there is one."""
+    _give_up(name)
+    _files.pop(name, None)
+
+
+def _give_up(name: str, successor: Any = None) -> None:
+    """Remove ours, whose users take another one; if the user has saved it to a file, it is his."""
+    old = ours(name)
+    if old and old.filepath and _file(old.filepath) != _file(_files[name][0]):
+        del old[MARK]
+        old.is_runtime_data = False
+        old.name = Path(old.filepath).name
+    elif old:
+        if successor:
+            old.user_remap(successor)
+        _blocks(name).remove(old)
+
+
+def _file(path: str) -> Path:
+    return Path(bpy.path.abspath(path)).resolve()
 
 
 def shown_put_right(scene: Any) -> Told:
@@ -180,49 +217,61 @@ def shown_put_right(scene: Any) -> Told:
     SceneError
         If it shows none of them.
     """
-    import numpy as np
-
     from ...scene import SceneError
 
-    image, found = ours(PUT_RIGHT), latest(Kind.COMPARISON, scene)
-    if image and found:
-        width, height = image.size
-        pixels = np.empty((height, width, 4), np.float32)
-        image.pixels.foreach_get(pixels.ravel())
-        for number, color in found.put_right.items():
-            if np.array_equal(np.asarray(color, np.float32), pixels, equal_nan=True):
-                return found.content.diagnosis.told[number]
+    found = latest(Kind.COMPARISON, scene)
+    if found and found.shown:
+        return found.content.diagnosis.told[found.shown[0]]
     raise SceneError("No picture of this scene's latest comparison is shown put right: press Show.")
 
 
 def ours(name: str) -> Any:
-    """Return our image of a name, or None."""
-    return next((i for i in bpy.data.images if i.get(MARK) == name), None)
+    """Return our image or text of a name, or None."""
+    return next((b for b in _blocks(name) if b.get(MARK) == name and b.is_runtime_data), None)
 
 
-def _ours(blocks: Any, name: str, is_saved: Callable[[Any], object]) -> Any:
-    """Return our image or text of a name, or None. One that the user has saved is theirs now."""
-    found = next((b for b in blocks if b.get(MARK) == name), None)
-    if found and is_saved(found):
-        del found[MARK]
-        return None
-    return found
+def _blocks(name: str) -> Any:
+    _path, linear = _files.get(name, ("", ""))
+    return bpy.data.images if linear else bpy.data.texts
 
 
 def show_text(context: Any, name: str, content: str) -> Any:
-    """Put a text into our text of this name, or a new one, and show it in a text editor.
-
-    A text that the user has saved to a file is theirs, and is left as it is.
-    """
-    text = _ours(bpy.data.texts, name, lambda t: t.filepath)
-    if text is None:
-        text = bpy.data.texts.new(name)
-        text[MARK] = name
-    text.from_string(content)
+    """Put a text into our text of this name, and show it in a text editor."""
+    path = Path(bpy.app.tempdir, f"{name}.md")
+    path.write_text(content, encoding="utf-8")
+    _files[name] = str(path), ""
+    text = _loaded(name)
     if area := next(areas(context, "TEXT_EDITOR"), None):
         area.spaces.active.text = text
         area.spaces.active.top = 0
     return text
+
+
+@bpy.app.handlers.persistent
+def remember_editors(*_: Any) -> None:
+    """Remember which editors show ours, before undo takes it away."""
+    _seen.clear()
+    manager: Any = bpy.context.window_manager
+    for window in manager.windows:
+        for area in window.screen.areas:
+            shown = getattr(area.spaces.active, _SHOWN_AS.get(area.type, ""), None)
+            if shown and MARK in shown:
+                _seen.append((area, shown[MARK]))
+
+
+@bpy.app.handlers.persistent
+def put_back(*_: Any) -> None:
+    """Make again what undo has taken away, or has put an older one in the place of."""
+    for name in _files:
+        block = ours(name)
+        if block is None or block.session_uid != _made[name]:
+            _loaded(name)
+    _fill_editors()
+
+
+def _fill_editors() -> None:
+    for area, name in _seen:
+        setattr(area.spaces.active, _SHOWN_AS[area.type], ours(name))
 
 
 def areas(context: Any, kind: str) -> Iterator[Any]:

@@ -19,19 +19,24 @@ from .long_work import Answer, named
 
 # By the identifiers of the switch; Both is the traced picture with the other one over it.
 IMAGES = {
-    "DIFFERENCE": results.DIFFERENCE,
-    "CAUSES": results.CAUSES,
     "TRACED": results.TRACED,
     "OTHER": results.BLENDER,
     "BOTH": results.TRACED,
+    "DIFFERENCE": results.DIFFERENCE,
+    "CAUSES": results.CAUSES,
     "PUT_RIGHT": results.PUT_RIGHT,
 }
 _CHOICES = (
-    ("DIFFERENCE", "Difference", "How far apart the colours are; black where they are the same"),
-    ("CAUSES", "Causes", "Why pixels differ, a colour for each cause"),
     ("TRACED", "Traced", "What the tracer sees"),
     ("OTHER", "Other", "The picture that it is compared with"),
     ("BOTH", "Both", "The traced picture on the left of a line, the other one on its right"),
+    (
+        "DIFFERENCE",
+        "Difference",
+        "How far apart the colours are, raised so that one level of 255 is seen; black where they "
+        "are the same",
+    ),
+    ("CAUSES", "Causes", "Why pixels differ, a colour for each cause: the sidebar has the legend"),
     ("PUT_RIGHT", "Put Right", "The picture as it is with a fault of the diagnosis put right"),
 )
 
@@ -98,9 +103,20 @@ def _open(window: int, name: str) -> None:
             bpy.ops.render.view_show("INVOKE_DEFAULT")
     if space := _of_render(context):
         space.image = image
+        _fit(context, space)
     for extra in bpy.data.images[:]:  # Blender makes it to be shown, where there is none
         if extra.type == "RENDER_RESULT" and extra.name not in had:
             bpy.data.images.remove(extra)
+
+
+def _fit(context: Any, space: Any) -> None:
+    """Have an Image Editor show all of its picture."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.spaces.active == space:
+                inside = next(r for r in area.regions if r.type == "WINDOW")
+                with context.temp_override(window=window, area=area, region=inside):
+                    bpy.ops.image.view_all(fit_view=True)
 
 
 def _of_render(context: Any) -> Any:

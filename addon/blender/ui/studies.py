@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import EnumProperty, IntProperty
 
+from ...methods import Method
 from ...tracer.progress import Work
-from ...wording import say
+from ...wording import show
 from . import choices, results
 from .long_work import LongWork, named
+
+if TYPE_CHECKING:
+    from ...study.extremes import ExtremesRow
+    from ...study.trade import Trade
 
 
 @named
 class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
-    bl_label = "Measure the Trade"
+    bl_label = "Measure Time and Accuracy"
     bl_description = (
         "Measure on this scene and camera how long every method, precision, number of samples "
         "and size takes, and what it gets wrong"
     )
+    kind = results.Kind.TRADE
     needs_camera = True
 
     width: IntProperty(
@@ -51,18 +58,19 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
 
         if self._folder:
             trade_report.write(self._folder, result)
-        results.keep_trade(result)
-        say(trade_report.table(result), name="")
+        keep_trade(result)
+        show(*trade_report.table(result).split("\n"))
         return "INFO", result.advice
 
 
 @named
 class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
-    bl_label = "Measure the Extremes"
+    bl_label = "Find Where Methods Break"
     bl_description = (
         "Trace scenes that get harder and harder (far away, tiny, edge-on...) by every "
         "method, and find the first scale at which each differs from exact arithmetic"
     )
+    kind = results.Kind.EXTREMES
     scenario: EnumProperty(
         name="Scenario",
         description="The scenario to measure",
@@ -91,6 +99,32 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
 
         if self._folder:
             extremes_report.write(self._folder, result)
-        [said] = results.keep_extremes(result).lines
-        say(extremes_report.breaking_table(result), said, name="")
+        [said] = keep_extremes(result).lines
+        show(*extremes_report.breaking_table(result).split("\n"), said)
         return "INFO", said
+
+
+def keep_trade(trade: Trade) -> results.Result:
+    """Remember a trade, and write its plot for the browser."""
+    from ...report import trade as trade_report
+
+    page = _page("trade", trade_report.picture(trade))
+    return results.keep(results.Kind.TRADE, trade, [trade.advice], trade.scene, page)
+
+
+def keep_extremes(rows: Sequence[ExtremesRow]) -> results.Result:
+    """Remember where each method breaks, and write the plot of it for the browser."""
+    from ...report import extremes as extremes_report
+
+    page = _page("extremes", extremes_report.picture(rows))
+    wrong = sum(r.lost + r.doubled for r in rows if Method(r.method).is_proven)
+    lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
+    return results.keep(results.Kind.EXTREMES, tuple(rows), lines, page=page)
+
+
+def _page(name: str, drawn: str) -> str:
+    from ...report import folders, plots
+
+    path = results.session_folder() / f"{name}.html"
+    folders.write_text(path, plots.page(f"Reference Tracer {name}", drawn))
+    return path.as_uri()

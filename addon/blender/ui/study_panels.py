@@ -5,19 +5,25 @@ The pixel inspector is in the sidebar of images, too.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
+from ..drawing.judges import label_of
 from . import explain, results, studies
 from .differing import IMAGE_PT_reference_tracer_shown
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .layout import Part, beside, both, wrapped
+from .layout import Part, beside, both, draw_facts, fit, wrapped
 from .results import Kind
+from .swatches import swatch
+
+if TYPE_CHECKING:
+    from ...comparison.comparison import Comparison
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
+_VALUE = 0.58  # the share of the width that a number has beside its name and error
 
 
 class _Inspector(Part):
@@ -55,8 +61,10 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
     wrapped(box, context, said)
     certainty = iface_(CERTAINTY_SENTENCES[derivation.certified.certainty])
     wrapped(box, context, iface_("This is {}.").format(certainty))
+    if comparison := results.content(Kind.COMPARISON, context.scene):
+        _draw_compared(layout, context, comparison, pixel.x, pixel.y)
     if derivation.seen_test:
-        _numbers(layout.box(), derivation.seen_test)
+        _numbers(layout.box(), context, derivation.seen_test)
     box = layout.box()
     tested = iface_("Tested: {}, left out: {:,}").format(len(derivation.tests), pixel.left_out)
     box.label(text=tested)
@@ -69,6 +77,25 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
     wrapped(layout, context, f"{iface_('All of it is in the text')} '{explain.TEXT}'.", "TEXT")
 
 
+def _draw_compared(layout: Any, context: Any, comparison: Comparison, x: int, y: int) -> None:
+    """Draw a pixel's colour on both sides of the latest comparison, and why they differ."""
+    from ...causes.explain import BY_NUMBER
+
+    height, width = comparison.causes.cause.shape
+    if not (x < width and y < height):  # it was of another size
+        return
+    box = layout.box()
+    box.label(text="In the Comparison", icon="MOD_MIRROR")
+    sides = {
+        "Traced": comparison.frame.color,
+        label_of(comparison.case.picture.source): comparison.picture,
+    }
+    colors = ((name, "  ".join(f"{c:.4g}" for c in shown[y, x])) for name, shown in sides.items())
+    draw_facts(box, context, colors)
+    cause = BY_NUMBER[comparison.causes.cause[y, x]]
+    wrapped(box, context, comparison.why(x, y), swatch=swatch(cause))
+
+
 def _t(test: Any) -> str:
     from ...derivation.textbook import Arithmetic
 
@@ -76,7 +103,7 @@ def _t(test: Any) -> str:
     return f", t = {float(t[0]):.6g}" if t else ""
 
 
-def _numbers(layout: Any, test: Any) -> None:
+def _numbers(layout: Any, context: Any, test: Any) -> None:
     """Draw the key numbers of what is seen; wrong digits are in brackets."""
     from ...derivation.digits import exact_text, marked, off_text, ulps
     from ...derivation.textbook import Arithmetic
@@ -85,18 +112,23 @@ def _numbers(layout: Any, test: Any) -> None:
     for quantity in (quantities[key] for key in _KEYS if key in quantities):
         column = layout.column(align=True)
         column.scale_y = 0.8
-        _number(column, quantity.formula.label, "", "ulp")
+        _number(column, context, quantity.formula.label, "", "ulp")
         exact = quantity.exact(0)
         for name, kind in (("f32", Arithmetic.FLOAT32), ("f64", Arithmetic.FLOAT64)):
             value = quantity.values[kind][0]
             off = ulps(value, exact)
             shown = marked(value, exact, off).with_wrong("[{}]")
-            _number(column, name, shown, off_text(off))
-        _number(column, "exact", "undefined" if exact is None else exact_text(exact, _DIGITS), "")
+            _number(column, context, name, shown, off_text(off))
+        known = "undefined" if exact is None else exact_text(exact, _DIGITS)
+        _number(column, context, "exact", known, "")
 
 
-def _number(layout: Any, name: str, value: str, off: str) -> None:
-    """Draw a number with its error; an exact number may be too long for the panel."""
+def _number(layout: Any, context: Any, name: str, value: str, off: str) -> None:
+    """Draw a number with its error: in columns, or below its name where it has no room there."""
+    if value and not fit(context, [value], _VALUE, 0):
+        wrapped(layout, context, f"{name} {off}")
+        wrapped(layout, context, value)
+        return
     split = layout.split(factor=0.17 if value else 0.83)  # without a value: a head
     split.label(text=name)
     if value and off:
@@ -114,27 +146,34 @@ class IMAGE_PT_reference_tracer_inspector(_Inspector, bpy.types.Panel):
 
 
 class _Trade(Part):
-    bl_label = "Trade"
+    bl_label = "Time and Accuracy"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        self.layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
-        _draw_measured(self.layout, context, Kind.TRADE)
+        measure = studies.REFERENCE_TRACER_OT_trade.bl_idname
+        self.layout.operator(measure, text="Measure", icon="TIME")
+        _draw_measured(
+            self.layout, context, Kind.TRADE, "How long each method takes, and what it gets wrong"
+        )
 
 
 class _Extremes(Part):
-    bl_label = "Extremes"
+    bl_label = "Where Methods Break"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        self.layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
-        _draw_measured(self.layout, context, Kind.EXTREMES)
+        measure = studies.REFERENCE_TRACER_OT_extremes.bl_idname
+        self.layout.operator(measure, text="Measure", icon="MOD_NOISE")
+        _draw_measured(
+            self.layout, context, Kind.EXTREMES, "How far, tiny or thin is too much for each method"
+        )
 
 
-def _draw_measured(layout: Any, context: Any, kind: Kind) -> None:
-    """Draw what a study found in one sentence, and a button that opens its plot."""
-    if found := results.latest(kind, context.scene):
-        wrapped(layout, context, found.lines[0], "INFO")
+def _draw_measured(layout: Any, context: Any, kind: Kind, what: str) -> None:
+    """Draw what a study found in one sentence, with a button that opens its plot; or what it is."""
+    found = results.latest(kind, context.scene)
+    wrapped(layout, context, found.lines[0] if found else what, "INFO" if found else "NONE")
+    if found:
         layout.operator("wm.url_open", text="Open Plot").url = found.page
 
 

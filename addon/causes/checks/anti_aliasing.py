@@ -35,6 +35,7 @@ ANTI_ALIASING = Cause(
     (0.7, 0.4, 0.2),
     explains=True,
     warns=True,
+    place="by anti-aliasing",
     why="The picture was filtered, which mixes the colours at an edge; the tracer shows what "
     "the pixel's centre sees.",
     check="The colour lies in the convex hull of the colours that the tracer sees within the "

@@ -25,6 +25,7 @@ CLIP_PLANE = Cause(
     (1.0, 1.0, 0.4),
     explains=True,
     rounding=True,
+    place="at clip planes",
     why="A surface is so close to a clip plane that float32 decides whether it is drawn.",
     check="What the picture shows is what the tracer sees with that surface, or without it.",
     never="A surface that is clipped at another depth.",

@@ -35,6 +35,7 @@ COLOR = Cause(
     explains=True,
     warns=True,
     see_through=True,
+    place="in another shade",
     why="The colours of the whole picture are changed: by light, which the tracer does not "
     "have, or by a transform of another program's picture.",
     check="In a lit picture, the same object is shown. In another program's picture, one "

@@ -33,6 +33,7 @@ EDGE = Cause(
     (1.0, 0.3, 0.0),
     explains=True,
     rounding=True,
+    place="at edges",
     why="Float32 and the rasteriser move corners a little, so a pixel whose centre is very "
     "close to an edge may fall on its other side.",
     check="The tracer sees the shown colour, and the shown object, at a distance from the "
@@ -54,6 +55,7 @@ DEPTH_TIE = Cause(
     (0.0, 0.7, 1.0),
     explains=True,
     rounding=True,
+    place="at depth ties",
     why="Two surfaces are closer to each other than a depth buffer of 24 bits, or float32, "
     "can tell apart.",
     check="The shown colour and the shown object lie on the same ray, behind what the tracer "

@@ -15,11 +15,13 @@ from ...camera_files.files import CONVENTIONS, chosen, number_of, read
 from ...camera_files.frame import part
 from ...camera_files.opencv import OPENCV
 from ...comparison.animation import frames_named
-from ...diagnosis.camera_difference import difference
+from ...diagnosis.camera_difference import CameraDifference, difference
+from ...diagnosis.trajectory import TrajectoryDifference, trajectory_difference
 from ...framing import Choice
 from ...report.cameras import SceneCamera, write_cameras
 from ...scene import Camera, Region, SceneError
-from ..arguments import is_blend, refuse
+from ...wording import show
+from ..arguments import check_frames, is_blend, refuse
 from ..camera_options import LAST_FRAME, add_camera, choice_from
 from ..opening import SOURCES, open_blend, open_file
 from ..parser import AGREE, DIFFERENCES, Parser
@@ -52,13 +54,7 @@ class CameraOptions:
         else:
             refuse(given, ("view",), "is for --check")
         if given.frames is not None:
-            refuse(given, ("frame",), "is for one frame, not for --frames")
-            if not is_blend(given.scene):
-                raise SceneError(f"--frames is for a .blend: '{given.scene}' has one frame")
-            try:
-                frames_named(given.frames)
-            except ValueError as error:
-                raise SceneError(f"--frames {error}") from error
+            check_frames(given, ())
         return cls(
             given.scene,
             choice_from(given, given.scene),
@@ -152,8 +148,8 @@ def _scene(options: CameraOptions) -> Iterator[_At]:
 
 def _written(options: CameraOptions, out: Path, at: _At) -> int:
     convention = CONVENTIONS[options.convention or OPENCV.name]
-    print(write_cameras(out, at(None), convention, options.centers))
-    print(f"written to {out}, as {convention.title}")
+    show(write_cameras(out, at(None), convention, options.centers))
+    show(f"written to {out}, as {convention.title}")
     return AGREE
 
 
@@ -174,17 +170,34 @@ def _checked(options: CameraOptions, at: _At) -> int:
             raise SceneError(f"'{options.check}': Blender has no frame {far[0]}: --view")
         by_frame = dict(zip(sorted(frames), at(sorted(frames)), strict=True))
         scene = [by_frame[number] for number in frames]
-    found = [
-        difference(one.view.camera, _of_size(view.camera, one.view.camera))
-        for view, one in zip(views, scene, strict=True)
-    ]
-    agrees = True
-    for view, one, its in zip(views, scene, found, strict=True):
-        wrong = _other_than_points(view, one.view.camera)
-        agrees = agrees and its.agrees and not wrong
-        for line in (*its.lines(), *wrong, *_notes(view, one.view)):
-            print(f"{view.name or options.check.name}: {line}")
-    return AGREE if agrees else DIFFERENCES
+    cameras = [one.view.camera for one in scene]
+    others = [_of_size(v.camera, own) for v, own in zip(views, cameras, strict=True)]
+    names = [view.name or options.check.name for view in views]
+    found: CameraDifference | TrajectoryDifference
+    if len(views) == 1:
+        found = difference(cameras[0], others[0])
+    else:
+        found = trajectory_difference(names, cameras, others)
+    wrong = [_other_than_points(v, own) for v, own in zip(views, cameras, strict=True)]
+    notes = [_notes(v, one.view) for v, one in zip(views, scene, strict=True)]
+    for line in found.lines():
+        show(f"{options.check.name if len(views) > 1 else names[0]}: {line}")
+    for each in (wrong, notes):
+        for line, of in _shared(names, each).items():
+            show(f"{of}: {line}")
+    return AGREE if found.agrees and not any(wrong) else DIFFERENCES
+
+
+def _shared(names: Sequence[str], lines: Sequence[Sequence[str]]) -> dict[str, str]:
+    """Return each line once, with the name of the one camera that has it, or how many have it."""
+    have: dict[str, list[str]] = {}
+    for name, own in zip(names, lines, strict=True):
+        for line in own:
+            have.setdefault(line, []).append(name)
+    return {
+        line: of[0] if len(of) == 1 else f"{len(of)} of {len(names)} cameras"
+        for line, of in have.items()
+    }
 
 
 def _of_size(camera: Camera, like: Camera) -> Camera:

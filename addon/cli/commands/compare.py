@@ -31,6 +31,7 @@ from ...report import folders, page
 from ...report.junit import Judged, junit, of_comparison
 from ...scene import Scene, SceneError
 from ...tracer.progress import Work, result_of
+from ...wording import show
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
 from ..opening import import_trimesh, open_blend, open_file
@@ -57,6 +58,8 @@ def add(parser: Parser) -> None:
 
 def compare(options: CompareOptions) -> int:
     """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
+    if options.only_colors:
+        return _only_colors(options, options.only_colors)
     results = [folders.place_of(options.out / name) for name in comparison_report.NAMES]
     colors = options.colors if isinstance(options.colors, Path) else None
     for file in (options.scene, options.file, colors, options.colors_out, options.junit):
@@ -64,10 +67,6 @@ def compare(options: CompareOptions) -> int:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
             )
-    if options.colors_out and options.file is None and not is_blend(options.scene):
-        if options.junit:
-            raise SceneError("--junit is for a comparison: name a picture with --against")
-        return _only_colors(options, options.colors_out)
     if options.junit:  # that of an earlier run would pass for this one's
         options.junit.unlink(missing_ok=True)
     written = comparison_report.failure_written(options.out)  # but for an animation
@@ -134,19 +133,18 @@ def _frames(
     frames = frames_named(named) or frames_of(scene)
     views = of_frames(options.choice.views, frames) if options.choice.views else {}
     bake_bodies(scene, frames[-1])
-    begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
 
     def told(rows: list[FrameRow]) -> None:
-        print(begin + frames_report.line(rows[-1]), file=sys.stderr, flush=True)
+        show(frames_report.line(rows[-1]), file=sys.stderr)
 
     made_by = depends_on(options.of_a_frame())
     work = compare_frames(str(options.out), frames, told, made_by, views, **chosen)
     try:
         rows = result_of(work, progress)
     except KeyboardInterrupt:
-        print("what is done is kept: the same command goes on from there", file=sys.stderr)
+        show("what is done is kept: the same command goes on from there", file=sys.stderr)
         raise
-    print(*frames_report.lines(frames, rows), sep="\n")
+    show(*frames_report.lines(frames, rows))
     _write_junit(
         options, [_judged(f"frame {r.frame}", r.verdict, frames_report.line(r)) for r in rows]
     )
@@ -173,7 +171,7 @@ def _colors(options: CompareOptions) -> By | GivenColors | None:
 
 def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) -> int:
     verdict = engines.worst(rows)
-    print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
+    show(*engines_report.lines(rows), f"verdict: {verdict}")
     pages = [options.out / row.engine / page.NAME for row in rows if row.counts]
     told = [_judged(r.engine, r.verdict, "\n".join(engines_report.lines([r]))) for r in rows]
     _write_junit(options, told)
@@ -184,7 +182,7 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
     """Print a comparison; return the exit code."""
     if options.colors_out:
         _write_colors(options.colors_out, comparison.scene, comparison.manifest.owners)
-    print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
+    show(*comparison.manifest.lines(), *comparison.lines())
     _write_junit(options, [of_comparison(options.scene.name, comparison)])
     return _told(options, comparison.verdict, options.out / page.NAME)
 
@@ -200,25 +198,32 @@ def _write_junit(options: CompareOptions, judged: Sequence[Judged]) -> None:
 
 
 def _only_colors(options: CompareOptions, path: Path) -> int:
-    """Write the colours for a picture of a mesh or a .npz that is still to be rendered."""
-    scene, manifest, _ = open_file(options.scene, options.choice)
-    scene, notes = in_colors(scene, _colors(options) or By.AUTOMATIC)
+    """Write the colours for a picture that is still to be rendered."""
+    colors = _colors(options)
+    if is_blend(options.scene):
+        with open_blend(options.scene, options.choice) as blender:
+            from ...blender.jobs.against import exported_in
+            from ...blender.jobs.open_file import Choices
+
+            colors = colors or Choices.of(blender.context.scene, {}).colors
+            _, scene, manifest = exported_in(blender.context, colors)
+    else:
+        scene, manifest, _ = open_file(options.scene, options.choice)
+        scene, notes = in_colors(scene, colors or By.AUTOMATIC)
+        manifest = replace(manifest, notes=(*manifest.notes, *notes))
     _write_colors(path, scene, manifest.owners)
-    manifest = replace(manifest, notes=(*manifest.notes, *notes))
-    print(*manifest.lines(), f"written to {path}", sep="\n")
+    show(*manifest.lines(), f"written to {path}")
     return AGREE
 
 
 def _write_colors(path: Path, scene: Scene, owners: Sequence[str]) -> None:
-    text = colors_file.text(scene, owners)
-    with folders.made_for_file(path), folders.replacing_file(path) as new:
-        new.write_text(text, encoding="utf-8")
+    folders.write_text(path, colors_file.text(scene, owners))
 
 
 def _told(options: CompareOptions, verdict: Verdict, *pages: Path) -> int:
     """Say where the results are; return the verdict's exit code."""
-    print(f"written to {options.out}", *filter(None, [options.colors_out]), sep=" and ")
-    print("open", *pages, "in a browser")
+    written = " and ".join(map(str, filter(None, (options.out, options.colors_out))))
+    show(f"written to {written}", f"open {' '.join(map(str, pages))} in a browser")
     return verdict.exit_code
 
 
@@ -230,9 +235,7 @@ def _blend(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Wo
 
         context = blender.context
         dither = DITHER * context.scene.render.dither_intensity
-        making = replace(
-            _making(options), default_dither=dither, engine=context.scene.render.engine
-        )
+        making = replace(_making(options), default_dither=dither)
         shown: Picture | Callable[[Any], Picture]
         if isinstance(picture, GivenData):
             data = picture  # which is read once the scene is there

@@ -18,11 +18,12 @@ from ...framing import Choice
 from ...report import pixel
 from ...report.folders import place_of
 from ...scene import SceneError
+from ...wording import show
 from ..arguments import refuse
 from ..camera_options import CAMERA_OPTIONS, add_camera, choice_from
 from ..opening import SOURCES, load
 from ..parser import AGREE, COUNT, INTEGER, Parser
-from ..running import meanwhile, printable
+from ..running import meanwhile
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,7 @@ def add(parser: Parser) -> None:
 def explain(options: ExplainOptions) -> int:
     """Derive, and print or write it."""
     found = _gathered(options)
-    print(printable(pixel.write(found, options.out, options.reproducer)), end="")
+    show(*pixel.write(found, options.out, options.reproducer).removesuffix("\n").split("\n"))
     return AGREE
 
 

@@ -10,7 +10,7 @@ from ...framing import Choice
 from ...report import folders
 from ...scene import SceneError
 from ...scene_files import save_scene
-from ...wording import count_of
+from ...wording import count_of, show
 from ..arguments import is_blend
 from ..camera_options import add_camera, choice_from
 from ..opening import open_file
@@ -54,8 +54,8 @@ def export(options: ExportOptions) -> int:
     """Export, and write the scene."""
     with folders.made_for_file(options.out):
         opened = open_file(options.scene, options.choice)
-        print(*opened.manifest.lines(), sep="\n")
+        show(*opened.manifest.lines())
         with folders.replacing_file(options.out) as new:
             save_scene(new, opened.scene, opened.manifest)
-    print(f"{count_of(opened.scene.triangle_count, 'triangle')}: {options.out}")
+    show(f"{count_of(opened.scene.triangle_count, 'triangle')}: {options.out}")
     return AGREE

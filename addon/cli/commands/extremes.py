@@ -10,6 +10,7 @@ from ...report import extremes as report
 from ...report import folders
 from ...study import extremes as study
 from ...tracer.progress import result_of
+from ...wording import show
 from ..arguments import Place, place_from
 from ..parser import AGREE, COUNT, Parser
 from ..running import progress_bar
@@ -44,7 +45,7 @@ def extremes(options: ExtremesOptions) -> int:
     with folders.made(options.out):
         with options.place as place, progress_bar() as progress:
             rows = result_of(study.measure(rays=options.rays, **place), progress)
-        print(report.breaking_table(rows))
+        show(*report.breaking_table(rows).split("\n"))
         report.write(options.out, rows)
-        print(f"written to {options.out}")
+        show(f"written to {options.out}")
     return AGREE

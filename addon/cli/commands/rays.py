@@ -18,7 +18,7 @@ from ...scene import SceneError
 from ...tracer.hits import NOTHING, Statistics
 from ...tracer.progress import called, result_of
 from ...tracer.world import refused
-from ...wording import count_of
+from ...wording import count_of, show
 from ..camera_options import CAMERA_OPTIONS, add_parts_of_blend, choice_from
 from ..opening import SOURCES, open_file
 from ..parser import AGREE, Parser, number
@@ -102,7 +102,7 @@ def rays(options: RaysOptions) -> int:
     with folders.made_for_file(options.out):
         opened = open_file(options.scene, options.choice, whole=True)
         scene = opened.scene
-        print(*opened.manifest.lines(), sep="\n")
+        show(*opened.manifest.lines())
         found = Statistics(method="certified", refused=refused(scene))
         clip = options.start, options.end
         with progress_bar() as progress:
@@ -111,9 +111,9 @@ def rays(options: RaysOptions) -> int:
         with folders.replacing_file(options.out) as new:
             save_hits(new, scene, hits)
     met = count_of(int((hits.instance != NOTHING).sum()), "hit")
-    print(
+    show(
         f"{count_of(len(hits), 'ray')}, {count_of(scene.triangle_count, 'triangle')}: {met}, "
         f"{len(hits.ties.ray):,} ambiguous: {options.out}"
     )
-    print(*found.required(), sep="\n")
+    show(*found.required())
     return AGREE

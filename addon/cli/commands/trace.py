@@ -7,13 +7,17 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from ... import exr, images
+from ... import exr, images, npz
+from ...camera_files.files import of_frames
 from ...certificate_file import save_certificate
+from ...comparison.animation import frames_named
 from ...framing import Choice
-from ...mesh_files.load import READERS
+from ...methods import Method
+from ...opened import mesh_formats
 from ...rendering import render
 from ...report import cryptomatte, folders, masks
 from ...scene import Scene, SceneError
@@ -21,12 +25,22 @@ from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.progress import Share
 from ...tracer.settings import Settings
-from ...wording import count_of
-from ..arguments import GivenSettings, Place, add_settings, place_from, refuse, settings_from
+from ...wording import count_of, show
+from ..arguments import (
+    GivenSettings,
+    Place,
+    add_settings,
+    check_frames,
+    place_from,
+    refuse,
+    settings_from,
+)
 from ..camera_options import add_camera, choice_from
-from ..opening import SOURCES, load
+from ..opening import SOURCES, load, open_blend
 from ..parser import AGREE, INTEGER, Parser
 from ..running import progress_bar
+
+_NUMBER = "####"  # in a file's name: that of its frame, as Blender writes it
 
 
 @dataclass(frozen=True)
@@ -34,10 +48,11 @@ class TraceOptions:
     """The options of `reftrace trace`."""
 
     scene: Path
-    out: Path | None
+    out: tuple[Path, ...]  # pictures
     certificate: Path | None
     settings: GivenSettings
     choice: Choice
+    frames: str | None  # as they are typed
     rows: Sequence[int] | None  # the first and the last
     masks: Path | None  # a folder for a mask of each object
     top_down: bool  # the first row of an array is the topmost
@@ -48,16 +63,25 @@ class TraceOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
         if not (given.out or given.certificate):
             raise SceneError("name a file to write: --out PICTURE, --certificate FILE, or both")
-        if given.out is None:
+        out = tuple(given.out or ())
+        if not out:
             refuse(given, ("masks", "top_down"), "is for a picture: --out PICTURE")
-        elif given.out.suffix.lower() != ".npz":
+        elif all(path.suffix.lower() != ".npz" for path in out):
             refuse(given, ("top_down",), "is for a .npz: pictures begin with their topmost row")
+        if given.frames is not None:
+            check_frames(given, ())
+            for path in filter(None, (*out, given.certificate, given.masks)):
+                if _NUMBER not in path.name:
+                    raise SceneError(f"--frames: '{path}' needs a number, as in {_NUMBER}.png")
+        if given.certificate or given.masks:
+            given.method = given.method or Method.CERTIFIED.value
         return cls(
             scene=given.scene,
-            out=given.out,
+            out=out,
             certificate=given.certificate,
             settings=settings_from(given),
-            choice=choice_from(given, given.scene),
+            choice=choice_from(given, given.scene, given.frames is not None),
+            frames=given.frames,
             rows=given.rows,
             masks=given.masks,
             top_down=given.top_down,
@@ -65,42 +89,58 @@ class TraceOptions:
         )
 
     @property
-    def is_png(self) -> bool:
-        """Whether the picture is what a screen shows, not every output."""
-        return self.out is not None and self.out.suffix.lower() == ".png"
-
-    @property
     def files(self) -> list[Path]:
         """The files that are written."""
-        return [path for path in (self.out, self.certificate) if path]
+        return [*self.out, *filter(None, [self.certificate])]
+
+    def of_frame(self, frame: int) -> TraceOptions:
+        """Return the options of one frame: its number stands in its files' names."""
+
+        def numbered(path: Path) -> Path:
+            return path.with_name(path.name.replace(_NUMBER, f"{frame:04d}"))
+
+        return replace(
+            self,
+            out=tuple(map(numbered, self.out)),
+            certificate=self.certificate and numbered(self.certificate),
+            masks=self.masks and numbered(self.masks),
+        )
 
 
 def add(parser: Parser) -> None:
     """Add the command's options."""
     parser.runs(
         lambda given: trace(TraceOptions.parsed(given)),
-        "reftrace trace mesh.ply --out mesh.png --width 800",
+        "reftrace trace mesh.ply --out mesh.png --width 800\n"
+        "  reftrace trace scene.blend --frames 1-250 --out frames/####.png --out frames/####.exr",
     )
     parser.add_scene(SOURCES)
     parser.add_argument(
         "--out",
         type=parser.path_ending(".png", ".exr", ".npz"),
+        action="append",
         metavar="PICTURE",
         help="picture.png (what a screen shows), picture.exr (every output, and Cryptomatte) or "
-        "picture.npz (every output as arrays)",
+        "picture.npz (every output as arrays); may be given several times",
     )
     parser.add_argument(
         "--certificate",
         type=parser.path_ending(".npz"),
         metavar="FILE",
         help="a file with the scene and what every pixel sees, for `reftrace verify`, which checks "
-        "it without the tracer",
+        "it without the tracer; implies --method certified",
     )
     add_settings(parser)
     parser.add_argument(
         "--color",
         choices=[c.value for c in Color],
         help="what a surface shows (default what a .blend stores, else object: its own colour)",
+    )
+    parser.add_argument(
+        "--frames",
+        metavar="FRAMES",
+        help="these frames, by one Blender: 1-250, 1-250:5, 7, or all; #### in a file's name is "
+        "its frame's number: frames/####.png are what `camera --frames` names",
     )
     parser.add_argument(
         "--rows",
@@ -129,36 +169,64 @@ def trace(options: TraceOptions) -> int:
     with ExitStack() as stack:
         for path in options.files:
             stack.enter_context(folders.made_for_file(path))
-        scene, stored = load(options.scene, options.choice)
-        settings = options.settings.over(stored)
-        if options.certificate and not settings.method.is_proven:
-            raise SceneError(f"--certificate: {settings.method} proves nothing: --method certified")
-        if options.masks and not settings.method.is_proven:
-            raise SceneError(f"--masks: {settings.method} proves nothing: --method certified")
-        if options.rows:
-            scene = _rows_alone(scene, settings, *options.rows)
-        with options.place as place, progress_bar() as progress:
-            frame = render(scene, settings, lambda s: progress(Share(s, "tracing")), **place)
-        for path in options.files:
-            with folders.replacing_file(path) as new:
-                if path == options.certificate:
-                    save_certificate(new, frame)
-                else:
-                    _write(path, frame, new, -1 if options.top_down else 1)
-        if options.masks and options.out:
-            masks.write(options.masks, frame, options.out.name)
+        place = stack.enter_context(options.place)
+        if options.frames is None:
+            _traced(options, *load(options.scene, options.choice), place)
+        else:
+            _frames(options, options.frames, place)
+    is_mesh = options.scene.suffix.lower() in mesh_formats()
+    is_png = any(path.suffix.lower() == ".png" for path in options.out)
+    if is_png and is_mesh and not options.settings.color:
+        show("each mesh has one flat colour: --color facing shows its shape")
+    return AGREE
+
+
+def _frames(options: TraceOptions, named: str, place: dict[str, Any]) -> None:
+    """Trace the frames that are named of a .blend, which is opened once."""
+    with open_blend(options.scene, options.choice) as blender:
+        from ...blender.jobs.animation import frames_of
+        from ...blender.jobs.choice import seen_by
+        from ...blender.jobs.open_file import export_open_file
+        from ...blender.jobs.stepping import bake_bodies, stepped
+
+        user = blender.context.scene
+        frames = frames_named(named) or frames_of(user)
+        views = of_frames(options.choice.views, frames) if options.choice.views else {}
+        bake_bodies(user, frames[-1])
+        said: dict[str, None] = {}
+        for frame in stepped(user, [*frames]):
+            with seen_by(user, views.get(frame)):
+                scene, manifest, stored = export_open_file(blender.context)
+            said |= dict.fromkeys(manifest.remarks())
+            _traced(options.of_frame(frame), scene, stored, place)
+        show(*said)
+
+
+def _traced(options: TraceOptions, scene: Scene, stored: Settings, place: dict[str, Any]) -> None:
+    """Trace a scene, and write its picture, its certificate, its masks."""
+    settings = options.settings.over(stored)
+    for option in ("certificate", "masks"):
+        if getattr(options, option) and not settings.method.is_proven:
+            raise SceneError(f"--{option}: {settings.method} proves nothing: --method certified")
+    if options.rows:
+        scene = _rows_alone(scene, settings, *options.rows)
+    with progress_bar() as progress:
+        frame = render(scene, settings, lambda s: progress(Share(s, "tracing")), **place)
+    for path in options.files:
+        with folders.replacing_file(path) as new:
+            if path == options.certificate:
+                save_certificate(new, frame)
+            else:
+                _write(path, frame, new, -1 if options.top_down else 1)
+    if options.masks:
+        masks.write(options.masks, frame, options.out[0].name)
     s = frame.statistics
-    print(
+    show(
         f"{frame.shape[1]} x {frame.shape[0]} pixels, {count_of(s.triangles, 'triangle')}, "
         f"{count_of(s.pairs_tested, 'pair')} tested in {s.seconds:.2f} s ({s.method}, "
         f"{settings.precision}): {', '.join(map(str, options.files))}"
     )
-    for line in s.required():
-        print(line)
-    is_mesh = options.scene.suffix.lower() in READERS
-    if options.is_png and is_mesh and not options.settings.color:
-        print("each mesh has one flat colour: --color facing shows its shape")
-    return AGREE
+    show(*s.required())
 
 
 def _write(path: Path, frame: Frame, new: Path, step: int) -> None:
@@ -170,8 +238,7 @@ def _write(path: Path, frame: Frame, new: Path, step: int) -> None:
         exr.save(new, passes, cryptomatte.header(frame))
     else:
         passes = {name: values[::step] for name, values in frame.passes().items()}
-        with new.open("wb") as file:  # given a name, numpy would add .npz to it
-            np.savez_compressed(file, objects=np.array(frame.scene.objects, "U"), **passes)  # type: ignore[arg-type]  # none is "allow_pickle"
+        npz.save(new, {"objects": np.array(frame.scene.objects, "U")} | passes)
 
 
 def _rows_alone(scene: Scene, settings: Settings, first: int, last: int) -> Scene:

@@ -13,6 +13,7 @@ from ...report import trade as report
 from ...study import tradeoff
 from ...tracer.progress import result_of
 from ...tracer.settings import Settings
+from ...wording import show
 from ..arguments import GivenSettings, Place, place_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
@@ -80,8 +81,8 @@ def trade(options: TradeOptions) -> int:
             name = options.scene.name
             work = tradeoff.measure(scene, options.width, options.samples, name, **place)
             found = result_of(work, progress)
-        print(report.table(found))
+        show(*report.table(found).split("\n"))
         if options.out:
             report.write(options.out, found)
-            print(f"written to {options.out}")
+            show(f"written to {options.out}")
     return AGREE

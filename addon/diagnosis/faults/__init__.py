@@ -8,6 +8,7 @@ from .data import DATA_FAULTS
 from .fault import AnyFault, Example
 from .given import GIVEN_FAULTS
 from .lens import LENS_FAULTS
+from .matrices import MATRIX_FAULTS
 from .objects import OBJECT_FAULTS
 from .order import ORDER_FAULTS
 from .picture import PICTURE_FAULTS
@@ -16,6 +17,7 @@ from .view import VIEW_FAULTS
 
 FAULTS: tuple[AnyFault, ...] = (
     *CAMERA_FAULTS,
+    *MATRIX_FAULTS,
     *LENS_FAULTS,
     *VIEW_FAULTS,
     *GIVEN_FAULTS,

@@ -2,70 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-
 import numpy as np
 
-from ...arrays import Array
 from ...causes.case import Case
-from ...scene import Camera
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
-from .fault import (
-    AnyFault,
-    Effort,
-    Example,
-    Fault,
-    Numbers,
-    of_camera,
-    options,
-    with_option,
-    with_values,
-)
+from .fault import AnyFault, Effort, Example, Fault, Numbers, of_camera, with_values
 from .film import CROPPED, FOCAL, FOCALS, OFFSET, ROLL
 from .fitting import fitting
 from .stand import MOVED, PLACED, TURNED
-
-# World space with Y up, as many formats have it, from Blender's with Z up.
-_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
-
-
-def _axes(change: Callable[[Array], Array], at_origin: bool = False) -> Callable[[Camera], Camera]:
-    """Return a function that changes the axes of a camera, the columns of a (3, 3) matrix."""
-
-    def changed(camera: Camera) -> Camera:
-        matrix = camera.world_from_camera.copy()
-        matrix[:3, :3] = change(matrix[:3, :3])
-        if at_origin:
-            matrix[:3, 3] = 0
-        return replace(camera, world_from_camera=matrix)
-
-    return changed
-
-
-def _matrix(change: Callable[[Array], Array]) -> Callable[[Camera], Camera]:
-    """Return a function that changes the matrix of a camera, (4, 4)."""
-    return lambda camera: replace(camera, world_from_camera=change(camera.world_from_camera))
-
-
-def _turned_world(rotation: Array, position: bool) -> Callable[[Camera], Camera]:
-    """Return a function that rotates a camera about the world's origin, or in its place."""
-
-    def change(matrix: Array) -> Array:
-        turned = rotation @ matrix
-        if not position:
-            turned[:3, 3] = matrix[:3, 3]
-        return turned
-
-    return _matrix(change)
-
-
-def flipped(camera: Camera, axis: int) -> Camera:
-    """Mirror the view of a camera along axis 0 or 1 of the picture."""
-    x, y = (-1, 1) if axis == 0 else (1, -1)
-    turned = _axes(lambda axes: axes * (x, y, 1))(camera)
-    return replace(turned, window=camera.window.scaled(x, y))
 
 
 def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:
@@ -82,19 +27,6 @@ _OFFSET, _FOCAL, _FOCALS, _ROLL, _MOVED, _PANNED, _CROPPED, _PLACED = (
     fitting(family, FOCALS, CROPPED, PLACED)
     for family in (OFFSET, FOCAL, FOCALS, ROLL, MOVED, TURNED, CROPPED, PLACED)
 )
-_MIRRORED_X = options(_axes(lambda axes: axes * (-1, 1, 1)), lambda camera: flipped(camera, 0))
-_MIRRORED_Y = options(_axes(lambda axes: axes * (1, -1, 1)))
-_TRANSPOSED = options(_axes(np.transpose), _axes(np.transpose, at_origin=True))
-_INVERTED = options(_matrix(np.linalg.inv))
-_TURNED = options(
-    *(_turned_world(r, position) for r in (_Y_UP, _Y_UP.T) for position in (True, False))
-)
-_BACKWARDS = options(
-    _axes(lambda axes: axes * (1, 1, -1)),
-    _axes(lambda axes: axes * (-1, 1, -1)),
-    _axes(lambda axes: axes * (1, -1, -1)),
-)
-
 
 CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
@@ -116,42 +48,6 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
             Example("one_pixel", "the camera off by a pixel to the right", with_values(1.0, 0.0)),
         ),
         words="the camera's rays pass beside the pixels' centres",
-    ),
-    Fault(
-        "mirrored_x",
-        "the picture is mirrored left to right",
-        "A camera that looks along +Z with +Y up has its +X at the left. Code that changes "
-        "the sign of one axis alone mirrors the picture.",
-        "check the sign of the camera's right axis, or of x on the film",
-        *_MIRRORED_X,
-        examples=(Example("mirrored_x", "the camera mirrored left to right", with_option(0)),),
-    ),
-    Fault(
-        "mirrored_y",
-        "the camera is mirrored upside down",
-        "In OpenCV's cameras Y points down, in Blender's up. Code that changes the sign of Y, "
-        "and not that of Z with it, mirrors the camera.",
-        "check the sign of the camera's up axis, or of y on the film",
-        *_MIRRORED_Y,
-        examples=(Example("mirrored_y", "the camera mirrored upside down", with_option(0)),),
-    ),
-    Fault(
-        "matrix_transposed",
-        "the camera's rotation is transposed",
-        "OpenGL and glTF store a matrix column by column, numpy and Blender's Python row by "
-        "row. A rotation's transpose is also its inverse, and R in OpenCV and COLMAP takes "
-        "the world to the camera.",
-        "the axes right, up and backward are the columns of world_from_camera",
-        *_TRANSPOSED,
-        examples=(Example("camera_transposed", "the camera's rotation inverted", with_option(0)),),
-    ),
-    Fault(
-        "matrix_inverted",
-        "the camera's matrix is inverted: world from camera is taken for camera from world",
-        "OpenCV and COLMAP store camera from world (the view matrix); Blender, and "
-        "transforms.json of NeRF, world from camera.",
-        "invert the view matrix once, not twice or never",
-        *_INVERTED,
     ),
     Fault(
         "focal_length",
@@ -253,20 +149,5 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         ("degrees",),
         refine=_ROLL.refine,
         effort=Effort.FILM,
-    ),
-    Fault(
-        "y_up",
-        "the camera is placed in a world with Y up, the meshes in one with Z up (or reversed)",
-        "In glTF Y is up, and Blender writes OBJ files so, unless it is told otherwise; a "
-        "camera that other code writes is not turned with the meshes.",
-        "convert both, or none",
-        *_TURNED,
-    ),
-    Fault(
-        "forward",
-        "the camera looks along +Z in place of -Z",
-        "OpenCV's and COLMAP's cameras look along +Z, Blender's and OpenGL's along -Z.",
-        "Blender's cameras look along their own -Z, with +Y up",
-        *_BACKWARDS,
     ),
 )

@@ -7,7 +7,7 @@ whether this gives the picture that was to be explained. Both read the records o
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Any, Generic, TypeVar
@@ -177,9 +177,35 @@ def one_of(*makes: Make[Guess]) -> Make[Option]:
     return lambda case, guess: makes[guess.number](case, guess)
 
 
-def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Make[Option], Find[Option]]:
+Way = tuple[str, Callable[[Camera], Camera | None]]  # the words of an option, and how it is made
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Makes a camera's fault in the way that the option says."""
+
+    every: tuple[Way, ...]
+
+    def __call__(self, case: Case, guess: Option) -> Case | None:
+        """Return the case with the fault."""
+        _, change = self.every[guess.number]
+        return of_camera(change)(case, guess)
+
+    def options(self) -> Iterator[tuple[Option, Callable[[Camera], Camera | None]]]:
+        """Yield each way as a guess, and how a camera is changed by it."""
+        for number, (words, change) in enumerate(self.every):
+            yield Option(number, words=words), change
+
+
+def ways(*every: Way) -> tuple[Ways, Find[Option]]:
+    """Return how a camera's fault is made in several ways, each with words of its own."""
+    made = Ways(every)
+    return made, always(*(option for option, _ in made.options()))
+
+
+def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Ways, Find[Option]]:
     """Return how a camera's fault is made in several ways, and a function that guesses each."""
-    return one_of(*map(of_camera, changes)), always(*map(Option, range(len(changes))))
+    return ways(*(("", change) for change in changes))
 
 
 def instances_named(scene: Scene, name: str) -> list[int]:

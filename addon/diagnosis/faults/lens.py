@@ -8,10 +8,11 @@ from functools import partial
 
 import numpy as np
 
+from ...camera_files.frame import intrinsics
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Region, ViewWindow
 from ...tracer.camera import pixel_size
-from .fault import Example, Fault, Option, options, with_option
+from .fault import Example, Fault, Option, options, ways, with_option
 from .film import SENSOR
 
 Change = Callable[[Camera], Camera | None]
@@ -139,13 +140,41 @@ def _other_border(camera: Camera) -> Camera | None:
     return replace(camera, region=Region(r.x0, rows[0], r.x1, rows[1]))
 
 
+def _of_lens(fx: float, fy: float, cx: float, cy: float, width: float, height: float) -> ViewWindow:
+    """Return the view window of K's numbers in a picture of a size, all in pixels."""
+    return ViewWindow(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)
+
+
+def _of_lenses(of: Callable[..., ViewWindow]) -> Change:
+    """Return a function that gives a camera another lens: `of` fx, fy, cx, cy, width, height."""
+
+    def change(camera: Camera) -> Camera | None:
+        if not camera.projection.is_linear:
+            return None
+        return replace(camera, window=of(*intrinsics(camera), camera.width, camera.height))
+
+    return change
+
+
+_EXCHANGED = options(
+    # The principal point is measured from the middle of a picture with its sides exchanged; or the
+    # picture has its sides exchanged, and is stretched to the scene's.
+    _of_lenses(
+        lambda fx, fy, cx, cy, w, h: _of_lens(fx, fy, cx - (w - h) / 2, cy + (w - h) / 2, w, h)
+    ),
+    _of_lenses(lambda fx, fy, cx, cy, w, h: _of_lens(fx, fy, cx, cy, h, w)),
+)
+_DIVIDED = options(
+    _of_lenses(lambda fx, fy, cx, cy, w, h: _of_lens(fx / w, fy / h, cx / w, cy / h, w, h))
+)
+
 PARTS = (0.25, 0.5, 0.75, 2.0, 4.0)  # sizes for which a percentage of the resolution is tried
 
 _FIT = options(*(_fits(power, shifted) for power in (1, -1) for shifted in (True, False)))
-_LEFT_OUT = options(
-    _shifts(lambda camera, x, y: (0.0, 0.0)),
-    _shifts(lambda camera, x, y: (0.0, y)),
-    _shifts(lambda camera, x, y: (x, 0.0)),
+_LEFT_OUT = ways(
+    ("", _shifts(lambda camera, x, y: (0.0, 0.0))),
+    (" across", _shifts(lambda camera, x, y: (0.0, y))),
+    (" up", _shifts(lambda camera, x, y: (x, 0.0))),
 )
 _SIGN = options(
     _shifts(lambda camera, x, y: (-x, -y)),
@@ -155,10 +184,10 @@ _SIGN = options(
 _UNIT = options(
     _shifts(lambda camera, x, y: (x, y / _aspect(camera))),
     _shifts(lambda camera, x, y: (x * _aspect(camera), y)),
+    _shifts(lambda camera, x, y: (x / _aspect(camera), y)),
+    _shifts(lambda camera, x, y: (x, y * _aspect(camera))),
     _shifts(lambda camera, x, y: (x / _aspect(camera), y / _aspect(camera))),
     _shifts(lambda camera, x, y: (x * _aspect(camera), y * _aspect(camera))),
-    _shifts(lambda camera, x, y: (x, y * _aspect(camera))),
-    _shifts(lambda camera, x, y: (x / _aspect(camera), y)),
     _shifts(lambda camera, x, y: (x / 2, y / 2)),
     _shifts(lambda camera, x, y: (2 * x, 2 * y)),
 )
@@ -202,10 +231,11 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     ),
     Fault(
         "shift_left_out",
-        "the camera's shift is left out, both ways or one",
+        "the camera's shift{words} is left out",
         "The renderer's camera has no shift, or the exporter doesn't write it.",
         "add shift X and Y",
         *_LEFT_OUT,
+        words=" across, or up, alone",
     ),
     Fault(
         "shift_sign",
@@ -260,6 +290,20 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "applied.",
         "take the width and height times the resolution's percentage, also in the principal point",
         *_PERCENTAGE,
+    ),
+    Fault(
+        "sides_exchanged",
+        "the picture's width and height are exchanged",
+        "Shapes of arrays are (height, width), sizes of pictures (width, height).",
+        "K's first row is of the width, its second of the height",
+        *_EXCHANGED,
+    ),
+    Fault(
+        "k_divided",
+        "K is divided by the picture's width and height",
+        "Kubric and neural renderers have K of a picture of 1 x 1, OpenCV in pixels.",
+        "multiply K's first row by the width, its second by the height",
+        *_DIVIDED,
     ),
     Fault(
         "ortho_scale",

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
-from ... import exr, png
+from ... import exr, npz, png
 from ...arrays import Array
 from ...file_kinds import mistaken
 from ...png.samples import PngError
@@ -47,6 +45,8 @@ def read(path: Path | Array, kind: Kind, layer: str = "", top_down: bool = False
     ------
     MissingLibraryError
         If it is an EXR, and OpenImageIO is not installed.
+    SceneError
+        If an .npy or .npz cannot be read.
     OSError
         If there is no such file, it cannot be read, or it does not hold such data.
     """
@@ -77,19 +77,14 @@ def _stored(
     return StoredData(values, step_of(values.dtype, 1.0), top, name)
 
 
-def _arrays(path: Path) -> dict[str, Array]:
-    try:
-        held = np.load(path, allow_pickle=False)
-        if isinstance(held, np.ndarray):
-            return {"": held}
-        with held:
-            every = [(name, held[name]) for name in held.files]
-            arrays = [own for own in every if isinstance(own[1], np.ndarray)]  # others are bytes
-            return {name: values for name, values in arrays if values.ndim in (2, 3)}
-    except (RuntimeError, NotImplementedError) as error:
-        raise OSError(f"'{path}' is encrypted or packed in another way: {error}") from error
-    except (ValueError, EOFError, BadZipFile, zlib.error, KeyError) as error:
-        raise OSError(f"'{path}' is cut off or damaged: write it again ({error})") from error
+def _npy(path: Path) -> dict[str, Array]:
+    return {"": npz.load_npy(path)}
+
+
+def _npz(path: Path) -> dict[str, Array]:
+    """Return the arrays that may be pictures."""
+    with npz.opened(path) as held:
+        return {name: held[name] for name in held if len(held.header(name).shape) in (2, 3)}
 
 
 def _png(path: Path) -> dict[str, Array]:
@@ -120,7 +115,7 @@ def _exr(path: Path) -> dict[str, Array]:
     return out
 
 
-_READ = {".npy": _arrays, ".npz": _arrays, ".exr": _exr, ".png": _png}
+_READ = {".npy": _npy, ".npz": _npz, ".exr": _exr, ".png": _png}
 
 
 def _chosen(path: object, layers: Mapping[str, Array], kind: Kind, layer: str) -> str:

@@ -146,6 +146,7 @@ TRIANGLE = Subject(
         "behind": "triangles behind the ray's origin",
         "parallel": "rays parallel to the triangle's plane",
         "empty": "triangles without an area: what is said of them does not count",
+        "elsewhere": "rays all around a triangle: they do not count, but tell mistakes apart",
     },
     letters=letters,
     cases=_cases,

@@ -10,7 +10,7 @@ import numpy as np
 
 from ....causes.case import Variant
 from ....scene import Instance, Scene
-from ...engine import export_for_render
+from ...evaluating import export_for_render
 from ...reading.colors import instance_colors, slot_materials
 from ...reading.meshes import read_mesh
 from ...temporary import everything, temporary_scene

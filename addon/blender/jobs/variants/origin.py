@@ -7,7 +7,7 @@ from typing import Any, Self
 
 from ....pictures.palette import Palette
 from ....scene import Scene
-from ...engine import export_for_render
+from ...evaluating import export_for_render
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,232 @@
+"""Has Blender evaluate a temporary scene once, to be exported, and drawn as often as is wanted.
+
+To evaluate is to apply every modifier, which may take minutes; each render does it anew. A window
+keeps what it has evaluated. In a render, engines that draw by the GPU keep it from frame to frame
+of an animation: so one frame is rendered again and again. What is changed in between, Blender
+evaluates alone, before it draws.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
+
+import bpy
+
+from ..manifest import Manifest
+from ..pictures.certificate import CameraCertificate
+from ..scene import Scene, SceneError
+from .reading.camera import certify_camera
+from .reading.export import export
+from .temporary import ENGINE, remove
+from .values import values_restored
+from .versions import ENGINES
+
+if TYPE_CHECKING:
+    from .drawing.judge import Judge
+
+Certified: TypeAlias = tuple[Scene, Manifest, CameraCertificate | None]
+T = TypeVar("T")
+# Work in turns: it is sent an evaluated depsgraph, and yields to have it drawn, saying whether that
+# is not the last picture; it goes on when that is written, and yields for the next evaluation.
+Turns: TypeAlias = Generator[bool, Any, T]
+
+
+def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
+    """Have Blender evaluate a temporary scene, and draw it, in turns with the work.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Its `render.filepath` says where a picture goes, when it is drawn.
+    layer : str
+        Its view layer.
+    judge : Judge, optional
+        What draws; None for work that has a render's evaluation, and no picture.
+    work : generator
+        What it returns is returned, and what it raises is raised.
+
+    Raises
+    ------
+    SceneError
+        If Blender draws nothing.
+    """
+    turns = _InTurns(work)
+    try:
+        if judge and judge.needs_window:
+            _draw_in_window(turns, scene, layer)
+        else:
+            _render(turns, scene, judge)
+    except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
+        said = str(error).removeprefix("Error: ").strip()
+        turns.fail(SceneError(f"{judge.name} draws no picture: {said}" if judge else said))
+    turns.fail(SceneError("Blender ended the render"))
+    return turns.result()
+
+
+class _InTurns(Generic[T]):
+    """Work that is done in turns with Blender.
+
+    Blender's handlers print what is raised in them, and forget it: so it is raised at the end.
+    """
+
+    def __init__(self, work: Turns[T]) -> None:
+        self._work = work
+        self._ended: list[Callable[[], T]] = []
+        self.wants_more = False  # than the picture that is to be drawn
+        self.go_on()
+
+    def go_on(self, depsgraph: Any = None) -> bool:
+        """Do the work's next turn; return whether it has ended."""
+        return self._do(lambda: self._work.send(depsgraph))
+
+    def fail(self, error: SceneError) -> None:
+        """Have the work fail where it is, unless it has ended."""
+        self._do(lambda: self._work.throw(error))
+
+    def result(self) -> T:
+        """Return what the work returned, or raise what it raised."""
+        return self._ended[0]()
+
+    def _do(self, turn: Callable[[], bool]) -> bool:
+        if not self._ended:
+            self.wants_more = False
+            try:
+                self.wants_more = turn()
+            except StopIteration as stop:
+                value: T = stop.value
+                self._ended.append(lambda: value)
+            except BaseException as raised:
+                error = raised
+                self._ended.append(lambda: _raise(error))
+        return bool(self._ended)
+
+
+def _raise(error: BaseException) -> Any:
+    raise error
+
+
+def _draw_in_window(turns: _InTurns[Any], scene: Any, layer: str) -> None:
+    # Adding a window, area or region to the override crashes Blender (4.3, 5.2).
+    with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer]):
+        while not turns.go_on(bpy.context.evaluated_depsgraph_get()):
+            bpy.ops.render.opengl(view_context=False, write_still=True)
+            if turns.go_on():
+                return
+
+
+def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
+    """Render a scene, by the engine of a judge or without a picture.
+
+    Blender's operator evaluates the context's scene at its end: it is given an empty one.
+    """
+    engine = judge.engine or "" if judge else ENGINE
+    scene.render.engine = ENGINES.get(engine, engine)
+    # Blender crashes if it is to write, within the render, what an engine did not finish (5.2). And
+    # an animation has no frame below 0.
+    writes = judge is not None and judge.known and scene.frame_current >= 0
+    empty = bpy.data.scenes.new("Reference Tracer")
+    empty.frame_set(scene.frame_current, subframe=scene.frame_subframe)  # it is rendered (5.2)
+    try:
+        override = bpy.context.temp_override(scene=empty, view_layer=empty.view_layers[0])
+        with values_restored(), override, _one_frame(turns, scene):
+            bpy.ops.render.render(scene=scene.name, animation=writes)
+    finally:
+        remove(empty)
+    if judge and not writes:
+        result = next(image for image in bpy.data.images if image.type == "RENDER_RESULT")
+        try:
+            result.save_render(f"{scene.render.filepath}.exr", scene=scene)
+        except RuntimeError:
+            turns.fail(SceneError(f"{judge.label} made no picture: see the console."))
+    if judge and not turns.go_on():
+        _render(turns, scene, judge)  # the next picture
+
+
+@contextmanager
+def _one_frame(turns: _InTurns[Any], scene: Any) -> Iterator[None]:
+    """Have each animation that is rendered of a scene be of its one frame, for a while.
+
+    It is as long as the work wants. What Blender evaluates has the scene's own range of frames: a
+    simulation may ask for it.
+    """
+    names = "frame_start", "frame_end", "frame_step", "frame_current", "frame_subframe"
+    own = {name: getattr(scene, name) for name in names}
+    rendered = max(scene.frame_current, 1)  # the one before it, too, is a frame
+    pictures = 0
+
+    def begins(of: Any, *_: Any) -> None:
+        if of == scene:
+            restore()
+            if pictures:
+                turns.go_on()
+
+    def restore() -> None:
+        for name, value in own.items():
+            if getattr(scene, name) != value:  # Blender takes any setting for a change
+                setattr(scene, name, value)
+
+    def is_evaluated(of: Any, depsgraph: Any) -> None:
+        if of == scene:
+            depsgraph.update()  # what other handlers have changed
+            turns.go_on(depsgraph)
+
+    def is_written(*_: Any) -> None:
+        nonlocal pictures
+        pictures += 1
+        scene.frame_current = rendered - 1 if turns.wants_more else rendered
+
+    events: Any = bpy.app.handlers
+    heard = (
+        (events.render_pre, begins),
+        (events.frame_change_post, is_evaluated),
+        (events.render_write, is_written),
+    )
+    # Whatever is changed after a picture crashes Blender in the next one (5.2): no other is told.
+    unheard = [(event, event.copy()) for event in (events.render_post, events.render_write)]
+    for event, _ in unheard:
+        event.clear()
+    for event, handler in heard:
+        event.append(handler)
+    scene.frame_start = rendered
+    scene.frame_end = rendered
+    scene.frame_step = 0
+    try:
+        yield
+    finally:
+        for event, handler in heard:
+            event.remove(handler)
+        for event, others in unheard:
+            event.extend(others)
+        restore()
+
+
+def export_certified(depsgraph: Any, known: dict[Any, Any] | None = None) -> Certified:
+    """Return what :func:`.reading.export.export` does, and how close its camera is to Blender's."""
+    scene, manifest = export(depsgraph, known)
+    if not scene.camera.projection.is_linear:  # Blender has no matrix for it
+        return scene, manifest, None
+    return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
+
+
+def export_for_render(scene: Any) -> Certified:
+    """Return the *render* evaluation of a temporary scene, and set its engine to this one.
+
+    Such an evaluation exists only while an engine renders.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    return evaluated(scene, scene.view_layers[0].name, None, _exported())
+
+
+def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:
+    """Return what a judge's picture is to be compared with, as :func:`export_certified` does."""
+    return evaluated(tmp, layer, judge if judge.needs_window else None, _exported())
+
+
+def _exported() -> Turns[Certified]:
+    return export_certified((yield False))

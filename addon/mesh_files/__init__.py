@@ -1,1 +1,0 @@
-"""Reads meshes from files: OBJ, PLY, OFF, STL, glTF; a format a file."""

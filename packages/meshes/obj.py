@@ -1,0 +1,163 @@
+"""Reads Wavefront OBJ: its polygons, by objects."""
+
+from __future__ import annotations
+
+import re
+from codecs import BOM_UTF8
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from reference_tracer.arrays import Index
+from reference_tracer.scene import SceneError
+from reference_tracer.wording import count_of
+
+from .contents import Contents, of_faces
+from .text import AGAIN, floats, in_lines, integers, shown
+
+# What changes nothing of the shape: normals, texture coordinates, materials, how it is displayed.
+_NO_SHAPE = frozenset(
+    b"vn vt usemtl mtllib usemap maplib s bevel c_interp d_interp lod shadow_obj trace_obj".split()
+)
+_CURVED = frozenset(
+    b"vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con mg ctech stech".split()
+)
+_NO_SURFACE = {b"l": "lines", b"p": "points"}
+_ONE = frozenset((b"1", b"1.0", b"1.000000"))
+_COMMENT = re.compile(rb"\s#.*")  # names may hold the sign, as Cube#2
+
+
+def read(path: Path) -> Contents:
+    """Read the polygons of an OBJ file; its objects are those of `o`, else its groups `g`.
+
+    Raises
+    ------
+    SceneError, ValueError
+        If a line is not understood as what it begins as; it says which line.
+    """
+    content = path.read_bytes().removeprefix(BOM_UTF8)
+    if b"\0" in content:
+        raise SceneError("it is no OBJ file: it holds bytes that no text has")
+    return _Reading(path.stem).read(content)
+
+
+class _Reading:
+    """What the lines of a file have said so far."""
+
+    def __init__(self, stem: str) -> None:
+        self.numbers: list[bytes] = []  # of the vertices, three each
+        self.vertex_lines: list[int] = []
+        self.corners: list[bytes] = []  # indices of vertices, from 1
+        self.sizes: list[int] = []  # of the faces
+        self.face_lines: list[int] = []
+        # By the key of its line, the numbers of names, and the one that each face is of.
+        self.names = {key: {stem: 0} for key in (b"o", b"g")}
+        self.current = {b"o": 0, b"g": 0}
+        self.owners: dict[bytes, list[int]] = {b"o": [], b"g": []}
+        self.times = Counter[str]()  # that an object was begun
+        self.weights = 0
+        self.other: Counter[bytes] = Counter()
+
+    def read(self, content: bytes) -> Contents:
+        """Read a whole file."""
+        for line, words in _statements(content):
+            key = words[0]
+            if key == b"v":
+                self._vertex(line, words)
+            elif key == b"f":
+                self._face(line, words[1:])
+            elif key in self.names:
+                self._begin(key, b" ".join(words[1:]).decode("utf-8", "replace"))
+            elif key not in _NO_SHAPE:
+                self.other[key] += 1
+        by = b"o" if self.times else b"g"
+        threes = [3] * len(self.vertex_lines)
+        return of_faces(
+            in_lines(floats, self.numbers, threes, self.vertex_lines).reshape(-1, 3),
+            self._indices(),
+            np.array(self.sizes, np.intp),
+            list(self.names[by]),
+            np.array(self.owners[by], np.intp),
+            tuple(self._notes()),
+            tuple(self._missing()),
+        )
+
+    def _vertex(self, line: int, words: list[bytes]) -> None:
+        if len(words) < 4:
+            raise SceneError(
+                f"line {line}: a vertex has three coordinates; if this is the last line, it is cut "
+                f"off: {AGAIN}"
+            )
+        self.numbers += words[1:4]
+        self.vertex_lines.append(line)
+        if len(words) in (5, 8) and words[4] not in _ONE:
+            self.weights += 1
+
+    def _face(self, line: int, words: list[bytes]) -> None:
+        corners = [word.partition(b"/")[0] for word in words]
+        for k, corner in enumerate(corners):
+            if corner[:1] == b"-":  # -1 is the last vertex above the line
+                (back,) = in_lines(integers, [corner], [1], [line]).tolist()
+                corners[k] = b"%d" % (back and len(self.vertex_lines) + 1 + back)
+        self.corners += corners
+        self.sizes.append(len(corners))
+        self.face_lines.append(line)
+        for key, owners in self.owners.items():
+            owners.append(self.current[key])
+
+    def _begin(self, key: bytes, name: str) -> None:
+        """Make the next faces those of a name, which may have been there before."""
+        names = self.names[key]
+        self.current[key] = names.setdefault(name, len(names)) if name else 0
+        if key == b"o":
+            self.times[name] += 1
+
+    def _indices(self) -> Index:
+        """Return the corners' indices, from 0."""
+        found = in_lines(integers, self.corners, self.sizes, self.face_lines)
+        if len(bad := np.flatnonzero((found < 1) | (found > len(self.vertex_lines)))):
+            face = int(np.searchsorted(np.cumsum(self.sizes), bad[0], "right"))
+            names = f"line {self.face_lines[face]} names vertex {found[bad[0]]}"
+            raise SceneError(f"{names}, but there are {len(self.vertex_lines)}")
+        return found - 1
+
+    def _notes(self) -> Iterator[str]:
+        for key, count in self.other.items():
+            named = f"'{shown(key)}'"
+            if what := _NO_SURFACE.get(key):
+                named = f"{named} ({what})"
+                said = count_of(count, f"line {named} is", f"lines {named} are")
+                yield f"{said} not drawn: what has no surface meets no ray"
+            elif key not in _CURVED:
+                said = count_of(count, f"line {named} is", f"lines {named} are")
+                yield f"{said} not understood, and left out"
+        if self.weights:
+            said = count_of(self.weights, "vertex has a weight", "vertices have weights")
+            yield f"{said} other than 1, which polygons do not use"
+        if again := [f"'{name}'" for name, times in self.times.items() if times > 1]:
+            yield f"objects that have the same name are taken as one: {', '.join(again[:3])}"
+
+    def _missing(self) -> Iterator[str]:
+        if curved := [key.decode() for key in self.other if key in _CURVED]:
+            count = sum(self.other[key.encode()] for key in curved)
+            said = f"{count_of(count, 'line')} ({', '.join(curved)})"
+            yield f"curves and surfaces are not drawn: {said}; save them as polygons"
+
+
+def _statements(content: bytes) -> Iterator[tuple[int, list[bytes]]]:
+    """Yield the number and the words of each line that has some; a backslash continues it."""
+    lines = enumerate(content.splitlines(), 1)
+    for number, line in lines:
+        if line.lstrip().startswith(b"#"):
+            continue  # a backslash in a comment is part of it
+        if line.endswith(b"\\"):
+            parts = []
+            while line.endswith(b"\\"):
+                parts.append(line[:-1])
+                line = next(lines, (0, b""))[1]
+            line = b" ".join((*parts, line))
+        if b"#" in line:
+            line = _COMMENT.sub(b"", line)
+        if words := line.split():
+            yield number, words

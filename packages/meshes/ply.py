@@ -1,0 +1,148 @@
+"""Reads PLY by the library plyfile: text and binary, faces of any mixture of sizes, strips."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from reference_tracer.arrays import Floats, Index
+from reference_tracer.exr import MissingLibraryError
+from reference_tracer.scene import SceneError
+from reference_tracer.wording import count_of
+
+from .contents import Contents, of_faces
+
+_CORNERS = "vertex_indices", "vertex_index"
+_HEAD = re.compile(rb"\Aply\s.*?^end_header\r?\n", re.DOTALL | re.MULTILINE)
+_ELEMENT = re.compile(rb"^element\s+\S+\s+(\d+)", re.MULTILINE)
+_TYPE = re.compile(rb"^(property\s+(?:list\s+\S+\s+)?\S+)\s.*$")
+
+
+def read(path: Path) -> Contents:
+    """Read the faces and the triangle strips of a PLY file.
+
+    Raises
+    ------
+    MissingLibraryError
+        If plyfile is not installed.
+    SceneError
+        If it is cut off, or not a PLY file, or has no vertices.
+    """
+    vertices: Floats = np.zeros((0, 3))
+    corners: list[Index] = [np.zeros(0, np.intp)]
+    sizes: list[Index] = [np.zeros(0, np.intp)]
+    notes = []
+    for element in _elements(path):
+        if element.name == "vertex":
+            vertices = _vertices(element)
+        elif element.name in ("face", "tristrips"):
+            own, lengths = _lists(element)
+            if element.name == "tristrips":
+                own, lengths = _of_strips(own, lengths)
+            corners.append(own)
+            sizes.append(lengths)
+        elif element.count:
+            row, rows = f"row of '{element.name}' is", f"rows of '{element.name}' are"
+            why = "understood, and left out"
+            if element.name == "edge":
+                row, rows, why = "edge is", "edges are", "drawn: what has no surface meets no ray"
+            notes.append(f"{count_of(element.count, row, rows)} not {why}")
+    faces = np.concatenate(corners), np.concatenate(sizes)
+    return of_faces(vertices, *faces, [path.stem], notes=notes)
+
+
+def _elements(path: Path) -> Any:
+    """Return the elements of a file, once its head is one that the library understands."""
+    try:
+        from plyfile import PlyData, PlyParseError
+    except ImportError:
+        raise MissingLibraryError(
+            'PLY files take the library plyfile: pip install "reference_tracer[meshes]"'
+        ) from None
+    content = path.read_bytes()
+    head = _HEAD.match(content)
+    if not head:
+        raise SceneError("it is no PLY file, or is cut off: its head has no beginning or no end")
+    if any(int(count) > len(content) for count in _ELEMENT.findall(head[0])):
+        raise SceneError(
+            "it is cut off: it has fewer bytes than its head has rows: export it again"
+        )
+    with tempfile.TemporaryDirectory() as folder:
+        if (plain := _plain(head[0])) != head[0]:
+            path = Path(folder, "plain.ply")
+            path.write_bytes(plain + content[head.end() :])
+        for size in (3, 4):  # faces of one size are read at once
+            with suppress(PlyParseError):
+                return PlyData.read(str(path), mmap="r", known_list_len=_all(size)).elements
+        return PlyData.read(str(path), mmap=False).elements
+
+
+def _all(size: int) -> dict[str, dict[str, int]]:
+    return {element: dict.fromkeys(_CORNERS, size) for element in ("face", "tristrips")}
+
+
+def _plain(head: bytes) -> bytes:
+    """Return a head without comments, and without names that the library does not understand.
+
+    Blender writes a vertex group by its own name, which may have spaces.
+    """
+    lines = []
+    for number, line in enumerate(head.splitlines(keepends=True)):
+        words = line.split()
+        if words[:1] in ([b"comment"], [b"obj_info"]):
+            continue
+        if words[:1] == [b"property"] and (
+            len(words) > (5 if words[1:2] == [b"list"] else 3) or not line.isascii()
+        ):
+            line = _TYPE.sub(rb"\1", line.rstrip()) + b" unnamed%d\n" % number
+        lines.append(line)
+    return b"".join(lines)
+
+
+def _vertices(element: Any) -> Floats:
+    """Return (v, 3): float32 if all coordinates are stored so, else float64."""
+    if not {"x", "y", "z"} <= {p.name for p in element.properties}:
+        raise SceneError("its vertices have no x, y and z")
+    together = np.stack([element[axis] for axis in "xyz"], axis=1)
+    kind = np.dtype(np.float32)
+    return together.astype(kind if together.dtype == kind else np.float64)
+
+
+def _lists(element: Any) -> tuple[Index, Index]:
+    """Return the vertices of faces or strips, one after the other, and how many each has."""
+    names = [p.name for p in element.properties if p.name in _CORNERS]
+    if len(names) != 1:
+        raise SceneError(f"its element '{element.name}' has not one list '{_CORNERS[0]}'")
+    found = element[names[0]]
+    if found.ndim == 2:
+        sizes = np.full(len(found), found.shape[1])
+    elif found.dtype == object:
+        sizes = np.fromiter(map(len, found), np.intp, len(found))
+        found = np.concatenate([np.zeros(0, np.intp), *found])
+    else:
+        raise SceneError(f"its element '{element.name}' has one vertex in a row, and no list")
+    whole = found.astype(np.intp).reshape(-1)
+    if found.dtype.kind == "f" and (whole != found.reshape(-1)).any():
+        raise SceneError(f"its element '{element.name}' names vertices by numbers with fractions")
+    return whole, sizes
+
+
+def _of_strips(corners: Index, sizes: Index) -> tuple[Index, Index]:
+    """Return the triangles of strips: each corner makes one with the two before it.
+
+    Every second one is turned, and -1 begins a new strip. What is repeated to go on elsewhere makes
+    triangles of no area, which are left out.
+    """
+    flat = np.insert(corners, np.cumsum(sizes), -1)  # each list is a strip of its own, too
+    place = np.arange(len(flat))
+    begin = np.maximum.accumulate(np.where(flat < 0, place, -1)) + 1
+    parts = np.stack((flat[:-2], flat[1:-1], flat[2:]), axis=1)
+    is_turned = (place - begin)[:-2] % 2 == 1
+    parts[is_turned] = parts[is_turned][:, [1, 0, 2]]
+    a, b, c = parts.T
+    parts = parts[(parts.min(axis=1, initial=0) >= 0) & (a != b) & (b != c) & (c != a)]
+    return parts.reshape(-1), np.full(len(parts), 3)

@@ -1,0 +1,178 @@
+"""What glTF's specification says of shapes is applied: each feature in a small file.
+
+The right area and place are worked out from the rules of the specification, by hand.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reference_tracer_meshes.gltf import read as read_gltf
+from reference_tracer_meshes.load import load_meshes
+
+from .gltf_build import INDICES, SQUARE, UNIT, Build, area, box, corners, moved, read
+
+HALF = np.sqrt(0.5)
+
+
+def test_a_square(path):
+    triangles, notes = read(Build().shown().write(path))
+    assert box(triangles) == UNIT and area(triangles) == 1 and not notes
+    assert triangles.tolist() == SQUARE[INDICES].reshape(2, 3, 3).tolist()
+
+
+def test_y_is_turned_up(path):
+    """By the command's reader: (x, y, z) becomes (x, -z, y)."""
+    Build().shown(translation=[0, 5, 7]).write(path)
+    ((mesh, world, _),) = load_meshes(path).placed
+    assert (mesh.vertices[0] @ world[:3, :3].T + world[:3, 3]).tolist() == [0, -7, 5]
+
+
+class TestNodes:
+    def test_a_hierarchy(self, path):
+        """Scale first, then rotation (90 degrees about Z), then translation, then the parent's."""
+        build = Build()
+        child = build.node(
+            mesh=build.mesh(), translation=[1, 0, 0], rotation=[0, 0, HALF, HALF], scale=[2, 3, 1]
+        )
+        build.scene(build.node(children=[child], scale=[10, 1, 1]))
+        triangles, _ = read(build.write(path))
+        assert np.allclose(box(triangles), [[-20, 0, 0], [10, 2, 0]], atol=1e-14)
+        assert area(triangles) == pytest.approx(60)
+
+    def test_a_matrix_is_stored_by_columns(self, path):
+        matrix = [0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1]
+        triangles, _ = read(Build().shown(matrix=matrix).write(path))
+        assert box(triangles) == [[4, 6, 7], [5, 8, 7]]
+
+    def test_a_negative_scale(self, path):
+        (placed,) = read_gltf(Build().shown(scale=[-1, 1, 1]).write(path)).placed
+        assert box(corners(placed)) == [[-1, 0, 0], [0, 1, 0]]
+        assert np.linalg.det(placed.world_from_object) == -1
+
+    def test_a_shared_mesh_is_one_mesh(self, path):
+        build = Build()
+        mesh = build.mesh()
+        build.scene(*(build.node(mesh=mesh, translation=[3 * k, 0, 0]) for k in range(3)))
+        placed = read_gltf(build.write(path)).placed
+        assert len({id(p.mesh) for p in placed}) == 1
+        assert [box(corners(p)) for p in placed] == [moved(0), moved(3), moved(6)]
+
+    def test_names(self, path):
+        build = Build()
+        named, nameless = build.mesh(), build.mesh()
+        build.json["meshes"][named]["name"] = "Mesh"
+        nodes = [
+            *(build.node(mesh=named, name="A") for _ in range(2)),
+            build.node(mesh=named),
+            build.node(mesh=nameless),
+            build.node(mesh=nameless, name="A (node 1)"),
+            build.node(mesh=nameless, name="\ud800\n"),
+        ]
+        build.scene(*nodes)
+        names = [p.object for p in read_gltf(build.write(path)).placed]
+        assert names[:4] == ["A", "A (node 1)", "Mesh", "node 3"]
+        assert len(set(names)) == 6 and names[5] == "\ud800\n"
+
+    def test_a_name_that_is_made_is_taken_already(self, path):
+        build = Build()
+        mesh = build.mesh()
+        build.scene(*(build.node(mesh=mesh, name=name) for name in ("A (node 2)", "A", "A")))
+        names = {p.object for p in read_gltf(build.write(path)).placed}
+        assert names == {"A (node 2)", "A", "A (node 2) (node 2)"}
+
+    def test_a_node_that_is_hidden_and_those_below_it(self, path):
+        build = Build()
+        build.extension("KHR_node_visibility", required=True)
+        mesh = build.mesh()
+        visible = {"KHR_node_visibility": {"visible": True}}
+        below = build.node(mesh=mesh, name="below", extensions=visible)
+        hidden = {"KHR_node_visibility": {"visible": False}}
+        parent = build.node(mesh=mesh, name="parent", children=[below], extensions=hidden)
+        build.scene(parent, build.node(mesh=mesh, translation=[9, 0, 0], extensions=visible))
+        triangles, notes = read(build.write(path))
+        assert box(triangles) == moved(9)
+        (note,) = notes
+        assert "hidden" in note and "2 nodes" in note
+
+
+class TestScenes:
+    def two(self) -> Build:
+        build = Build()
+        mesh = build.mesh()
+        at = [build.node(mesh=mesh, translation=[3 * k, 0, 0]) for k in range(3)]
+        build.scene(at[0], at[1])
+        build.scene(at[2])
+        return build
+
+    def test_the_default_one(self, path):
+        build = self.two()
+        build.json["scene"] = 1
+        triangles, notes = read(build.write(path))
+        assert box(triangles) == moved(6)
+        assert len(notes) == 1 and "2 nodes" in notes[0]
+
+    def test_the_first_of_two_is_named(self, path):
+        build = self.two()
+        del build.json["scene"]
+        triangles, notes = read(build.write(path))
+        assert area(triangles) == 2 and any("2 scenes" in n for n in notes)
+
+    def test_the_only_one_needs_no_word(self, path):
+        build = Build().shown()
+        del build.json["scene"]
+        assert read(build.write(path))[1] == ()
+
+    def test_without_any_all_nodes_are_shown(self, path):
+        build = self.two()
+        del build.json["scene"], build.json["scenes"]
+        triangles, notes = read(build.write(path))
+        assert area(triangles) == 3 and "no scene" in notes[0]
+
+
+class TestTopology:
+    @pytest.mark.parametrize("mode, order", [(4, (0, 1, 2, 0, 2, 3)), (5, (0, 1, 3, 2))])
+    @pytest.mark.parametrize("dtype", [None, "u1", "u2", "u4"])
+    def test_triangles_and_strips(self, mode, order, dtype, path):
+        build = Build()
+        order = np.array(order)
+        indexed = {"corners": SQUARE, "indices": order.astype(dtype)} if dtype else {}
+        direct = {"corners": SQUARE[order], "indices": None}
+        build.scene(build.node(mesh=build.mesh(**(indexed or direct), mode=mode)))
+        triangles, notes = read(build.write(path))
+        assert area(triangles) == 1 and box(triangles) == UNIT and not notes
+        a, b, c = np.moveaxis(triangles, 1, 0)
+        assert (np.cross(b - a, c - a)[:, 2] == 1).all()  # none is turned round
+
+    def test_every_second_triangle_of_a_strip_is_turned_round(self, path):
+        corners = np.array([(k // 2, k % 2, 0) for k in range(7)], np.float32)
+        build = Build()
+        build.scene(build.node(mesh=build.mesh(corners, None, mode=5)))
+        a, b, c = np.moveaxis(read(build.write(path))[0], 1, 0)
+        assert (np.cross(b - a, c - a)[:, 2] == -1).all() and len(a) == 5
+
+    @pytest.mark.parametrize("mode", range(4))
+    def test_points_and_lines_are_named(self, mode, path):
+        build = Build()
+        mesh = build.mesh(indices=None, mode=mode)
+        build.scene(build.node(mesh=mesh))
+        assert not read_gltf(build.write(path)).placed
+        (note,) = read_gltf(path).notes
+        assert "Points and lines" in note
+
+    def test_primitives_that_share_corners(self, path):
+        build = Build()
+        mesh = build.mesh()
+        primitive = build.json["meshes"][mesh]["primitives"][0]
+        halves = [dict(primitive, indices=build.accessor(INDICES[k : k + 3])) for k in (0, 3)]
+        other = build.json["meshes"][build.mesh(SQUARE + np.float32([5, 0, 0]))]["primitives"][0]
+        build.json["meshes"][mesh]["primitives"] = [*halves, other]
+        build.scene(build.node(mesh=mesh))
+        (placed,) = read_gltf(build.write(path)).placed
+        assert area(corners(placed)) == 2 and len(placed.mesh.vertices) == 8
+        assert box(corners(placed)) == [[0, 0, 0], [6, 1, 0]]
+
+    def test_without_positions_nothing_is_shown(self, path):
+        build = Build().shown()
+        build.json["meshes"][0]["primitives"][0]["attributes"] = {"_OTHER": 0}
+        assert "without positions" in read_gltf(build.write(path)).missing[0]

@@ -1,1 +1,0 @@
-"""What `draw_culling.py` draws and counts, taken from the tracer's own sweep."""
