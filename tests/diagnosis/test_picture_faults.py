@@ -142,12 +142,10 @@ MADE = {
         noisy(1.4),
         noisy(6.0),
     ],
-    "twice_rounded": [of_rgb(lambda c: curve_undone(eight(curve(eight(c)))))],
     "rounding_level": [coded(eight)],
     "srgb_twice": [of_rgb(lambda c: eight(curve(c)))],
     "srgb_left_out": [of_rgb(lambda c: curve_undone(eight(c)))],
     "power_for_srgb": [of_rgb(lambda c: curve_undone(eight(c ** (1 / 2.2))))],
-    "averaged": [mean(2), mean(2, 1), mean(4, 1)],
     "filter_radius": [gaussian],
     "shrunk": [halved, lambda c: halved(mean(2)(c)), lambda c: halved(np.roll(c, -1, (0, 1)))],
 }
