@@ -272,13 +272,14 @@ def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     fewest = min(((t.fault.vague, t.cost) for t in alike), default=None)
     # What is done to one object may look the same in more numbers: that is told, too.
     own = {t.guess.object for t in alike if (t.fault.vague, t.cost) == fewest}
-    of_one = own if len(own) == 1 else ()
+    of_one = own - {""} if len(own) == 1 else ()
     alike = [t for t in alike if (t.fault.vague, t.cost) == fewest or t.guess.object in of_one]
     sums_up = any(t.fault.sums_up for t in alike)
     if not sums_up and not all(t.guess.object for t in alike):
         alike = [t for t in alike if not t.guess.object]
     told: dict[str, Trial] = {}
     table = [fault.name for fault in FAULTS]
-    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, table.index(t.fault.name))):
+    place = {t: table.index(t.fault.name) if t.guess.object else 0 for t in alike}
+    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, place[t], -t.gain)):
         told.setdefault(trial.fault.name, trial)
     return list(told.values())
