@@ -71,7 +71,6 @@ LONGEST = (
     "tests/certified/sweep/test_sweep.py",
     "tests/farms/",
     "tests/test_docs.py",
-    "tests/suites/test_pbrt.py",
     "tests/blender/test_cli_blend.py",
     "tests/study/test_extremes.py",
 )

@@ -19,7 +19,7 @@ SAMPLE = [
     "tests/tracer",
     "tests/derivation",
     "tests/certified/sweep",
-    "tests/certified/test_bounds.py",
+    "tests/certified/test_definition.py",
     "tests/certified/test_dropped.py",
 ]
 ALL = ["tests", "--ignore=tests/blender", "--ignore=tests/test_instructions.py"]

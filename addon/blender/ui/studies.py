@@ -28,6 +28,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
     )
     kind = results.Kind.TRADE
     needs_camera = True
+    announced = "Blender evaluates the scene"
 
     width: IntProperty(
         name="Width",
