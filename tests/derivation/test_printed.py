@@ -35,7 +35,7 @@ def derivations(ball_scene):
 def test_markdown_has_the_numbers_of_the_json(derivations):
     compared = 0
     for d in derivations:
-        content = writers.to_dict(d)
+        content = json.loads(writers.json_text(d))
         steps = [content["camera"]["steps"], content["ray"]]
         steps += [c["steps"] for c in content["candidates"]]
         tables = printed.tables(document.document_markdown(d))
