@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import bpy
@@ -17,6 +19,7 @@ import bpy
 from ..manifest import Manifest
 from ..pictures.certificate import CameraCertificate
 from ..scene import Scene, SceneError
+from ..tracer.signals import check, held
 from .reading.camera import certify_camera
 from .reading.export import export
 from .temporary import ENGINE, remove
@@ -36,10 +39,12 @@ Turns: TypeAlias = Generator[bool, Any, T]
 def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
     """Have Blender evaluate a temporary scene, and draw it, in turns with the work.
 
+    A 'Render Result' that did not exist before is removed.
+
     Parameters
     ----------
     scene : bpy.types.Scene
-        Its `render.filepath` says where a picture goes, when it is drawn.
+        Its `render.filepath` is then in a folder that goes with what is in it.
     layer : str
         Its view layer.
     judge : Judge, optional
@@ -53,22 +58,33 @@ def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
         If Blender draws nothing.
     """
     turns = _InTurns(work)
-    try:
-        if judge and judge.needs_window:
-            _draw_in_window(turns, scene, layer)
-        else:
-            _render(turns, scene, judge)
-    except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
-        said = str(error).removeprefix("Error: ").strip()
-        turns.fail(SceneError(f"{judge.name} draws no picture: {said}" if judge else said))
-    turns.fail(SceneError("Blender ended the render"))
+    had_result = bool(_render_results())
+    with held(), TemporaryDirectory() as folder:
+        scene.render.filepath = str(Path(folder) / "picture")  # also one of work that has ended
+        try:
+            if judge and judge.needs_window:
+                _draw_in_window(turns, scene, layer)
+            else:
+                _render(turns, scene, judge)
+        except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
+            said = str(error).removeprefix("Error: ").strip()
+            turns.fail(SceneError(f"{judge.name} draws no picture: {said}" if judge else said))
+        turns.fail(SceneError("Blender ended the render"))
+        if not had_result:
+            bpy.data.batch_remove(_render_results())
     return turns.result()
+
+
+def _render_results() -> list[Any]:
+    """Return the image of the last render, if there was one in this file."""
+    return [image for image in bpy.data.images if image.type == "RENDER_RESULT"]
 
 
 class _InTurns(Generic[T]):
     """Work that is done in turns with Blender.
 
-    Blender's handlers print what is raised in them, and forget it: so it is raised at the end.
+    Blender's handlers print what is raised in them, and forget it: so it is raised at the end. A
+    signal is heard at the next turn, and ends the work.
     """
 
     def __init__(self, work: Turns[T]) -> None:
@@ -79,9 +95,17 @@ class _InTurns(Generic[T]):
 
     def go_on(self, depsgraph: Any = None) -> bool:
         """Do the work's next turn; return whether it has ended."""
+        self.hear()
         return self._do(lambda: self._work.send(depsgraph))
 
-    def fail(self, error: SceneError) -> None:
+    def hear(self) -> None:
+        """Have the work end, if a signal was heard."""
+        try:
+            check()
+        except KeyboardInterrupt as interrupt:
+            self.fail(interrupt)
+
+    def fail(self, error: BaseException) -> None:
         """Have the work fail where it is, unless it has ended."""
         self._do(lambda: self._work.throw(error))
 
@@ -135,9 +159,8 @@ def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
     finally:
         remove(empty)
     if judge and not writes:
-        result = next(image for image in bpy.data.images if image.type == "RENDER_RESULT")
         try:
-            result.save_render(f"{scene.render.filepath}.exr", scene=scene)
+            _render_results()[0].save_render(f"{scene.render.filepath}.exr", scene=scene)
         except RuntimeError:
             turns.fail(SceneError(f"{judge.label} made no picture: see the console."))
     if judge and not turns.go_on():
@@ -174,6 +197,7 @@ def _one_frame(turns: _InTurns[Any], scene: Any) -> Iterator[None]:
 
     def is_written(*_: Any) -> None:
         nonlocal pictures
+        turns.hear()
         pictures += 1
         scene.frame_current = rendered - 1 if turns.wants_more else rendered
 

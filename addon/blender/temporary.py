@@ -43,8 +43,7 @@ def temporary_scene(
 ) -> Iterator[Any]:
     """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
 
-    Sequencer, compositor, multiview, stamps, freestyle and motion blur are off in the copy. A
-    'Render Result' that did not exist before is removed, too.
+    Sequencer, compositor, multiview, stamps, freestyle and motion blur are off in the copy.
 
     Parameters
     ----------
@@ -56,7 +55,6 @@ def temporary_scene(
     palette : Palette, optional
         The colours that it is exported and drawn in; by default those of the viewport.
     """
-    images = set(bpy.data.images)
     copy = scene.copy()
     copy[_COPY_OF] = scene.name_full
     if ignored is not None:
@@ -67,9 +65,6 @@ def temporary_scene(
             yield copy
     finally:
         remove(copy)
-        for image in set(bpy.data.images) - images:
-            if image.type == "RENDER_RESULT":
-                bpy.data.images.remove(image)
 
 
 def made_for(scene: Any, block: B) -> B:

@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 
 from .. import __version__
+from ..tracer import signals
 from . import running
 from .commands import COMMANDS
 from .parser import EXIT_CODES_HELP, Parser
@@ -30,7 +31,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str]) -> int:
     """Parse the words, and run their command."""
-    with running.held():
+    with signals.held():
         known = parser(argv)
     given = known.parse_args(argv)
     code: int = given.run(given)

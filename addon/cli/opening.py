@@ -18,6 +18,7 @@ from ..manifest import Manifest
 from ..opened import mesh_formats, open_scene
 from ..scene import Scene, SceneError
 from ..tracer.settings import Settings
+from ..tracer.signals import held
 from ..wording import show
 from . import running
 from .arguments import is_blend
@@ -63,12 +64,25 @@ def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> Op
         with open_blend(path, choice) as blender:
             from ..blender.jobs.open_file import export_open_file
 
-            with running.meanwhile(f"having Blender evaluate {path.name}"):
+            with evaluating(blender.context.view_layer, path.name):
                 scene, manifest, settings = export_open_file(blender.context, whole=whole)
         return OpenedFile(scene, manifest, settings)
     check_kind(path)
     with running.meanwhile(f"reading {path.name}"):
         return OpenedFile(*open_scene(path, choice), Settings())
+
+
+@contextmanager
+def evaluating(layer: Any, what: str) -> Iterator[None]:
+    """Name what Blender evaluates meanwhile: at once, where that took long the last time."""
+    from ..blender.slowest import slowest
+
+    name = slowest(layer)
+    words = "having Blender evaluate " + (f"'{name}'" if name else what)
+    if name:
+        show(words, file=sys.stderr)
+    with running.meanwhile(words):
+        yield
 
 
 def import_trimesh() -> None:
@@ -97,7 +111,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
     """
     if not choice.opened:
         check_is_file(path)
-    with running.held():
+    with held():
         try:
             import bpy
         except ImportError as error:
@@ -131,7 +145,7 @@ def _without_blender(error: ImportError) -> str:
 
 
 def _open(bpy: Any, path: Path) -> None:
-    with running.held():
+    with held():
         from ..blender.reading.opened import open_file
 
         try:

@@ -17,7 +17,7 @@ from ..wording import show
 Number = TypeVar("Number", int, float)
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
-INTERRUPTED = 130  # by Ctrl-C, as in shells: see `cli/running.py`
+INTERRUPTED = 130  # by Ctrl-C, as in shells: see `tracer/signals.py`
 
 _CODES = """
   4  the input is wrong or cannot be read, or standard output cannot be written (files stay)

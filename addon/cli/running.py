@@ -1,48 +1,24 @@
 """What every command line does around its work: hears signals, prints, and says what is wrong.
 
-Python turns Ctrl-C into a KeyboardInterrupt at whatever it runs at that moment. Where that is a
-callback from C, as in Blender, it is printed and forgotten; in the middle of an import it leaves
-half a module. Of other signals it knows nothing, and would die without cleaning up. Little is
-imported here, so that a Ctrl-C is heard while the rest is.
+Little is imported here, so that a Ctrl-C is heard while the rest is.
 """
 
 from __future__ import annotations
 
 import io
 import os
-import signal
 import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
-from dataclasses import dataclass
 from typing import TextIO
 
+from ..tracer.signals import check, ended, heard
 from ..wording import show, shown
-
-_NAMED = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "hung up"}
-# What ends the work, and in what word: those that this system has.
-SIGNALS = {getattr(signal, name): word for name, word in _NAMED.items() if hasattr(signal, name)}
 
 LINE_EVERY = 10.0  # seconds between two lines that say how much is done
 LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
-
-
-@dataclass
-class _Signals:
-    """The state of signals, one a process."""
-
-    latest: int = 0
-    are_held: bool = False
-
-    def hear(self, number: int, _: object) -> None:
-        self.latest = number
-        if not self.are_held:
-            raise KeyboardInterrupt
-
-
-_signals = _Signals()
 
 
 def run(work: Callable[[], int], program: str) -> int:
@@ -137,76 +113,6 @@ def _written(stream: TextIO, text: str) -> OSError | None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
         return error
     return None
-
-
-@contextmanager
-def heard() -> Iterator[None]:
-    """Remember every signal of SIGNALS until the block ends, so that :func:`check` can answer it.
-
-    Nothing is printed then of a KeyboardInterrupt that Python swallows, as in a destructor. A
-    handler that someone else has set, and all that is not the main thread, is left alone.
-    """
-    before = {}
-    with suppress(ValueError):  # outside the main thread
-        for number in SIGNALS:
-            handler = signal.getsignal(number)
-            if handler in (signal.SIG_DFL, signal.default_int_handler):
-                signal.signal(number, _signals.hear)
-                before[number] = handler
-    if not before:
-        yield
-        return
-    answered()
-    told, sys.unraisablehook = sys.unraisablehook, _unless_heard(sys.unraisablehook)
-    try:
-        yield
-    finally:
-        sys.unraisablehook = told
-        for number, handler in before.items():
-            signal.signal(number, handler)
-        answered()  # what comes later is not meant
-
-
-def _unless_heard(
-    told: Callable[[sys.UnraisableHookArgs], object],
-) -> Callable[[sys.UnraisableHookArgs], object]:
-    """Return what tells of an exception that was swallowed, but for that of a signal."""
-
-    def hook(swallowed: sys.UnraisableHookArgs) -> None:
-        if not issubclass(swallowed.exc_type, KeyboardInterrupt):
-            told(swallowed)
-
-    return hook
-
-
-def check() -> None:
-    """Raise the KeyboardInterrupt that was swallowed or held."""
-    if _signals.latest:
-        raise KeyboardInterrupt
-
-
-def answered() -> None:
-    """Forget the signal that was heard: what it was to end has ended, and the rest goes on."""
-    _signals.latest = 0
-
-
-def ended() -> tuple[int, str]:
-    """Return the exit code, as shells have it, of what a KeyboardInterrupt ended, and a word."""
-    number = signal.Signals(_signals.latest or signal.SIGINT)
-    return 128 + number, SIGNALS[number]
-
-
-@contextmanager
-def held() -> Iterator[None]:
-    """Hold signals back until the block, and those around it, have ended without an error."""
-    before = _signals.are_held
-    _signals.are_held = True
-    try:
-        yield
-    finally:
-        _signals.are_held = before
-    if not before:
-        check()
 
 
 named: list[str] = []  # what is done meanwhile, the innermost last

@@ -25,6 +25,7 @@ def with_variants(evidence: Evidence) -> Work[Evidence]:
 
     What no ray hits is not exported, but a faulty camera may have seen it.
     """
+    yield 0.0  # what is done is shown before Blender exports them, in one go
     case = evidence.case
     variants = [replace(v, scene=_as_in(case.scene, v.scene)) for v in case.variants()]
     others = tuple(v for v in variants if v.fault != WHOLE)

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from reference_tracer.cli import running
 from reference_tracer.report import folders
+from reference_tracer.tracer import signals
 from reference_tracer.tracer.progress import Work, result_of, scaled
 from reference_tracer.wording import show
 
@@ -51,8 +51,8 @@ def run(options: BenchOptions, progress: Callable[[float], None]) -> Bench:
         with closing(_all(wanted, bench, options.out)) as work:
             result_of(work, keep)
     except KeyboardInterrupt:
-        bench.interrupted, word = running.ended()
-        running.answered()
+        bench.interrupted, word = signals.ended()
+        signals.answered()
         done = f"{len(bench.rows) // len(METHODS)} of {len(wanted.cases)} pictures"
         show(f"reftrace: {word}: {done} were measured", file=sys.stderr)
     return bench

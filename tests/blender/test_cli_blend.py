@@ -182,9 +182,10 @@ def test_interrupted_while_blender_is_imported(command, tmp_path):
     """What is swallowed there is heard all the same, and nothing is left."""
     code = (
         "import signal, sys, threading, time\n"
-        "from reference_tracer.cli import main as cli, running\n"
+        "from reference_tracer.cli import main as cli\n"
+        "from reference_tracer.tracer import signals\n"
         "def later():\n"
-        "    while not running._signals.are_held:\n"
+        "    while not signals._signals.are_held:\n"
         "        time.sleep(0.001)\n"
         "    time.sleep(0.05)\n"
         "    signal.raise_signal(signal.SIGINT)\n"

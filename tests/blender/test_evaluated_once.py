@@ -2,38 +2,18 @@
 
 from __future__ import annotations
 
-import ctypes
-import os
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+import signal
+import subprocess
+import sys
+import time
 
 import bpy
 import pytest
+from reference_tracer.blender.slowest import slowest
 from reference_tracer.pictures.palette import By
+from reference_tracer.scene import SceneError
 
-DONE = "BKE_object_handle_data_update on OBHeavy"  # once for each evaluation of its modifiers
-
-
-@contextmanager
-def counted() -> Iterator[list[int]]:
-    """Give a list that has, in the end, how often the modifiers of 'Heavy' were evaluated."""
-    found: list[int] = []
-    flush = ctypes.CDLL(None).fflush
-    flush(None)
-    stdout = os.dup(1)
-    with tempfile.TemporaryFile() as file:
-        os.dup2(file.fileno(), 1)
-        bpy.app.debug_depsgraph_eval = True
-        try:
-            yield found
-        finally:
-            bpy.app.debug_depsgraph_eval = False
-            flush(None)
-            os.dup2(stdout, 1)
-            os.close(stdout)
-        file.seek(0)
-        found.append(file.read().decode(errors="replace").count(DONE))
+from ..evaluations import DONE, counted
 
 
 @pytest.fixture
@@ -63,6 +43,53 @@ def test_each_picture_of_a_ray_tracer_is_one_evaluation(heavy, compare):
     assert found == [2]
 
 
+def test_what_takes_long_is_known_before(heavy):
+    layer = bpy.context.view_layer
+    assert slowest(layer) == ""  # so coarse, it takes no time
+    bpy.data.objects["Heavy"].modifiers["Subdivision"].levels = 5
+    layer.update()
+    with counted() as found:
+        assert slowest(layer) == "Heavy"
+    assert found == [0]
+    other = bpy.data.objects["Heavy"].copy()
+    bpy.context.collection.objects.link(other)
+    layer.update()
+    third = other.copy()
+    bpy.context.collection.objects.link(third)
+    layer.update()
+    assert slowest(layer) == ""  # none of the three is the one
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_is_heard_once_blender_lets_go(number, heavy, tmp_path):
+    """It is sent while the first of two pictures is evaluated: nothing is evaluated any more."""
+    subdivision = bpy.data.objects["Heavy"].modifiers["Subdivision"]
+    subdivision.levels = 5
+    subdivision.render_levels = 6
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "heavy.blend"))
+    code = (
+        "import bpy, sys\n"
+        "from reference_tracer.cli.main import main\n"
+        "bpy.app.debug_depsgraph_eval = True\n"
+        "sys.exit(main())\n"
+    )
+    out = tmp_path / "new" / "out"
+    argv = ["compare", tmp_path / "heavy.blend", "--judge", "cycles", "--out", out]
+    command = [sys.executable, "-c", code, *argv]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    lines = []
+    for line in process.stderr:
+        lines.append(line)
+        if "having Blender evaluate 'Heavy'" in line:
+            time.sleep(0.3)
+            process.send_signal(number)
+    assert process.wait() == 128 + number
+    said = "".join(lines)
+    assert said.count(DONE) <= 2, said  # as it is opened, and once more; not interrupted: 3
+    assert "Traceback" not in said and "KeyboardInterrupt" not in said, said
+    assert not (tmp_path / "new").exists()
+
+
 def test_a_frame_is_the_scenes_own(heavy, compare):
     """Also between two frames, and before the first that a range may have."""
     obj = bpy.data.objects["Light"]
@@ -77,3 +104,15 @@ def test_a_frame_is_the_scenes_own(heavy, compare):
         (own,) = (i for i in found.scene.instances if i.object == light)
         assert abs(own.world_from_object[0, 3] - obj.matrix_world[0][3]) < 1e-6
         assert (heavy.frame_current, heavy.frame_subframe) == (frame, subframe)
+
+
+def test_no_picture_is_written_over_the_users(build, compare, tmp_path):
+    """Blender goes on with a render whose scene is refused."""
+    scene = build.scene(color_type="RANDOM")
+    square = build.square()
+    build.instances_on_points(square, build.cube("Small", 0.2))
+    build.corner_camera(lens=40)
+    scene.render.filepath = str(tmp_path / "own_")
+    with pytest.raises(SceneError, match="random colours of instances"):
+        compare(judge="CYCLES", colors=By.VIEWPORT)
+    assert not list(tmp_path.iterdir())

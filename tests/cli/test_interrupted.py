@@ -9,11 +9,11 @@ from contextlib import suppress
 
 import pytest
 from reference_tracer import images
-from reference_tracer.cli import running
 from reference_tracer.cli.commands import trace as trace_command
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 from reference_tracer.study import extremes, tradeoff
+from reference_tracer.tracer import signals
 from reference_tracer.tracer.progress import result_of
 
 from .parts import trace
@@ -31,7 +31,7 @@ def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
     assert not (tmp_path / "new").exists()
 
 
-@pytest.fixture(params=list(running.SIGNALS), ids=lambda number: number.name)
+@pytest.fixture(params=list(signals.SIGNALS), ids=lambda number: number.name)
 def number(request):
     """Return each of the signals that end the work."""
     return request.param
@@ -54,15 +54,15 @@ def interrupted_work(monkeypatch, number):
 @pytest.mark.usefixtures("interrupted_work")
 @pytest.mark.parametrize("command", ["trace", "trade", "extremes"])
 def test_interrupted(command, number, ball, tmp_path, capsys):
-    handlers = [signal.getsignal(n) for n in running.SIGNALS]
+    handlers = [signal.getsignal(n) for n in signals.SIGNALS]
     before = sorted(tmp_path.rglob("*"))
     out = tmp_path / "new" / ("x.png" if command == "trace" else "out")
     scene = [] if command == "extremes" else [str(ball)]
     assert main([command, *scene, "--out", str(out)]) == 128 + number
     said = capsys.readouterr().err.strip().splitlines()[-1]
-    assert said == f"reftrace: {running.SIGNALS[number]}"
+    assert said == f"reftrace: {signals.SIGNALS[number]}"
     assert sorted(tmp_path.rglob("*")) == before
-    assert [signal.getsignal(n) for n in running.SIGNALS] == handlers
+    assert [signal.getsignal(n) for n in signals.SIGNALS] == handlers
 
 
 def test_interrupted_while_writing(number, ball, tmp_path, monkeypatch):
@@ -81,21 +81,21 @@ def test_interrupted_while_writing(number, ball, tmp_path, monkeypatch):
 
 def test_what_is_held_comes_at_its_end():
     steps = []
-    with pytest.raises(KeyboardInterrupt), running.heard():
-        with running.held():
+    with pytest.raises(KeyboardInterrupt), signals.heard():
+        with signals.held():
             signal.raise_signal(signal.SIGINT)
             steps.append("inside")
         steps.append("after")
     assert steps == ["inside"]
-    with running.heard():
-        running.check()  # of an earlier one nothing is left
+    with signals.heard():
+        signals.check()  # of an earlier one nothing is left
 
 
 def test_what_is_held_within_what_is_held_comes_at_the_outer_end():
     steps = []
-    with pytest.raises(KeyboardInterrupt), running.heard():
-        with running.held():
-            with running.held():
+    with pytest.raises(KeyboardInterrupt), signals.heard():
+        with signals.held():
+            with signals.held():
                 signal.raise_signal(signal.SIGINT)
                 steps.append("inner")
             steps.append("between")
@@ -107,7 +107,7 @@ def test_what_is_held_within_what_is_held_comes_at_the_outer_end():
 
 def test_outside_the_main_thread_nothing_is_taken_over():
     def work():
-        with running.heard():
+        with signals.heard():
             return signal.getsignal(signal.SIGINT)
 
     with ThreadPoolExecutor() as pool:
@@ -125,11 +125,11 @@ def test_a_signal_in_a_destructor_is_answered_and_nothing_is_printed(monkeypatch
 
     told = []
     monkeypatch.setattr(sys, "unraisablehook", lambda swallowed: told.append(swallowed.exc_type))
-    with pytest.raises(KeyboardInterrupt), running.heard():
+    with pytest.raises(KeyboardInterrupt), signals.heard():
         Last()
         assert told == []
         Broken()
         assert told == [ValueError]
-        running.check()
+        signals.check()
     Broken()
     assert told == [ValueError, ValueError]  # as before

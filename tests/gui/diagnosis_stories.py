@@ -26,23 +26,23 @@ SCENE = "suzanne"
 
 @contextmanager
 def drawn_otherwise(owner, name, value):
-    """Have the first drawing show another value than was exported, as a handler might set it."""
-    compare = module("blender.jobs.compare")
-    real = compare.picture
+    """Have Blender draw another value than was exported, as a handler might set it."""
+    drawings = module("blender.drawing.drawings")
+    real = drawings.picture
 
     def picture(*args, **options):
         before = getattr(owner, name)
         setattr(owner, name, value)
         try:
-            return real(*args, **options)
+            return (yield from real(*args, **options))
         finally:
             setattr(owner, name, before)
 
-    compare.picture = picture
+    drawings.picture = picture
     try:
         yield
     finally:
-        compare.picture = real
+        drawings.picture = real
 
 
 def diagnosis():

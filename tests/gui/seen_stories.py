@@ -5,6 +5,7 @@ import subprocess
 import bpy
 import numpy as np
 from drawn import cut, noting, scale
+from evaluations import counted
 from story import (
     OUT,
     compared,
@@ -330,6 +331,58 @@ def first_result():
     view.render_display_type = "NONE"
 
 
+# Those that draw in constant colours here: EEVEE from 5.0 on.
+ENGINES = ("WORKBENCH", "CYCLES", *(("EEVEE",) if bpy.app.version >= (5, 0) else ()))
+
+
+def heavy():
+    """What takes Blender seconds is said before, and done once; a plane beside it is no other."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    yield
+    show_panel()
+    yield from front()
+    window().scene.render.resolution_percentage = 25
+    cube = window().scene.objects["Cube"]
+    cube.name = "Heavy"
+    subdivision = cube.modifiers.new("Subdivision", "SUBSURF")
+    subdivision.levels = 6
+    cube.modifiers.new("Wireframe", "WIREFRAME")
+    yield
+    heard, stop = listened()
+    with counted() as evaluations:
+        press_compare()
+        noted["said"] = [heard[-1], in_header()[1]]
+        path = str(OUT / "heavy_announced.png")
+        subprocess.Popen(["sh", "-c", f"sleep 1; import -window root {path}"])
+        yield from until(at_rest)
+    stop()
+    noted["evaluations"] = {"AUTO": evaluations}
+    noted["verdicts"] = {"AUTO": result().content.verdict}
+    yield
+    screenshot("heavy")
+    subdivision.levels = 1
+    subdivision.render_levels = 3
+    stored = window().scene.reference_tracer
+    for engine in ENGINES:
+        stored.judge = engine
+        with counted() as evaluations:
+            yield from compared_anew()
+        noted["evaluations"][engine] = evaluations
+        noted["verdicts"][engine] = result().content.verdict
+    stored.judge = "AUTO"
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.mesh.primitive_plane_add(location=(0, 0, -2))
+    window().scene.objects["Plane"].reference_tracer.infinite_plane = True
+    yield from compared_anew()
+    noted["verdicts"]["beside a plane"] = result().content.verdict
+
+
+def compared_anew():
+    before = result().content
+    press_compare()
+    yield from until(lambda: at_rest() and result().content is not before, 60)
+
+
 def said():
     """What the status bar says, by workspace."""
     return [w.name for w in bpy.data.workspaces if status.get(w.name)]
@@ -480,6 +533,7 @@ STORIES = (
     after_a_render,
     compared_images,
     status_bar,
+    heavy,
     left_behind,
     sample,
 )

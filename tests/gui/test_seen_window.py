@@ -110,6 +110,15 @@ def test_the_status_bar_says_what_is_done_and_is_cleared_however_it_ends(noted):
     assert still == [other]
 
 
+@pytest.mark.story("heavy")
+def test_what_takes_long_is_said_before_and_done_once(noted):
+    words = "Trace and Compare, Blender evaluates 'Heavy'  (Esc: cancel)"
+    assert noted["said"] == [words, words]
+    of_engines = {"AUTO": [1], "WORKBENCH": [1], "CYCLES": [2], "EEVEE": [1]}
+    assert noted["evaluations"].items() <= of_engines.items() and len(noted["evaluations"]) >= 3
+    assert set(noted["verdicts"].values()) == {"agree"} and "beside a plane" in noted["verdicts"]
+
+
 @pytest.mark.story("sample")
 def test_a_sample_scene_is_opened_as_a_new_file_and_not_over_unsaved_changes(noted):
     assert "exercise_triangle.blend" in noted["files"] and len(noted["files"]) >= 10

@@ -24,7 +24,7 @@ from ...pictures.picture import DrawnOver, Picture
 from ...scene import Scene, SceneError
 from ..evaluating import Turns, evaluated
 from ..reading.unmodelled import HAIR, is_hair
-from ..temporary import drawn, in_palette, leave_out, show_in, temporary_scene
+from ..temporary import drawn, leave_out, show_in, temporary_scene
 from ..values import is_animated, untold
 from .judge import Judge
 from .picture import picture, prepare_scene
@@ -66,27 +66,26 @@ class Plan:
         With `identity` it is also found whose surface each pixel shows, unless something that draws
         itself is to be left out for that.
         """
-        if not any(self._is_changed(obj) for obj in bpy.data.objects):
+        if not any(map(_is_changed, bpy.data.objects)):
             return self._drawn(export, identity)
+        own = self.judge if self.judge.needs_window else None
         with self.prepared() as (tmp, used):
-            drawing = evaluated(tmp, self.layer, None, _exported(tmp, used, export))
-            with in_palette(tmp, drawing.palette):
-                turns = _turns(tmp, used, lambda *_: drawing, identity)
-                return evaluated(tmp, self.layer, self.judge, turns)
-
-    def _is_changed(self, obj: Any) -> bool:
-        """Return whether what is drawn of an evaluation is another one once it is exported.
-
-        A plane leaves the scene, and what shares its collection is copied anew; to read a mesh in
-        Edit Mode changes which faces a render hides.
-        """
-        is_edited = obj.mode == "EDIT" and not self.judge.needs_window
-        return is_edited or obj.reference_tracer.infinite_plane
+            drawing = evaluated(tmp, self.layer, own, _exported(tmp, used, export))
+        return drawing.again(identity=identity)
 
     def _drawn(self, export: Export, identity: bool) -> Drawn:
         """Export and draw one evaluation."""
         with self.prepared() as (tmp, used):
             return evaluated(tmp, self.layer, self.judge, _turns(tmp, used, export, identity))
+
+
+def _is_changed(obj: Any) -> bool:
+    """Return whether what is drawn of an evaluation is another one once it is exported.
+
+    A plane leaves the scene, and what shares its collection is copied anew; to read a mesh in Edit
+    Mode changes which of its faces are hidden.
+    """
+    return bool(obj.mode == "EDIT" or obj.reference_tracer.infinite_plane)
 
 
 @dataclass(frozen=True, kw_only=True)

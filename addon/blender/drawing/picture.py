@@ -6,7 +6,6 @@ Everything is set on a temporary copy of the user's scene, and what cannot be is
 
 from __future__ import annotations
 
-import tempfile
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
@@ -107,14 +106,14 @@ def picture(
     SizeError
         If it made one of another size.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        scene.render.filepath = str(Path(folder) / "picture")
-        with set_up:
-            yield not is_last
-        found = list(Path(folder).glob("picture*.exr"))
-        if len(found) != 1:
-            raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")
-        pixels = read(scene, found[0])
+    with set_up:
+        yield not is_last
+    written = Path(scene.render.filepath)
+    found = list(written.parent.glob(f"{written.name}*.exr"))
+    if len(found) != 1:
+        raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")
+    pixels = read(scene, found[0])
+    found[0].unlink()
     region = camera.region
     if judge.needs_window and pixels.shape[:2] == (camera.height, camera.width):
         pixels = pixels[region.y0 : region.y1, region.x0 : region.x1]

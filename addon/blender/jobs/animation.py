@@ -83,7 +83,7 @@ def compare_frames(
             for frame in visited(scene, todo):
                 scene.frame_set(frame)
                 share = sum(f < frame for f in todo) / len(todo)
-                yield share
+                yield _of_frame(frame, Share(share, "Blender draws the scene"))
                 if frame in todo:
                     work = _compared(folder, frame, made[frame], views.get(frame), choices)
                     work = mapped(work, partial(_of_frame, frame))

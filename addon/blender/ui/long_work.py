@@ -17,6 +17,7 @@ from bpy.props import StringProperty
 
 from ...tracer.progress import Work, doing, result_of
 from ...wording import say
+from ..slowest import slowest
 from ..versions import RELATIVE
 from .preferences import default_folder
 from .results import Kind, drop, redraw
@@ -122,10 +123,13 @@ class LongWork(Mixin):
         manager.modal_handler_add(self)
         self._began = time.monotonic()
         self._shown = self._began
+        self._words = ""
         LongWork.running = self.bl_label
         LongWork.share = 0.0
         self.pressed = True
-        self._say(context, rpt_(self.announced))
+        name = self.announced and slowest(context.view_layer)
+        evaluates = rpt_("Blender evaluates '{}'").format(name)
+        self._say(context, evaluates if name else rpt_(self.announced))
         return {"RUNNING_MODAL"}
 
     def _begun(self, context: Any) -> Work[Any]:
@@ -144,7 +148,7 @@ class LongWork(Mixin):
         until = time.monotonic() + SECONDS_A_STEP
         try:
             share = next(self._work)  # at least: a busy machine may be back after the time is over
-            while time.monotonic() < until:
+            while time.monotonic() < until and doing(share) == self._words:
                 share = next(self._work)
         except StopIteration as stop:
             self.stop(context)
@@ -160,9 +164,10 @@ class LongWork(Mixin):
 
     def _show_progress(self, context: Any, share: float) -> None:
         now = time.monotonic()
-        if now - self._shown < SHOWN_EVERY:
+        if now - self._shown < SHOWN_EVERY and doing(share) == self._words:
             return
         self._shown = now
+        self._words = doing(share)
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
         left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""

@@ -111,6 +111,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
     )
     kind = Kind.FRAMES
     needs_camera = True
+    announced = "Blender draws the scene"
     alone = True
 
     @classmethod
@@ -247,6 +248,7 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
     bl_options = set()  # it leaves nothing in Blender
     filename_ext = ".npz"
     needs_camera = True
+    announced = "Blender evaluates the scene"
 
     filepath: StringProperty(
         name="File",

@@ -34,9 +34,9 @@ from ...tracer.progress import Work, result_of
 from ...wording import show
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
-from ..opening import import_trimesh, open_blend, open_file
+from ..opening import evaluating, import_trimesh, open_blend, open_file
 from ..parser import AGREE, EXIT_CODES_HELP, Parser
-from ..running import meanwhile, progress_bar
+from ..running import progress_bar
 
 Given = images.PictureFile | GivenData
 
@@ -110,11 +110,13 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
                 options, options.frames, blender.context.scene, progress, judge=judge, **chosen
             )
         chosen["diagnose"] = options.diagnosis
+        layer = blender.context.view_layer
         if options.judge == "all":
-            work_of_all = compare_all(blender.context, out, **chosen)
+            with evaluating(layer, "and draw the scene"):
+                work_of_all = compare_all(blender.context, out, **chosen)
             return _told_engines(options, result_of(work_of_all, progress))
         studies = options.trade, options.extremes
-        with meanwhile("having Blender draw"):
+        with evaluating(layer, "and draw the scene"):
             work = compare_open_file(blender.context, out, *studies, judge=judge, **chosen)
         return _told_comparison(options, result_of(work, progress))
 
@@ -244,7 +246,7 @@ def _blend(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Wo
             shown = picture_of_file(picture, export_camera(context.scene), making)
         settings = options.settings.over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
-        with meanwhile("having Blender evaluate the scene"):
+        with evaluating(context.view_layer, "the scene"):
             case = gather_against(context, shown, settings, bool(options.self_check), colors)
         case = without_colors(case) if options.data else case
         return (yield from _written(options, replace(case, **place)))
