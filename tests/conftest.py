@@ -13,9 +13,9 @@ from reference_tracer.certified import arithmetic
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
 
-from .report.browser import chromium
+from .report.browser import chromium, open_page
 
-__all__ = ["chromium"]  # a fixture
+__all__ = ["chromium", "open_page"]  # fixtures
 COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
 
 
@@ -71,7 +71,6 @@ LONGEST = (
     "tests/certified/sweep/test_sweep.py",
     "tests/farms/",
     "tests/test_docs.py",
-    "tests/suites/test_pbrt.py",
     "tests/blender/test_cli_blend.py",
     "tests/study/test_extremes.py",
 )

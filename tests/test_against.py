@@ -87,10 +87,10 @@ def test_its_own_picture_agrees(scene, against, name):
     assert found["scene"]["objects"][1]["triangles"] == 12
 
 
-def test_who_drew_with_light_is_told_that_surfaces_have_other_colours(scene, against):
+def test_surfaces_in_other_colours_are_told_and_no_more_is_guessed(scene, against):
     """A picture with another camera, or with an object less, has a reason of its own."""
     color = render(scene).color
-    told = "was it drawn with light"
+    told = "most surfaces are shown in other colours"
     lit = color.copy()
     lit[..., :3] *= np.linspace(0.3, 0.9, 60)[:, None]
     assert told in against(lit)[2]

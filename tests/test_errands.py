@@ -143,7 +143,7 @@ assert held["units"]["hits"] == "pixels" and held["rows"][0]["hits"] == found.ro
 page = trade.text_cells(found)
 assert "hits" in page["head"] and any(said in row for row in page["rows"])
 assert " hits\\n" in trade.table(found) + "\\n" and said in trade.table(found)
-assert f"hits {said}" in trade.picture(found)
+assert f"hits {said}" in trade.page(found)
 """
 CAUSE = {
     "causes/checks/comet.py": (

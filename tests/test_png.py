@@ -34,27 +34,6 @@ def test_a_png_is_read_whole(kind, channels, depth, tmp_path, rng):
     assert np.array_equal(read.color, np.concatenate((expected, alpha), -1).astype(np.float32))
 
 
-@pytest.mark.parametrize("depth", [1, 2, 4])
-@pytest.mark.parametrize("palette", [False, True])
-@pytest.mark.parametrize("clear", [False, True])
-def test_few_levels_a_palette_and_a_clear_color(depth, palette, clear, tmp_path):
-    most = 2**depth - 1
-    table = np.arange(3 * (most + 1), dtype=np.uint8) * 5
-    chunks = [(b"PLTE", table.tobytes())] * palette
-    if clear:  # the level 1, half of it where there is a palette
-        chunks.append((b"tRNS", b"\xff\x80" if palette else b"\0\1"))
-    png_file(tmp_path / "p.png", (8 // depth, 1), depth, 3 * palette, [[0b10110100]], *chunks)
-    read = read_picture(tmp_path / "p.png")
-    bits = np.unpackbits(np.uint8([0b10110100])).reshape(-1, depth)
-    level = bits @ (1 << np.arange(depth)[::-1])
-    shown = table.reshape(-1, 3)[level] / 255 if palette else level[:, None].repeat(3, 1) / most
-    alpha = np.where(level == 1, 128 / 255 if palette else 0, 1) if clear else np.ones(len(level))
-    assert read.levels == 255 and read.opaque is not clear
-    assert np.array_equal(read.color[0, :, 3], alpha.astype(np.float32))
-    expected = images.curve_undone(shown) * alpha[:, None]
-    np.testing.assert_allclose(read.color[0, :, :3], expected, rtol=1e-6)
-
-
 ADAM7 = (  # where each pass begins, and its steps: x, y, dx, dy
     (0, 0, 8, 8),
     (4, 0, 8, 8),
@@ -64,14 +43,6 @@ ADAM7 = (  # where each pass begins, and its steps: x, y, dx, dy
     (1, 0, 2, 2),
     (0, 1, 1, 2),
 )
-
-
-def test_an_interlaced_png(tmp_path, rng):
-    stored = rng.integers(0, 2**16, (9, 11, 3)).astype(">u2")
-    rows = [row.tobytes() for x, y, dx, dy in ADAM7 for row in stored[y::dy, x::dx]]
-    png_file(tmp_path / "p.png", (11, 9), 16, 2, rows, interlaced=1)
-    expected = images.curve_undone(stored[::-1] / 65535).astype(np.float32)
-    assert np.array_equal(read_picture(tmp_path / "p.png").color[..., :3], expected)
 
 
 @pytest.mark.parametrize("mode", ["L", "LA", "RGB", "RGBA", "I;16"])

@@ -22,7 +22,6 @@ FLOORS = {
     "projections": 0,
     "runs": 0,
     "scene": 0,
-    "svg": 0,
     "translations": 0,
     "wording": 0,
     "methods": 1,

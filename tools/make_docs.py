@@ -22,7 +22,6 @@ from documents import (
     architecture,
     causes,
     derivations,
-    drawings,
     figures,
     pictures,
     python,
@@ -78,16 +77,17 @@ def main() -> None:
     for folder in MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     pictures.write(DOCS / "images" / "lessons")
-    drawings.write(DOCS / "images" / "lessons")
     causes.write(DOCS / "images" / "causes")
     if not options.files:  # it takes a minute
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
-        plot = PROJECT / "out" / "docs" / "extremes" / "extremes.svg"
-        shutil.copy(plot, DOCS / "images" / "extremes.svg")
         story.write(DOCS / "images" / "diagnosis.gif")
     if not options.no_browser:
-        from documents import browser
+        from documents import browser, drawings
 
+        drawings.write(DOCS / "images" / "lessons")
+        if not options.files:
+            plotted = PROJECT / "out" / "docs" / "extremes" / "extremes.html"
+            drawings.save_plot(plotted, DOCS / "images" / "extremes.svg")
         page = PROJECT / "out" / "demo" / "page.html"  # of `make demo`
         browser.save(page, DOCS / "images" / "page.png", 1400, 1130)
     if not options.no_window:

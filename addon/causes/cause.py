@@ -115,7 +115,8 @@ UNEXPLAINED = Cause(
     "no check accounts for the difference",
     color=(1.0, 0.0, 0.0),
     why="The picture is wrong there, or it is of another scene than the one that was traced.",
-    check="No other check finds a cause.",
+    check="No other check finds a cause. Where more than 65,536 pixels differ, 16,384 of them are "
+    "asked first; if fewer than 1 % of these have a cause, the others are not asked.",
     advice="read the diagnosis, and have one such pixel explained (`reftrace explain`, *Inspect "
     "Pixels*)",
 )
@@ -169,6 +170,7 @@ class Causes:
     shades: list[Shade] = field(default_factory=list)
     # Differing pixels that no check looked at, (n,), numbered row by row.
     passed_over: Places = field(default_factory=lambda: np.zeros(0, np.intp))
+    not_asked: int = 0  # unexplained pixels of very many that no check looked at
 
     @classmethod
     def none(cls, shape: tuple[int, ...]) -> Causes:

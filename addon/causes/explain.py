@@ -51,9 +51,12 @@ CAUSES: tuple[Cause, ...] = (
 )
 BY_NUMBER = {cause.number: cause for cause in CAUSES}
 
+Checks = list[tuple[Callable[[OpenPixels], Work[None]], float]]  # with their shares of the work
+
 # The checks in the order in which a pixel is asked: the first that accounts for it gives its cause.
-# If none does, it is unexplained. With the share of each in the work, roughly.
-CHECKS: list[tuple[Callable[[OpenPixels], Work[None]], float]] = [
+# If none does, it is unexplained. With the share of each in the work, roughly. The first one looks
+# at the whole picture.
+CHECKS: Checks = [
     (color.check, 0.02),
     (anti_aliasing.check, 0.1),
     (edges.check, 0.6),
@@ -63,6 +66,10 @@ CHECKS: list[tuple[Callable[[OpenPixels], Work[None]], float]] = [
     (unmodelled.check_everywhere, 0.01),
 ]
 _OPENING = 0.1  # of the work, before the checks
+
+MANY = 1 << 16  # differing pixels: of more, some are asked first
+ASKED_FIRST = 1 << 14  # of these
+NEARLY_NONE = 0.01  # of the pixels asked first: where fewer have a cause, the others are not asked
 
 
 class Explained(NamedTuple):
@@ -107,6 +114,9 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
 
     With `at_most`, no more differing pixels are looked at, spread over the picture. The others keep
     AGREE, and are in `Causes.passed_over`; no objects in another shade are named.
+
+    Where very many differ, some are asked first. If nearly none of these has a cause, something is
+    wrong as a whole: the others are unexplained, too, without being asked (`Causes.not_asked`).
     """
     out = Causes.none(frame.shape)
     out.blind = unmodelled.blind(case, frame)
@@ -115,13 +125,13 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     pixels = OpenPixels(case, frame, picture, out, np.zeros(frame.shape, bool), band)
     yield from scaled(_open(pixels), 0.0, _OPENING)
     yield from scaled(unmodelled.check_in_place(pixels), _OPENING, 0.0)
+    coloring, *others = CHECKS
+    yield from scaled(_checked(pixels, [coloring]), _OPENING, 0.0)
     if at_most is not None:
         out.passed_over = _thin(pixels.open, at_most)
-    done, weights = _OPENING, sum(weight for _, weight in CHECKS)
-    for check, weight in CHECKS:
-        share = (1 - _OPENING) * weight / weights
-        yield from scaled(check(pixels), done, share)
-        done += share
+        yield from scaled(_checked(pixels, others), _OPENING, 1 - _OPENING)
+    else:
+        yield from scaled(_some_first(pixels, others), _OPENING, 1 - _OPENING)
     pixels.give(pixels.open, UNEXPLAINED)
     looking = wrong_behind(case, frame, find_causes)
     behind, wrong = yield from scaled(looking, 1.0, 0.0)
@@ -132,6 +142,29 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     if at_most is None:
         yield from scaled(color.name_shades(pixels), 1.0, 0.0)
     return out
+
+
+def _checked(pixels: OpenPixels, checks: Checks) -> Work[None]:
+    """Ask the open pixels by some checks, one after the other."""
+    done, weights = 0.0, sum(weight for _, weight in checks)
+    for check, weight in checks:
+        yield from scaled(check(pixels), done, weight / weights)
+        done += weight / weights
+
+
+def _some_first(pixels: OpenPixels, checks: Checks) -> Work[None]:
+    """Ask the open pixels; where they are many, the others only if some of the first have a cause.
+
+    They are open again in the end, so that they become unexplained.
+    """
+    others = _thin(pixels.open, ASKED_FIRST if pixels.open.sum() > MANY else pixels.open.size)
+    yield from scaled(_checked(pixels, checks), 0.0, 0.1 if len(others) else 1.0)
+    explained = len(others) and ASKED_FIRST - int(pixels.open.sum())
+    pixels.open.flat[others] = True
+    if explained > NEARLY_NONE * ASKED_FIRST:
+        yield from scaled(_checked(pixels, checks), 0.1, 0.9)
+    else:
+        pixels.out.not_asked = len(others)
 
 
 def _open(pixels: OpenPixels) -> Work[None]:

@@ -209,14 +209,16 @@ class Comparison:
             first = self.counts.examples.get(cause.key, ())[:3]
             at = ", ".join(f"({x}, {y})" for x, y in first)
             yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
+        if more := self.causes.not_asked:
+            yield f"  (nearly none of those asked first has a cause: {more:,} more were not asked)"
 
     def _of_other_colors(self) -> Iterator[str]:
-        """Ask for the commonest reason why most surfaces differ, where no fault was found."""
+        """Say that most surfaces differ, where no fault was found."""
         surfaces = self.causes.cause[self.frame.object_index != NOTHING]
         most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
         of_colors = self.case.picture.data is None
         if most and of_colors and not (self.diagnosis and self.diagnosis.told):
-            yield "most surfaces have other colours: was it drawn with light, or in others?"
+            yield "most surfaces are shown in other colours than the scene's"
             yield "           Draw each flat, in those that --colors-out writes"
 
     def _measured(self) -> str:

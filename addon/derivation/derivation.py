@@ -1,7 +1,7 @@
 """Derives one pixel step by step: camera, ray, candidates, the nearest, its colour, its certainty.
 
-Every number is computed in float32, in float64 and exactly, side by side. The writers beside this
-file turn a `Derivation` into Markdown, HTML and JSON.
+Every number is computed in float32, in float64 and exactly, side by side. The files beside
+this one turn a `Derivation` into Markdown, JSON and what a page shows.
 
 The camera's steps are exact for the numbers of the camera as float64 stores them. From the ray on,
 the steps are exact for that ray and the corners in world space as float64 has them: *these* are the

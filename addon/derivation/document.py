@@ -1,4 +1,4 @@
-"""Turns a derivation into a lecture: headings, sentences and tables, for Markdown and HTML alike.
+"""Turns a derivation into a lecture: headings, sentences, tables, for Markdown and pages alike.
 
 The blocks hold text and no markup. The sentences are in `document.toml`.
 """

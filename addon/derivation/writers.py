@@ -1,6 +1,6 @@
-"""Writes a derivation as Markdown, HTML or JSON, by the file's ending.
+"""Writes a derivation as JSON.
 
-In JSON no number is cut short. A float is a JSON number that means it to the bit; inf and NaN,
+No number is cut short. A float is a JSON number that means it to the bit; inf and NaN,
 which JSON lacks, are strings. An exact number is
 {"decimal": "…", "rational": "numerator/denominator"}.
 """
@@ -8,15 +8,12 @@ which JSON lacks, are strings. An exact number is
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from fractions import Fraction
 
 import numpy as np
 
 from .derivation import Derivation, Quantity, Test
 from .digits import digits_text, exact_text, ulps
-from .document import document_markdown
-from .html import page
 from .pixel import Answer
 from .textbook import FLOATS, Number
 
@@ -125,10 +122,3 @@ def _answer(answer: Answer, derivation: Derivation) -> dict[str, object]:
         "triangle": answer.seen[1],
         "t": number(np.float64(answer.t)),
     }
-
-
-WRITERS: dict[str, Callable[[Derivation], str]] = {
-    ".md": document_markdown,
-    ".html": page,
-    ".json": json_text,
-}

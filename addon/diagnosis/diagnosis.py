@@ -20,7 +20,8 @@ from ..wording import count_of
 from .evidence import Evidence
 from .faults import FAULTS, OF_COLORS
 from .faults.fault import AnyFault, Guess
-from .guessing import LEAST_SETTLED, STEPS, Guessing, accounting
+from .faults.fitting import ENCLOSED
+from .guessing import LEAST_SETTLED, ROUGHLY, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
 from .trial import Trial, counted
 from .variants import carried, with_variants
@@ -204,8 +205,9 @@ def diagnose(
             evidence = carried(evidence, trials[0])
         remain = int((evidence.unexplained & at_first).sum())
         broken = int((evidence.unexplained & ~at_first).sum())
-        # What was broken is no other fault's, nor is what is beside.
-        if remain < max(LEAST_SETTLED, broken):
+        # What was broken is no other fault's, nor is what is beside, or what a rough fit leaves.
+        own = ROUGHLY * at_first.sum() if len(chain[0][0].guess.values) > ENCLOSED else 0
+        if remain < max(LEAST_SETTLED, broken, own):
             break
     left = int(evidence.unexplained.sum())
     framed = _regions(evidence) if left else ()

@@ -27,8 +27,11 @@ from ..causes.case import PRECISE
 from ..scene import SceneError
 from ..tracer.progress import Work, scaled
 from .evidence import FEW, Evidence, Score
-from .faults.fault import AnyFault, Guess
+from .faults import FAULTS
+from .faults.fault import AnyFault, Effort, Guess
+from .faults.fitting import ENCLOSED
 from .faults.given import given
+from .faults.matching import is_everywhere
 from .trial import Trial, trial_of
 from .variants import carried
 
@@ -38,12 +41,14 @@ COMPLETE = 0.75  # the least recall of a guess, in the regions that it touches
 FITTED = 0.9  # that of fitted numbers: a fit of the wrong kind is nearly right in small regions
 LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 SHARE = 0.2  # of the unexplained pixels
+AS_GOOD = 0.98  # of the best gain on the sample: fits below it are not refined once one does it all
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
 PROMISING = 0.3  # of the best gain on the sample: guesses below it get no trial
 UNLIKELY = 0.5  # of the least gain: guesses below it in the small sample are dropped
-NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
+NEARLY = 0.5  # of the unexplained pixels: a guess that gains as much may be all there is
 ENOUGH = 0.995  # of the unexplained pixels: after such a gain, no more effort is made
-ALL_EDGES = 1 << 14  # the sample of a refinement: pixels of each kind
+ROUGHLY = 0.03  # of the unexplained pixels: what numbers without a range may leave
+ALL_EDGES = 1 << 11  # the sample of a refinement: pixels of each kind
 TRIED = 6  # trials of guesses of all efforts, at most
 MOST_SURE = 24  # trials of guesses that gain nearly all, at most: an empty picture has many
 MAIN = 0.5  # of the unexplained pixels: a guess with such a gain may need a second one beside it
@@ -51,7 +56,16 @@ STARTS = 2  # first guesses of two that are followed
 LOST = 0.1  # of the pixels that a first guess settles: it may break no more
 # The limit of work; a search that reaches it is given up. A step is a bounded number of rays, pairs
 # or pixels, the same on each machine.
-STEPS = 60_000
+IN_PLACES = (  # where most of the picture agrees
+    Effort.NOTHING,
+    Effort.OBJECT,
+    Effort.PIXELS,
+    Effort.FILM,
+    Effort.CAMERA,
+    Effort.ANYTHING,
+)
+STEPS = 16_000
+PART = 3  # of them: one fault, or one trial, has no more than one part in as many
 NONE = Score(0.0, 0.0)
 
 
@@ -72,11 +86,12 @@ class Guessing:
         return self.steps >= self.limit
 
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
-        """Run work that looks for a fault; None if the limit of steps is reached first.
+        """Run work that looks for a fault; None if it, or all work, reaches its limit of steps.
 
         It yields the share of the faults that were looked for before: nobody knows how long one is.
         """
-        while not self.ended:
+        last = self.steps + self.limit / PART
+        while not self.ended and self.steps < last:
             try:
                 next(work)
             except StopIteration as stop:
@@ -101,7 +116,8 @@ class Guessing:
         unknown: list[tuple[float, AnyFault, Guess]] = []
         out: list[Trial] = []
         self._done, self._of = 0, len(faults)
-        for effort in sorted({fault.effort for fault in faults}):
+        order = Effort if is_everywhere(evidence) else IN_PLACES
+        for effort in order:
             some = [fault for fault in faults if fault.effort == effort]
             scored = yield from self._scored(evidence, some)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
@@ -160,8 +176,8 @@ class Guessing:
         vague = [one for one in scored if one[1].vague]
         out: list[Trial] = []
         done: set[str] = set()  # faults with a guess that does it all
-        for _, fault, guess in (*exact[:most], *vague[:most]):
-            if fault.name in done:
+        for gain, fault, guess in (*exact[:most], *vague[:most]):
+            if fault.name in done or (done and guess.low and gain < AS_GOOD * scored[0][0]):
                 continue
             guess = yield from self._finer(evidence, fault, guess)
             trial = yield from self._limited(trial_of(evidence, fault, guess, of), fault)
@@ -239,8 +255,9 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 
 def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
     """Return whether one that may be told settles nearly all: then no more are tried."""
-    least = ENOUGH * evidence.unexplained.sum()
-    return any(t.gain >= least for t in _good(evidence, trials))
+    count = evidence.unexplained.sum()
+    least = {True: ENOUGH * count, False: (1 - ROUGHLY) * count}
+    return any(t.gain >= least[t.cost <= ENCLOSED] for t in _good(evidence, trials))
 
 
 def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
@@ -253,11 +270,16 @@ def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     most = max((t.gain for t in good), default=0)
     alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
     fewest = min(((t.fault.vague, t.cost) for t in alike), default=None)
-    alike = [t for t in alike if (t.fault.vague, t.cost) == fewest]
+    # What is done to one object may look the same in more numbers: that is told, too.
+    own = {t.guess.object for t in alike if (t.fault.vague, t.cost) == fewest}
+    of_one = own - {""} if len(own) == 1 else ()
+    alike = [t for t in alike if (t.fault.vague, t.cost) == fewest or t.guess.object in of_one]
     sums_up = any(t.fault.sums_up for t in alike)
     if not sums_up and not all(t.guess.object for t in alike):
         alike = [t for t in alike if not t.guess.object]
     told: dict[str, Trial] = {}
-    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, -t.gain)):
+    table = [fault.name for fault in FAULTS]
+    place = {t: table.index(t.fault.name) if t.guess.object else 0 for t in alike}
+    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, place[t], -t.gain)):
         told.setdefault(trial.fault.name, trial)
     return list(told.values())

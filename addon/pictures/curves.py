@@ -47,7 +47,7 @@ def _power(color: Array) -> Array:
 
 ROUNDED_ONCE = Curve("values rounded to 8 bits", _in_srgb, key="rounding_level")
 # Transforms with a rounding to 8 bits within them: a diagnosis tells them, no comparison excuses
-# them. Those of the names above come first, then roundings twice.
+# them.
 ROUNDED = (
     Curve(
         "sRGB's curve applied once more, to values of 8 bits",
@@ -69,32 +69,6 @@ ROUNDED = (
         "values cut off to 8 bits, not rounded",
         lambda c: curve_undone(np.floor(EIGHT_BITS * curve(np.clip(c, 0, 1)) + 1e-6) / EIGHT_BITS),
         key="cut_off",
-    ),
-    Curve(
-        "in linear values, then in sRGB's curve", lambda c: _in_srgb(_eight(c)), key="twice_rounded"
-    ),
-    Curve(
-        "in sRGB's curve, then in linear values", lambda c: _eight(_in_srgb(c)), key="twice_rounded"
-    ),
-    Curve(
-        "in sRGB's curve, in linear values, and in sRGB's curve again",
-        lambda c: _in_srgb(_eight(_in_srgb(c))),
-        key="twice_rounded",
-    ),
-    Curve(
-        "by a power of 1/2.2, then in sRGB's curve",
-        lambda c: _in_srgb(_eight(_power(c)) ** 2.2),
-        key="twice_rounded",
-    ),
-    Curve(
-        "in sRGB's curve, then by a power of 1/2.2",
-        lambda c: _eight(_power(_in_srgb(c))) ** 2.2,
-        key="twice_rounded",
-    ),
-    Curve(
-        "in sRGB's curve, by a power of 1/2.2, and in sRGB's curve again",
-        lambda c: _in_srgb(_eight(_power(_in_srgb(c))) ** 2.2),
-        key="twice_rounded",
     ),
 )
 # The names of the faults of colours, in the order in which they are told, and what they are.
@@ -183,21 +157,6 @@ def _coded_power(power: float, levels: int, share: float) -> Curve:
 def _coded_times(factor: float, color: Array) -> Array:
     """Return linear colours whose sRGB codes are multiplied by a factor."""
     return curve_undone(factor * curve(np.clip(color, 0, 1)))
-
-
-def through(into: Transform, back: Transform, change: Transform) -> Transform:
-    """Return a transform that is applied in another encoding than linear values."""
-    return lambda color: back(change(into(color)))
-
-
-def saturated(share: float, weights: Sequence[float]) -> Transform:
-    """Return the transform that scales saturation; no channel becomes negative."""
-
-    def transform(color: Array) -> Array:
-        grey = (color @ np.array(weights))[..., None]
-        return np.maximum(grey + share * (color - grey), 0)
-
-    return transform
 
 
 def _cut_off(of: Transform, levels: int) -> Transform:

@@ -7,15 +7,18 @@ import json
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from html import escape
+from itertools import starmap
 from pathlib import Path
-from string import Template
 
 from ..comparison.animation import FrameRow, worst_first
 from ..comparison.verdict import Verdict
 from ..wording import count_of
-from . import comparison, page, plots
+from . import comparison, page
 from .folders import replacing, write_json, write_text
+from .plots import Entry, Panel, Plot, Scale, Series
+from .shown import data
 from .tables import columns
+from .templates import html
 
 SCHEMA = "reference_tracer.animation/1"
 JSON, PAGE = "animation.json", "animation.html"
@@ -109,10 +112,12 @@ def _page(title: str, frames: range, rows: Sequence[FrameRow], directory: Path) 
     for row in worst_first(rows):
         frame, *cells = map(escape, _cells(row))
         table.append("".join(f"<td>{c}</td>" for c in (_linked(row, frame), *cells)))
-    return Template(page.template("animation.html")).substitute(
+    plot = _curves(frames, [r for r in rows if not r.error])
+    return html(
+        {"plots": [data(plot)]},
+        "animation.html",
         title=escape(title),
         summary=", ".join(lines(frames, rows)[-2:]),
-        curves=_curves(frames, [r for r in rows if not r.error]),
         pictures="".join(_pictures(directory, rows)),
         table="\n".join(f"<tr>{cells}</tr>" for cells in table),
     )
@@ -143,13 +148,11 @@ def _linked(row: FrameRow, content: str) -> str:
     return f'<a href="{folder_of("", row.frame).as_posix()}/{name}">{content}</a>'
 
 
-def _curves(frames: range, rows: Sequence[FrameRow]) -> str:
-    """Draw how many pixels of each frame differ; a point says its frame's numbers."""
+def _curves(frames: range, rows: Sequence[FrameRow]) -> Plot:
+    """Plot how many pixels of each frame differ; a point says its frame's numbers."""
     most = max((max(r.explained, r.unexplained) for r in rows), default=0)
-    x = plots.integers(frames[0], max(frames[-1], frames[0] + 1))
-    axes = plots.Axes(220, 70, 1660, 330, x, plots.integers(0, max(most, 1)))
     series = {
-        kind: plots.Series(
+        kind: Series(
             color,
             [(r.frame, getattr(r, kind), line(r)) for r in sorted(rows)],
             kind == "unexplained",
@@ -157,7 +160,8 @@ def _curves(frames: range, rows: Sequence[FrameRow]) -> str:
         )
         for kind, color in _CURVES.items()
     }
+    x = Scale(frames[0], max(frames[-1], frames[0] + 1), "integers")
+    y = Scale(0, max(most, 1), "integers")
     title = "Pixels that differ, by frame"
-    drawn = axes.drawn(title, "frame", "pixels") + plots.chart(axes, series.values())
-    drawn += plots.legend({kind: s.sample for kind, s in series.items()}, 520)
-    return plots.picture(plots.WIDTH, 550, title, count_of(len(rows), "frame"), drawn)
+    panel = Panel(title, "frame", "pixels", x, y, [*series.values()])
+    return Plot(title, count_of(len(rows), "frame"), [panel], [*starmap(Entry, series.items())])

@@ -1,4 +1,4 @@
-"""Shows the study of numerical stability: as a table, as `extremes.json` and as a picture."""
+"""Shows the study of numerical stability: as a table, as `extremes.json`, and plotted."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from pathlib import Path
 from ..methods import Method
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
 from ..study.scenarios.sweeps import BY_NAME, SCENARIOS
-from .extreme_plots import picture
+from .extreme_plots import plot
 from .folders import finite, replacing, write_json
 from .tables import columns
+from .templates import alone
 
-__all__ = ["breaking_table", "picture", "to_dict", "write"]
+__all__ = ["breaking_table", "page", "plot", "to_dict", "write"]
 SCHEMA = "reference_tracer.extremes/1"
-TABLE, JSON, PLOT = "extremes.txt", "extremes.json", "extremes.svg"
+TABLE, JSON, PLOT = "extremes.txt", "extremes.json", "extremes.html"
 
 _FIRST = "First scale at which a ray is missed or wrong; + at which one crosses too many; . never"
 _LITERAL = "(The literal textbook is left out: it loses rays from the first scale of nearly all.)"
@@ -77,8 +78,13 @@ def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, object]:
     }
 
 
+def page(rows: Sequence[ExtremesRow]) -> str:
+    """Return the page of the plots."""
+    return alone("Reference Tracer: extremes", plots=[plot(rows)])
+
+
 def write(directory: str | Path, rows: Sequence[ExtremesRow]) -> None:
-    """Write `extremes.txt`, `extremes.json` and `extremes.svg`, all or none, in a folder.
+    """Write `extremes.txt`, `extremes.json` and `extremes.html`, all or none, in a folder.
 
     Raises
     ------
@@ -88,4 +94,4 @@ def write(directory: str | Path, rows: Sequence[ExtremesRow]) -> None:
     with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
         (new / TABLE).write_text(breaking_table(rows) + "\n", encoding="utf-8")
         write_json(new / JSON, to_dict(rows))
-        (new / PLOT).write_text(picture(rows), encoding="utf-8")
+        (new / PLOT).write_text(page(rows), encoding="utf-8")

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 from xml.etree import ElementTree
 
 from ..comparison.comparison import Comparison
 from ..comparison.verdict import Verdict
-from ..svg import legal
 from ..wording import count_of
+
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def legal(words: str) -> str:
+    """Return words with what XML cannot hold, as control characters, made visible."""
+    return _NO_XML.sub("\ufffd", words)
 
 
 class Judged(NamedTuple):

@@ -1,15 +1,31 @@
-"""Writes the derivation of a pixel to a file, or returns it to be printed: for `explain`."""
+"""Writes the derivation of a pixel as Markdown, HTML or JSON, or returns it to be printed."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from ..derivation import reproducer
-from ..derivation.derivation import derive_pixel
-from ..derivation.document import answer_sentence
+from ..derivation.derivation import Derivation, derive_pixel
+from ..derivation.document import answer_sentence, document_markdown
 from ..derivation.pixel import Pixel
-from ..derivation.writers import WRITERS
+from ..derivation.writers import json_text
 from . import folders
+from .templates import alone
+
+
+def html(derivation: Derivation) -> str:
+    """Return a page by itself, which opens offline, in light and dark."""
+    pixel = derivation.pixel
+    return alone(f"The ray through pixel ({pixel.x}, {pixel.y})", [derivation])
+
+
+# By a file's ending.
+WRITERS: dict[str, Callable[[Derivation], str]] = {
+    ".md": document_markdown,
+    ".html": html,
+    ".json": json_text,
+}
 
 
 def write(pixel: Pixel, out: Path | None = None, again: Path | None = None) -> str:

@@ -1,4 +1,4 @@
-"""Shows a trade: as a table, as `tradeoff.json`, and as plots of time against error."""
+"""Shows a trade: as a table, as `tradeoff.json`, and as a page that plots time against error."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from typing import Any
 from ..methods import MEASURED, Method
 from ..study.trade import COLUMNS, Column, Trade, TradeRow
 from ..tracer.settings import Precision
-from . import plots
 from .folders import finite, replacing, write_json
+from .plots import GREY, INK, Entry, Panel, Plot, Scale, Series
 from .tables import columns
+from .templates import alone
 
 SCHEMA = "reference_tracer.tradeoff/1"
-TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.svg"
+TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.html"
+
+_BEST = Series(INK, radius=0, width=4)  # the line through what no other row beats
 
 _NOTE = """
 * no other row beats it, as far as the rounds agree on which is faster: beside wrong
@@ -62,7 +65,7 @@ def _row(r: TradeRow) -> dict[str, object]:
 
 
 def write(directory: str | Path, trade: Trade) -> None:
-    """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.svg`, all or none, in a folder.
+    """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.html`, all or none, in a folder.
 
     Raises
     ------
@@ -72,68 +75,69 @@ def write(directory: str | Path, trade: Trade) -> None:
     with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
         (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
         write_json(new / JSON, to_dict(trade))
-        (new / PLOT).write_text(picture(trade), encoding="utf-8")
+        (new / PLOT).write_text(page(trade), encoding="utf-8")
 
 
-def picture(trade: Trade) -> str:
-    """Return the plot, an SVG.
+def page(trade: Trade) -> str:
+    """Return the page of the plot."""
+    return alone(f"Reference Tracer: {trade.scene}", plots=[plot(trade)])
+
+
+def plot(trade: Trade) -> Plot:
+    """Return the plot.
 
     Above, the wrong pixels of the methods side by side; below, the coverage error of all rows. In
     both a line joins the rows that no other beats.
     """
-    headline = textwrap.fill(f"{trade.scene}: {trade.advice}", 100)
     first, k = trade.whole[0], trade.converged
     pixels, coverage = (c for c in COLUMNS if c.best)
-    drawn = plots.text((20, 80), headline, 26)
-    drawn += _against(
+    above = _against(
         f"Time against wrong pixels: {first.width} × {first.height} pixels, one ray each",
-        210,
         pixels,
         trade.whole,
     )
-    drawn += _against(
+    below = _against(
         f"Time against coverage error: RMS of RGBA, against {k} × {k} rays a pixel",
-        650,
         coverage,
         [r for r in trade.rows if math.isfinite(r.coverage_error)],
     )
-    entries = {m.record.words: plots.mark((0, 0), 13, m.record.color) for m in MEASURED}
-    entries |= {p: plots.mark((0, 0), 13, plots.GREY, p == "float32") for p in Precision}
-    entries["no other beats these"] = plots.line([(-16, 0), (16, 0)], plots.INK, 4)
-    drawn += plots.legend(entries, plots.HEIGHT - 30)
+    legend = [Entry(m.record.words, Series(m.record.color, radius=13)) for m in MEASURED]
+    legend += [Entry(p, Series(GREY, (), p is Precision.FLOAT32, 13)) for p in Precision]
+    legend.append(Entry("no other beats these", _BEST))
     title = "Time against wrong pixels, and time against coverage error, of every method"
-    return plots.picture(plots.WIDTH, plots.HEIGHT, title, trade.advice, drawn)
+    heading = textwrap.fill(f"{trade.scene}: {trade.advice}", 100)
+    return Plot(title, trade.advice, [above, below], legend, heading)
 
 
-def _against(title: str, top: float, error: Column, rows: list[TradeRow]) -> str:
-    """Draw time against an error; the rows without one stand below the others, at "none"."""
+def _against(title: str, error: Column, rows: list[TradeRow]) -> Panel:
+    """Plot time against an error; the rows without one stand below the others, at "none"."""
     found = [getattr(r, error.name) for r in rows if getattr(r, error.name)]
     least = min(found, default=1.0)
     most = max(found, default=least)
     most = max(most, 10 * least)
     none = 0.5 * least * (least / most) ** 0.1  # far enough below for its word
-    ticks = dict(plots.logarithmic(least, most).ticks)
-    if len(found) < len(rows):
-        ticks[none] = "none"
-    up = plots.Scale(0.8 * none, 1.4 * most, ticks, log=True)
+    named = [(none, "none")] if len(found) < len(rows) else []
+    up = Scale(0.8 * none, 1.4 * most, "log", named, least)
     fastest, slowest = min(r.fastest for r in rows), max(r.slowest for r in rows)
-    along = plots.logarithmic(0.9 * fastest, 1.1 * slowest)
-    axes = plots.Axes(190, top, 1690, 280, along, up)
-    out = axes.drawn(title, "seconds; a bar is from the fastest round to the slowest", error.head)
+    series: list[Series] = []
     best = []
     for r in rows:
         y = getattr(r, error.name) or none
-        bar = axes.at(r.fastest, y), axes.at(r.slowest, y)
-        out += plots.line(bar, Method(r.method).record.color, 4, opacity=0.4)
-        out += plots.chart(axes, [_mark(r, y, getattr(r, error.best))])
+        color = Method(r.method).record.color
+        bar = [(r.fastest, y, ""), (r.slowest, y, "")]
+        series.append(Series(color, bar, radius=0, width=4, opacity=0.4))
+        series.append(_mark(r, y, getattr(r, error.best)))
         if getattr(r, error.best):
-            best.append(axes.at(r.seconds, y))
-    return out + plots.line(sorted(best), plots.INK, 4)
+            best.append((r.seconds, y, ""))
+    series.append(_BEST._replace(points=sorted(best)))
+    along = "seconds; a bar is from the fastest round to the slowest"
+    x = Scale(0.9 * fastest, 1.1 * slowest, "log")
+    return Panel(title, along, error.head, x, up, series)
 
 
-def _mark(r: TradeRow, y: float, best: bool) -> plots.Series:
+def _mark(r: TradeRow, y: float, best: bool) -> Series:
     said = ", ".join(f"{c.head} {c.show(r)}" for c in COLUMNS)
-    return plots.Series(
+    return Series(
         Method(r.method).record.color,
         [(r.seconds, y, f"{Method(r.method).record.words}, {r.precision}, {r.size}: {said}")],
         hollow=r.precision == Precision.FLOAT32,

@@ -1,4 +1,4 @@
-"""A `Bench` -> `bench.json`, `times.json`, which pyperf reads, `bench.txt` and `bench.svg`."""
+"""A `Bench` -> `bench.json`, `bench.txt`, and `times.json`, which pyperf reads and plots."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from reference_tracer.report import folders
 
-from . import plot
 from .peers import MissingPeerError, missing
 from .rows import Bench
 from .scaling import scalings
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
     from pyperf import BenchmarkSuite
 
 SCHEMA = "reference_tracer.bench/1"
-TABLE, JSON, TIMES, PLOT = "bench.txt", "bench.json", "times.json", "bench.svg"
+TABLE, JSON, TIMES = "bench.txt", "bench.json", "times.json"
 UNFINISHED = "unfinished"  # the folder in the results' of a run until it ends
 
 _UNITS = {
@@ -76,7 +75,7 @@ def suite(bench: Bench) -> BenchmarkSuite | None:
 
 
 def write(directory: str | Path, bench: Bench) -> None:
-    """Write the table, the JSONs and the plot; a note says which library is missing for one.
+    """Write the table and the JSONs; a note says if pyperf is missing.
 
     Parameters
     ----------
@@ -89,12 +88,10 @@ def write(directory: str | Path, bench: Bench) -> None:
     OSError
         If the folder cannot be written.
     """
-    with folders.replacing(Path(directory), (TIMES, PLOT, TABLE, JSON)) as new:
+    with folders.replacing(Path(directory), (TIMES, TABLE, JSON)) as new:
         try:
             if kept := suite(bench):
                 kept.dump(str(new / TIMES))
-            if bench.rows:
-                plot.write(new / PLOT, bench)
         except MissingPeerError as error:
             bench.note(str(error))
         write_json(new, bench)

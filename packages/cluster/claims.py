@@ -2,7 +2,7 @@
 
 A claim is of owners: whose surface each ray sees, and how that was decided. t, the barycentrics and
 the colours follow from the owners, and are found here, not believed. Only where integers decided
-who is nearest, t and the barycentrics come along: they are checked, too (`checks.py`).
+who is nearest, t and the barycentrics come along.
 """
 
 from __future__ import annotations

@@ -29,8 +29,8 @@ def add(parser: Parser, name: str) -> None:
         "--verify",
         type=FINITE,
         metavar="SHARE",
-        help="have this share of the work (above 0, to 1) done again by another worker, and check "
-        "exactly all that can be checked here",
+        help="have this share of the work (above 0, to 1) done again by another worker: both must "
+        "find the same",
     )
     parser.set_defaults(place=lambda given: place(given, name))
 

@@ -27,9 +27,10 @@ from reference_tracer.tracer.progress import Work, scaled
 from reference_tracer.tracer.render import Tracer, rays_in_order, rounds
 from reference_tracer.tracer.settings import Settings
 
-from . import checks, tasks
+from . import tasks
 from .claims import Claim
 from .cluster import Asked, Cluster, ClusterError, NobodyError
+from .plain import plain_hits
 
 EACH = 6  # regions of a picture that each thread of a worker has, about: so none waits for long
 MOST = 1 << 20  # pixels of one
@@ -44,9 +45,8 @@ def tracer(cluster: Cluster, share: float | None) -> Tracer:
         scene: Scene, settings: Settings, reach: float, statistics: Statistics
     ) -> Work[TraceBand]:
         own = yield from TRACERS[settings.method](scene, settings, reach, statistics)
-        name, checked = scene_name(cluster, scene), ""
-        if share:
-            checked = f": every pixel is checked here, {share:.3g} of the rays are traced twice"
+        name = scene_name(cluster, scene)
+        checked = f": {share:.3g} of the rays are traced twice" if share else ""
         statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers{checked}")
         return Picture(cluster, share, scene, settings, reach, statistics, own, name).trace
 
@@ -117,14 +117,11 @@ class Picture:
             claim, worker = yield from scaled(work, number / len(parts), 1 / len(parts))
             claim.count_in(self.statistics)
             claims.append(claim)
-            given = self.scene, part, dx, dy, claim
             if not self.settings.method.is_proven:
-                plain.append((yield from checks.plain_hits(*given, self.settings)))
-                right = np.array_equal(claim.names, (plain[-1].instance, plain[-1].triangle))
-            else:
-                right = not self.share or (yield from checks.can_be(*given))
-            if not right:
-                self._blame([worker], part)
+                given = self.scene, part, dx, dy, claim.names, self.settings
+                plain.append((yield from plain_hits(*given)))
+                if not np.array_equal(claim.names, (plain[-1].instance, plain[-1].triangle)):
+                    self._blame([worker], part)
             for place in self._places(part) if self.share else ():
                 asked = self._ask(place, dx, dy, without=frozenset([worker]))
                 again.append((place, part, claim, worker, asked))

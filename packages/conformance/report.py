@@ -14,11 +14,11 @@ from reference_tracer.report import page as comparison_page
 from reference_tracer.report.folders import replacing, write_json
 from reference_tracer.report.junit import junit
 from reference_tracer.report.tables import columns
-from reference_tracer.svg import element, said, width_of
 from reference_tracer.tracer.progress import Work
 from reference_tracer.wording import count_of
 
 from .judging import Program, Result
+from .svg import element, said, width_of
 
 PAGE, BADGE, JUNIT, JSON = NAMES = "index.html", "badge.svg", "junit.xml", "conformance.json"
 SCHEMA = "reference_tracer.conformance/1"

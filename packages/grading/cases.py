@@ -10,8 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.arrays import Floats
 
-from .faults import Tests
-from .group_faults import BROKEN, BY_GROUP
 from .programs import Letters, Mask, columns
 from .subjects.subject import Subject
 from .tally import Tally
@@ -24,7 +22,10 @@ SHOWN = 6  # wrong cases, of as many groups
 
 @dataclass(frozen=True, eq=False)
 class TableCases:
-    """What is asked, (k, ...) each, and what is true of the n rows of its answers, (n, m)."""
+    """What is asked, (k, ...) each, and what is true of the n rows of its answers, (n, m).
+
+    Masks are (n,).
+    """
 
     subject: Subject
     given: tuple[Floats, ...]
@@ -33,6 +34,9 @@ class TableCases:
     right: Floats
     allowed: Floats  # how far an answer may be off
     doubt: Mask  # sound float64 may have it otherwise
+    aside: Collection[str] = ()  # groups that count for nothing, and only tell mistakes apart
+    silent: Collection[str] = ()  # and those that do not tell them apart
+    close: Collection[str] = ()  # and those in which the order of a sum decides in float32
 
     @classmethod
     def of(
@@ -40,6 +44,9 @@ class TableCases:
         subject: Subject,
         groups: Mapping[str, tuple[Floats, ...]],
         whole: Collection[str] = (),
+        aside: Collection[str] = (),
+        silent: Collection[str] = (),
+        close: Collection[str] = (),
     ) -> TableCases:
         """Return cases with what is true of them.
 
@@ -50,6 +57,8 @@ class TableCases:
             What is given, by the names of the subject's groups.
         whole : collection of str, optional
             The groups in which float64 rounds nothing.
+        aside, silent, close : collection of str, optional
+            Groups as in the fields.
         """
         names = list(subject.groups)
         given = tuple(np.concatenate(arrays) for arrays in zip(*groups.values(), strict=True))
@@ -59,14 +68,33 @@ class TableCases:
         group = np.repeat([names.index(name) for name in groups], counts)
         is_whole = np.repeat([name in whole for name in groups], counts)
         found = truth(subject.programs[0], letters, is_whole)
-        return cls(subject, given, group, letters, *found)
+        return cls(subject, given, group, letters, *found, aside, silent, close)
 
-    @property
+    def among(self, *groups: str) -> Mask:
+        """Return which are of some groups."""
+        names = list(self.subject.groups)
+        return np.isin(self.group, [names.index(name) for name in groups])
+
+    @cached_property
+    def counts(self) -> Mask:
+        """Which are more than a means to tell mistakes apart."""
+        return ~self.among(*self.aside)
+
+    @cached_property
     def tells(self) -> Mask:
-        """Where no rounding decides, (n,)."""
-        return ~self.doubt
+        """Of which no rounding decides what a program makes, be it right or wrong."""
+        return ~self.doubt & ~self.among(*self.silent)
 
-    firm = tells
+    @cached_property
+    def firm(self) -> Mask:
+        """Which are answered alike in every call."""
+        return ~self.doubt & self.counts & ~self.among(*self.close)
+
+    def near(self, table: Floats, numbers: slice = slice(None)) -> Mask:
+        """Return where some numbers of each answer are all right."""
+        with np.errstate(all="ignore"):
+            off = np.abs(table - self.right[:, numbers])
+            return (off <= self.allowed[:, numbers]).all(axis=1)
 
     def answers(self, table: Floats) -> TableAnswers:
         """Return what a student's code made of them, (n, m)."""
@@ -99,11 +127,9 @@ class TableAnswers:
     def right(self) -> dict[str, Mask]:
         """Where each share of a score is right, by its name."""
         same = (self.hit == self.to_hit) & ~self.raised
-        with np.errstate(all="ignore"):
-            near = np.abs(self.table - self.cases.right) <= self.cases.allowed
         parts = self.cases.subject.parts
         found = {
-            part.name: same & (near[:, numbers].all(axis=1) | ~self.to_hit)
+            part.name: same & (self.cases.near(self.table[:, numbers], numbers) | ~self.to_hit)
             for part, numbers in zip(parts, columns(parts), strict=True)
         }
         return {name: found.get(name, same) for name in self.cases.subject.weights}
@@ -112,22 +138,25 @@ class TableAnswers:
     def wrong(self) -> Mask:
         """Where anything is wrong, without a doubt."""
         right = np.stack(list(self.right.values())).all(axis=0)
-        return ~right & ~self.cases.doubt & ~self.raised
+        return ~right & ~self.cases.doubt & self.cases.counts & ~self.raised
 
     @property
-    def tests(self) -> tuple[Tests, ...]:
-        """The tests for faults that are no mutation of a formula."""
-        unlike = self.hit != self.to_hit
-        return (
-            Tests(self.wrong & unlike, BY_GROUP, "hits"),
-            Tests(self.wrong & ~unlike, BROKEN, "answers"),
-        )
+    def wrong_hits(self) -> Mask:
+        """Where it hits what it should not, or the other way round, without a doubt."""
+        return self.wrong & (self.hit != self.to_hit)
+
+    def wrong_numbers(self, share: str = "") -> Mask:
+        """Return where it hits, or misses, as it should, and numbers of a share are wrong."""
+        own = self.wrong & (self.hit == self.to_hit)
+        return own & ~self.right[share] if share else own
 
     @property
     def tally(self) -> Tally:
         """How many are right."""
-        counted, doubt = self.hit | self.to_hit | self.raised, self.cases.doubt & ~self.raised
-        return Tally.of(counted, doubt, self.right, self.cases.subject.weights)
+        counted = (self.hit | self.to_hit | self.raised) & self.cases.counts
+        return Tally.of(
+            counted, self.cases.doubt & ~self.raised, self.right, self.cases.subject.weights
+        )
 
     @property
     def examples(self) -> list[WrongCase]:

@@ -9,18 +9,18 @@ be unrecognised.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any, NamedTuple, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.arrays import Floats
 
+from .cases import TableAnswers, TableCases
 from .known import Ask
 from .matching import Match, differs, with_one, with_two
 from .programs import Mask
-from .subjects.subject import Cases
 from .submission import Submission
 
 ALONE = 3, 1  # sizes of the calls in which some cases are asked about again
@@ -49,39 +49,7 @@ class Fault:
         return asdict(self)
 
 
-class Answers(Protocol):
-    """What a function made of cases."""
-
-    @property
-    def cases(self) -> Cases:
-        """What it was asked."""
-
-    @property
-    def table(self) -> Floats:
-        """What it answered, (n, m)."""
-
-    @property
-    def wrong(self) -> Mask:
-        """Where anything is wrong, without a doubt, (n,)."""
-
-    @property
-    def tests(self) -> Sequence[Tests]:
-        """Tests for faults that no mutation explains, by what they explain."""
-
-
-# A fault's name, a sentence, the answers that it explains.
-Found = Iterator[tuple[str, str, Mask]]
-
-
-class Tests(NamedTuple):
-    """Wrong answers of one kind, the tests for why they are, and what they are called."""
-
-    wrong: Mask
-    tests: Sequence[Callable[[Any], Found]]
-    what: str
-
-
-def find_faults(answers: Answers) -> tuple[list[Fault], Match | None]:
+def find_faults(answers: TableAnswers) -> tuple[list[Fault], Match | None]:
     """Return what is wrong with a function, and a wrong program that answers as it does, if any."""
     if not answers.wrong.any():
         return [], None
@@ -95,7 +63,7 @@ def find_faults(answers: Answers) -> tuple[list[Fault], Match | None]:
     return faults, None
 
 
-def _matched(answers: Answers, ways: Sequence[Match]) -> tuple[list[Fault], Match | None]:
+def _matched(answers: TableAnswers, ways: Sequence[Match]) -> tuple[list[Fault], Match | None]:
     """Return the faults of a wrong program that answers alike, and of what it does not explain."""
     theirs = answers.cases.answers(ways[0].program.answers(answers.cases.letters))
     left = answers.wrong & ~theirs.wrong  # that program is right there
@@ -103,7 +71,7 @@ def _matched(answers: Answers, ways: Sequence[Match]) -> tuple[list[Fault], Matc
     return faults + _tested(answers, left), ways[0]
 
 
-def _named(answers: Answers, ways: Sequence[Match]) -> list[Fault]:
+def _named(answers: TableAnswers, ways: Sequence[Match]) -> list[Fault]:
     """Return what is wrong with the first of some programs that no pair tells apart."""
     wrong = int(answers.wrong.sum())
     alone = dict.fromkeys(way.wrong[0].sentence for way in ways if len(way.wrong) == 1)
@@ -130,10 +98,11 @@ def raising(student: Submission) -> list[Fault]:
     return [Fault("raises", text, student.raises)]
 
 
-def _tested(answers: Answers, among: Mask) -> list[Fault]:
+def _tested(answers: TableAnswers, among: Mask) -> list[Fault]:
     """Return the faults of some wrong answers that pass their tests, and what is unrecognised."""
     faults: list[Fault] = []
-    for wrong, tests, what in answers.tests:
+    for what, tests, share in answers.cases.subject.tests:
+        wrong = answers.wrong_hits if what == "hits" else answers.wrong_numbers(share)
         left = wrong & among
         for test in tests:
             for name, sentence, explained in test(answers):
@@ -154,14 +123,14 @@ def _enter(faults: list[Fault], new: Fault) -> None:
     faults.append(new)
 
 
-def _unrecognised(answers: Answers, left: Mask, what: str) -> Fault:
+def _unrecognised(answers: TableAnswers, left: Mask, what: str) -> Fault:
     names = list(answers.cases.subject.groups)
     where = [names[g] for g in np.unique(answers.cases.group[left])]
     text = f"some {what} are wrong for a reason that is not recognised: {', '.join(where)}"
     return Fault(f"{UNRECOGNISED}{what.split()[-1]}", text, int(left.sum()))
 
 
-def dependence(answers: Answers, ask: Ask) -> list[Fault]:
+def dependence(answers: TableAnswers, ask: Ask) -> list[Fault]:
     """Return what is wrong if the same cases are answered otherwise when asked again.
 
     Some are asked about again three at a time, where (3,) and (n, 3) are easily mixed up, and one
@@ -196,7 +165,7 @@ def _spread(count: int) -> NDArray[np.intp]:
     return np.unique(np.arange(CALLS) * (count - 1) // max(CALLS - 1, 1))
 
 
-def _again(cases: Cases, ask: Ask, rows: NDArray[np.intp]) -> Floats:
+def _again(cases: TableCases, ask: Ask, rows: NDArray[np.intp]) -> Floats:
     """Return what is answered of some rows of the answers, (k, m); a case may have several."""
     own, within = np.divmod(rows, len(cases.group) // len(cases.given[0]))
     again = cases.subject.rows(*ask(*(array[own] for array in cases.given)))

@@ -6,12 +6,12 @@ way, and hardly any of those of other groups, that thing is what is wrong.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from reference_tracer.arrays import Floats
 
-from .faults import Found
 from .programs import Mask, columns
 
 if TYPE_CHECKING:
@@ -21,6 +21,17 @@ MOST, FEW = 0.9, 0.1  # shares of a group: "nearly all", "hardly any"
 FLOAT32 = 2.0**-24  # its rounding unit
 LOSSY = 300  # of those: as far as ordinary cases may be off that were computed in float32
 LEAST = FLOAT32 / 64  # and as far as half of them are off at least
+
+# A fault's name, a sentence, the answers that it explains.
+Found = Iterator[tuple[str, str, Mask]]
+
+
+class Tests(NamedTuple):
+    """The tests for why answers of one kind are wrong, and what these are called."""
+
+    what: str  # "hits", or numbers of what is hit as it should be
+    tests: tuple[Callable[[Any], Found], ...]
+    share: str = ""  # of a score: the numbers are its own; else all
 
 
 def never(a: TableAnswers) -> Found:
@@ -71,29 +82,29 @@ def no_numbers(a: TableAnswers) -> Found:
         yield "not_finite", "numbers of an answer are NaN or infinite", broken
 
 
-def single(a: TableAnswers) -> Found:
-    """See whether numbers have the digits of float32."""
-    off = _off(a)
-    own = a.wrong & a.hit & a.to_hit
+def single(a: TableAnswers, share: str = "") -> Found:
+    """See whether numbers, those of a share or all, have the digits of float32."""
+    off = _off(a, share)
+    own = a.wrong_numbers(share)
     if own.any() and (off[own] < LOSSY * FLOAT32).mean() > MOST and np.median(off[own]) > LEAST:
         text = (
-            f"numbers are off by {np.median(off[own]):.0e}: computed in float32, which keeps 7 "
-            "digits of the 16 that float64 has"
+            f"{share or 'numbers'} off by {np.median(off[own]):.0e}: computed in float32, which "
+            "keeps 7 digits of the 16 that float64 has"
         )
         yield "float32", text, off < LOSSY * FLOAT32
 
 
 @np.errstate(all="ignore")
-def _off(a: TableAnswers) -> Floats:
+def _off(a: TableAnswers, share: str) -> Floats:
     """Return how far numbers are off, relative to the largest that has a share in them, (n,)."""
-    right = a.cases.right
+    right, parts = a.cases.right, a.cases.subject.parts
     off = np.zeros(len(right))
-    for numbers in columns(a.cases.subject.parts):
-        by = np.abs(a.table[:, numbers] - right[:, numbers]).max(axis=1)
-        by[by > 0] /= np.abs(right[by > 0, numbers]).max(axis=1)  # object 0 is no 0 / 0
-        off = np.maximum(off, by)
+    for part, numbers in zip(parts, columns(parts), strict=True):
+        if share in ("", part.name):
+            by = np.abs(a.table[:, numbers] - right[:, numbers]).max(axis=1)
+            by[by > 0] /= np.abs(right[by > 0, numbers]).max(axis=1)  # object 0 is no 0 / 0
+            off = np.maximum(off, by)
     return off
 
 
-BY_GROUP = never, always, whole_groups
-BROKEN = no_numbers, single
+TESTS = Tests("hits", (never, always, whole_groups)), Tests("answers", (no_numbers, single))

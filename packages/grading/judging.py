@@ -19,6 +19,7 @@ from reference_tracer.tracer.progress import Work, result_of, scaled
 from reference_tracer.wording import printable
 from reference_tracer_processes.running import Limits
 
+from .cases import TableCases
 from .examples import Example, find_examples
 from .external import Program, Run
 from .extremes import ExtremeRow, ExtremeScene, try_extremes
@@ -31,7 +32,7 @@ from .picture import Look, in_scenes, look
 from .shared_edges import SharedEdges, try_edges
 from .student import Student
 from .student_error import StudentError
-from .subjects.subject import Cases, Subject
+from .subjects.subject import Subject
 from .subjects.triangle import TRIANGLE
 from .submission import Submission
 from .tally import COST, Tally, score_of
@@ -109,7 +110,7 @@ class Judgement:
 
 def judge(
     submission: Path | Run,
-    cases: Cases,
+    cases: TableCases,
     scenes: Sequence[JudgedScene] = (),
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
@@ -122,7 +123,7 @@ def judge(
     ----------
     submission : Path or Run
         A Python file, or how a program of any language is started.
-    cases : Checks or Cases
+    cases : TableCases
         What it is asked, of any subject.
     scenes : sequence of JudgedScene
     extremes : sequence of ExtremeScene
@@ -177,7 +178,7 @@ def names(submissions: Sequence[Path | Run]) -> list[str]:
     return out
 
 
-def _on_cases(out: Judgement, student: Submission, cases: Cases) -> None:
+def _on_cases(out: Judgement, student: Submission, cases: TableCases) -> None:
     student.new_scene()
     rows = cases.subject.rows(*student.ask(*cases.given))
     rows[np.repeat(student.raised, len(rows) // len(student.raised))] = -np.inf
@@ -188,8 +189,10 @@ def _on_cases(out: Judgement, student: Submission, cases: Cases) -> None:
         out.faults, out.alike = [*out.faults, *depends], None
     if cases.subject is TRIANGLE:
         out.edges = try_edges(student.ask)
+    else:
+        out.wrong = answers.examples  # a triangle's are shown in the scenes
     student.raises = raises  # what is asked again counts once
-    out.checks, out.wrong = answers.tally, answers.examples
+    out.checks = answers.tally
     if out.alike:
         out.mended = [cases.answers(out.alike.put_right(cases.letters, rows)).tally]
 
@@ -227,7 +230,7 @@ def _on_extremes(out: Judgement, student: Submission, scenes: Sequence[ExtremeSc
 
 def judge_all(
     submissions: Mapping[str, Path | Run],
-    cases: Cases,
+    cases: TableCases,
     scenes: Sequence[JudgedScene] = (),
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,

@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.arrays import Floats
 
+from .cases import TableCases
 from .mutations import Mutation, mutations
 from .programs import Letters, Mask, Part, Program, columns
-from .subjects.subject import Cases
 
 DIGITS = 1e-9  # relative: two orders of summation of a wrong formula differ by far less
 FEW = 2e-3  # share of cases in which rounding may decide what a wrong program answers
@@ -56,12 +56,12 @@ class Match:
         return np.where(kept[:, None], replies, self.right.answers(asked))
 
 
-def with_one(cases: Cases, replies: Floats) -> list[Match]:
+def with_one(cases: TableCases, replies: Floats) -> list[Match]:
     """Return the wrong programs with one mutation that answer as a function did, (n, m)."""
     return _found(cases, replies, _single)
 
 
-def with_two(cases: Cases, replies: Floats) -> list[Match]:
+def with_two(cases: TableCases, replies: Floats) -> list[Match]:
     """Return the wrong programs with two mutations that answer as a function did, (n, m)."""
     return _found(cases, replies, _double)
 
@@ -135,7 +135,9 @@ class _Known(NamedTuple):
     replies: Floats
 
 
-def _found(cases: Cases, replies: Floats, programs: Callable[[Cases], _Known]) -> list[Match]:
+def _found(
+    cases: TableCases, replies: Floats, programs: Callable[[TableCases], _Known]
+) -> list[Match]:
     own, parts = replies[cases.tells], cases.subject.parts
     if _told(own, parts).sum() < LEAST:
         return []
@@ -146,18 +148,18 @@ def _found(cases: Cases, replies: Floats, programs: Callable[[Cases], _Known]) -
 
 
 @cache
-def _questions(cases: Cases) -> Letters:
+def _questions(cases: TableCases) -> Letters:
     return cases.letters.take(np.flatnonzero(cases.tells))
 
 
 @cache
-def _few(cases: Cases) -> NDArray[np.intp]:
+def _few(cases: TableCases) -> NDArray[np.intp]:
     """Return which of the cases that tell are tried first."""
     group = cases.group[cases.tells]
     return np.concatenate([np.flatnonzero(group == g)[:EACH] for g in np.unique(group)])
 
 
-def _known(cases: Cases, matches: Iterable[Match]) -> _Known:
+def _known(cases: TableCases, matches: Iterable[Match]) -> _Known:
     """Return wrong programs with what they make of the few; those that are right are left out."""
     parts, asked = cases.subject.parts, _questions(cases)
     few = asked.take(_few(cases))
@@ -173,14 +175,14 @@ def _known(cases: Cases, matches: Iterable[Match]) -> _Known:
 
 
 @cache
-def _single(cases: Cases) -> _Known:
+def _single(cases: TableCases) -> _Known:
     """Return all wrong programs with one mutation; some mutations make no wrong one."""
     every = (Match(right, (m,)) for right in cases.subject.programs for m in mutations(right))
     return _known(cases, every)
 
 
 @cache
-def _double(cases: Cases) -> _Known:
+def _double(cases: TableCases) -> _Known:
     """Return wrong programs with two mutations; of those that few cases tell apart one is taken."""
     known, parts = _single(cases), cases.subject.parts
     different: list[int] = []

@@ -1,7 +1,7 @@
 """200 pictures with damage that is no fault which the diagnosis knows: it must name none.
 
 Ten pictures of each of twenty kinds, of the six scenes in turn; everything comes from the picture's
-number. Some kinds draw something over the picture: to call that an overlay is right.
+number.
 """
 
 from __future__ import annotations
@@ -240,8 +240,6 @@ OF_PICTURES: tuple[Damage, ...] = (
     banded,
 )
 OF_SCENES = (jittered, crumpled)
-# These draw over the picture, so that this name is no wrong one.
-TRUE_NAMES = {"blobs": {"overlay"}, "lines": {"overlay"}, "dead_rows": {"overlay"}}
 
 
 def damaged(number: int) -> tuple[str, Description, np.ndarray]:

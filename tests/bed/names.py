@@ -33,6 +33,10 @@ SPOKEN = {
     ("rounding_level", "cut off"): "cut_off",
     ("object_scaled", "all"): "scene_scaled",
     ("sensor_fit", "horizontal"): "sensor_fit_setting",
+    ("jpeg", ""): "processed",
+    ("white_balance", ""): "processed",
+    ("saturation", ""): "processed",
+    ("dithered", ""): "processed",
 }
 
 

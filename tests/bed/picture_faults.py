@@ -187,18 +187,6 @@ def supersampled(n: int, coded: bool = False) -> Fault:
     return Fault("supersampled", label, lambda _, m: replace(m, draw=draw), {"n": n})
 
 
-def averaged(n: int) -> Fault:
-    """Return a picture whose pixels are the mean of n x n of its own, to the right and below."""
-
-    def change(picture: np.ndarray) -> np.ndarray:
-        height, width = picture.shape[:2]
-        padded = np.pad(picture, ((0, n - 1), (0, n - 1), (0, 0)), mode="edge")
-        parts = (padded[y : y + height, x : x + width] for y in range(n) for x in range(n))
-        return sum(part.astype(np.float64) for part in parts) / n**2
-
-    return Fault("averaged", f"{n} x {n}", afterwards(change), {"n": n})
-
-
 def in_code(picture: np.ndarray) -> np.ndarray:
     """Return straight RGB in sRGB's curve, and alpha."""
     alpha = picture[..., 3:]
@@ -231,42 +219,9 @@ def _noisy(picture: np.ndarray) -> np.ndarray:
     return through_file(picture, lambda v: np.rint(v + rng.uniform(-2, 2, v.shape)))
 
 
-def _in_linear_first(straight: np.ndarray) -> np.ndarray:
-    """Round linear values to eight bits, then their codes."""
-    return eight(encoded(eight(straight)), decoded)
-
-
 def eight(values: np.ndarray, read: Colors = lambda v: v) -> np.ndarray:
     """Return what is read of values rounded to eight bits."""
     return read(np.rint(LEVELS * np.clip(values, 0, 1)) / LEVELS)
-
-
-def watermark(coded: bool) -> Fault:
-    """Return a picture with letters of stripes across its middle, half transparent, in white."""
-
-    def change(picture: np.ndarray) -> np.ndarray:
-        height, width = picture.shape[:2]
-        y, x = np.mgrid[:height, :width]
-        letters = (np.abs(y - height // 2) < 12) & (np.abs(x - width // 2) < width // 3)
-        letters &= (x % 11 < 4) | ((y - height // 2) % 9 < 3)
-        out = in_code(picture) if coded else picture.astype(np.float64)
-        white = 1 if coded else out[letters, 3:]  # coded ones are straight
-        out[letters, :3] = (out[letters, :3] + white) / 2
-        return out_of_code(out) if coded else out
-
-    label = f"a watermark, {'coded' if coded else 'linear'}"
-    return Fault("overlay", label, afterwards(change), {"opacity": 0.5})
-
-
-def _stamp(picture: np.ndarray) -> np.ndarray:
-    """Return the picture with a half-transparent box of stripes in its lower left corner."""
-    out = picture.copy()
-    height, width = out.shape[0] // 9, out.shape[1] // 4
-    box = out[-height - 6 : -6, 6 : 6 + width]
-    stripes = (np.arange(width) % 6 < 2) & (np.arange(height)[:, None] % 9 > 2)
-    ink = np.where(stripes[..., None], 0.95, 0.02)
-    box[..., :3] = 0.4 * box[..., :3] + 0.6 * ink * box[..., 3:]
-    return out
 
 
 PICTURE_FAULTS = (
@@ -292,7 +247,6 @@ PICTURE_FAULTS = (
     saturated(1.25, coded=False),
     saturated(0.6, coded=True),
     colors("white_balance", "warmer", lambda c: c * (1.12, 1.0, 0.85)),
-    colors("twice_rounded", "in linear values first", _in_linear_first),
     colors("rounding_level", "once, read as floats", lambda c: eight(encoded(c), decoded)),
     in_file("dithered", "2 levels", _noisy, levels=2),
     in_file("rounding_level", "cut off", lambda p: through_file(p, np.floor)),
@@ -312,9 +266,4 @@ PICTURE_FAULTS = (
     supersampled(2),
     supersampled(4),
     supersampled(2, coded=True),
-    averaged(2),
-    averaged(4),
-    watermark(coded=False),
-    watermark(coded=True),
-    Fault("overlay", "a box of stripes", afterwards(_stamp)),
 )

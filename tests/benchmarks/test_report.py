@@ -1,4 +1,4 @@
-"""What a benchmark leaves in a folder, also when it is interrupted: JSON, a table, a plot."""
+"""What a benchmark leaves in a folder, also when it is interrupted: JSON and a table."""
 
 from __future__ import annotations
 
@@ -12,14 +12,12 @@ import pytest
 from pyperf import BenchmarkSuite
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR, INTERRUPTED
-from reference_tracer.methods import Method
 from reference_tracer_benchmarks import run as bench_run
 from reference_tracer_benchmarks.measure import measure
 from reference_tracer_benchmarks.plan import COMMANDS, Case, Plan
-from reference_tracer_benchmarks.plot import figure, largest
-from reference_tracer_benchmarks.report import JSON, PLOT, SCHEMA, TABLE, TIMES, UNFINISHED, write
+from reference_tracer_benchmarks.report import JSON, SCHEMA, TABLE, TIMES, UNFINISHED, write
 from reference_tracer_benchmarks.rows import Bench, CommandRow, Row, machine
-from reference_tracer_benchmarks.scenes import CAMERAS, SCALED, SUBJECTS
+from reference_tracer_benchmarks.scenes import CAMERAS, SUBJECTS
 from reference_tracer_benchmarks.tables import table
 
 STAGES = "project", "cull", "decide", "resolve", "shade"
@@ -108,7 +106,6 @@ def test_a_table_of_what_little_there_is(bench):
     assert "nothing was measured" in table(Bench({}, notes=["why"])) and "why" in table(
         Bench({}, notes=["why"])
     )
-    assert len(figure(Bench({}, rows=[bare])).axes) == 2
 
 
 def test_pyperf_reads_the_times(bench, tmp_path):
@@ -130,37 +127,14 @@ def test_pyperf_reads_the_times(bench, tmp_path):
     assert "cube: trace" in said and "2.00x faster" in said
 
 
-@pytest.mark.parametrize("library", ["matplotlib.figure", "pyperf"])
-def test_a_library_that_is_missing_is_named(library, bench, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, library, None)
+def test_pyperf_is_named_where_it_is_missing(bench, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyperf", None)
     (tmp_path / TIMES).write_text("of an earlier run")
     some = Bench(bench.machine, rows=bench.rows[:4], times={"cube": [1.0]})
     write(tmp_path, some)
-    assert any(f"without {library.split('.')[0]}, which" in note for note in some.notes)
+    assert "without pyperf, which" in some.notes[0]
     assert some.notes[0] in (tmp_path / TABLE).read_text(encoding="utf-8")
-    assert (tmp_path / TIMES).exists() == (library != "pyperf") and not (tmp_path / PLOT).exists()
-
-
-def test_the_plot(bench, tmp_path):
-    assert {(r.width, r.camera) for r in largest(bench)} == {(1920, "perspective")}
-    for rows in (bench.rows, [r for r in bench.rows if r.scene not in SCALED]):
-        some = replace(bench, rows=rows)
-        growth, stages = figure(some).axes
-        lines = {line.get_label(): line for line in growth.get_lines()}
-        of_mine = [r for r in largest(some) if len(rows) < len(bench.rows) or r.scene in SCALED]
-        assert list(lines["certified"].get_xdata()) == sorted(r.triangles for r in of_mine)
-        assert lines["certified"].get_color() == Method.CERTIFIED.record.color
-        assert {"Möller–Trumbore", "embreex, build + trace", "trimesh's rtree"} < lines.keys()
-        assert lines["certified"].get_linestyle() == ("-" if rows is bench.rows else "None")
-        whole = np.sum([[bar.get_width() for bar in bars] for bars in stages.containers], axis=0)
-        assert whole == pytest.approx([r.render_s for r in largest(some)])
-        assert [bars.get_label() for bars in stages.containers] == [*STAGES, "other"]
-        scenes = [label.get_text().split(",")[0] for label in stages.get_yticklabels()]
-        assert scenes == [r.scene for r in largest(some)]
-    with pytest.raises(ValueError, match="nothing"):
-        figure(Bench({}))
-    write(tmp_path, bench)
-    assert all(r.scene in (tmp_path / PLOT).read_text(encoding="utf-8") for r in largest(bench))
+    assert not (tmp_path / TIMES).exists()
 
 
 # ---- the command
@@ -176,7 +150,6 @@ def test_the_command(tmp_path, monkeypatch, capsys):
     assert main(["bench", "--quick", "--out", str(tmp_path / "a")]) == AGREE
     first = read(tmp_path / "a")
     assert first["quick"] and len(first["rows"]) == 8 and not first["interrupted"]
-    assert "icosphere_5k" in (tmp_path / "a" / PLOT).read_text(encoding="utf-8")
     names = BenchmarkSuite.load(str(tmp_path / "a" / TIMES)).get_benchmark_names()
     assert "cube, 24 x 14, perspective: certified, trace" in names
     assert "cube, 24 x 14, perspective: embreex_trace" in names
@@ -201,7 +174,7 @@ def test_interrupted_it_leaves_what_was_measured(tmp_path, monkeypatch, capsys):
     assert found["interrupted"] and len(found["rows"]) == 4
     both = capsys.readouterr()
     assert "interrupted: 2 of 4 pictures" in both.err and "Interrupted" in both.out
-    assert (tmp_path / UNFINISHED / PLOT).is_file() and not (tmp_path / JSON).exists()
+    assert (tmp_path / UNFINISHED / TIMES).is_file() and not (tmp_path / JSON).exists()
 
 
 def test_interrupted_at_once(tmp_path, monkeypatch, capsys):

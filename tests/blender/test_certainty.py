@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.engine import ENGINE
 from reference_tracer.certainty import Certainty
-from reference_tracer.rendering import render
-from reference_tracer.scene import Region
-from reference_tracer.tracer.settings import Settings
-
-from ..tracer.second_tie_rule import compared
 
 SIZE = 40
 
@@ -71,15 +64,3 @@ def test_the_operator_says_so_too(method, square, broken_arithmetic, capfd):
     else:
         assert bpy.ops.reference_tracer.compare() == {"FINISHED"}
         assert "traced by watertight in float64" in capfd.readouterr().out
-
-
-def test_a_second_rule_finds_the_same_ambiguous_pixels(opened, export):
-    """In two places of the view that is built to be ambiguous, through edges and corners."""
-    opened("technical_view")
-    whole, _ = export.render()
-    for x, y in ((416, 192), (64, 312)):
-        camera = replace(whole.camera, region=Region(x, y, x + 24, y + 18))
-        scene = whole.seen_by(camera)
-        frame = render(scene, Settings("certified"))
-        assert (frame.certainty == Certainty.AMBIGUOUS).sum() > 30
-        assert not compared(scene, frame)

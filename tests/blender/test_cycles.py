@@ -8,6 +8,7 @@ sample cannot have met another.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 
 import bpy
 import numpy as np
@@ -22,6 +23,8 @@ from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.rendering import render
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.progress import result_of
+
+from ..sampled import daily
 
 RADIUS = JUDGES["cycles"].sample_radius
 SCENES = (
@@ -207,8 +210,13 @@ def test_cycles_cannot_show_random_colors_of_instances_and_says_so(build, compar
         compare(judge="CYCLES")
 
 
-@pytest.mark.parametrize("far", [1e3, 1e5, 1e6, 1e12, 1.8e18, 1.9e18, 1e30])
-@pytest.mark.parametrize(("at", "kind"), [(0.0, "PERSP"), (0.37, "PERSP"), (0.11, "ORTHO")])
+FAR = (1e3, 1e5, 1e6, 1e12, 1.8e18, 1.9e18, 1e30)
+VIEWS = (0.0, "PERSP"), (0.37, "PERSP"), (0.11, "ORTHO")
+
+
+@pytest.mark.parametrize(
+    ("at", "kind", "far"), daily(((*view, far) for view in VIEWS for far in FAR), 3)
+)
 def test_triangles_that_reach_far(far, at, kind, build, compare):
     """Cycles shows them a share of their size too large, and from a limit on not at all."""
     build.scene(96, 54, "OBJECT")
@@ -270,9 +278,12 @@ def test_triangles_of_a_large_area(half, share, build, compare):
         assert wrong.counts.unexplained > 0.9 * seen.sum()
 
 
-@pytest.mark.parametrize("far", [1e4, 1e7, 1e10])
-@pytest.mark.parametrize("to", [(1, 1, 0), (0, 1, -1), (0.3, 1, -0.2)])
-@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+WAYS = (1, 1, 0), (0, 1, -1), (0.3, 1, -0.2)
+
+
+@pytest.mark.parametrize(
+    ("kind", "to", "far"), daily(product(("PERSP", "ORTHO"), WAYS, (1e4, 1e7, 1e10)), 4)
+)
 def test_strips_that_reach_far_in_any_direction(far, to, kind, build, compare):
     """Float32 loses their weights in one another's products: then Cycles shows none of them."""
     build.scene(48, 27, "OBJECT")

@@ -1,6 +1,6 @@
 """The nearest hit, proven: as exact arithmetic has it, ray by ray and pair by pair.
 
-The oracle is written apart (`study/oracle.py`): all rays with all triangles, in integers, and
+The oracle is written apart (`tests/oracle.py`): all rays with all triangles, in integers, and
 the ray of the rule truly moved.
 """
 
@@ -11,7 +11,6 @@ from collections import Counter
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty, Reason
-from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.ladder import Ladder
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
@@ -19,7 +18,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import Pairs, WorldTriangles
 
 from ..moved import may, touched
-from ..oracle import EDGE, intersect_pairs, sights
+from ..oracle import sights
 from ..rays import nearest_hits
 from ..tracer.rational import t_of
 
@@ -185,37 +184,6 @@ def test_a_single_ray_that_starts_behind_itself(rng):
         check(Rays(np.zeros((3, 1)), rng.normal(size=(3, 1))), c, -1.0, 1.0)
 
 
-@pytest.mark.slow
-def test_ties_lack_nobody_and_name_nobody_else(rng):
-    """All that rays see that are moved by any means, and no more than the closed triangles have."""
-    several = 0
-    for what in ("nothing", "origin", "direction") * 5:
-        o, d, c = whole(rng)
-        several += sum(len(names) > 2 for names in check(share(o, d, what), c).ties.values())
-    assert several > 20
-
-
-@pytest.mark.parametrize("shared", [False, True])
-@EVERY_FAMILY
-def test_decide(rng, family, shared):
-    counts = np.zeros(3, int)
-    for start, end in ((0.0, np.inf), (1.0, 2.0), (-1.0, 1.0)):
-        if family is whole:
-            o, d, c = (rng.integers(-1, 2, (*k, 400)) * 1.0 for k in ((3,), (3,), (3, 3)))
-        else:
-            o, d, c = family(rng)
-            c = c[..., rng.integers(0, TRIANGLES, RAYS)]
-        o = o[:, :1] if shared else o
-        found = decide(Rays(o, d), c, start, end)
-        truth = intersect_pairs(np.broadcast_to(o, d.shape), d, c)
-        within = truth.within(start, end)
-        assert np.array_equal(found.crossed, truth.hit & within)
-        assert np.array_equal(found.edge, (truth.side == EDGE) & within)
-        assert not (found.edge & ~found.exact).any()
-        counts += [found.crossed.sum(), found.edge.sum(), found.exact.sum()]
-    assert counts[0] > 1 and (counts.min() > 5 or family is not whole)
-
-
 @pytest.mark.parametrize("what", ["nothing", "origin", "direction"])
 @pytest.mark.parametrize("together", [1, 7, 100])
 def test_batches_and_their_parts_do_not_matter(rng, together, what):
@@ -247,4 +215,3 @@ def test_no_triangles_and_no_rays():
     some = Rays(np.zeros((3, 1)), np.ones((3, 4)))
     hits = nearest_hits(some, np.zeros((3, 3, 0)))
     assert np.isinf(hits.t).all() and (hits.certainty == Certainty.BOUND).all()
-    assert len(decide(Rays(np.zeros((3, 1)), np.ones((3, 0))), np.zeros((3, 3, 0))).crossed) == 0

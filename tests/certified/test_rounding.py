@@ -6,11 +6,43 @@ from fractions import Fraction
 
 import numpy as np
 from reference_tracer.certified.rounding import rounding
+from reference_tracer.scene import Camera, Scene
 from reference_tracer.tracer.camera import camera_rays, dual_axes, film_positions, pixel_size
+from reference_tracer.tracer.hits import Name
 from reference_tracer.tracer.world import world_corners
 
 from ..tracer.hostile_scenes import hostile_scene
-from ..tracer.second_tie_rule import camera_ray, placed
+
+
+def camera_ray(camera: Camera, pixel: int) -> tuple[list[Fraction], list[Fraction]]:
+    """Return origin and direction of a region's ray, as the camera has it, without rounding."""
+    y, x = divmod(pixel, camera.region.width)
+    w = {name: Fraction(value) for name, value in vars(camera.window).items()}
+    u = (
+        w["left"]
+        + (w["right"] - w["left"]) * Fraction(2 * (x + camera.region.x0) + 1, 2) / camera.width
+    )
+    v = (
+        w["bottom"]
+        + (w["top"] - w["bottom"]) * Fraction(2 * (y + camera.region.y0) + 1, 2) / camera.height
+    )
+    right, up, back, eye = (
+        [Fraction(c) for c in column] for column in camera.world_from_camera.T[:, :3].tolist()
+    )
+    aside = [u * a + v * b for a, b in zip(right, up, strict=True)]
+    if camera.projection.shares_direction:
+        return [e + a for e, a in zip(eye, aside, strict=True)], [-b for b in back]
+    return eye, [a - b for a, b in zip(aside, back, strict=True)]
+
+
+def placed(scene: Scene, name: Name) -> list[list[Fraction]]:
+    """Return where a triangle's corners are, without rounding."""
+    instance = scene.instances[name[0]]
+    mesh = scene.meshes[instance.mesh]
+    rows = [[Fraction(x) for x in row] for row in instance.world_from_object[:3].tolist()]
+    vertices = mesh.vertices[mesh.triangles[name[1]]].astype(np.float64).tolist()
+    local = [[Fraction(x) for x in v] + [1] for v in vertices]
+    return [[sum(a * b for a, b in zip(row, v, strict=True)) for row in rows] for v in local]
 
 
 def test_bounds_hold(make, rng):

@@ -24,7 +24,7 @@ def test_extremes(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "certified" in said and "First scale" in said
     written = {p.name for p in (tmp_path / "out").iterdir()}
-    assert {"extremes.json", "extremes.txt", "extremes.svg"} <= written
+    assert {"extremes.json", "extremes.txt", "extremes.html"} <= written
     held = json.loads((tmp_path / "out" / "extremes.json").read_text(encoding="utf-8"))
     assert {r["method"] for r in held["rows"]} >= {"certified", "watertight", "textbook"}
 

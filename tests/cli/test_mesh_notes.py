@@ -16,7 +16,6 @@ SAID = {
     "bent": ("v 5 5 0.5\nf 1 2 5 4\n", "1 face of more than three corners is not flat", False),
     "lines": ("l 1 2\n", "1 line 'l' (lines) is not drawn", False),
     "unknown": ("sphere 1\n", "1 line 'sphere' is not understood", False),
-    "crossing": ("f 1 3 2 4\n", "1 face whose edges cross, the first is face 2", True),
     "no number": ("v 0 0 nan\nf 1 2 5\n", "1 face with a corner that is no finite number", True),
     "curves": ("cstype bezier\n", "curves and surfaces are not drawn", True),
 }
@@ -28,6 +27,12 @@ def said(request, tmp_path):
     text, words, warns = SAID[request.param]
     (tmp_path / "a.obj").write_text(SQUARE + text)
     return tmp_path / "a.obj", words, warns
+
+
+def test_a_face_that_crosses_itself_is_refused(tmp_path, capsys):
+    (tmp_path / "a.obj").write_text(f"{SQUARE}f 1 3 2 4\n")
+    assert trace(tmp_path / "a.obj", tmp_path / "a.png") == 4
+    assert "the edges of face 2 cross" in capsys.readouterr().err
 
 
 def test_a_comparison_says_it_and_agrees_only_if_nothing_is_left_out(said, tmp_path, capsys):

@@ -21,7 +21,7 @@ def test_trade(small_ball, tmp_path, capsys):
     assert "wrong pixels" in lines[0] and "12 × 7, 2 × 2 rays" in said
     assert "certified, proven to have none" in said and lines[-1].startswith("written to")
     written = sorted(p.name for p in (tmp_path / "new" / "out").iterdir())
-    assert written == ["tradeoff.json", "tradeoff.svg", "tradeoff.txt"]
+    assert written == ["tradeoff.html", "tradeoff.json", "tradeoff.txt"]
     held = json.loads((tmp_path / "new" / "out" / "tradeoff.json").read_text(encoding="utf-8"))
     assert held["scene"] == "small.ply" and max(r["samples"] for r in held["rows"]) == 2
     assert held["advice"] in said

@@ -6,6 +6,7 @@ import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.comparison.animation import FrameRow, frames_named, worst_first
 from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.wording import shown
 
 
 @pytest.mark.parametrize(
@@ -35,10 +36,8 @@ def test_what_names_no_frames_is_refused_in_a_line(text, tmp_path, capsys):
         frames_named(text)
     out = tmp_path / "out"
     assert main(["compare", "none.blend", "--out", str(out), f"--frames={text}"]) == 4
-    assert capsys.readouterr().err.splitlines() == [
-        f"reftrace: --frames is {text}; it must be 1-250, 1-250:5 for every fifth, 7, or all, for "
-        "example"
-    ]
+    said = f"--frames is {text}; it must be 1-250, 1-250:5 for every fifth, 7, or all, for example"
+    assert capsys.readouterr().err.splitlines() == [shown(f"reftrace: {shown(said)}")]
     assert not out.exists()
 
 

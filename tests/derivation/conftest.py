@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.report import pixel
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
 
 
@@ -56,3 +57,9 @@ def one_triangle():
         )
 
     return build
+
+
+@pytest.fixture
+def page_of(open_page):
+    """A function: a derivation's page, opened."""
+    return lambda found, **options: open_page(pixel.html(found), ready=".lecture", **options)

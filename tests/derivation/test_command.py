@@ -38,7 +38,7 @@ def test_markdown_is_printed_and_nothing_else(ball, capsys):
 
 def test_files_by_their_endings(ball, tmp_path, capsys):
     out = tmp_path / "new"
-    for suffix, begins in ((".md", "# The ray"), (".html", "<!DOCTYPE html>"), (".JSON", "{")):
+    for suffix, begins in ((".md", "# The ray"), (".html", "<!doctype html>"), (".JSON", "{")):
         path = out / f"pixel{suffix}"
         assert explain(ball, "--pixel", 12, 8, "--out", path, *SMALL) == AGREE
         assert path.read_text(encoding="utf-8").startswith(begins)

@@ -9,13 +9,15 @@ from itertools import product
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
-from reference_tracer.derivation import document, html, writers
+from reference_tracer.derivation import document, writers
 from reference_tracer.derivation.derivation import derive
 from reference_tracer.derivation.formulas import Rejection
 from reference_tracer.derivation.textbook import FLOATS, Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
+from reference_tracer.report import pixel
+from reference_tracer.report.shown import shown
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
 from reference_tracer.tracer.settings import Precision, Settings
 
@@ -34,7 +36,7 @@ def reasons(scene, index=0):
     said = {test.judgements[kind].reasons for kind in Arithmetic}
     assert len(said) == 1 and found.seen is None
     assert found.color == pytest.approx((0.2, 0.3, 0.4, 0.5))
-    for text in (document.document_markdown(found), html.page(found), writers.json_text(found)):
+    for text in (document.document_markdown(found), str(shown(found)), writers.json_text(found)):
         assert "nothing" in text
     return said.pop()
 
@@ -215,7 +217,7 @@ def test_at_the_ends_of_floats(one_triangle, scale):
     content = json.loads(writers.json_text(found))
     assert content["certified"]["t"] == 4
     assert "rejects what is truly hit" in document.document_markdown(found)
-    html.page(found)
+    pixel.html(found)
 
 
 def test_triangles_that_are_not_finite_are_counted(one_triangle):
@@ -262,6 +264,6 @@ def test_a_color_that_is_not_finite(make, value):
     scene = make.scene(make.camera(4, 4), mesh)
     found = derive(scene, 1, 1)
     np.testing.assert_array_equal(np.float32(found.color), render(scene).color[1, 1])
-    assert "not finite" in document.document_markdown(found) and "not finite" in html.page(found)
+    assert "not finite" in document.document_markdown(found) and "not finite" in str(shown(found))
     linear = json.loads(writers.json_text(found))["color"]["linear_rgba"]
     assert linear == [0.5, 0.5, str(value), 1.0]

@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
-from reference_tracer.derivation import document, html, reproducer, writers
+from reference_tracer.derivation import reproducer
 from reference_tracer.derivation.candidates import gather_pixel
 from reference_tracer.derivation.derivation import derive, derive_pixel
 from reference_tracer.derivation.textbook import FLOATS, Arithmetic
 from reference_tracer.rendering import trace
+from reference_tracer.report.pixel import WRITERS
 from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.tracer.hits import NOWHERE
 from reference_tracer.tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
@@ -59,16 +60,12 @@ def test_hostile_scenes(make, tmp_path: Path, seed):
                 seen = None if nearest is None else found.tests[nearest].candidate
                 assert seen is found.seen
                 disagreed += any(found.nearest[kind] != nearest for kind in FLOATS)
-        texts = document.document_markdown(found), html.page(found), writers.json_text(found)
+        texts = [write(found) for write in WRITERS.values()]
         json.loads(texts[2])
         path = tmp_path / f"{number}.json"
         path.write_text(reproducer.text(found.pixel), encoding="utf-8")
         again = derive_pixel(reproducer.read(path))
-        assert (
-            document.document_markdown(again),
-            html.page(again),
-            writers.json_text(again),
-        ) == texts
+        assert [write(again) for write in WRITERS.values()] == texts
     assert {Certainty.BOUND, Certainty.AMBIGUOUS} <= kinds and disagreed and kept
 
 

@@ -32,74 +32,28 @@ def derivations(ball_scene):
 
 
 @np.errstate(all="ignore")
-def test_markdown(derivations):
+def test_markdown_has_the_numbers_of_the_json(derivations):
     compared = 0
     for d in derivations:
+        content = json.loads(writers.json_text(d))
+        steps = [content["camera"]["steps"], content["ray"]]
+        steps += [c["steps"] for c in content["candidates"]]
         tables = printed.tables(document.document_markdown(d))
-        assert len(tables) == 2 + len(d.tests)
-        (_, camera, _), (_, ray, _), *tests = tables
-        c = d.pixel.camera
-        size = c.width, c.height, d.pixel.column, d.pixel.row, c.projection.shares_direction
-        for kind in ("float32", "float64"):
-            made = printed.camera(camera[kind], *size)
-            if kind == "float32":  # a pixel's size is float64's, rounded
-                made |= {k: np.float32(camera["float64"][k]) for k in "wh"}
-            compared += check(made, camera[kind])
-            assert ray[kind] == {k: v for k, v in camera[kind].items() if k[0] in "od"}
-            for test, (heading, table, _) in zip(d.tests, tests, strict=True):
-                assert test.candidate.title in heading.replace("\\", "")
-                make = printed.plane if test.candidate.is_plane else printed.triangle
-                compared += check(make(table[kind], ray[kind]), table[kind])
-        compared += exactly(d, camera, ray, tests)
-        for _, columns, off in tables:
+        for (_, columns, off), own in zip(tables, steps, strict=True):
+            for kind in ("float32", "float64"):
+                held = from_json(own, kind)
+                assert held.keys() == columns[kind].keys()
+                compared += check(held, columns[kind])
+            compared += rounded(from_json(own, "exact"), columns["exact"])
             check_errors(columns, off)
+        for test, (heading, *_) in zip(d.tests, tables[2:], strict=True):
+            assert test.candidate.title in heading.replace("\\", "")
     assert compared > 500
-
-
-def exactly(d, camera, ray, tests):
-    """Exact numbers, from the floats that are their input, rounded to what is printed."""
-    c, inputs = d.pixel.camera, Printed()
-    for label in ("u_min", "u_max", "v_min", "v_max"):
-        inputs[label] = Fraction(float(camera["float64"][label]))
-    for name in ("right", "up", "forward", "e"):
-        inputs |= {f"{name}.{k}": Fraction(float(camera["float64"][f"{name}.{k}"])) for k in "xyz"}
-    size = c.width, c.height, d.pixel.column, d.pixel.row, c.projection.shares_direction
-    compared = rounded(grown(lambda p: printed.camera(p, *size), inputs), camera["exact"])
-    line = Printed({k: Fraction(float(v)) for k, v in ray["float64"].items()})
-    compared += rounded(line, ray["exact"])
-    for test, (_, table, _) in zip(d.tests, tests, strict=True):
-        plane = test.candidate.is_plane
-        names = ("p", "n") if plane else ("p₁", "p₂", "p₃")
-        corners = Printed(
-            {
-                f"{n}.{k}": Fraction(float(table["float64"][f"{n}.{k}"]))
-                for n in names
-                for k in "xyz"
-            }
-        )
-        make = printed.plane if plane else printed.triangle
-        compared += rounded(grown(lambda p, m=make: m(p, line), corners), table["exact"])
-    return compared
-
-
-class Growing(Printed):
-    """Numbers that are not there yet are made from those that are, when they are asked for."""
-
-    def __missing__(self, label):
-        return Fraction(1, 7)  # of a step that comes later in the same table, and is made again
-
-
-def grown(make, given):
-    """All that follows from what is given: as often as steps stand on one another."""
-    p = Growing(given)
-    p["t"] = Fraction(1, 7)
-    for _ in range(8):
-        p |= {k: v for k, v in flat(make(p)).items() if k not in given}
-    return p
 
 
 def rounded(truth, column):
     """Whether printed decimals are these numbers, rounded; returns how many."""
+    assert truth.keys() == column.keys()
     for label, shown in column.items():
         exact, decimal = truth[label], Decimal(shown.replace("…", ""))
         rest = abs(Fraction(decimal) - exact)
@@ -145,21 +99,34 @@ def test_json(derivations):
         assert content == json.loads(json.dumps(writers.to_dict(d)))
         camera, pixel = content["camera"], content["pixel"]
         size = camera["width"], camera["height"], pixel["column"], pixel["row"]
+        stored = from_json(content["ray"], "float64")
         for kind in ("float32", "float64", "exact"):
             p, ray = from_json(camera["steps"], kind), from_json(content["ray"], kind)
             made = printed.camera(p, *size, camera["projection"] == "orthographic")
-            if kind == "float32":
+            if kind == "float32":  # a pixel's size is float64's, rounded
                 made |= {k: np.float32(from_json(camera["steps"], "float64")[k]) for k in "wh"}
             check(made, p)
+            given_as_stored(camera["steps"], made)
+            if kind != "exact":  # from the ray on, the truth is about what float64 has stored
+                assert ray == {k: v for k, v in p.items() if k[0] in "od"}
             for c in content["candidates"]:
                 make = printed.plane if c["kind"] == "plane" else printed.triangle
                 table = from_json(c["steps"], kind)
-                assert check(make(table, ray), table) >= 6
-        stored = from_json(content["ray"], "float64")
+                made = make(table, ray)
+                assert check(made, table) >= 6
+                given_as_stored(c["steps"], made)
         assert from_json(content["ray"], "exact") == {
             k: Fraction(float(v)) for k, v in stored.items()
         }
         check_verdicts(content)
+
+
+def given_as_stored(steps, made):
+    """What no formula makes is exactly what float64 has stored."""
+    stored, exact = from_json(steps, "float64"), from_json(steps, "exact")
+    for label in stored.keys() - flat(made).keys():
+        if label in exact:
+            assert exact[label] == Fraction(float(stored[label])), label
 
 
 def check_verdicts(content):

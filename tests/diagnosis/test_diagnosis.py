@@ -191,8 +191,8 @@ def test_an_object_that_is_turned_is_not_said_to_be_moved(solids):
 ALIKE = [
     ("pixel_offset", Numbers((0.3, 0.0)), {"focal_length", "roll", "object_moved"}),
     ("focal_length", Numbers((0.5,)), {"pixel_offset", "roll"}),
-    ("object_missing", Guess(object="Ball"), {"recolored", "overlay", "object_moved"}),
-    ("recolored", Numbers((0.3, 0.9, 0.1), object="Box"), {"object_missing", "overlay"}),
+    ("object_missing", Guess(object="Ball"), {"recolored", "processed", "object_moved"}),
+    ("recolored", Numbers((0.3, 0.9, 0.1), object="Box"), {"object_missing", "processed"}),
     ("object_moved", Numbers((0.3, 0.0, 0.0), object="Ball"), {"object_scaled", "object_twice"}),
     ("rows", Guess(), {"mirrored_x"}),
 ]

@@ -25,7 +25,7 @@ from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance
+from reference_tracer.scene import Instance, Region
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import case_of
@@ -125,18 +125,6 @@ def halved(color):
     return color[::2, ::2].repeat(2, 0).repeat(2, 1)
 
 
-def marked(change):
-    """Return what changes letters of stripes across the middle."""
-
-    def done(color):
-        y, x = np.mgrid[: color.shape[0], : color.shape[1]]
-        letters = (np.abs(y - 24) < 10) & (x > 8) & (x < 64) & ((x % 11 < 4) | (y % 9 < 3))
-        return np.where(letters[..., None], change(color), color)
-
-    return done
-
-
-HALF_WHITE = marked(of_rgb(lambda c: 0.5 * c + 0.5)), marked(coded(lambda c: 0.5 * c + 0.5))
 # Each fault, and what it makes of the right picture.
 MADE = {
     "row_off": [
@@ -145,25 +133,21 @@ MADE = {
         (lambda c: np.roll(c, 1, 1)),
         (lambda c: np.roll(c, -1, 1)),
     ],
-    "saturation": [
+    "processed": [
         of_rgb(saturated(1.25)),
         of_rgb(saturated(0.0)),
         coded(saturated(0.7, (0.299, 0.587, 0.114))),
-    ],
-    "white_balance": [
         of_rgb(lambda c: c * (1.1, 1.0, 0.85)),
         coded(lambda c: c * (0.9, 1.0, 1.05)),
+        noisy(1.4),
+        noisy(6.0),
     ],
-    "twice_rounded": [of_rgb(lambda c: curve_undone(eight(curve(eight(c)))))],
     "rounding_level": [coded(eight)],
-    "dithered": [noisy(1.4), noisy(2.0)],
     "srgb_twice": [of_rgb(lambda c: eight(curve(c)))],
     "srgb_left_out": [of_rgb(lambda c: curve_undone(eight(c)))],
     "power_for_srgb": [of_rgb(lambda c: curve_undone(eight(c ** (1 / 2.2))))],
-    "averaged": [mean(2), mean(2, 1), mean(4, 1)],
     "filter_radius": [gaussian],
     "shrunk": [halved, lambda c: halved(mean(2)(c)), lambda c: halved(np.roll(c, -1, (0, 1)))],
-    "overlay": HALF_WHITE,
 }
 # The first of each is quick enough for every run.
 CASES = [
@@ -178,7 +162,9 @@ CASES = [
 def test_it_gets_its_name_and_no_other(quads, name, change):
     found = told(quads, change(render(quads).color))
     assert set(found) == {name}
-    assert found[name].settled == found[name].unexplained and not found[name].broken
+    whole = 0.97 if name == "processed" else 1.0
+    assert found[name].settled >= whole * found[name].unexplained
+    assert found[name].broken <= (1 - whole) * found[name].agreed
 
 
 @pytest.mark.slow
@@ -197,12 +183,6 @@ def test_a_mean_of_samples_is_no_filter(quads, n):
     assert f"{n} x {n} samples" in found["supersampled"].sentence
 
 
-def over_a_clear_background(quads):
-    """Return the scene without its floor, before a background that is half transparent."""
-    clear = np.array([0.1, 0.15, 0.2, 0.5], np.float32) * (0.5, 0.5, 0.5, 1)
-    return replace(quads, instances=quads.instances[1:], background=clear)
-
-
 def through_a_jpeg(color, quality=80):
     """Return a picture whose straight colours went through a JPEG; its alpha is kept apart."""
     alpha = color[..., 3:]
@@ -213,18 +193,12 @@ def through_a_jpeg(color, quality=80):
 
 
 @pytest.mark.slow
-def test_what_is_stored_or_laid_over_keeps_its_alpha(quads):
-    """Straight colours are what a file stores, and what something is laid over."""
-    scene = over_a_clear_background(quads)
-    color = render(scene).color
-    quick = [f for f in LOOKED_FOR if f.name in ("jpeg", "overlay", "exposure", "premultiplied")]
-    assert set(told(scene, through_a_jpeg(color), faults=quick, storage=Storage(255))) == {"jpeg"}
-    white = marked(lambda c: 0.5 * c + 0.5 * np.concatenate((c[..., 3:],) * 4, axis=-1))(color)
-    assert set(told(scene, white, faults=quick)) == {"overlay"}
-    over = marked(lambda c: 0.5 * c + 0.5 * np.ones(4))(color)  # and its alpha over the picture's
-    assert set(told(scene, over, faults=quick)) == {"overlay"}
-    more = marked(lambda c: c * (1.2, 1.2, 1.2, 1))(color)  # each surface by its own amount
-    assert not set(told(scene, more, faults=quick))
+def test_a_jpeg_is_a_processed_picture(quads):
+    camera = replace(quads.camera, width=216, height=144, region=Region(0, 0, 216, 144))
+    scene = quads.seen_by(camera)
+    shown = through_a_jpeg(render(scene).color, 92)
+    quick = [f for f in LOOKED_FOR if f.name in ("processed", "exposure", "rounding_level")]
+    assert set(told(scene, shown, faults=quick, storage=Storage(255))) == {"processed"}
 
 
 def resolved(scene, ratio):
@@ -245,17 +219,24 @@ def shaded(c):
     return c * np.linspace(0.5, 1.1, c.shape[1])[:, None] * (1.1, 1.0, 0.85)
 
 
+def elsewhere(c):
+    """Return the colours of the next object in place of each one's own."""
+    apart = np.abs(c[..., None, :] - np.array(COLORS)).max(axis=-1)
+    return np.array(COLORS)[(apart.argmin(axis=-1) + 1) % len(COLORS)]
+
+
 # Pictures that look as if they had a fault, and have it in a part, or not at all.
 ALIKE = {
     "a part with another white balance": in_part(of_rgb(lambda c: c * (1.1, 1.0, 0.85))),
     "a part with another saturation": in_part(of_rgb(saturated(1.25))),
     "a light": of_rgb(shaded),
-    "noise of six levels": noisy(6.0),
+    "noise of forty levels": noisy(40.0),
+    "colours from another source": of_rgb(lambda c: elsewhere(c)),
     "noise in a part": in_part(noisy(2.0)),
     "a mean in a part": in_part(mean(2)),
     "a part shrunk": in_part(halved),
 }
-QUICK = "a light", "noise of six levels"
+QUICK = "a light", "colours from another source"
 ALIKE_CASES = [
     pytest.param(change, id=name, marks=[] if name in QUICK else [pytest.mark.torture])
     for name, change in ALIKE.items()
@@ -265,7 +246,7 @@ ALIKE_CASES = [
 @pytest.mark.slow
 @pytest.mark.parametrize("change", ALIKE_CASES)
 def test_what_looks_like_it_does_not_get_its_name(quads, change):
-    quick = [f for f in LOOKED_FOR if f.name not in ("filter_radius", "jpeg")]  # these are older
+    quick = [f for f in LOOKED_FOR if f.name != "filter_radius"]  # which is older
     assert not set(told(quads, change(render(quads).color), faults=quick))
 
 
@@ -294,7 +275,7 @@ def test_a_sentence_and_its_advice_have_their_numbers(fault):
 
 
 @pytest.mark.slow
-def test_one_objects_colour_is_no_white_balance(quads):
+def test_one_objects_colour_is_no_processing(quads):
     instances = list(quads.instances)
     warm = np.array(COLORS[0]) * (1.1, 1.0, 0.85)
     instances[0] = replace(instances[0], colors=np.array([[*warm, 1.0]], np.float32))
@@ -303,28 +284,19 @@ def test_one_objects_colour_is_no_white_balance(quads):
 
 
 @pytest.mark.slow
-def test_swapped_channels_are_no_saturation(quads):
+def test_swapped_channels_are_no_processing(quads):
     color = render(quads).color[..., [2, 1, 0, 3]]
     assert set(told(quads, color, curves=None)) == {"channels"}
 
 
 @pytest.mark.slow
-def test_numbers_are_those_that_were_put_in(quads):
-    """Also of a file of 8 bits, whose rounding hides the last digits."""
-    stored = coded(eight)(of_rgb(lambda c: c * (1.1, 1.0, 0.85))(render(quads).color))
-    found = told(quads, stored, storage=Storage(255))
-    assert set(found) == {"white_balance"}
-    np.testing.assert_allclose(found["white_balance"].guess.values[:3], (1.1, 1, 0.85), atol=0.01)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("levels", [255, 0])
-def test_a_viewer_that_grades_eight_bits_cuts_them_off(quads, levels):
-    """As Pillow does; the file may have been read as floats since."""
+def test_a_viewer_that_grades_eight_bits_processes_them(quads):
+    """As Pillow does; the size is what a surface is off by, at most."""
     color = render(quads).color
     stored = Image.fromarray(np.rint(255 * curve(color[..., :3])).astype(np.uint8))
     graded = np.asarray(ImageEnhance.Color(stored).enhance(1.25)) / 255
-    graded = np.concatenate((curve_undone(graded), color[..., 3:]), -1)
-    found = told(quads, graded, storage=Storage(levels))
-    assert set(found) == {"saturation"}
-    assert found["saturation"].guess.values[0] == pytest.approx(1.25, abs=0.05)
+    shown = np.concatenate((curve_undone(graded), color[..., 3:]), -1)
+    found = told(quads, shown, storage=Storage(255))
+    assert set(found) == {"processed"}
+    off = 100 * np.abs(graded - curve(color[..., :3])).max()
+    assert found["processed"].guess.values[0] == pytest.approx(off, abs=0.5)

@@ -11,6 +11,7 @@ from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option, Pair
 from reference_tracer.diagnosis.faults.fitting import Traced
+from reference_tracer.diagnosis.faults.pose import about_point
 from reference_tracer.diagnosis.faults.stand import TURNED
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.projections import ORTHOGRAPHIC
@@ -87,6 +88,95 @@ def test_of_all_faults_that_of_the_camera_is_told(few, name, values):
     found = told(scene, pictured(scene, name, Numbers(values)))
     assert list(found) == [name]
     np.testing.assert_allclose(found[name].guess.values, values, atol=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "values", [(0.15, -0.1, 0.2, 1.2, 0.7, -0.8), (-0.3, 0.2, 0.0, 2.0, -1, 0)]
+)
+def test_a_camera_that_stands_elsewhere_and_looks_elsewhere(few, values):
+    scene = few(160, 100)
+    rivals = "camera_moved", "camera_turned", "pixel_offset", "cropped", "object_moved"
+    found = told(scene, pictured(scene, "camera_placed", Numbers(values)), "camera_placed", *rivals)
+    assert list(found) == ["camera_placed"]
+    np.testing.assert_allclose(found["camera_placed"].guess.values, values, atol=0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "values"), [("camera_moved", (0.15, -0.1, 0.2)), ("camera_turned", (1.0, 0.6, 0.8))]
+)
+def test_a_camera_of_three_numbers_is_not_told_in_six(few, name, values):
+    scene = few(96, 60)
+    color = pictured(scene, name, Numbers(values))
+    assert list(told(scene, color, name, "camera_placed", "cropped")) == [name]
+
+
+@pytest.mark.slow
+def test_a_lens_about_the_pictures_centre_is_a_crop(few):
+    """And one about the axis is not."""
+    scene = few(96, 60)
+    window = scene.camera.window
+    about = replace(scene.camera, window=window.about(window.centre, 1 / 1.02, 1 / 1.02))
+    names = "cropped", "focal_length", "pixel_offset"
+    assert list(told(scene, render(scene.seen_by(about)).color, *names)) == ["cropped"]
+    focal = pictured(scene, "focal_length", Numbers((2.0,)))
+    assert list(told(scene, focal, *names)) == ["focal_length"]
+
+
+def test_an_orthographic_camera_has_a_scale_and_no_focal_length(few):
+    scene = few(96, 54, parallel=True)
+    color = pictured(scene, "focal_length", Numbers((4.0,)))
+    [said] = [t.sentence for t in told(scene, color, "focal_length", "pixel_offset").values()]
+    assert said.startswith("the orthographic scale is -3.84") and "focal" not in said
+
+
+@pytest.mark.parametrize("way", [0, 1, 2])
+def test_a_shift_that_is_left_out_is_no_offset(few, way):
+    scene = few(64, 40)
+    color = pictured(scene, "shift_left_out", Option(way))
+    assert list(told(scene, color, "shift_left_out", "pixel_offset")) == ["shift_left_out"]
+    offset = pictured(scene, "pixel_offset", Numbers((3.3, 1.2)))
+    assert list(told(scene, offset, "shift_left_out", "pixel_offset")) == ["pixel_offset"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["", "Box"])
+def test_rotations_that_are_transposed(few, name):
+    scene = few(96, 54)
+    color = pictured(scene, "rotation_transposed", Numbers(object=name))
+    rivals = "rotation_left_out", "object_turned", "matrix_transposed"
+    found = told(scene, color, "rotation_transposed", *rivals)
+    assert list(found) == ["rotation_transposed"]
+    assert found["rotation_transposed"].guess.object == name
+    left_out = pictured(scene, "rotation_left_out", Guess(object="Box"))
+    assert "rotation_transposed" not in told(scene, left_out, "rotation_transposed", *rivals)
+
+
+@pytest.mark.slow
+def test_an_object_that_is_turned_by_a_quarter(few):
+    """But not one that is turned by something else."""
+    scene = few(96, 54)
+    rivals = "rotation_left_out", "rotation_transposed", "object_missing"
+    color = pictured(scene, "object_turned", Option(1, object="Box"))
+    found = told(scene, color, "object_turned", *rivals)
+    assert list(found) == ["object_turned"]
+    assert found["object_turned"].guess.object == "Box"
+    left_out = pictured(scene, "rotation_left_out", Guess(object="Box"))
+    assert list(told(scene, left_out, "object_turned", *rivals)) == ["rotation_left_out"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("about", [0, 1])
+def test_an_object_that_is_larger_about_its_base_is_not_only_moved(few, about):
+    scene = few(96, 54)
+    guess = about_point(Numbers((1.2,), object="Ball"), about)
+    found = told(scene, pictured(scene, "object_scaled", guess), "object_scaled", "object_moved")
+    assert next(iter(found)) == "object_scaled"
+    factor = found["object_scaled"].guess
+    assert factor.about == about and factor.low[0] <= 1.2 <= factor.high[0]
+    moved = pictured(scene, "object_moved", Numbers((0.2, 0.1, 0.3), object="Ball"))
+    assert next(iter(told(scene, moved, "object_scaled", "object_moved"))) == "object_moved"
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from reference_tracer_grading.checks import make_checks
+from reference_tracer_grading.subjects.triangle import TRIANGLE
 
 TEXTBOOK = """
 import numpy as np
@@ -193,7 +193,7 @@ def wrong_text():
 
 @pytest.fixture(scope="session")
 def checks():
-    return make_checks()
+    return TRIANGLE.cases()
 
 
 @pytest.fixture

@@ -9,12 +9,12 @@ import pytest
 from reference_tracer.methods import Method
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.triangle import TESTS
-from reference_tracer_grading.checks import SCALES, Group, make_checks
 from reference_tracer_grading.known import known
+from reference_tracer_grading.subjects.triangle_cases import EACH, SCALES, groups
 
 from ..oracle import intersect_pairs
 
-HITS = {Group.FRONT, Group.BACK, Group.WHOLE, Group.SCALED}
+HITS = {"front", "back", "whole", "scaled"}
 
 
 def exact(o, d, p):
@@ -38,64 +38,49 @@ def exact(o, d, p):
 
 
 def test_the_oracle_agrees_on_every_group(checks):
-    for group in Group:
-        rows = np.flatnonzero(checks.of(group))[::7]
-        seen = intersect_pairs(
-            checks.origins[rows].T,
-            checks.directions[rows].T,
-            checks.triangles[rows].transpose(1, 2, 0),
-        )
-        assert np.array_equal(seen.hit & seen.within(), checks.known.hit[rows]), group
+    for group in checks.subject.groups:
+        rows = np.flatnonzero(checks.among(group))[::7]
+        origins, directions, triangles = (array[rows] for array in checks.given)
+        seen = intersect_pairs(origins.T, directions.T, triangles.transpose(1, 2, 0))
+        hit = np.isfinite(checks.right[rows, 0])
+        assert np.array_equal(seen.hit & seen.within(), hit), group
 
 
 def test_groups_are_what_they_are_called(checks):
-    for group in Group:
-        hit = checks.known.hit[checks.of(group)]
-        expected = group in HITS
-        if group == Group.BESIDE:
+    for group in checks.subject.groups:
+        hit = np.isfinite(checks.right[checks.among(group), 0])
+        if group == "beside":
             assert 0.4 < hit.mean() < 0.6
-        elif group == Group.ELSEWHERE:  # anything may be, and nothing counts
-            assert 0 < hit.mean() < 0.1 and checks.known.doubt[checks.of(group)].all()
+        elif group == "elsewhere":  # anything may be, and nothing counts
+            assert 0 < hit.mean() < 0.1 and not checks.counts[checks.among(group)].any()
         else:
-            assert (hit == expected).all(), group
-    assert not checks.known.doubt[~checks.of(Group.EMPTY, Group.ELSEWHERE)].any()
-    assert checks.known.doubt[checks.of(Group.EMPTY)].all()
-    slope = np.cross(
-        checks.triangles[:, 1] - checks.triangles[:, 0],
-        checks.triangles[:, 2] - checks.triangles[:, 0],
-    )
-    slope = (slope * checks.directions).sum(axis=1)
-    assert (slope[checks.of(Group.FRONT)] < 0).all() and (slope[checks.of(Group.BACK)] > 0).all()
-    assert (slope[checks.of(Group.PARALLEL)] == 0).all()
-    assert (checks.known.t[checks.of(Group.BEHIND)] < 0).all()
+            assert (hit == (group in HITS)).all(), group
+    _, directions, triangles = checks.given
+    edges = triangles[:, 1:] - triangles[:, :1]
+    slope = (np.cross(edges[:, 0], edges[:, 1]) * directions).sum(axis=1)
+    assert (slope[checks.among("front")] < 0).all() and (slope[checks.among("back")] > 0).all()
+    assert (slope[checks.among("parallel")] == 0).all()
 
 
-def test_scaled_pairs_are_exact_multiples(checks):
-    scaled = np.flatnonzero(checks.of(Group.SCALED))
-    twin = checks.twin[scaled]
-    factor = np.repeat([2.0**k for k in SCALES], len(scaled) // len(SCALES))
-    assert (checks.origins[scaled] == checks.origins[twin] * factor[:, None]).all()
-    assert (checks.triangles[scaled] == checks.triangles[twin] * factor[:, None, None]).all()
-    assert (checks.known.hit[twin]).all()
+def test_scaled_pairs_are_exact_multiples():
+    made = groups()
+    for array, scaled, power in zip(made["front"], made["scaled"], (1, 0, 1), strict=True):
+        every = scaled.reshape(len(SCALES), EACH, -1)
+        for k, own in zip(SCALES, every, strict=True):
+            assert (own == array.reshape(EACH, -1) * 2.0 ** (k * power)).all()
 
 
-def test_nothing_is_rounded_in_whole(checks):
-    rows = np.flatnonzero(checks.of(Group.WHOLE))
-    hit, t, s = TESTS[Method.TEXTBOOK_LITERAL](
-        Rays(checks.origins[rows].T, checks.directions[rows].T),
-        *checks.triangles[rows].transpose(1, 2, 0),
-    )
+def test_nothing_is_rounded_in_whole():
+    o, d, p = groups()["whole"]
+    hit, t, s = TESTS[Method.TEXTBOOK_LITERAL](Rays(o.T, d.T), *p.transpose(1, 2, 0))
     assert hit.all()
-    for k in range(0, len(rows), 9):
-        row = rows[k]
-        true_t, true_s = exact(checks.origins[row], checks.directions[row], checks.triangles[row])
-        assert true_t == t[k] and true_s == list(s[:, k])
+    for k in range(0, len(o), 9):
+        assert exact(o[k], d[k], p[k]) == (t[k], list(s[:, k]))
 
 
-def test_same_seed_same_checks(checks):
-    again = make_checks()
-    assert (again.triangles == checks.triangles).all()
-    assert not (make_checks(1).triangles == checks.triangles).all()
+def test_same_seed_same_pairs():
+    for same, other in ((groups(), True), (groups(1), False)):
+        assert (same["empty"][2] == groups()["empty"][2]).all() == other
 
 
 @pytest.mark.parametrize("aspect", [1.0, 1e3, 1e6])
@@ -120,10 +105,8 @@ def test_known_is_true_and_bounds_hold(rng, aspect):
 
 
 def test_float32_is_not_within_bounds(checks):
-    rows = np.flatnonzero(checks.of(Group.FRONT))
-    o, d, p = (a[rows].astype(np.float32) for a in (
-        checks.origins, checks.directions, checks.triangles))  # fmt: skip
+    rows = np.flatnonzero(checks.among("front"))
+    o, d, p = (array[rows].astype(np.float32) for array in checks.given)
     _, t, s = TESTS[Method.MOLLER_TRUMBORE](Rays(o.T, d.T), *p.transpose(1, 2, 0))
-    truth = checks.known
-    assert (np.abs(t - truth.t[rows]) > truth.t_allowed[rows]).mean() > 0.99
-    assert (np.abs(s.T - truth.s[rows]).max(axis=1) > truth.s_allowed[rows]).mean() > 0.99
+    off = np.abs(np.column_stack((t, s.T)) - checks.right[rows]) > checks.allowed[rows]
+    assert off[:, 0].mean() > 0.99 and off[:, 1:].any(axis=1).mean() > 0.99

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer_grading.answers import Answers
 from reference_tracer_grading.extremes import plain
 from reference_tracer_grading.faults import dependence, find_faults
 
@@ -24,7 +23,7 @@ def function(text):
 
 def faults(text, checks):
     ask = function(text)
-    answers = Answers(checks, *ask(checks.origins, checks.directions, checks.triangles))
+    answers = checks.answers(checks.subject.rows(*ask(*checks.given)))
     return find_faults(answers)[0] + dependence(answers, ask)
 
 
@@ -35,9 +34,8 @@ def test_right_files_have_no_fault(name, right, checks):
 
 def test_the_tracers_own_methods(checks):
     def found(method):
-        ask = plain(method)
-        t, s = ask(checks.origins, checks.directions, checks.triangles)
-        return [f.name for f in find_faults(Answers(checks, t, s))[0]]
+        rows = checks.subject.rows(*plain(method)(*checks.given))
+        return [f.name for f in find_faults(checks.answers(rows))[0]]
 
     assert found(Method.WATERTIGHT) == found(Method.TEXTBOOK) == []
     assert found(Method.TEXTBOOK_LITERAL) == ["sum_equals_one"]

@@ -12,7 +12,6 @@ from reference_tracer.scene import SceneError
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
-from reference_tracer_grading.checks import Group
 from reference_tracer_grading.examples import find_examples
 from reference_tracer_grading.extremes import extreme_scenes, held, plain, try_extremes
 from reference_tracer_grading.judged_scene import prepare
@@ -264,7 +263,7 @@ def test_what_raises_is_wrong_and_the_rest_counts(two, checks, no_guard, written
     [fault] = found.faults
     assert (fault.name, found.verdict, found.errors) == ("raises", "wrong", [])
     assert "ZeroDivisionError" in fault.sentence and "directions = [" in fault.sentence
-    flat = checks.of(Group.PARALLEL, Group.EMPTY)
+    flat = checks.among("parallel", "empty")
     assert 0 < fault.pairs <= flat.sum() and found.checks.right["surface"] == 2600
     assert found.looks[0].tally.score == 100 and 90 < found.score < 100
 

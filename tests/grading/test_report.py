@@ -18,7 +18,6 @@ import reference_tracer_grading
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading import command
-from reference_tracer_grading.checks import make_checks
 from reference_tracer_grading.class_folder import ClassFolder
 from reference_tracer_grading.external import Run
 from reference_tracer_grading.extremes import extreme_scenes
@@ -69,7 +68,7 @@ def judged(make, tmp_path_factory):
     extremes = result_of(extreme_scenes([s for s in SCENARIOS if s.name == "tiny"]))
     paths = {name: folder / name for name in FILES}
     limits = Limits(seconds=3)
-    work = judge_all(paths, make_checks(), [subject], extremes, limits, told=lambda j: j, jobs=2)
+    work = judge_all(paths, TRIANGLE.cases(), [subject], extremes, limits, told=lambda j: j, jobs=2)
     return result_of(work)
 
 

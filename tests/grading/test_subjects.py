@@ -36,7 +36,6 @@ from reference_tracer_grading.truth import exact_hit, exactly
 from .reordering import rewritten
 
 OTHERS = [name for name in NAMES if name != "triangle"]
-SLIPS = [(n, s.name) for n in OTHERS for p in subject(n).programs for s in p.slips]
 
 
 @cache
@@ -53,7 +52,7 @@ def names_of(answers):
     return [f.name for f in find_faults(answers)[0]]
 
 
-@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("name", NAMES)
 def test_right_programs_are_right(name):
     for program in subject(name).programs:
         answers = answered(name, program)
@@ -61,22 +60,24 @@ def test_right_programs_are_right(name):
         assert answers.tally.score == 100 and answers.tally.total > 150
 
 
-@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("name", NAMES)
 def test_every_group_is_there(name):
     cases = asked(name)
     assert set(np.unique(cases.group)) == set(range(len(cases.subject.groups)))
     doubtful = {list(cases.subject.groups)[g] for g in np.unique(cases.group[cases.doubt])}
-    assert doubtful == ({"tied"} if name == "nearest" else set())
+    assert doubtful == {"nearest": {"tied"}, "triangle": {"empty"}}.get(name, set())
 
 
-@pytest.mark.parametrize(("name", "step"), [("plane", 3), ("camera", 7), ("nearest", 11)])
+@pytest.mark.parametrize(
+    ("name", "step"), [("plane", 3), ("camera", 7), ("nearest", 11), ("triangle", 37)]
+)
 def test_the_truth_is_that_of_fractions(name, step):
     """Which a bound decides; and no right answer in float64 is as far off as is allowed."""
     check_truth(name, step)
 
 
 @pytest.mark.torture
-@pytest.mark.parametrize("name", ["plane", "camera", "nearest"])
+@pytest.mark.parametrize("name", ["plane", "camera", "nearest", "triangle"])
 def test_the_truth_is_that_of_fractions_everywhere(name):
     check_truth(name, 1)
 
@@ -135,13 +136,13 @@ def test_pictures_are_the_certified_ones(make):
         assert len(np.unique(seen)) > OBJECTS / 2
 
 
-@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("name", NAMES)
 def test_a_slip_has_its_own_name_and_no_other_gets_it(name):
     for program in subject(name).programs:
         for mutation, slip in zip(mutations(program), program.slips, strict=False):
             faults, found = find_faults(answered(name, mutation.of(program)))
             assert [f.name for f in faults] == [slip.name] and found, slip.name
-            assert faults[0].sentence.startswith(slip.sentence)
+            assert slip.sentence in faults[0].sentence
 
 
 def check_mutations(name, step):
@@ -163,13 +164,13 @@ def check_mutations(name, step):
     assert unnamed < 0.13 * len(every[::step])
 
 
-@pytest.mark.parametrize(("name", "step"), [*zip(OTHERS, (5, 6, 19, 2), strict=True)])
+@pytest.mark.parametrize(("name", "step"), [*zip(NAMES, (5, 6, 19, 2, 2), strict=True)])
 def test_mutations_are_named(name, step):
     check_mutations(name, step)
 
 
 @pytest.mark.torture
-@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("name", NAMES)
 def test_all_mutations_are_named(name):
     check_mutations(name, 1)
 

@@ -134,7 +134,7 @@ def test_command_for_the_trade(blender, folder):
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "certified" in done.stdout
-    assert {p.name for p in path.iterdir()} == {"tradeoff.txt", "tradeoff.json", "tradeoff.svg"}
+    assert {p.name for p in path.iterdir()} == {"tradeoff.txt", "tradeoff.json", "tradeoff.html"}
 
 
 def test_command_for_a_pixel(blender, folder):

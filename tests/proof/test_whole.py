@@ -107,7 +107,7 @@ LEFT_OUT_OF_THE_CHECKER = {
     "command.py": {CALLS: "add verify"},
     "verify.py": {
         "reads and writes, and says so in words: test_verify.py": (
-            "only film Certificate.__init__ Certificate.set_surfaces verified main"
+            "only film shown Certificate.__init__ Certificate.set_surfaces verified main"
         ),
         "the stored rays' roundings: test_verify.py": "Certificate.rays sine",
         "which pixels come into which square: test_forms.py, test_brute.py": "left",

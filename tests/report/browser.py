@@ -37,14 +37,13 @@ def chromium():
 
 
 @pytest.fixture
-def show(chromium, tmp_path):
-    """Open a comparison's page; afterwards nothing may have been fetched or gone wrong."""
+def open_page(chromium, tmp_path):
+    """Open a page's text; afterwards nothing may have been fetched or gone wrong."""
     contexts, wrong = [], []
 
-    def opened(comparison, hash_="", held=None, script="", ready="html[data-ready]", **options):
+    def opened(text, hash_="", script="", ready="html[data-ready]", **options):
         path = tmp_path / "page.html"
-        held = held or content(comparison, result_of(extras(comparison)))
-        path.write_text(page.html(held), encoding="utf-8")
+        path.write_text(text, encoding="utf-8")
         options = {"viewport": SIZE, "color_scheme": "light"} | options
         context = chromium.new_context(**options)
         contexts.append(context)
@@ -68,6 +67,17 @@ def show(chromium, tmp_path):
     for context in contexts:
         context.close()
     assert not wrong
+
+
+@pytest.fixture
+def show(open_page):
+    """Open a comparison's page."""
+
+    def opened(comparison, hash_="", held=None, **options):
+        held = held or content(comparison, result_of(extras(comparison)))
+        return open_page(page.html(held), hash_, **options)
+
+    return opened
 
 
 def settled(tab):

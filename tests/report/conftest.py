@@ -18,6 +18,7 @@ from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
+from ..drawn import Plot
 from .browser import show
 
 __all__ = ["show"]  # a fixture
@@ -99,3 +100,15 @@ def differing(room):
     points = camera_rays(scene.camera, *film).at(np.array([1.0, 1.0, 1.0, 1.0]))
     bounds = np.stack((points.min(axis=1), points.max(axis=1)))
     return _compared(scene, change, [Unmodelled(HOSTILE[0], "hair", "long", bounds)])
+
+
+@pytest.fixture
+def plotted(open_page):
+    """Return what opens a page, and reads the plot on it."""
+
+    def read(text):
+        tab = open_page(text, ready=".plot svg")
+        svg = tab.locator(".plot svg")
+        return Plot(svg.evaluate("e => new XMLSerializer().serializeToString(e)"))
+
+    return read

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.report.extremes import breaking_table, picture, to_dict, write
+from reference_tracer.report.extremes import breaking_table, page, to_dict, write
 from reference_tracer.study.extremes import ExtremesRow, written
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 
-from ..drawn import Plot, scale
+from ..drawn import scale
 from ..scenarios import quick
 
 pytestmark = pytest.mark.slow
@@ -52,7 +52,7 @@ def strict(text):
 def test_the_folder(rows, tmp_path):
     write(tmp_path / "new", rows)
     names = {path.name for path in (tmp_path / "new").iterdir()}
-    assert names == {"extremes.txt", "extremes.json", "extremes.svg"}
+    assert names == {"extremes.txt", "extremes.json", "extremes.html"}
     text = (tmp_path / "new" / "extremes.txt").read_text(encoding="utf-8")
     assert "far_from_origin" in text and SCENARIOS[-1].name in text
     held = strict((tmp_path / "new" / "extremes.json").read_text(encoding="utf-8"))
@@ -72,12 +72,13 @@ def test_the_folder(rows, tmp_path):
 SCENARIOS_BY_NAME = {s.name: s for s in quick(SCENARIOS)}
 
 
-@pytest.fixture(scope="module")
-def drawn(rows):
-    return Plot(picture(rows))
+@pytest.fixture
+def drawn(rows, plotted):
+    return plotted(page(rows))
 
 
-def test_the_picture_is_legible(rows, drawn):
+@pytest.mark.browser
+def test_the_picture_is_legible(rows, drawn, plotted):
     """That with all scales, too, whose numbers stand closest."""
     full = [
         replace(r, scale=x)
@@ -86,11 +87,12 @@ def test_the_picture_is_legible(rows, drawn):
         if r.scenario == s.name
         for x in s.scales
     ]
-    for plot in (drawn, Plot(picture(full))):
+    for plot in (drawn, plotted(page(full))):
         plot.assert_legible()
         assert plot.width == 1920 and plot.height >= 1000
 
 
+@pytest.mark.browser
 def test_every_row_of_a_sweep_is_a_mark_where_its_axes_say(rows, drawn):
     marks = 0
     for s in SCENARIOS:
@@ -118,11 +120,12 @@ def test_every_row_of_a_sweep_is_a_mark_where_its_axes_say(rows, drawn):
     assert marks == len(rows)
 
 
-def test_a_scenario_of_ones_own(rows):
+@pytest.mark.browser
+def test_a_scenario_of_ones_own(rows, plotted):
     """What is not among the scenarios has no title, and is shown by its name."""
     own = [replace(r, scenario="my <own>") for r in rows if r.scenario == "needles"]
     assert to_dict(own)["rows"][0]["scenario"] == "my <own>"
-    assert Plot(picture(own)).text("my <own>")
+    assert plotted(page(own)).text("my <own>")
 
 
 def row(scale, missed=0, wrong=0, doubled=0, method="watertight"):

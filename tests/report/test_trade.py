@@ -8,13 +8,13 @@ from dataclasses import replace
 
 import pytest
 from reference_tracer.methods import MEASURED, Method
-from reference_tracer.report import plots
+from reference_tracer.report.plots import INK
 from reference_tracer.report.trade import (
     JSON,
     PLOT,
     SCHEMA,
     TABLE,
-    picture,
+    page,
     table,
     text_cells,
     write,
@@ -22,7 +22,7 @@ from reference_tracer.report.trade import (
 from reference_tracer.study.trade import COLUMNS, Trade, TradeRow, mark
 from reference_tracer.tracer.settings import Precision
 
-from ..drawn import Plot, scale
+from ..drawn import scale
 
 pytestmark = pytest.mark.slow
 
@@ -78,10 +78,6 @@ def made(wrong=(3742, 3052, 41, 0, 2, 0, 0, 0, 0), coverage=0.03, samples=(1, 2,
 @pytest.fixture(scope="module")
 def trade():
     return made()
-
-
-def drawn(trade):
-    return Plot(picture(trade))
 
 
 def test_table(trade):
@@ -174,9 +170,10 @@ def halves(plot):
         yield inside, x, y
 
 
-def test_every_row_is_a_mark_where_the_axes_say(trade):
+@pytest.mark.browser
+def test_every_row_is_a_mark_where_the_axes_say(trade, plotted):
     """And none else; hollow is float32, large is what no other beats; no error is at "none"."""
-    plot = drawn(trade)
+    plot = plotted(page(trade))
     (upper, *of_upper), (lower, *of_lower) = halves(plot)
     for inside, (x, y), rows, error, best in (
         (upper, of_upper, trade.whole, "wrong_pixels", "best_pixels"),
@@ -200,15 +197,14 @@ def test_every_row_is_a_mark_where_the_axes_say(trade):
             assert (float(m.attributes["r"]) > 10) == getattr(r, best)
 
 
-def test_the_plot_says_what_it_shows(trade):
-    plot = drawn(trade)
+@pytest.mark.browser
+def test_the_plot_says_what_it_shows(trade, plotted):
+    plot = plotted(page(trade))
     said = plot.said()
     for words in (trade.advice, "a scene.blend: ", "16 × 16 rays", "160 × 90 pixels, one ray each"):
         assert words in said
     assert all(m.record.words in said for m in MEASURED)
-    lines = [
-        e for e in plot.elements if e.tag == "polyline" and e.attributes["stroke"] == plots.INK
-    ]
+    lines = [e for e in plot.elements if e.tag == "polyline" and e.attributes["stroke"] == INK]
     best = [
         sum(getattr(r, b) for r in rows)
         for rows, b in ((trade.whole, "best_pixels"), (trade.rows, "best_coverage"))
@@ -216,25 +212,24 @@ def test_the_plot_says_what_it_shows(trade):
     assert [len(e.attributes["points"].split()) for e in lines[:2]] == best
 
 
-@pytest.mark.parametrize(
-    "case",
-    [
-        {},
+@pytest.mark.browser
+@pytest.mark.parametrize("slow", [1, 1000])
+def test_plots_are_legible(slow, plotted):
+    """Nothing wrong, all wrong, a coverage without error, one sample; times that are far apart."""
+    cases = (
         {"wrong": (0,) * 9},
         {"wrong": (14400,) * 8 + (0,)},
         {"coverage": 0.0},
         {"samples": (1,)},
-    ],
-)
-@pytest.mark.parametrize("slow", [1, 1000])
-def test_plots_are_legible(case, slow):
-    """Nothing wrong, all wrong, a coverage without error, one sample; times that are far apart."""
-    trade = made(**case)
-    rows = [
-        replace(r, seconds=(s := r.seconds * slow ** (k % 2)), rounds=(s, 1.1 * s))
-        for k, r in enumerate(trade.rows)
-    ]
-    for scene in ("a", "<b>&\x00\ud800 " * 6, "long_" * 12, "シーン" * 7):
-        plot = drawn(replace(trade, rows=mark(rows), scene=scene, advice="word " * 60))
+    )
+    names = "<b>&\x00\ud800 " * 6, "long_" * 12, "シーン" * 7, "a"
+    for case, scene in zip(cases, names, strict=True):
+        trade = made(**case)
+        rows = [
+            replace(r, seconds=(s := r.seconds * slow ** (k % 2)), rounds=(s, 1.1 * s))
+            for k, r in enumerate(trade.rows)
+        ]
+        held = replace(trade, rows=mark(rows), scene=scene, advice="word " * 60)
+        plot = plotted(page(held))
         plot.assert_legible()
         assert len(plot.titled("circle")) == len(trade.rows) + len(trade.whole)

@@ -7,8 +7,13 @@ Each is a function of (rng, n) and returns origins, directions (3, n) or (3, 1),
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .meshes import on_sphere
+
+def on_sphere(rng: np.random.Generator, count: int, radius: float = 1.0) -> NDArray[np.float64]:
+    """Return points (3, count) evenly distributed on a sphere."""
+    points = rng.normal(size=(3, count))
+    return radius * points / np.sqrt((points**2).sum(axis=0))
 
 
 def generic(rng, n):

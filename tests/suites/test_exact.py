@@ -11,6 +11,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.certified.any_rays import decide
+from reference_tracer.certified.exact import IntegerBatch
 from reference_tracer.tracer.camera import Rays
 
 from ..oracle import EDGE, intersect_pairs
@@ -77,6 +78,20 @@ def test_t_is_correctly_rounded(rng, shared, lengths, directions):
     assert len(found) > 400
     assert (np.inf in found) == (lengths == 520)
     assert (min(found) < np.finfo(float).tiny) == (lengths == -530)
+
+
+def test_t_too_large_or_too_small_for_a_float():
+    corners = np.array([[-1.0, -1, 1], [2, -1, 1], [0, 3, 1]])[:, :, None]
+    for length, direction, expected in (
+        (2.0**600, 2.0**-600, np.inf),
+        (2.0**-600, 2.0**600, 0.0),
+        (2.0**-600, 2.0**474, 2.0**-1074),
+    ):
+        d = np.array([[0], [0], [direction]])
+        batch = IntegerBatch(Rays(np.zeros((3, 1)), d), corners * length)
+        assert batch.t(batch.hit(0, 0)) == expected
+        behind = IntegerBatch(Rays(np.zeros((3, 1)), -d), corners * length, start=-np.inf)
+        assert behind.t(behind.hit(0, 0)) == -expected
 
 
 def is_nearest_float(value: float, exact: Fraction) -> bool:

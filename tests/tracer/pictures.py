@@ -1,17 +1,11 @@
-"""A messy scene, and what proves its certified picture pixel by pixel."""
+"""A messy scene."""
 
 from __future__ import annotations
 
 import numpy as np
-from reference_tracer.certainty import Certainty
-from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.settings import Settings
-
-from ..moved import may, touched
-from ..oracle import scene_sights
-from .rational import t_of_pixels
 
 CERTIFIED = Settings("certified")
 
@@ -56,20 +50,3 @@ def mess(make, rng, orthographic: bool, whole: bool, scale: float = 1.0) -> Scen
 def names_of(frame: Frame) -> list[tuple[int, int]]:
     names = zip(frame.instance_index.ravel(), frame.triangle_index.ravel(), strict=True)
     return [(int(i), int(k)) for i, k in names]
-
-
-def check(scene: Scene, settings: Settings = CERTIFIED) -> Frame:
-    """Assert that every pixel is as the oracle says; returns the frame."""
-    frame, truth = render(scene, settings), scene_sights(scene)
-    names = names_of(frame)
-    assert names == [s.seen for s in truth]
-    assert np.array_equal(frame.t.ravel(), t_of_pixels(scene, names))
-    certainty = frame.certainty.ravel()
-    ambiguous = [len(touched(s)) > 1 for s in truth]
-    assert np.array_equal(certainty == Certainty.AMBIGUOUS, ambiguous)
-    assert (certainty != Certainty.NOT_CERTIFIED).all()
-    assert sorted(frame.ties) == np.flatnonzero(ambiguous).tolist()
-    for k, ties in frame.ties.items():
-        assert names[k] in ties and may(truth[k]) <= ties <= touched(truth[k])
-    assert frame.statistics.method == "certified"
-    return frame

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
@@ -16,29 +14,16 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.world import batches, world_triangles, world_vertices
 
+from ..oracle import OUTSIDE, intersect_pairs
 from .hostile import hostile_camera, hostile_triangles
 
 CASES = 1500  # of TRIANGLES triangles each
 
 
 def exact_depth(o, d, corners):
-    """Return t, decided with fractions, where the ray meets the triangle; else None."""
-    o, d, p1, p2, p3 = ([Fraction(float(x)) for x in v] for v in (o, d, *corners))
-    e1, e2, q = ([a - b for a, b in zip(v, p1, strict=True)] for v in (p2, p3, o))
-
-    def det(a, b, c):
-        return (
-            a[0] * (b[1] * c[2] - b[2] * c[1])
-            + a[1] * (b[2] * c[0] - b[0] * c[2])
-            + a[2] * (b[0] * c[1] - b[1] * c[0])
-        )
-
-    against = [-x for x in d]
-    whole = det(e1, e2, against)
-    if whole == 0:
-        return None
-    u, v, t = (n / whole for n in (det(q, e2, against), det(e1, q, against), det(e1, e2, q)))
-    return t if u >= 0 and v >= 0 and u + v <= 1 else None
+    """Return t, decided in integers, where the ray meets the triangle; else None."""
+    found = intersect_pairs(o[:, None], d[:, None], corners[..., None])
+    return None if found.side[0] == OUTSIDE else found.t(0)
 
 
 def hits_outside(camera, corners, bounds, dx, dy):

@@ -161,17 +161,14 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Any) -> Answer:
-        from ...derivation import document, html, reproducer
-        from ...report import folders
+        from ...derivation import reproducer
+        from ...report import folders, pixel
 
         found = results.content(Kind.PIXEL, context.scene)
         path = with_ending(self.filepath, ".html", ".md", ".json")
-        if path.suffix.lower() == ".json":
-            text = reproducer.text(found.pixel)
-        elif path.suffix.lower() == ".md":
-            text = document.document_markdown(found)
-        else:
-            text = html.page(found)
+        ending = path.suffix.lower()
+        again = ending == ".json"
+        text = reproducer.text(found.pixel) if again else pixel.WRITERS[ending](found)
         folders.write_text(path, text)
         self.report({"INFO"}, rpt_("Saved {}").format(self.filepath))
         return {"FINISHED"}

@@ -109,7 +109,7 @@ def keep_trade(trade: Trade) -> results.Result:
     """Remember a trade, and write its plot for the browser."""
     from ...report import trade as trade_report
 
-    page = _page("trade", trade_report.picture(trade))
+    page = _page("trade", trade_report.page(trade))
     return results.keep(results.Kind.TRADE, trade, [trade.advice], trade.scene, page)
 
 
@@ -117,15 +117,15 @@ def keep_extremes(rows: Sequence[ExtremesRow]) -> results.Result:
     """Remember where each method breaks, and write the plot of it for the browser."""
     from ...report import extremes as extremes_report
 
-    page = _page("extremes", extremes_report.picture(rows))
+    page = _page("extremes", extremes_report.page(rows))
     wrong = sum(r.lost + r.doubled for r in rows if Method(r.method).is_proven)
     lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
     return results.keep(results.Kind.EXTREMES, tuple(rows), lines, page=page)
 
 
-def _page(name: str, drawn: str) -> str:
-    from ...report import folders, plots
+def _page(name: str, text: str) -> str:
+    from ...report import folders
 
     path = results.session_folder() / f"{name}.html"
-    folders.write_text(path, plots.page(f"Reference Tracer {name}", drawn))
+    folders.write_text(path, text)
     return path.as_uri()

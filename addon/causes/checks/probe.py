@@ -131,7 +131,7 @@ class Probe:
                 chunks.append(some)
             yield share
         px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
-        return cls(made.scene, px, py, chunks, settings)
+        return cls(made.scene, px, py, _together(chunks), settings)
 
     def take(self, some: Places) -> Probe:
         """Return the probe of some of the n pixels."""
@@ -139,9 +139,7 @@ class Probe:
         number[some] = np.arange(len(some))
         kept = (p.take(np.flatnonzero(number[p.pixel] >= 0)) for p in self.chunks)
         chunks = [replace(p, pixel=number[p.pixel]) for p in kept if len(p.pixel)]
-        if sum(len(p.pixel) for p in chunks) <= PAIRS:  # one short step in place of many
-            chunks = [_joined(chunks)] if chunks else []
-        return replace(self, px=self.px[some], py=self.py[some], chunks=chunks)
+        return replace(self, px=self.px[some], py=self.py[some], chunks=_together(chunks))
 
     def rays(
         self,
@@ -172,6 +170,13 @@ class Probe:
             test_pairs(self.scene, self.settings, rays, some, hits, after)
             yield 0.0
         return hits
+
+
+def _together(chunks: list[Pairs]) -> list[Pairs]:
+    """Concatenate chunks of few pairs that follow each other: one short step in place of many."""
+    counts = np.array([len(p.pixel) for p in chunks])
+    ends = groups(counts, PAIRS)
+    return [_joined(chunks[a:b]) if b > a + 1 else chunks[a] for a, b in ends]
 
 
 def _joined(chunks: list[Pairs]) -> Pairs:

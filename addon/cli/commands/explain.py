@@ -13,7 +13,6 @@ from ... import exr
 from ...derivation import reproducer
 from ...derivation.candidates import LIMIT, gather_pixel
 from ...derivation.pixel import Pixel
-from ...derivation.writers import WRITERS
 from ...framing import Choice
 from ...report import pixel
 from ...report.folders import place_of
@@ -77,9 +76,9 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument(
         "--out",
-        type=parser.path_ending(*WRITERS),
+        type=parser.path_ending(*pixel.WRITERS),
         metavar="FILE",
-        help=f"{', '.join(WRITERS)}; without it, Markdown is printed",
+        help=f"{', '.join(pixel.WRITERS)}; without it, Markdown is printed",
     )
     parser.add_argument(
         "--reproducer",

@@ -8,9 +8,9 @@ from ...causes.case import Case
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from .fault import AnyFault, Effort, Example, Fault, Numbers, of_camera, with_values
-from .film import FOCAL, FOCALS, OFFSET, ROLL
+from .film import CROPPED, FOCAL, FOCALS, OFFSET, ROLL
 from .fitting import fitting
-from .stand import MOVED, TURNED
+from .stand import MOVED, PLACED, TURNED
 
 
 def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:
@@ -23,8 +23,10 @@ def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:
     return Numbers((float(width), 0.0, 0.0))
 
 
-_OFFSET, _FOCAL, _FOCALS, _ROLL = map(fitting, (OFFSET, FOCAL, FOCALS, ROLL))
-_MOVED, _PANNED = fitting(MOVED), fitting(TURNED)
+_OFFSET, _FOCAL, _FOCALS, _ROLL, _MOVED, _PANNED, _CROPPED, _PLACED = (
+    fitting(family, FOCALS, CROPPED, PLACED)
+    for family in (OFFSET, FOCAL, FOCALS, ROLL, MOVED, TURNED, CROPPED, PLACED)
+)
 
 CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
@@ -49,7 +51,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     ),
     Fault(
         "focal_length",
-        "the focal length is {percent:+.4g} % off: {words}",
+        "{words}",
         "An angle is halved or doubled, a vertical one (glTF's yfov) taken for a horizontal "
         "one, or a lens in millimetres goes with another sensor than the camera's.",
         "check the lens' unit, the sensor's width, and whether an angle is the whole one or half, "
@@ -59,7 +61,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         ("percent",),
         refine=_FOCAL.refine,
         effort=Effort.FILM,
-        words="the picture shows less than it should, or more",
+        words="the focal length, or an orthographic camera's scale, is some per cent off",
     ),
     Fault(
         "focal_lengths",
@@ -72,6 +74,19 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         _FOCALS.find,
         ("across", "up"),
         refine=_FOCALS.refine,
+        effort=Effort.CAMERA,
+    ),
+    Fault(
+        "cropped",
+        "the focal length is {percent:+.4g} % off, and the rays pass ({dx:+.3f}, {dy:+.3f}) px "
+        "beside: the picture was cropped or enlarged about another point than the camera's axis",
+        "A picture that is cropped and scaled has its principal point elsewhere; a focal length "
+        "changed about the picture's centre keeps a shift that should have grown with it.",
+        "compare the whole picture, and scale the principal point with the focal length",
+        of_camera(CROPPED.camera),
+        _CROPPED.find,
+        ("percent", "dx", "dy"),
+        refine=_CROPPED.refine,
         effort=Effort.CAMERA,
     ),
     Fault(
@@ -109,6 +124,19 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
             ),
         ),
         words="angles to the right, upwards and about its axis",
+    ),
+    Fault(
+        "camera_placed",
+        "the camera stands elsewhere and looks elsewhere: {words}",
+        "A pose of another convention, another frame or another camera; a camera that was placed "
+        "by hand; a rig of several cameras in another order.",
+        "compare its world matrix with the one that the scene has",
+        of_camera(PLACED.camera),
+        _PLACED.find,
+        ("right", "up", "forward", "rightwards", "upwards", "anticlockwise"),
+        refine=_PLACED.refine,
+        effort=Effort.CAMERA,
+        words="a vector, and angles",
     ),
     Fault(
         "roll",

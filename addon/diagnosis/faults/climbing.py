@@ -87,6 +87,7 @@ class Climb:
         self._known: dict[Values, Bools | None] = {}
         self._near: list[_Near] = []  # nested, the smallest last
         self._most = 0  # right pixels anywhere so far
+        self.left = np.inf  # places that may still be evaluated, where that is limited
         self._wanted = (
             np.inf
         )  # with as many, a place is as good as the best: all pixels are evaluated
@@ -109,6 +110,7 @@ class Climb:
         """Return how many pixels are right with these numbers; -1 if they are impossible."""
         if values not in self._known:
             self._known[values] = yield from self._found(values)
+            self.left -= 1
         found = self._known[values]
         count = -1 if found is None else int(np.count_nonzero(found))
         self._most = max(self._most, count)
@@ -171,6 +173,9 @@ def values_of(numbers: Floats) -> Values:
 
 def _directions(count: int, far: Mapping[int, int]) -> Array:
     """Return the directions to the neighbours, (m, count): along axes, and some askew."""
+    if count > 3:
+        around = np.concatenate((np.eye(count), -np.eye(count)))
+        return np.concatenate((around, np.random.default_rng(SEED).normal(size=(ASKEW, count))))
     steps = far.get(count, 1)
     around = np.array(np.meshgrid(*[range(-steps, steps + 1)] * count)).reshape(count, -1).T
     around = around[around.any(axis=1)]

@@ -110,11 +110,10 @@ class Effort(IntEnum):
 
     NOTHING = 0  # it has no numbers, or few values of them are tried
     FILM = 1  # one or two numbers of the film are fitted
-    PIXELS = 2  # pixels, or triangles, are searched
-    CAMERA = 3  # the camera's pose is fitted
-    SIZE = 4  # a number of an object is fitted
-    PLACE = 5  # an object's place is fitted
-    ANYTHING = 6  # it can be made to look like much else
+    CAMERA = 2  # the camera's pose is fitted
+    PIXELS = 3  # pixels, or triangles, are searched
+    OBJECT = 4  # an object's place or size is fitted
+    ANYTHING = 5  # it can be made to look like much else
 
 
 @dataclass(frozen=True)

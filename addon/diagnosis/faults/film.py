@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..evidence import Evidence
 from .fault import Values
 from .fitting import KEPT, Family
 
+SENSOR = 36.0  # millimetres: the width that Blender's cameras have unless it is changed
 STEP = 4.0  # pixels that the picture's corners move from one start to the next
 
 
@@ -35,6 +36,12 @@ def _stretched(camera: Camera, x: float, y: float) -> Camera | None:
     if not camera.projection.is_linear or min(across, up) <= 0:
         return None
     return replace(camera, window=camera.window.scaled(1 / across, 1 / up))
+
+
+def _cropped(camera: Camera, percent: float, dx: float, dy: float) -> Camera | None:
+    """Return the camera with another focal length, offset by (dx, dy) pixels besides."""
+    zoomed = _zoomed(camera, percent)
+    return zoomed and offset(zoomed, dx, dy)
 
 
 def _rolled(camera: Camera, degrees: float) -> Camera:
@@ -58,27 +65,13 @@ def _zooms(evidence: Evidence) -> Iterator[Values]:
         yield (100 * float(factor) - 100,)
 
 
-def _stretches(evidence: Evidence) -> Iterator[Values]:
-    """Yield changes of one of the two focal lengths."""
-    for (percent,) in _zooms(evidence):
-        yield percent, 0.0
-        yield 0.0, percent
-
-
 def _rolls(evidence: Evidence) -> Iterator[Values]:
     for degrees in np.arange(-180, 180, np.degrees(STEP / radius(evidence))):
         yield (float(degrees),)
 
 
-def offsets(evidence: Evidence) -> Sequence[tuple[float, float]]:
-    """Return (0, 0) and the offsets with the best cross-correlation of both pictures."""
-    if "offsets" not in evidence.known:
-        evidence.known["offsets"] = [(0.0, 0.0), *_correlated(evidence)]
-    known: Sequence[tuple[float, float]] = evidence.known["offsets"]
-    return known
-
-
 def _correlated(evidence: Evidence) -> Iterator[tuple[float, float]]:
+    """Yield the offsets with the best cross-correlation of both pictures."""
     traced, shown = (_gray(c) for c in (evidence.frame.color, evidence.picture.color))
     size = [2 * n for n in traced.shape]
     product = np.fft.rfft2(traced, size) * np.conj(np.fft.rfft2(shown, size))
@@ -116,21 +109,28 @@ def _beside(camera: Camera, dx: float, dy: float) -> str:
     return words
 
 
-OFFSET = Family(
-    offset,
-    lambda evidence: (1.0, 1.0),
-    lambda evidence: iter(offsets(evidence)),
-    _beside,
-)
-FOCAL = Family(
-    _zoomed,
-    lambda evidence: (100 / radius(evidence),),
-    _zooms,
-    lambda camera, percent: f"the picture shows {'less' if percent > 0 else 'more'} than it should",
-)
-FOCALS = Family(
-    _stretched,
-    lambda evidence: (100 / radius(evidence),) * 2,
-    _stretches,
-)
-ROLL = Family(_rolled, lambda evidence: (float(np.degrees(1 / radius(evidence))),), _rolls)
+def _focal(camera: Camera, percent: float) -> str:
+    """Say what the focal length is, for a sensor of Blender's own width; or an orthographic scale.
+
+    An orthographic camera has no focal length.
+    """
+    shows = f"the picture shows {'less' if percent > 0 else 'more'} than it should"
+    if camera.projection is ORTHOGRAPHIC:
+        right = max(camera.window.size)
+        other = right / (1 + percent / 100)
+        off = 100 * (other / right - 1)
+        return (
+            f"the orthographic scale is {off:+.4g} % off: {other:.4g} m, not {right:.4g}; {shows}"
+        )
+    own = SENSOR / camera.window.size[0]
+    millimetres = (
+        f"{own * (1 + percent / 100):.4g} mm, not {own:.4g}, of a sensor {SENSOR:g} mm wide"
+    )
+    return f"the focal length is {percent:+.4g} % off: {millimetres}; {shows}"
+
+
+OFFSET = Family(offset, lambda evidence: (1.0, 1.0), _beside, _correlated)
+FOCAL = Family(_zoomed, lambda evidence: (100 / radius(evidence),), _focal, _zooms)
+FOCALS = Family(_stretched, lambda evidence: (100 / radius(evidence),) * 2)
+CROPPED = Family(_cropped, lambda evidence: (100 / radius(evidence), 1.0, 1.0))
+ROLL = Family(_rolled, lambda evidence: (float(np.degrees(1 / radius(evidence))),), starts=_rolls)

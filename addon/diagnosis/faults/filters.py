@@ -1,7 +1,7 @@
-"""Faults that mix neighbouring colours: several samples a pixel, a mean of pixels, any filter.
+"""Faults that mix neighbouring colours: several samples a pixel, and any filter.
 
-A mean is what it is: it is traced, and held against the picture. Of any other filter no more is
-known than how far it reaches, so it is told if no mean does as well.
+A mean of samples is what it is: it is traced, and held against the picture. Of any other filter no
+more is known than how far it reaches, so it is told if no mean does as well.
 """
 
 from __future__ import annotations
@@ -19,16 +19,15 @@ from ...images import decoded, encoded
 from ...pictures.bounds import largest_within
 from ...pictures.metrics import beside_edges
 from ...tracer import shading
-from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import NEAR, Evidence
-from .fault import AnyFault, Effort, Example, Fault, Guess, Numbers, Values, unchanged
+from .fault import AnyFault, Effort, Fault, Guess, Numbers, Values
 from .sizes import at_size, sampled_right
 
 RADII = (0.5, 0.75, 1.0, 1.5, 2.0)  # of filters that are tried, in pixels
 EDGES = 0.4, 0.8  # the least share of edges that must be mixed: by less than a pixel, by more
 MIXED = 0.5  # the least share of unexplained pixels that must show no colour of the scene
-MEANS = (2, 3, 4)  # samples, or pixels, each way
+MEANS = (2, 3, 4)  # samples each way
 MOST_SAMPLES = 1 << 24  # of a picture that is traced with several a pixel
 
 
@@ -62,7 +61,7 @@ def _shows_mixes(evidence: Evidence) -> Work[bool]:
 
 @dataclass(frozen=True, eq=False)
 class Mean(Guess):
-    """A mean of n x n samples or pixels, and in which values it is taken."""
+    """A mean of n x n samples, and in which values it is taken."""
 
     n: int
     coding: Coding
@@ -106,65 +105,6 @@ def _find_samples(evidence: Evidence) -> Work[list[Mean]]:
             if sampled_right(evidence, coding.back(total)):
                 out.append(Mean(n, coding, words=coding.words))
     return out
-
-
-# ---- a mean of pixels
-
-
-def _means(colors: Array, n: int) -> Array:
-    """Return the n x n box filter of a picture (h, w, 4), with its border repeated.
-
-    The result is (h + n - 1, w + n - 1, 4): its first is that of the lower left pixel and what
-    lies below and left of it.
-    """
-    out = np.pad(np.asarray(colors, np.float64), ((n - 1, n - 1), (n - 1, n - 1), (0, 0)), "edge")
-    for axis in (0, 1):
-        size = out.shape[axis] - n + 1
-        out = np.mean([out.take(np.arange(k, k + size), axis=axis) for k in range(n)], axis=0)
-    return out
-
-
-@dataclass(frozen=True, eq=False)
-class MeanFrom(Mean):
-    """A mean of pixels; the first one lies x to the left and y below."""
-
-    x: int
-    y: int
-
-
-def _averaged(colors: Colors, guess: MeanFrom, evidence: Evidence | None = None) -> Colors:
-    """Return what each pixel (h, w, 4) is if it is the mean of n x n pixels."""
-    height, width = colors.shape[:2]
-    mean = _means(guess.coding.into(colors), guess.n)
-    mean = mean[guess.y : guess.y + height, guess.x : guess.x + width]
-    return guess.coding.back(mean).astype(np.float32)
-
-
-def _find_mean(evidence: Evidence) -> Work[list[MeanFrom]]:
-    """Guess the size and place of a box filter, by the sampled pixels."""
-    if not (yield from _shows_mixes(evidence)):
-        return []
-    rows, columns = evidence.sample
-    out = []
-    for coding in CODINGS:
-        coded = coding.into(evidence.frame.color)
-        for n in MEANS:
-            mean = _means(coded, n)
-            for x, y in product(range(n), repeat=2):
-                if sampled_right(evidence, coding.back(mean[rows + y, columns + x])):
-                    out.append(MeanFrom(n, coding, x, y, words=coding.words))
-                yield 0.0
-    return out
-
-
-def _made_of_means(case: Case, guess: MeanFrom) -> Case:
-    picture = case.picture
-    return replace(case, picture=replace(picture, color=_averaged(picture.color, guess)))
-
-
-def _two_pixels(case: Case, frame: Frame) -> MeanFrom | None:
-    """Pick a mean of 2 x 2 pixels; None where a filter's mixes are excused."""
-    return None if case.picture.sampling.filter_radius else MeanFrom(2, CODINGS[0], 0, 0)
 
 
 # ---- any filter
@@ -223,23 +163,6 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
         everywhere=True,
         sampled=False,
         after=_mean_of_samples,
-        effort=Effort.PIXELS,
-    ),
-    Fault(
-        "averaged",
-        "each pixel is the mean of {n:.0f} x {n:.0f} pixels{words}",
-        "A picture read half a pixel beside its centres, with interpolation, is the mean of 2 "
-        "x 2 pixels; larger means come from a blur.",
-        "compare the picture as it was rendered, before it was blurred",
-        unchanged,
-        _find_mean,
-        ("n",),
-        everywhere=True,
-        sampled=False,
-        after=_averaged,
-        examples=(
-            Example("averaged", "each pixel the mean of 2 x 2", _two_pixels, _made_of_means),
-        ),
         effort=Effort.PIXELS,
     ),
     Fault(

@@ -1,13 +1,14 @@
 """Fits a camera in a few numbers: an offset on the film, a focal length, where it stands.
 
-First the traced picture is looked up (reprojected) as such a camera would see it: that needs no ray
-and finds the numbers to about a pixel. Then rays are traced in the sampled pixels, until the
-numbers with the most right pixels are enclosed.
+First the edges that are traced are found in the picture (`matching.py`): that needs no ray, and
+gives the numbers to a fraction of a pixel. Where most are not found, as they moved too far, the
+traced picture is looked up (reprojected) as such a camera would see it. Then rays are traced in the
+sampled pixels, until the numbers with the most right pixels are enclosed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple, Protocol
 
@@ -22,20 +23,27 @@ from ...tracer.camera import film_of
 from ...tracer.hits import Hits
 from ...tracer.progress import Work
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
-from .climbing import Right
+from .climbing import Right, values_of
 from .fault import Find, Numbers, Refine, Values
-from .search import Search
+from .matching import Fitted, fitted, is_everywhere
+from .search import ENCLOSING, Search
 
 REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
 FINE_REACH = 1.0  # the same in a refinement: fewer triangles are near
 PREPARED = 2  # cameras with candidates that are kept, as a search goes to and fro
 VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
-KEPT = 3  # starts that are fitted, at most: no change, and the best by look-up
+KEPT = 3  # starts that are looked up and fitted, at most
+FOUND = 0.5  # of the edges: a camera that explains fewer is not where they moved
+NEARLY = 0.8  # of the edges that some camera explains: one that explains fewer is the wrong one
+MORE = 0.05  # of the edges: as many more must a change explain than none
 LOOKED_UP = 512  # pixels in which the traced picture is looked up
 FINER = 1 / 8  # pixels: the first step of a refinement
 ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
 MOVES = 3  # with steps of one length, at most: a right start is off by a pixel or two
 BETTER = 0.03  # the least gain of a start in the share of right pixels
+ENCLOSED = 3  # numbers, at most, whose range is looked for
+FITTED = 1024  # sampled pixels of each kind for more numbers
+WIDER = 2.0  # times the reach of a fit of more numbers, which pulls at several
 
 
 class Shown(Protocol):
@@ -46,9 +54,6 @@ class Shown(Protocol):
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
         """Return which of the n pixels agree with the hits of a scene, (n,)."""
-
-
-LookUp = Callable[[Evidence, Camera], float]  # the share of some pixels that is right
 
 
 def looked_up(evidence: Evidence, camera: Camera) -> float:
@@ -64,23 +69,6 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
     if inside.mean() < VALID:
         return 0.0
     return _share(evidence, evidence.shown.at(few).at(inside), where)
-
-
-def projected(evidence: Evidence, camera: Camera) -> float:
-    """Return the share of traced points that agree with the picture where a camera projects them.
-
-    Occlusion is ignored.
-    """
-    few = _few(evidence)
-    at = tuple(v[few] for v in evidence.sample)
-    points = evidence.points[:, few]
-    with np.errstate(invalid="ignore"):
-        x, y, _ = film_of(camera, points)
-        inside, where = _inside(camera, np.stack((x, y)))
-    if inside.mean() < VALID:
-        return 0.0
-    seen = tuple(v[inside] for v in at)
-    return _share(evidence, evidence.picture.at(where), seen)
 
 
 def _share(evidence: Evidence, shown: Picture, traced: tuple[Array, ...]) -> float:
@@ -111,14 +99,28 @@ class Family:
     camera: Callable[..., Camera | None]
     # Changes of the numbers that move the film by about a pixel: (m, k) columns, or of each, (m,).
     axes: Callable[[Evidence], Floats | Values]
-    starts: Callable[[Evidence], Iterator[Values]]
     words: Callable[..., str] = lambda camera, *numbers: ""
-    look_up: LookUp = looked_up
+    # Numbers that are looked up where edges moved too far to be found.
+    starts: Callable[[Evidence], Iterator[Values]] = lambda evidence: iter(())
     # Of the unexplained pixels: a fit with fewer right is given up at steps of half a pixel.
     worth: float = WORTH
-    by_few: bool = False  # whether the small sample does, until the refinement
     # Changes of the numbers, (m, j) columns, that change nothing in the picture.
     unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
+
+    def columns(self, evidence: Evidence) -> Floats:
+        """Return the axes as columns, (m, k)."""
+        axes = np.asarray(self.axes(evidence))
+        return np.diag(axes) if axes.ndim == 1 else axes
+
+    def matched(self, evidence: Evidence) -> Fitted | None:
+        """Return the numbers, in units, with which the edges are where the picture has them."""
+        key = f"matched {id(self)}"
+        if key not in evidence.known:
+            axes, own = self.columns(evidence), evidence.case.scene.camera
+            of = lambda units: self.camera(own, *axes @ units)  # noqa: E731
+            evidence.known[key] = fitted(evidence, of, axes.shape[1])
+        found: Fitted | None = evidence.known[key]
+        return found
 
 
 class Fit(NamedTuple):
@@ -128,36 +130,45 @@ class Fit(NamedTuple):
     refine: Refine[Numbers]  # finely
 
 
-def fitting(family: Family) -> Fit:
-    """Return how the numbers of a family are fitted."""
+def fitting(family: Family, *rivals: Family) -> Fit:
+    """Return how the numbers of a family are fitted.
+
+    Where a rival, with more numbers, explains many more edges, no ray is traced for it.
+    """
 
     def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         fine = bool(guess.low)
-        traced = Traced(evidence, family.camera, FINE_REACH if fine else REACH)
+        reach = FINE_REACH if fine else REACH
+        if len(guess.values) > ENCLOSED:
+            evidence = replace(evidence, size=min(evidence.size, FITTED))
+            reach *= WIDER
+        traced = Traced(evidence, family.camera, reach)
+        axes, known = family.columns(evidence), len(guess.values) <= ENCLOSED
+        if not known and (found := family.matched(evidence)):
+            axes = axes @ found.axes
         search = Search(
             traced.right,
-            family.axes(evidence),
+            axes,
             least=evidence.least_right(family.worth),
             unseen=family.unseen(evidence),
             moves=np.inf if fine else MOVES,
             among=traced.among,
+            enclosing=ENCLOSING / len(evidence.sample[0]),
         )
-        step = FINER if fine else 1.0
-        found = yield from search.guess([guess.values], step, enclose=fine)
-        if found is None:
+        step = FINER if fine else 0.5
+        best = yield from search.guess([guess.values], step, enclose=fine and known)
+        if best is None:
             return None
-        words = family.words(evidence.case.scene.camera, *found.values)
-        return replace(found, words=words)
+        return replace(best, words=family.words(evidence.case.scene.camera, *best.values))
 
     def find(evidence: Evidence) -> Work[list[Numbers]]:
-        if family.by_few:
-            evidence = evidence.few
         out: list[Numbers] = []
-        for start in (yield from _likely(evidence, family)):
-            guess = yield from refine(evidence, Numbers(start))
+        for start in (yield from _likely(evidence, family, rivals)):
+            few = evidence.few if len(start) > 1 else evidence
+            guess = yield from refine(few, Numbers(start))
             if guess:
                 out.append(guess)
-                right = yield from Traced(evidence, family.camera).right(guess.values)
+                right = yield from Traced(few, family.camera).right(guess.values)
                 if right is not None and right.mean() >= ENOUGH:
                     break
         return out
@@ -165,23 +176,29 @@ def fitting(family: Family) -> Fit:
     return Fit(find, refine)
 
 
-def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
-    """Return the starts with the most right pixels by look-up, the best first."""
-    camera = evidence.case.scene.camera
-    axes = np.asarray(family.axes(evidence))
-    units = np.linalg.pinv(np.diag(axes) if axes.ndim == 1 else axes)
+def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Work[list[Values]]:
+    """Return the numbers from which rays are traced: by the edges, else the best by look-up.
+
+    Where as many edges are explained by no change, they moved by less than a pixel, or not at all.
+    """
+    axes, own = family.columns(evidence), evidence.case.scene.camera
     none = (0.0,) * len(axes)
-    if family.camera(camera, *none) is None:
+    if family.camera(own, *none) is None:
         return []
-    least = family.look_up(evidence, camera) + BETTER
-    scores: list[tuple[float, Values]] = [(least, none)]  # nearer than a pixel nothing can be seen
+    found, still = family.matched(evidence), fitted(evidence, lambda units: own, 0)
+    others = [other.share for r in rivals if (other := r.matched(evidence))]
+    if found and still and (most := max(found.share, still.share, *others)) >= FOUND:
+        moves = found.share >= still.share + MORE or is_everywhere(evidence)
+        return [values_of(axes @ found.units)] if moves and found.share >= NEARLY * most else []
+    units = np.linalg.pinv(axes)
+    least = looked_up(evidence, own) + BETTER
+    scores: list[tuple[float, Values]] = []
     for number, values in enumerate(family.starts(evidence)):
-        other = family.camera(camera, *values)
-        if other is not None:
-            score = family.look_up(evidence, other)
-            if score > least:
-                scores.append((score, values))
-        if number % 32 == 0 or family.by_few:
+        camera = family.camera(own, *values)
+        score = 0.0 if camera is None else looked_up(evidence, camera)
+        if score > least:
+            scores.append((score, values))
+        if number % 32 == 0:
             yield 0.0
     best: list[Values] = []
     for _, values in sorted(scores, key=lambda pair: -pair[0]):

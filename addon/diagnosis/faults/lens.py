@@ -13,6 +13,7 @@ from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Region, ViewWindow
 from ...tracer.camera import pixel_size
 from .fault import Example, Fault, Option, options, ways, with_option
+from .film import SENSOR
 
 Change = Callable[[Camera], Camera | None]
 
@@ -167,7 +168,6 @@ _DIVIDED = options(
     _of_lenses(lambda fx, fy, cx, cy, w, h: _of_lens(fx / w, fy / h, cx / w, cy / h, w, h))
 )
 
-SENSOR = 36.0  # millimetres: the width that Blender's cameras have unless it is changed
 PARTS = (0.25, 0.5, 0.75, 2.0, 4.0)  # sizes for which a percentage of the resolution is tried
 
 _FIT = options(*(_fits(power, shifted) for power in (1, -1) for shifted in (True, False)))

@@ -33,7 +33,19 @@ from .fault import (
     of_object,
     one_of,
 )
-from .pose import DISPLACED, MOVED, SCALED, TWICE, copied, displaced, moved, scaled
+from .pose import (
+    DISPLACED,
+    MOVED,
+    TWICE,
+    Sized,
+    about_point,
+    copied,
+    displaced,
+    find_sizes,
+    moved,
+    refine_size,
+    sized,
+)
 from .suspects import largest, seen_instances, suspects
 
 SHEARED = 1e-6  # of the longest axis' square: products of axes below are rounding
@@ -135,10 +147,62 @@ def _single(scene: Scene, names: Iterable[str]) -> list[str]:
     return [name for name in names if len(instances_named(scene, name)) == 1]
 
 
-def _units_or_fitted(evidence: Evidence) -> Work[list[Numbers]]:
-    """Guess factors between units, and a fitted one, for each suspect."""
-    fitted = yield from SCALED.find(evidence)
-    return [*(yield from suspects(*UNITS)(evidence)), *fitted]
+def _sized(case: Case, guess: Sized) -> Case | None:
+    """Return the case with an object of another size."""
+    if not instances_named(case.scene, guess.object):
+        return None
+    [factor] = guess.values
+    return case.with_scenes(lambda scene: sized(scene, guess.object, factor, guess.about))
+
+
+def _units_or_fitted(evidence: Evidence) -> Work[list[Sized]]:
+    """Guess factors between units, and fitted ones, for each suspect."""
+    units = yield from suspects(*UNITS)(evidence)
+    return [*map(about_point, units), *(yield from find_sizes(evidence))]
+
+
+def _transposed(evidence: Evidence) -> Work[list[Numbers]]:
+    """Guess all objects, and each suspect."""
+    some = yield from suspects()(evidence)
+    each = [replace(one, words=f"'{one.object}'") for one in some]
+    return [Numbers(words="all objects"), *each]
+
+
+def _quarter(axis: int, quarters: int) -> Floats:
+    """Return the rotation by quarters about an axis, (3, 3)."""
+    out = np.eye(3)
+    a, b = (axis + 1) % 3, (axis + 2) % 3
+    c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
+    out[[a, a, b, b], [a, b, a, b]] = c, -s, s, c
+    return out
+
+
+# What is done to an object's own axes, and how it is called.
+_TURNS: list[tuple[Floats, str]] = [
+    *(
+        (_quarter(axis, quarters), f"turned by {degrees} degrees about its own {'XYZ'[axis]}")
+        for axis in range(3)
+        for quarters, degrees in ((1, "90"), (3, "-90"), (2, "180"))
+    ),
+    *(
+        (np.diag([-1.0 if n == axis else 1.0 for n in range(3)]), f"mirrored along its own {name}")
+        for axis, name in enumerate("XYZ")
+    ),
+]
+
+
+@at_once
+def _turned(evidence: Evidence) -> list[Option]:
+    """Guess each turn of the first suspects."""
+    names = evidence.suspects[:2]
+    turns = enumerate(words for _, words in _TURNS)
+    return [Option(n, object=name, words=words) for n, words in turns for name in names]
+
+
+def _in_turn(case: Case, guess: Option) -> Case | None:
+    """Return the case with an object turned, or mirrored, about its origin."""
+    turn, _ = _TURNS[guess.number]
+    return _with_axes(lambda axes, lengths: axes * lengths @ turn)(case, guess)
 
 
 def _moved_or_by_points(evidence: Evidence) -> Work[list[Numbers]]:
@@ -194,6 +258,25 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         suspects(),
     ),
     Fault(
+        "rotation_transposed",
+        "the rotation of {words} is transposed",
+        "numpy and Blender's Python store a matrix row by row, OpenGL, glTF and FBX column by "
+        "column; vectors are rows in some programs, and columns in others.",
+        "the object's axes are the columns of its world matrix",
+        _with_axes(lambda axes, lengths: axes.T * lengths),
+        _transposed,
+        words="an object, or of all",
+    ),
+    Fault(
+        "object_turned",
+        "'{object}' is {words}",
+        "A file with Y up is read as one with Z up, or turned twice; a negative scale is left out.",
+        "compare its world matrix with the one that the scene has",
+        _in_turn,
+        _turned,
+        words="turned by a quarter or a half, or mirrored",
+    ),
+    Fault(
         "scale_left_out",
         "the scale of '{object}' is left out",
         "A pose made of a rotation and a translation, as for robots and rigid bodies, has no "
@@ -235,14 +318,15 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     ),
     Fault(
         "object_scaled",
-        "'{object}' is {factor:.4g} times as large",
+        "'{object}' is {factor:.4g} times as large{words}",
         "FBX files are in centimetres, CAD files often in millimetres, Blender's in metres.",
         "check the units: a factor of 100 is metres for centimetres",
-        of_object(scaled),
+        _sized,
         _units_or_fitted,
         ("factor",),
-        refine=SCALED.refine,
-        effort=Effort.SIZE,
+        refine=refine_size,
+        effort=Effort.OBJECT,
+        words=", about its origin, its base or its middle",
     ),
     Fault(
         "scene_scaled",
@@ -263,7 +347,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _moved_or_by_points,
         ("x", "y", "z"),
         refine=MOVED.refine,
-        effort=Effort.PLACE,
+        effort=Effort.OBJECT,
         examples=(
             Example("moved_object", "the largest object moved by a pixel", _a_pixel_to_the_right),
         ),
@@ -290,6 +374,6 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         DISPLACED.find,
         ("distance",),
         refine=DISPLACED.refine,
-        effort=Effort.SIZE,
+        effort=Effort.OBJECT,
     ),
 )

@@ -157,7 +157,7 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
         _orders,
         after=_drawn,
         sampled=False,
-        effort=Effort.PIXELS,
+        effort=Effort.ANYTHING,
         words="the farthest surface is seen, or objects are drawn one over the other in some order",
     ),
 )

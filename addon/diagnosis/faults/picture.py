@@ -11,8 +11,7 @@ from ...tracer.progress import at_once
 from ..evidence import Evidence
 from .fault import AnyFault, Example, Fault, Guess, Make, always
 from .filters import FILTER_FAULTS
-from .grading import GRADING_FAULTS
-from .pixels import PIXEL_FAULTS
+from .processed import PROCESSED
 from .recolor import alpha_divided, alpha_multiplied, recolored
 from .rounding import ROUNDING_FAULTS
 from .sizes import SIZE_FAULTS
@@ -88,7 +87,6 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         examples=(Example("rows", "the picture's rows from top to bottom"),),
     ),
     *CURVE_FAULTS,
-    *GRADING_FAULTS,
     *ROUNDING_FAULTS,
     Fault(
         "premultiplied",
@@ -111,5 +109,5 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
     ),
     *FILTER_FAULTS,
     *SIZE_FAULTS,
-    *PIXEL_FAULTS,
+    *PROCESSED,
 )

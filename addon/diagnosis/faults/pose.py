@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 
 import numpy as np
 
@@ -13,13 +14,13 @@ from ...causes.case import Case
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Instance, Mesh, Scene
 from ...tracer.progress import Work
-from ...tracer.vector import cross
+from ...tracer.vector import cross, transform_points
 from ..evidence import Evidence
 from .climbing import Among, Right
 from .fault import Numbers, Values, instances_named, with_instances, with_meshes
 from .fitting import FINE_REACH, FINER, Fit, Traced
 from .looked import Looked
-from .search import Search
+from .search import ENCLOSING, Search
 
 FINEST = 1 / 128  # pixels
 FIRST = 1 / 4  # of the object's width: the first step
@@ -34,11 +35,31 @@ def moved(instance: Instance, x: float, y: float, z: float) -> Instance:
     return replace(instance, world_from_object=matrix)
 
 
-def scaled(instance: Instance, factor: float) -> Instance:
-    """Scale an instance about its object's origin."""
-    matrix = instance.world_from_object.copy()
-    matrix[:3, :3] *= factor
-    return replace(instance, world_from_object=matrix)
+@dataclass(frozen=True, eq=False)
+class Sized(Numbers):
+    """An object of another size, about one of the points of `ABOUT`."""
+
+    about: int = 0
+
+
+# The point that stays: the object's origin, the middle of its base, its middle.
+ABOUT = "", ", about the middle of its base", ", about its middle"
+
+
+def sized(scene: Scene, name: str, factor: float, about: int) -> Scene:
+    """Scale an object's instances, each about its own point."""
+
+    def scaled(instance: Instance) -> Instance:
+        matrix = instance.world_from_object.copy()
+        corners = np.array(list(product(*scene.meshes[instance.mesh].bounds.T)))
+        low, high = (f(transform_points(matrix, corners.T), axis=1) for f in (np.min, np.max))
+        middle = (low + high) / 2
+        point = (matrix[:3, 3].copy(), np.array((*middle[:2], low[2])), middle)[about]
+        matrix[:3, :3] *= factor
+        matrix[:3, 3] = point + factor * (matrix[:3, 3] - point)
+        return replace(instance, world_from_object=matrix)
+
+    return with_instances(scene, name, scaled)
 
 
 def copied(case: Case, guess: Numbers) -> Case:
@@ -99,16 +120,18 @@ def _moved_against(camera: Camera, *by: float) -> Camera:
     return replace(camera, world_from_camera=matrix)
 
 
-def _sized(looked: Looked) -> Pose:
-    """Return the scale of an object."""
-    unit = 2 / max(looked.width, 2.0)
+def _sized(about: int) -> Callable[[Looked], Pose]:
+    """Return a function that returns the scale of an object about one of the points."""
 
-    def change(scene: Scene, values: Values) -> Scene | None:
-        if values[0] <= 0:
-            return None
-        return with_instances(scene, "", lambda instance: scaled(instance, *values))
+    def of(looked: Looked) -> Pose:
+        unit = 2 / max(looked.width, 2.0)
 
-    return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)])
+        def change(scene: Scene, values: Values) -> Scene | None:
+            return sized(scene, "", values[0], about) if values[0] > 0 else None
+
+        return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)])
+
+    return of
 
 
 def _inflated(looked: Looked) -> Pose:
@@ -154,7 +177,8 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
         if fine and pose.camera:  # then the triangles near its rays stay
             traced = Traced(looked.of_it_alone, pose.camera, FINE_REACH, looked, looked.surface)
             known, among = traced.right, traced.among
-        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
+        few = ENCLOSING / max(len(looked.at[0]), 1)
+        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among, enclosing=few)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
     def find(evidence: Evidence) -> Work[list[Numbers]]:
@@ -168,5 +192,26 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
     return Fit(find, refine)
 
 
-MOVED, TWICE = posing(_placed), posing(_placed, kept=True)
-SCALED, DISPLACED = posing(_sized), posing(_inflated)
+MOVED, TWICE, DISPLACED = posing(_placed), posing(_placed, kept=True), posing(_inflated)
+_SCALED = [posing(_sized(about)) for about in range(len(ABOUT))]
+
+
+def about_point(guess: Numbers, about: int = 0) -> Sized:
+    """Return a guess of a size with the point that stays."""
+    numbers = guess.values, guess.low, guess.high
+    return Sized(*numbers, object=guess.object, words=ABOUT[about], about=about)
+
+
+def find_sizes(evidence: Evidence) -> Work[list[Sized]]:
+    """Fit the size of each suspect, about each of the points."""
+    out = []
+    for about, fit in enumerate(_SCALED):
+        found = yield from fit.find(evidence)
+        out += [about_point(guess, about) for guess in found]
+    return out
+
+
+def refine_size(evidence: Evidence, guess: Sized) -> Work[Sized | None]:
+    """Fit a size finely, about the same point."""
+    found = yield from _SCALED[guess.about].refine(evidence, guess)
+    return about_point(found, guess.about) if found else None

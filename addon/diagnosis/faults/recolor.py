@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Array, Colors
+from ...arrays import Array
 from ...causes.case import Case
 from ...images import EIGHT_BITS
 from ...pictures.picture import Picture, Transform, straight
@@ -25,15 +25,15 @@ def alpha_divided(color: Array) -> Array:
     return np.concatenate((straight(color), color[..., 3:]), axis=-1)
 
 
-def recolored(of_pixels: Callable[[Array], Array], alike: bool = True) -> Make[Guess]:
+def recolored(of_pixels: Callable[[Array], Array]) -> Make[Guess]:
     """Return a function that changes the colours of a picture and of its own background.
 
-    Where equal colours are changed alike, one of each run of equal pixels is changed.
+    Equal colours are changed alike: one of each run of equal pixels is changed.
     """
 
     def change(color: Array) -> Array:
         flat = color.reshape(-1, color.shape[-1])
-        return (by_runs(of_pixels, flat) if alike else of_pixels(flat)).reshape(color.shape)
+        return by_runs(of_pixels, flat).reshape(color.shape)
 
     def make(case: Case, guess: Guess) -> Case:
         picture = case.picture
@@ -43,22 +43,6 @@ def recolored(of_pixels: Callable[[Array], Array], alike: bool = True) -> Make[G
         changed = replace(picture, color=change(picture.color), drawn=drawn)
         case = replace(case, picture=changed)
         return case if picture.background is None else case.before(change(picture.background))
-
-    return make
-
-
-def of_straight(change: Callable[..., Array], alike: bool = True) -> Make[Guess]:
-    """Return a function that changes straight RGB by a function of it and the guess' numbers.
-
-    `alike` is as :func:`recolored` has it.
-    """
-
-    def make(case: Case, guess: Guess) -> Case | None:
-        def changed(color: Array) -> Colors:
-            rgb = change(straight(color), *guess.values) * color[..., 3:]
-            return np.concatenate((rgb, color[..., 3:]), axis=-1, dtype=np.float32)
-
-        return recolored(changed, alike)(case, guess)
 
     return make
 

@@ -1,26 +1,19 @@
-"""Faults of all colours of a picture by rounding, and by noise.
+"""The fault of all colours of a picture by rounding.
 
-They allow for more than one picture, so they give way to what is exact: they are `vague`.
+It allows for more than one picture, so it gives way to what is exact: it is `vague`.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
-from ...arrays import Array
 from ...causes.case import Case
-from ...images import EIGHT_BITS, curve, curve_undone
 from ...pictures.curves import FITTED_SHARE
 from ...tracer.progress import at_once
 from ..evidence import Evidence
-from .fault import Example, Fault, Numbers, with_values
-from .recolor import of_straight, with_slack
+from .fault import Fault, Numbers
+from .recolor import with_slack
 from .surfaces import Surfaces, surfaces
-
-MOST_NOISE = 2  # levels that dithering adds, at most
-_SEED = 27
 
 
 def _of_levels(case: Case, guess: Numbers) -> Case:
@@ -44,21 +37,6 @@ def _find_rounding(evidence: Evidence) -> list[Numbers]:
     return [more] if evidence.picture.storage.levels else [Numbers((0.0,)), more]
 
 
-@at_once
-def _find_noise(evidence: Evidence) -> list[Numbers]:
-    """Guess the levels of noise, if all surfaces have it."""
-    if not _is_noisy(surfaces(evidence)):
-        return []
-    return [Numbers((float(n),), words="s" if n > 1 else "") for n in range(1, MOST_NOISE + 1)]
-
-
-def _dithered(color: Array, levels: float) -> Array:
-    """Return straight RGB with noise of up to some levels of 8 bits, rounded to these."""
-    noise = np.random.default_rng(_SEED).uniform(-levels, levels, color.shape)
-    stored = np.rint(EIGHT_BITS * curve(np.clip(color, 0, 1)) + noise)
-    return curve_undone(np.clip(stored / EIGHT_BITS, 0, 1))
-
-
 ROUNDING_FAULTS = (
     Fault(
         "rounding_level",
@@ -70,24 +48,5 @@ ROUNDING_FAULTS = (
         _find_rounding,
         ("levels",),
         vague=True,
-    ),
-    Fault(
-        "dithered",
-        "noise of up to {levels:.0f} level{words} of 8 bits lies over the picture, as of dithering",
-        "Blender adds noise to files of 8 bits, by the output setting *Dither*.",
-        "switch dithering off, or compare a PNG with --dither {levels:.0f}",
-        _of_levels,
-        _find_noise,
-        ("levels",),
-        vague=True,
-        examples=(
-            Example(
-                "dithered",
-                "noise of two levels, as of dithering",
-                with_values(2.0),
-                of_straight(_dithered, alike=False),
-            ),
-        ),
-        words="s",
     ),
 )

@@ -13,7 +13,7 @@ import numpy as np
 from ...arrays import Floats
 from ...tracer.progress import Work
 from ..evidence import SEED
-from .climbing import COARSE, Among, Climb, Right, values_of
+from .climbing import COARSE, SMALL, Among, Climb, Right, values_of
 from .fault import Numbers, Values
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
@@ -29,7 +29,9 @@ CLOSE = 1 / 8  # of the region's half width: the precision of its ends
 WIDER = 1.3  # safety factor of the box: the region's corners lie beyond its known ends
 ANEW = 4  # times that a region is left for a better place beside it, at most
 BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units from a region: where better places are looked for
-LOTS = 24  # random places at each of these distances
+LOTS = 8  # random places at each of these distances
+NEARLY = 0.97  # of the right pixels: from a place with as many it is climbed again
+ENCLOSING = 1 << 20  # pixels that are evaluated to find how far the region of a fault reaches
 DIGITS = range(-1, 5)  # digits of a number beyond those that its range fixes
 
 
@@ -46,6 +48,9 @@ class Search(Climb):
         Right pixels after large steps, for smaller ones to be worth while.
     unseen : (m, j) float, optional
         Further axes, along which nothing changes: they are not searched, only enclosed.
+    enclosing : float
+        Places that are evaluated to find how far the region reaches, at most: if it reaches
+        farther, no range is told.
     """
 
     def __init__(
@@ -57,8 +62,10 @@ class Search(Climb):
         unseen: Floats | None = None,
         moves: float = np.inf,
         among: Among | None = None,
+        enclosing: float = np.inf,
     ) -> None:
         super().__init__(right, axes, moves, among)
+        self.enclosing = enclosing
         self.all_axes = self.axes if unseen is None else np.hstack((self.axes, unseen))
         self.finest = finest
         self.least = least
@@ -86,6 +93,8 @@ class Search(Climb):
         best, right = yield from self.climbed(best, min(step, COARSE), last)
         if not enclose:
             return Numbers(best, best, best, object=name)
+        best, right = yield from self._with_fewer(best, right)
+        self.left = self.enclosing
         for number in range(ANEW + 1):
             places = yield from self._region([np.array(best)], right)
             beside = yield from self._beside(np.array(best))
@@ -100,8 +109,24 @@ class Search(Climb):
         simple = yield from self._simple_numbers(best, places, right)
         if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
             places = yield from self._region([np.array(simple), *places], right)
+        if self.left <= 0:  # it reaches farther than was looked
+            return Numbers(simple, simple, simple, object=name)
         low, high = self._box(np.array([simple, *places]))  # its last digit may lie just outside
         return Numbers(simple, values_of(low), values_of(high), object=name)
+
+    def _with_fewer(self, best: Values, right: int) -> Work[tuple[Values, int]]:
+        """Return a place as good with a number near 0, if there is one; else the best place.
+
+        On a ridge, climbing ends somewhere.
+        """
+        numbers = np.array(best)
+        kept = sorted(np.ndindex(*(2,) * len(best)), key=sum)[1:-1]
+        for some in kept:
+            place = values_of(numbers * some)
+            if (yield from self.count(place)) >= NEARLY * right:
+                there, found = yield from self.climbed(place, SMALL, self.finest)
+                return (there, found) if found >= right else (best, right)
+        return best, right
 
     def _box(self, places: Floats) -> tuple[Floats, Floats]:
         """Return a box around places, wider by the finest step.
@@ -193,9 +218,13 @@ class Search(Climb):
         """Return the last place in a direction (m,) with as many right pixels (bisection)."""
         far = min(far, self._farthest(centre, along))
         good, bad = 0.0, min(first, far)
-        while bad < far and (yield from self.count(values_of(centre + bad * along))) >= right:
+        while (
+            bad < far
+            and self.left > 0
+            and (yield from self.count(values_of(centre + bad * along))) >= right
+        ):
             good, bad = bad, 2 * bad
-        while bad - good > max(first / 4, close * good):
+        while self.left > 0 and bad - good > max(first / 4, close * good):
             between = (good + bad) / 2
             if (yield from self.count(values_of(centre + between * along))) >= right:
                 good = between

@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Bools, Floats
+from ...arrays import Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
 from ...tracer.camera import pixel_size
-from ...tracer.progress import at_once, result_of
 from ..evidence import Evidence
-from .climbing import Climb
 from .fault import Values
-from .film import offsets, radius
-from .fitting import LOOKED_UP, Family, projected
+from .film import radius
+from .fitting import Family
 
-FIRST = 8.0  # pixels: the first step of looking up
-LAST = 1 / 4  # pixels: the last one
 NEGLIGIBLE = 1e-4  # of the largest number: what is less is told as 0
 # Of the unexplained pixels: three numbers settle a part of them by chance, and the right ones most.
 WORTH = 0.4
 _SIDES = ("to the right", "to the left"), ("upwards", "downwards"), ("anticlockwise", "clockwise")
-NEARER = (1.0, 0.8, 1.25)  # of the depth: how far away the first places are
 
 
 def moved(camera: Camera, right: float, up: float, forward: float = 0.0) -> Camera:
@@ -82,48 +76,6 @@ def _degrees(evidence: Evidence) -> Values:
     return tuple(float(np.degrees(v)) for v in (width, height, 1 / radius(evidence)))
 
 
-def _places(evidence: Evidence) -> Iterator[Values]:
-    """Yield moves with which the traced surfaces would look as the picture shows them."""
-    axes, depth = _seen(evidence), _depth(evidence)
-    nearer = NEARER[: 1 if axes.shape[1] < 3 else None]
-    starts = []
-    for x, y in offsets(evidence):
-        right, up, _ = (float(v) for v in axes[:, :2] @ (x, y))
-        starts += [(right, up, depth * (1 - n)) for n in nearer]
-    yield from _climbed(evidence, moved, axes, starts)
-
-
-def _turns(evidence: Evidence) -> Iterator[Values]:
-    """Yield turns with which the traced surfaces would look as the picture shows them."""
-    units = _degrees(evidence)
-    starts = [(x * units[0], y * units[1], 0.0) for x, y in offsets(evidence)]
-    yield from _climbed(evidence, turned, units, starts)
-
-
-def _climbed(
-    evidence: Evidence,
-    of: Callable[..., Camera],
-    axes: Floats | Values,
-    starts: Sequence[Values],
-) -> Iterator[Values]:
-    """Yield where climbing leads from each start, by looking up the traced picture."""
-    own = evidence.case.scene.camera
-
-    @at_once
-    def right(values: Values) -> Bools | None:
-        share = projected(evidence, of(own, *values))
-        return np.arange(LOOKED_UP) < round(LOOKED_UP * share)
-
-    climb = Climb(right, axes)
-    units = np.linalg.pinv(np.diag(axes) if np.ndim(axes) == 1 else axes)
-    begun: list[Values] = []
-    for start in starts:
-        if all(np.abs(units @ np.subtract(start, b)).max() >= FIRST for b in begun):
-            begun.append(start)
-            guess = result_of(climb.climbed(start, FIRST, LAST))
-            yield guess[0]
-
-
 def _in_the_world(camera: Camera, *metres: float) -> str:
     by = moved(camera, *metres).origin - camera.origin
     x, y, z = (0.0 if abs(v) < NEGLIGIBLE * np.abs(by).max() else v for v in by)
@@ -140,5 +92,28 @@ def _in_degrees(camera: Camera, *degrees: float) -> str:
     )
 
 
-MOVED = Family(moved, _seen, _places, _in_the_world, projected, WORTH, True, _unseen)
-TURNED = Family(turned, _degrees, _turns, _in_degrees, projected, WORTH, True)
+def placed(camera: Camera, *numbers: float) -> Camera:
+    """Return the camera moved along its own axes, in metres, and then turned by degrees."""
+    return turned(moved(camera, *numbers[:3]), *numbers[3:])
+
+
+def _six(evidence: Evidence) -> Floats:
+    """Return the changes of six numbers that shift the picture by a pixel, as columns."""
+    seen = _seen(evidence)
+    out = np.zeros((6, seen.shape[1] + 3))
+    out[:3, : seen.shape[1]] = seen
+    out[3:, seen.shape[1] :] = np.diag(_degrees(evidence))
+    return out
+
+
+def _placed_words(camera: Camera, *numbers: float) -> str:
+    """Say by how much the camera is moved in the world, and turned."""
+    metres, degrees = numbers[:3], numbers[3:]
+    return (
+        f"moved by {_in_the_world(camera, *metres)}, and turned by {_in_degrees(camera, *degrees)}"
+    )
+
+
+MOVED = Family(moved, _seen, _in_the_world, worth=WORTH, unseen=_unseen)
+TURNED = Family(turned, _degrees, _in_degrees, worth=WORTH)
+PLACED = Family(placed, _six, _placed_words, worth=WORTH)

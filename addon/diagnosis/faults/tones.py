@@ -15,11 +15,10 @@ from ...pictures.picture import Curve
 from ...tracer.progress import Work
 from ..evidence import Evidence
 from .fault import Example, Fault, Find, Guess, Make
-from .recolor import by_curve, of_straight, recolored
+from .recolor import by_curve, recolored
 from .surfaces import agree, inside, surfaces
 
 _BGRA = [2, 1, 0, 3]
-_TWICE = next(c for c in ROUNDED if c.key == "twice_rounded")
 _WHY = {  # for each of `KEYS`, why it happens
     "channels": "OpenCV and BMP files have blue first, most others red.",
     "gamma": "A screen's gamma was applied to linear values, or undone.",
@@ -119,18 +118,4 @@ EXAMPLES = {
     ),
 }
 
-CURVE_FAULTS = (
-    *map(_colors, KEYS),
-    Fault(
-        "twice_rounded",
-        "the picture's colours were rounded to 8 bits more than once: {words}",
-        "A picture of 8 bits was converted, for example to another colour space, and stored "
-        "with 8 bits again.",
-        "convert colours as floats, and round them once, when the file is written",
-        _through,
-        _find_curve("twice_rounded"),
-        examples=_example(
-            "twice_rounded", "colours rounded to 8 bits twice", of_straight(_TWICE.of)
-        ),
-    ),
-)
+CURVE_FAULTS = (*map(_colors, KEYS),)

@@ -19,18 +19,18 @@ from ...certainty import Certainty
 from ...comparison.comparison import Comparison
 from ...comparison.extras import Extras
 from ...comparison.put_right import pictures_put_right
-from ...derivation import html
 from ...derivation.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...diagnosis.regions import Region, regions, sides
 from ...images import data_uri, to_display
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report
+from ..shown import data, shown
 from . import arrays
 from .arrays import packed
 
 T = TypeVar("T")
-SCHEMA = "reference_tracer.page/2"
+SCHEMA = "reference_tracer.page/3"
 MOST_CHARACTERS = 32 << 20  # characters of the packed arrays: what a browser still opens at once
 
 
@@ -73,10 +73,7 @@ def content(
         ],
         "regions": [r.to_dict() for r in _unexplained(comparison)],
         "pixels": pixels,
-        "derivations": [
-            {"pixel": list(pixel), "html": html.fragment(derivation)}
-            for pixel, derivation in extras.derivations.items()
-        ],
+        "derivations": [*map(shown, extras.derivations.values())],
         "trade": _study(trade_report, extras.trade, trade_report.text_cells),
         # Without its thousands of rows, which the plot shows.
         "extremes": _study(extremes_report, extras.extremes),
@@ -204,4 +201,4 @@ def _study(
     held = {k: v for k, v in report.to_dict(found).items() if k != "rows"}
     if table:
         held["table"] = table(found)
-    return held | {"plot": report.picture(found)}
+    return held | {"plot": data(report.plot(found))}

@@ -1,8 +1,7 @@
 "use strict";
-// The embedded JSON -> `page`, and its packed arrays -> `pixels`. Pixel (x, y) counts from the lower
-// left of the picture, and is number y * width + x of every array.
+// The packed arrays of `page` -> `pixels`. Pixel (x, y) counts from the lower left of the picture, and
+// is number y * width + x of every array.
 
-const page = JSON.parse(document.getElementById("data").textContent);
 const [WIDTH, HEIGHT] = page.size;
 const pixels = {};
 
@@ -70,17 +69,3 @@ async function loadPicture({ id, label, note, png }) {
     values: context.getImageData(0, 0, canvas.width, canvas.height).data,
   };
 }
-
-/** Make an element; children are elements or text, never markup. */
-function element(name, attributes = {}, ...children) {
-  const made = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) {
-    if (value === null || value === undefined || value === false) continue;
-    if (key.startsWith("on")) made.addEventListener(key.slice(2), value);
-    else made.setAttribute(key, value === true ? "" : value);
-  }
-  made.append(...children.filter((child) => child !== null && child !== undefined));
-  return made;
-}
-
-const byId = (id) => document.getElementById(id);

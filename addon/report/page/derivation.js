@@ -8,7 +8,7 @@ function drawDerivation() {
   const { x, y } = state;
   const own = page.derivations.find(({ pixel }) => pixel[0] === x && pixel[1] === y);
   byId("fragment").replaceChildren();
-  if (own) byId("fragment").append(exactDerivation(own.html));
+  if (own) byId("fragment").append(exactDerivation(own));
   if (!pixels.surfaces) {
     byId("derivation").replaceChildren(
       element(
@@ -31,20 +31,10 @@ function drawDerivation() {
   );
 }
 
-/** The derivation that was written with the page: the project's own markup, names escaped in it. */
-function exactDerivation(html) {
-  const inner = element("div", { lang: "en", translate: "no" });
-  inner.innerHTML = html;
-  for (const heading of inner.querySelectorAll("h1, h2, h3")) {
-    // they stand below this page's own
-    heading.setAttribute("aria-level", Number(heading.localName[1]) + 2);
-  }
-  return element(
-    "details",
-    { class: "exact" },
-    element("summary", {}, "Every candidate in float32, float64 and exactly"),
-    inner,
-  );
+/** The derivation that came with the page, below this page's own headings. */
+function exactDerivation(own) {
+  const summary = "Every candidate in float32, float64 and exactly";
+  return element("details", { class: "exact" }, element("summary", {}, summary), lecture(own, 2));
 }
 
 /** The surfaces seen here and in the eight pixels around, each accepted or rejected. */

@@ -76,10 +76,11 @@ const VECTORS = new Set(page.formulas.vectors);
 /** A formula for the reader: letters slanted, vectors upright and bold. */
 function formula(text) {
   const made = element("span", { class: "formula" });
-  for (const [token, name] of text.matchAll(/([a-zA-Z]+)|[^a-zA-Z]+/g)) {
+  for (const [token, name, below] of text.matchAll(/(\.?[a-zA-Z]+)(?:_([a-z]+))?|[^a-zA-Z.]+|\./g)) {
     if (name)
       made.append(element("var", { class: VECTORS.has(name) ? "vector" : null }, name));
     else made.append(token);
+    if (below) made.append(element("sub", {}, below));
   }
   return made;
 }

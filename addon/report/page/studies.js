@@ -51,11 +51,6 @@ function diagnosed(diagnosis) {
   return said_;
 }
 
-function plot(study) {
-  const { documentElement } = new DOMParser().parseFromString(study.plot, "image/svg+xml");
-  return element("figure", { class: "plot" }, documentElement);
-}
-
 function tradeCard() {
   const { trade } = page;
   if (!trade) return null;
@@ -63,7 +58,7 @@ function tradeCard() {
   return wide(
     card(
       "The trade: speed against accuracy",
-      plot(trade),
+      plotFigure(trade.plot),
       element(
         "details",
         {},
@@ -94,7 +89,7 @@ function extremesCard() {
   return wide(
     card(
       "The extremes: where methods break",
-      plot(extremes),
+      plotFigure(extremes.plot),
       element(
         "details",
         {},

@@ -1,65 +1,6 @@
 "use strict";
 // What was compared, and how: a card each; the cards of `evidence.js` and `studies.js` among them.
 
-const ROWS = 200; // of a table: thousands would make the page slow
-
-/** A table with a caption; `right` are the columns of numbers. */
-function table(caption, heads, rows, right = [], kind = "") {
-  const side = (k) => (right.includes(k) ? "number" : null);
-  return element(
-    "div",
-    { class: `scroll ${kind}`, tabindex: "0", role: "group", "aria-label": caption },
-    element("p", { class: "scrolls", hidden: true }, "This table goes on to the right: scroll it."),
-    element(
-      "table",
-      {},
-      element("caption", {}, caption),
-      element(
-        "thead",
-        {},
-        element(
-          "tr",
-          {},
-          ...heads.map((head, k) => element("th", { scope: "col", class: side(k) }, head)),
-        ),
-      ),
-      element(
-        "tbody",
-        {},
-        ...rows
-          .slice(0, ROWS)
-          .map((row) =>
-            element(
-              "tr",
-              {},
-              ...row.map((cell, k) =>
-                element("td", { class: side(k), "data-head": side(k) && heads[k] }, cell),
-              ),
-            ),
-          ),
-      ),
-    ),
-    rows.length > ROWS
-      ? element("p", {}, `${count(rows.length - ROWS)} more: comparison.json has them all.`)
-      : null,
-  );
-}
-
-/** Say of each table whether it is wider than its place, now and whenever that changes. */
-const watched = new ResizeObserver((entries) => {
-  for (const { target } of entries) {
-    const box = target.closest(".scroll");
-    if (box) box.querySelector(".scrolls").hidden = box.scrollWidth <= box.clientWidth;
-  }
-});
-new MutationObserver(() => {
-  watched.disconnect();
-  for (const box of document.querySelectorAll(".scroll:has(> .scrolls)")) {
-    watched.observe(box);
-    watched.observe(box.querySelector("table"));
-  }
-}).observe(document.querySelector("main"), { childList: true, subtree: true });
-
 const card = (title, ...children) =>
   element("section", { class: "card" }, element("h2", {}, title), ...children);
 const px = (value) => `${general(value, 3)} px`;

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 from reference_tracer.arrays import Floats
 
 from ..form import Form
-from ..programs import Letters, Mask, Part, Program
+from ..group_faults import TESTS, Tests
+from ..programs import Letters, Part, Program
+
+if TYPE_CHECKING:
+    from ..cases import TableCases
 
 
 def side_by_side(*answers: Floats) -> Floats:
@@ -30,45 +33,12 @@ class Subject:
     weights: Mapping[str, float]  # of shares of a score: the first, and those of it
     groups: Mapping[str, str]  # of the cases, and what each shows
     letters: Callable[..., Letters]  # what is given -> what formulas begin with
-    cases: Callable[[], Any]  # -> what is asked, as `Cases` below
+    cases: Callable[[], TableCases]  # -> what is asked
     # What is answered -> rows of numbers (n, m), which the programs' answers are compared with.
     rows: Callable[..., Floats] = side_by_side
+    tests: tuple[Tests, ...] = TESTS  # for faults that are no mutation of a formula
 
     @property
     def parts(self) -> tuple[Part, ...]:
         """Which numbers of an answer are right or wrong together."""
         return self.programs[0].parts
-
-
-class Cases(Protocol):
-    """What a student's code is asked: (n,) cases of some groups, some of which tell."""
-
-    def __hash__(self) -> int:
-        """Cases are the same only if they are one: what is found of them is kept."""
-
-    @property
-    def subject(self) -> Subject:
-        """What is asked."""
-
-    @property
-    def given(self) -> tuple[Floats, ...]:
-        """What the function is given."""
-
-    @property
-    def letters(self) -> Letters:
-        """What the programs begin with."""
-
-    @property
-    def group(self) -> NDArray[np.int64]:
-        """The number of each case's group, (n,)."""
-
-    @property
-    def tells(self) -> Mask:
-        """Where no rounding decides, (n,)."""
-
-    @property
-    def firm(self) -> Mask:
-        """Where no rounding decides, however a sum is ordered: asked twice, it answers twice."""
-
-    def answers(self, table: Floats) -> Any:
-        """Return what a function made of them, rows (n, m), as `faults.Answers`."""

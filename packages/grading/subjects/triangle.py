@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from reference_tracer.arrays import Floats
 from reference_tracer.derivation.formulas import TRIANGLE as LISTED
 
+from ..cases import TableCases
 from ..form import Field, Form
 from ..programs import Letters, Part, Program, Slip
 from .subject import Subject
-
-if TYPE_CHECKING:
-    from ..checks import Checks
+from .triangle_cases import groups
+from .triangle_faults import TESTS
 
 CORNERS = "p₁", "p₂", "p₃"
 WEIGHTS = "s₁", "s₂", "s₃"
@@ -123,10 +122,17 @@ def letters(origins: Floats, directions: Floats, triangles: Floats) -> Letters:
     return Letters({"o": origins.T, "d": directions.T, **dict(corners)}, (len(origins),))
 
 
-def _cases() -> Checks:
-    from ..checks import make_checks
-
-    return make_checks()
+def cases() -> TableCases:
+    """Return the cases; the same each time."""
+    return TableCases.of(
+        TRIANGLE,
+        groups(),
+        # d . n is exactly 0 of rays parallel to their plane: there is nothing to round.
+        whole=("whole", "parallel"),
+        aside=("elsewhere",),
+        silent=("parallel",),
+        close=("beside",),
+    )
 
 
 TRIANGLE = Subject(
@@ -149,5 +155,6 @@ TRIANGLE = Subject(
         "elsewhere": "rays all around a triangle: they do not count, but tell mistakes apart",
     },
     letters=letters,
-    cases=_cases,
+    cases=cases,
+    tests=TESTS,
 )

@@ -18,10 +18,9 @@ from reference_tracer.tracer.world import Batch, refused, world_triangles
 
 from ...oracle import OUTSIDE, intersect_pairs
 from ...sampled import sampled
-from ...tracer.exact_film import ExactFilm
 from ...tracer.hostile import hostile_camera, hostile_triangles
 from ...tracer.hostile_scenes import hostile_scene, offsets, scaled_camera
-from .test_film import project
+from .test_film import project, rays_of
 
 FLOATS = ("p", "q", "w", "depth", "size", "nearest", "ahead", "finite")
 LIMITS = (1, 2, 5, 13, 10**9)
@@ -144,7 +143,7 @@ def test_only_instances_that_no_ray_hits_are_left_out(make, every):
         r = camera.region
         y, x = np.indices((r.height, r.width)).reshape(2, -1)
         pixel, which = np.divmod(np.arange(len(x) * len(hidden)), len(hidden))
-        o, d = ExactFilm(camera, film.dx, film.dy).rays(x + r.x0, y + r.y0)
+        o, d = rays_of(film, x + r.x0, y + r.y0)
         found = intersect_pairs(o[:, pixel], d[:, pixel], corners[..., hidden[which]])
         for k in np.flatnonzero(found.side != OUTSIDE):
             assert not camera.clip_start <= found.t(k) <= camera.clip_end, seed

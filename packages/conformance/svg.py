@@ -1,16 +1,16 @@
-"""Writes elements of SVG: the plots of `report/`, and the drawings of `derivation/`.
+"""Writes elements of SVG, for the badge.
 
 No font is known here, so the widths of words are estimated.
 """
 
 from __future__ import annotations
 
-import re
 from functools import cache
 from html import escape
 
+from reference_tracer.report.junit import legal
+
 _LETTER, _WIDE = 0.64, 1.0  # widths in sizes of the font, with room: of a letter; of an ideograph
-_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def element(name: str, *inside: str, **attributes: str | float) -> str:
@@ -27,12 +27,6 @@ def said(name: str, words: str, **attributes: str | float) -> str:
     return element(name, escape(legal(words)), **attributes)
 
 
-def legal(words: str) -> str:
-    """Return words with what XML cannot hold, as control characters, made visible."""
-    return _NO_XML.sub("\ufffd", words)
-
-
-@cache
 @cache
 def width_of(words: str, size: float) -> float:
     """Return how wide the longest line of words is, at most."""

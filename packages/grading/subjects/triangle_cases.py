@@ -1,133 +1,40 @@
-"""Makes pairs of rays and triangles that show one thing each, with what is true of them.
+"""Makes pairs of rays and triangles that show one thing each, in groups.
 
-They come in groups. What a student's function makes of a group says what is wrong with it
-(`faults.py`), which a picture alone would not: no camera has a triangle behind it, and a closed
-surface looks the same without its back faces.
+What a student's function makes of a group says what is wrong with it (`triangle_faults.py`), which
+a picture alone would not: no camera has a triangle behind it, and a closed surface looks the same
+without its back faces.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from enum import IntEnum
-from functools import cache, cached_property
-from typing import TYPE_CHECKING
-
 import numpy as np
-from numpy.typing import NDArray
 from reference_tracer.arrays import Floats
-
-from .known import Known, known
-from .programs import Letters
-from .subjects.subject import Subject
-from .subjects.triangle import TRIANGLE, letters
-
-if TYPE_CHECKING:
-    from .answers import Answers
 
 SEED = 20240611
 EACH = 400  # pairs of a group
 SCALES = -30, -20, 20  # powers of two: what a float is multiplied by without rounding
 
 
-class Group(IntEnum):
-    """What a pair is to show."""
-
-    FRONT = 0  # an ordinary hit, the corners counter-clockwise as the ray sees them
-    BACK = 1  # the same, from the other side
-    WHOLE = 2  # a hit without any rounding: all numbers are whole, or halved some times
-    SCALED = 3  # the front's pairs, SCALES times as large
-    OUTSIDE = 4  # the ray passes the triangle beyond one of its edges, or beyond two
-    BESIDE = 5  # it passes closely beside an edge, at 1e-9 to 1e-4 of the triangle
-    BEHIND = 6  # the triangle is behind the ray's origin
-    PARALLEL = 7  # the ray is parallel to the triangle's plane, exactly
-    EMPTY = 8  # the triangle has no area: what is said of it is not held against anyone
-    ELSEWHERE = (
-        9  # anywhere in the plane, before or behind: wrong programs that hit nothing do here
-    )
-
-
-ORDINARY = Group.FRONT, Group.BACK, Group.WHOLE  # hits with nothing difficult about them
-
-
 Pairs = tuple[Floats, Floats, Floats]  # origins, directions, triangles
 
 
-@dataclass(frozen=True, eq=False)
-class Checks:
-    """All pairs, (n, ...), with their groups and what is true of them."""
-
-    origins: Floats
-    directions: Floats
-    triangles: Floats
-    group: NDArray[np.int64]
-    twin: NDArray[np.int64]  # of SCALED: which pair it is a multiple of
-    known: Known
-
-    @property
-    def subject(self) -> Subject:
-        """What is asked."""
-        return TRIANGLE
-
-    @property
-    def given(self) -> Pairs:
-        """What the student's function is given."""
-        return self.origins, self.directions, self.triangles
-
-    @cached_property
-    def letters(self) -> Letters:
-        """What the programs begin with."""
-        return letters(*self.given)
-
-    @property
-    def tells(self) -> NDArray[np.bool_]:
-        """Which pairs tell: where the plane is met, and no rounding decides, (n,)."""
-        told = ~self.known.doubt | self.of(Group.ELSEWHERE)
-        return told & ~self.of(Group.PARALLEL, Group.EMPTY)
-
-    @property
-    def firm(self) -> NDArray[np.bool_]:
-        """Which pairs are answered alike in every call, (n,)."""
-        return ~self.known.doubt & ~self.of(Group.BESIDE)
-
-    def answers(self, table: Floats) -> Answers:
-        """Return what a function made of them, t and barycentrics (n, 4)."""
-        from .answers import Answers
-
-        return Answers(self, table[:, 0], table[:, 1:])
-
-    def of(self, *groups: Group) -> NDArray[np.bool_]:
-        """Return which pairs are of some groups, (n,)."""
-        return np.isin(self.group, groups)
-
-
-@cache
-def make_checks(seed: int = SEED) -> Checks:
-    """Return the checks; the same for the same seed."""
+def groups(seed: int = SEED) -> dict[str, Pairs]:
+    """Return pairs by their groups; the same for the same seed."""
     rng = np.random.default_rng(seed)
     front = _towards(rng, _triangles(rng), rng.dirichlet((2, 2, 2), EACH) * 0.85 + 0.05)
     o, d, p = front
-    groups = {
-        Group.FRONT: front,
-        Group.BACK: (o, d, p[:, [0, 2, 1]]),
-        Group.WHOLE: _whole(rng),
-        Group.SCALED: _scaled(front),
-        Group.OUTSIDE: _towards(rng, _triangles(rng), _outside(rng)),
-        Group.BESIDE: _towards(rng, _triangles(rng), _beside(rng)),
-        Group.BEHIND: (o, -d, p),
-        Group.PARALLEL: _parallel(rng),
-        Group.EMPTY: _empty(rng),
-        Group.ELSEWHERE: _elsewhere(rng),
+    return {
+        "front": front,
+        "back": (o, d, p[:, [0, 2, 1]]),
+        "whole": _whole(rng),
+        "scaled": _scaled(front),
+        "outside": _towards(rng, _triangles(rng), _outside(rng)),
+        "beside": _towards(rng, _triangles(rng), _beside(rng)),
+        "behind": (o, -d, p),
+        "parallel": _parallel(rng),
+        "empty": _empty(rng),
+        "elsewhere": _elsewhere(rng),
     }
-    numbers = [np.full(len(some[0]), group) for group, some in groups.items()]
-    group = np.concatenate(numbers)
-    twin = np.full(len(group), -1)
-    twin[group == Group.SCALED] = np.tile(np.arange(EACH), len(SCALES))
-    o, d, p = (np.concatenate(parts) for parts in zip(*groups.values(), strict=True))
-    truth = known(o, d, p)
-    # d . n is exactly 0, and comes out so: there is nothing to round.
-    doubt = truth.doubt & (group != Group.PARALLEL) | (group == Group.ELSEWHERE)
-    truth = replace(truth, doubt=doubt)
-    return Checks(o, d, p, group, twin, truth)
 
 
 def _triangles(rng: np.random.Generator) -> Floats:

@@ -1,0 +1,223 @@
+"""Finds where the picture shows the edges that are traced, and the camera that sees them there.
+
+Small windows around pixels at edges are looked for in the picture: first coarsely and far around,
+then finely. Along a straight edge nobody can say how far it moved: only what is sure counts. A
+camera of a few numbers is then fitted to all at once, by least squares that pass over what moved
+otherwise (iteratively reweighted, Holland and Welsch 1977). It needs no ray.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from ...arrays import Array, Bools, Floats, Integers, Places
+from ...pictures.metrics import beside_edges
+from ...scene import Camera
+from ...tracer.camera import camera_rays, film_of
+from ..evidence import BEYOND, NEAR, Evidence, spread
+
+POINTS = 384  # pixels at edges that are looked for
+WINDOW = 4  # pixels on each side of one that are compared
+FAR = 8  # windows' pixels that one may have moved, at the coarsest
+CLOSE = 2  # the same, at finer scales
+ALIKE = 0.025  # of a window: places with as many more wrong pixels are as good
+STRAIGHT = 0.9  # px²: a variance of the places that are as good, along a straight edge
+SNAPPED = 0.1  # px²: that of a place in whole pixels
+LEAST = 12  # points: fewer say nothing
+ROUNDS = 16  # of least squares
+STEP = 0.25  # of a unit, for differences
+FIXED = 1e-3  # keeps what no point says near 0
+INFORMED = 1 / SNAPPED  # 1/px²: what a point tells of one direction, about
+LONGEST = 16.0  # units: an axis along which next to nothing moves is no longer
+HIT = 1.0  # px: points that are fitted as near are explained
+TILES = 6  # across, and up
+MOST = 0.5  # of the tiles with edges
+MANY = 60  # unexplained pixels: with fewer nobody knows
+
+
+class Matches(NamedTuple):
+    """Where n points at edges are traced, and where the picture shows them."""
+
+    points: Floats  # (3, n) in the world
+    film: Floats  # (2, n) where the camera has them, in pixels
+    moved: Floats  # (2, n) pixels, to where they are shown
+    sure: Floats  # (n, 2, 2) the inverse of the covariance of that; 0 where nothing is known
+
+
+class Fitted(NamedTuple):
+    """A camera that was fitted to the points."""
+
+    units: Floats  # (k,) of the numbers
+    share: float  # of the points, those that it explains
+    axes: Floats  # (k, k) changes of the units, columns that move the points apart from each other
+
+
+def matches(evidence: Evidence) -> Matches:
+    """Return the points at edges, and where they are shown (cached)."""
+    if "matches" not in evidence.known:
+        evidence.known["matches"] = _matched(evidence)
+    found: Matches = evidence.known["matches"]
+    return found
+
+
+def fitted(
+    evidence: Evidence, camera: Callable[[Floats], Camera | None], count: int
+) -> Fitted | None:
+    """Fit a camera of some units, (k,), to the points; None if too few are known."""
+    found, units, axes = matches(evidence), np.zeros(count), np.eye(count)
+    if len(found.points[0]) < LEAST:
+        return None
+
+    def off(values: Floats) -> Floats | None:
+        other = camera(values)
+        if other is None:
+            return None
+        with np.errstate(all="ignore"):
+            x, y, _ = film_of(other, found.points)
+            return found.moved + found.film - np.stack((x, y))
+
+    now = off(units)
+    for number in range(ROUNDS if count else 0):
+        if now is None:
+            return None
+        beside = [off(units + STEP * axis) for axis in np.eye(count)]
+        if any(b is None for b in beside):
+            return None
+        slope = (now - np.array(beside)) / STEP  # (k, 2, n)
+        known = np.isfinite(now).all(axis=0) & np.isfinite(slope).all(axis=(0, 1))
+        apart = _apart(now, found.sure)[known]
+        scale = max(HIT, float(np.median(apart)) * 2 / (1 + number / 4))
+        weighted = found.sure[known] / (1 + (apart / scale) ** 2)[:, None, None]
+        j, r = slope[..., known], now[:, known]
+        normal = np.einsum("ain,nij,bjn->ab", j, weighted, j) + FIXED * np.eye(count)
+        sizes, own = np.linalg.eigh(normal / max(int(known.sum()), 1) / INFORMED)
+        axes = own / np.maximum(np.sqrt(np.maximum(sizes, 0)), 1 / LONGEST)
+        step = np.linalg.solve(normal, np.einsum("ain,nij,jn->a", j, weighted, r))
+        units = units + step
+        now = off(units)
+        if np.abs(step).max() < FIXED:
+            break
+    if now is None:
+        return None
+    apart = _apart(now, found.sure)
+    return Fitted(units, float((apart[np.isfinite(apart)] < HIT).sum() / len(apart)), axes)
+
+
+def _apart(off: Floats, sure: Floats) -> Floats:
+    """Return how far points are off, (n,) pixels, as far as that is sure."""
+    return np.sqrt(np.maximum(SNAPPED * np.einsum("in,nij,jn->n", off, sure, off), 0))
+
+
+def _matched(evidence: Evidence) -> Matches:
+    traced = evidence.picture.made_of(evidence.frame.color)
+    shown = evidence.picture.color[..., : traced.shape[-1]]
+    rows, columns = np.unravel_index(
+        spread(beside_edges(np.nan_to_num(traced), 2 * NEAR), POINTS), traced.shape[:2]
+    )
+    pair = _gray(traced), _gray(shown)
+    moved = np.zeros((2, len(rows)))
+    scale = _coarsest(traced.shape)
+    reach = FAR
+    while scale >= 1:
+        wrong, steps = _compared(pair, (rows, columns), moved.astype(int), scale, reach)
+        moved += steps[:, wrong.argmin(axis=1)]
+        scale, reach = scale // 2, CLOSE
+    good = wrong <= wrong.min(axis=1, keepdims=True) + ALIKE
+    good &= wrong.min(axis=1, keepdims=True) < 0.5
+    share = good / np.maximum(good.sum(axis=1), 1)[:, None]
+    about = steps - steps[:, wrong.argmin(axis=1)].T[..., None]  # (n, 2, m)
+    mean = np.einsum("nm,nim->in", share, about)
+    apart = about - mean.T[..., None]
+    spreads, axes = np.linalg.eigh(np.einsum("nm,nim,njm->nij", share, apart, apart))
+    sure = np.where(spreads < STRAIGHT, 1 / (spreads + SNAPPED), 0.0) * good.any(axis=1)[:, None]
+    known = np.flatnonzero(sure.any(axis=1))
+    each = np.einsum("nij,nj,nkj->nik", axes, sure, axes)
+    points, film = _points(evidence, rows[known], columns[known])
+    return Matches(points, film, (moved + mean)[:, known], each[known])
+
+
+def _gray(colors: Array) -> Floats:
+    """Project colours (h, w, c) on an axis that separates most of them."""
+    weights = np.array((0.31, 0.53, 0.97, 0.41))[: colors.shape[-1]]
+    known = np.nan_to_num(colors.astype(np.float64), posinf=0, neginf=0)
+    return np.clip(known, -4, 4) @ weights
+
+
+def _coarsest(shape: tuple[int, ...]) -> int:
+    """Return how many pixels wide those of a window are at first: it spans half a picture."""
+    wide = max(1, min(shape[:2]) // (2 * (2 * WINDOW + 1)))
+    return 1 << (wide.bit_length() - 1)
+
+
+def _compared(
+    pair: tuple[Floats, Floats],
+    at: tuple[Places, ...],
+    moved: Places,
+    scale: int,
+    reach: int,
+) -> tuple[Floats, Floats]:
+    """Return the share of wrong pixels of n windows at m places, (n, m), and the places, (2, m)."""
+    traced, shown = pair
+    height, width = traced.shape
+    side = scale * np.arange(-WINDOW, WINDOW + 1)
+    y, x = (v.ravel() for v in np.meshgrid(side, side, indexing="ij"))
+    rows, columns = at[0][:, None] + y, at[1][:, None] + x
+    inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
+    own = traced[rows.clip(0, height - 1), columns.clip(0, width - 1)]
+    places = scale * np.arange(-reach, reach + 1)
+    steps = np.array(np.meshgrid(places, places)).reshape(2, -1)
+    steps = steps[:, np.argsort(np.abs(steps).sum(axis=0), kind="stable")]
+    wrong = np.empty((len(rows), steps.shape[1]))
+    for number, (dx, dy) in enumerate(steps.T):
+        r, c = rows + moved[1][:, None] + dy, columns + moved[0][:, None] + dx
+        there = inside & (r >= 0) & (r < height) & (c >= 0) & (c < width)
+        other = shown[r.clip(0, height - 1), c.clip(0, width - 1)]
+        differ = (np.abs(own - other) > NEAR) & there
+        count = there.sum(axis=1)
+        wrong[:, number] = np.where(
+            2 * count >= len(y), differ.sum(axis=1) / np.maximum(count, 1), 1.0
+        )
+    return wrong, steps.astype(np.float64)
+
+
+def _points(evidence: Evidence, rows: Places, columns: Places) -> tuple[Floats, Floats]:
+    """Return the nearest traced points in and beside some pixels, and their film positions.
+
+    Of an edge, what is in front moves.
+    """
+    t, camera = evidence.frame.t, evidence.case.scene.camera
+    far = BEYOND * float(np.max(t[np.isfinite(t)], initial=1.0))
+    padded = np.pad(np.where(np.isfinite(t), t, far), 1, mode="edge")
+    height, width = t.shape
+    near = [padded[y : y + height, x : x + width] for y in range(3) for x in range(3)]
+    depth = np.min(near, axis=0)[rows, columns]
+    film = np.stack((columns + camera.region.x0 + 0.5, rows + camera.region.y0 + 0.5))
+    return camera_rays(camera, *film).at(depth), film
+
+
+def is_everywhere(evidence: Evidence) -> bool:
+    """Return whether edges in most parts of the picture are unexplained, as with another camera.
+
+    A few pixels may lie anywhere: they are taken to do so.
+    """
+    if "everywhere" not in evidence.known:
+        edges = beside_edges(
+            np.nan_to_num(evidence.picture.made_of(evidence.frame.color)), 2 * NEAR
+        )
+        tiles, touched = (_in_tiles(v) for v in (edges, edges & evidence.unexplained))
+        share = touched[tiles > 0].astype(bool).mean() if tiles.any() else 1.0
+        few = evidence.unexplained.sum() < MANY
+        evidence.known["everywhere"] = bool(few or share >= MOST)
+    return bool(evidence.known["everywhere"])
+
+
+def _in_tiles(mask: Bools) -> Integers:
+    """Count a mask's pixels (h, w) in each tile of the picture."""
+    rows, columns = (np.linspace(0, n, TILES + 1).astype(int) for n in mask.shape)
+    total = np.pad(mask.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+    corners = total[np.ix_(rows, columns)]
+    counts: Integers = np.diff(np.diff(corners, axis=0), axis=1)
+    return counts

@@ -1,0 +1,91 @@
+"""The fault of a picture that was processed after rendering, as a photograph is.
+
+JPEG, dithering, a white balance, a saturation, a look: what each has done is not asked. The colours
+of all surfaces are off by a little, and each surface is where it is traced.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Array, Colors, Floats
+from ...causes.checks.color import groups
+from ...images import encoded
+from ...tracer.progress import at_once
+from ..evidence import Evidence
+from .fault import AnyFault, Effort, Fault, Numbers, unchanged
+from .surfaces import Surfaces, surfaces
+
+ALL = 0.8  # of the surfaces, at least, that are wrong
+SEVERAL = 3  # surfaces, at least
+RECOLORED = 0.3  # of white, coded: a surface that is off by more has another colour
+ALIKE = 0.8  # the least correlation of the surfaces' colours with the traced ones
+# Of white, coded: by how much most pixels, and nearly all, may differ from their surface's colour.
+# (A JPEG of quality 75 has 0.05 and 0.15, as it blurs edges.)
+GRAIN = {0.9: 0.06, 0.98: 0.2}
+
+
+@dataclass(frozen=True, eq=False)
+class Processed(Numbers):
+    """What the picture shows, where a processed surface may."""
+
+    made: Colors = None  # type: ignore[assignment]
+
+
+@at_once
+def _find(evidence: Evidence) -> list[Processed]:
+    """Guess by how much colours are off, if nearly all surfaces are, each by its own amount."""
+    found = surfaces(evidence)
+    if found is None or len(found.wrong) < SEVERAL or found.wrong.mean() < ALL:
+        return []
+    pair = [encoded(v.astype(np.float64))[:, :3] for v in (found.traced, found.shown)]
+    apart = float(np.abs(pair[0] - pair[1]).max())
+    like = np.corrcoef(pair[0].ravel(), pair[1].ravel())[0, 1] if np.ptp(pair[1]) else 0.0
+    if apart > RECOLORED or not like >= ALIKE:
+        return []
+    made, color = _mapped(evidence.frame.color, found), evidence.picture.color
+    off = _off(made, color)
+    size = float(np.quantile(off, max(GRAIN)))
+    if not all(np.quantile(off, share) <= most for share, most in GRAIN.items()):
+        return []
+    made[off <= size] = color[off <= size]
+    return [Processed((100 * max(apart, size),), made=made)]
+
+
+def _mapped(colors: Colors, found: Surfaces) -> Colors:
+    """Return traced colours (h, w, 4) as the surfaces that have them are shown."""
+    flat = np.concatenate((found.traced, colors.reshape(-1, 4)))
+    number, count = groups(flat), len(found.traced)
+    table: Array = np.zeros((int(np.max(number)) + 1, 4), colors.dtype)
+    table[number] = flat
+    table[number[:count]] = found.shown
+    return table[number[count:]].reshape(colors.shape)
+
+
+def _off(made: Colors, shown: Colors) -> Floats:
+    """Return by how much colours (h, w, 4) differ as a file codes them, (h, w)."""
+    first, second = (encoded(v.astype(np.float64))[..., :3] for v in (made, shown))
+    return np.abs(first - second).max(axis=-1)
+
+
+PROCESSED: tuple[AnyFault, ...] = (
+    Fault(
+        "processed",
+        "the picture was processed after rendering: colours are up to {percent:.3g} % of white "
+        "off, and all surfaces are where they should be",
+        "A JPEG, dithering, a white balance, a saturation or a look, by Blender's color "
+        "management, or by a program that sends, shows or saves pictures.",
+        "store it as PNG or EXR as it was rendered; switch off color management's look and white "
+        "balance, dithering, and what a viewer does to photographs",
+        unchanged,
+        _find,
+        ("percent",),
+        everywhere=True,
+        sampled=False,
+        vague=True,
+        after=lambda colors, guess, evidence: guess.made,
+        effort=Effort.ANYTHING,
+    ),
+)
