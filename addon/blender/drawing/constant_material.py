@@ -37,18 +37,27 @@ def constant_colors(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
     SceneError
         If the colours are ones that a material cannot ask for.
     """
-    objects = [block for block in depsgraph.ids if block.id_type == "OBJECT"]
-    if scene.display.shading.color_type == "RANDOM":
-        show_in(scene, depsgraph, {o.original.name_full: random_color(o)[:3] for o in objects})
-    for lamp in (o for o in objects if o.type == "LIGHT"):
-        lamp.visible_camera = False
-    scene.camera.evaluated_get(depsgraph).data.dof.use_dof = False
+    _set_evaluated(scene, depsgraph)
     material = made_for(scene, bpy.data.materials.new("Reference Tracer Constant"))
     _emission(material, scene, layer, depsgraph)
     scene.world = None
     scene.view_layers[layer].use_solid = True
     scene.view_layers[layer].material_override = material
     yield
+
+
+def _set_evaluated(scene: Any, depsgraph: Any) -> None:
+    """Set what is evaluated.
+
+    No evaluated object may be held while an engine draws: an instance's `object` would then be that
+    one, in its own colour (5.2), and not the one in the colour of what instances it.
+    """
+    objects = [block for block in depsgraph.ids if block.id_type == "OBJECT"]
+    if scene.display.shading.color_type == "RANDOM":
+        show_in(scene, depsgraph, {o.original.name_full: random_color(o)[:3] for o in objects})
+    for lamp in (o for o in objects if o.type == "LIGHT"):
+        lamp.visible_camera = False
+    scene.camera.evaluated_get(depsgraph).data.dof.use_dof = False
 
 
 def _emission(material: Any, scene: Any, layer: str, depsgraph: Any) -> None:

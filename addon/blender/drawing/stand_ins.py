@@ -54,6 +54,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Scen
             obj[STANDS_FOR] = owner
             if tmp.display.shading.color_type == "RANDOM":
                 plane = replace(plane, color=np.array(random_color(obj), np.float32))
+                obj.color = plane.color  # for engines that are shown random colours as objects' own
         planes.append(plane)
     return replace(scene, planes=tuple(planes))
 
