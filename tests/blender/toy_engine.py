@@ -18,7 +18,7 @@ class ToyEngine(bpy.types.RenderEngine):
     is_opaque = False  # a background of its own
 
     def render(self, depsgraph):
-        scene = depsgraph.scene
+        scene = depsgraph.scene_eval  # the camera of the other may have an older matrix
         width, height = (
             n * scene.render.resolution_percentage // 100
             for n in (scene.render.resolution_x, scene.render.resolution_y)

@@ -37,27 +37,21 @@ def constant_colors(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
     SceneError
         If the colours are ones that a material cannot ask for.
     """
-    _set_evaluated(scene, depsgraph)
+    # Once a script has looked at an evaluated object, Blender tells an engine in Python its own
+    # colour, not that of what instances it. So all are looked at only where instances are refused.
+    if scene.display.shading.color_type == "RANDOM":
+        objects = (block for block in depsgraph.ids if block.id_type == "OBJECT")
+        show_in(scene, depsgraph, {o.original.name_full: random_color(o)[:3] for o in objects})
+    for lamp in (o.evaluated_get(depsgraph) for o in bpy.data.objects if o.type == "LIGHT"):
+        if lamp.is_evaluated:  # else it is the user's, and not drawn
+            lamp.visible_camera = False
+    scene.camera.evaluated_get(depsgraph).data.dof.use_dof = False
     material = made_for(scene, bpy.data.materials.new("Reference Tracer Constant"))
     _emission(material, scene, layer, depsgraph)
     scene.world = None
     scene.view_layers[layer].use_solid = True
     scene.view_layers[layer].material_override = material
     yield
-
-
-def _set_evaluated(scene: Any, depsgraph: Any) -> None:
-    """Set what is evaluated.
-
-    No evaluated object may be held while an engine draws: an instance's `object` would then be that
-    one, in its own colour (5.2), and not the one in the colour of what instances it.
-    """
-    objects = [block for block in depsgraph.ids if block.id_type == "OBJECT"]
-    if scene.display.shading.color_type == "RANDOM":
-        show_in(scene, depsgraph, {o.original.name_full: random_color(o)[:3] for o in objects})
-    for lamp in (o for o in objects if o.type == "LIGHT"):
-        lamp.visible_camera = False
-    scene.camera.evaluated_get(depsgraph).data.dof.use_dof = False
 
 
 def _emission(material: Any, scene: Any, layer: str, depsgraph: Any) -> None:

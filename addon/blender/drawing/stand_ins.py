@@ -53,8 +53,8 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Scen
             obj = _stand_in(tmp, corners, scene.camera.origin, plane.color)
             obj[STANDS_FOR] = owner
             if tmp.display.shading.color_type == "RANDOM":
-                plane = replace(plane, color=np.array(random_color(obj), np.float32))
-                obj.color = plane.color  # for engines that are shown random colours as objects' own
+                obj.color = random_color(obj)  # of engines that show objects' own
+                plane = replace(plane, color=np.array(obj.color, np.float32))
         planes.append(plane)
     return replace(scene, planes=tuple(planes))
 
