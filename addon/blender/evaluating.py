@@ -143,7 +143,8 @@ def _draw_in_window(turns: _InTurns[Any], scene: Any, layer: str) -> None:
 def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
     """Render a scene, by the engine of a judge or without a picture.
 
-    Blender's operator evaluates the context's scene at its end: it is given an empty one.
+    Blender's operator evaluates the context's scene at its end: it is given an empty one, unless an
+    add-on's engine draws, which may ask the context for the user's.
     """
     engine = judge.engine or "" if judge else ENGINE
     scene.render.engine = ENGINES.get(engine, engine)
@@ -153,7 +154,9 @@ def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
     empty = bpy.data.scenes.new("Reference Tracer")
     empty.frame_set(scene.frame_current, subframe=scene.frame_subframe)  # it is rendered (5.2)
     try:
-        override = bpy.context.temp_override(scene=empty, view_layer=empty.view_layers[0])
+        known = judge is None or judge.known
+        context = empty if known else bpy.context.scene
+        override = bpy.context.temp_override(scene=context, view_layer=context.view_layers[0])
         with values_restored(), override, _one_frame(turns, scene):
             bpy.ops.render.render(scene=scene.name, animation=writes)
     finally:

@@ -74,7 +74,7 @@ def _read_once(
 ) -> Read | None:
     """Return what is known of an object's mesh, or read it; what had colours may be without."""
     obj, name, with_colors = args
-    is_edited = obj.original.data is not None and obj.original.data.is_editmode
+    is_edited = getattr(obj.original.data, "is_editmode", False)  # of meshes alone
     key = name if is_edited else obj.data.as_pointer()
     if key not in known:
         known[key] = read(*args)
