@@ -68,16 +68,13 @@ def test_blenders_own_png_of_a_plain_view(scene, drawn, judged):
     assert code == 0 and found["verdict"] == "agree" and found["transform"] == ""
 
 
-@pytest.mark.parametrize(
-    ("engine", "renderer"),
-    [("BLENDER_WORKBENCH", "raster"), ("REFERENCE_TRACER", "rays"), ("CYCLES", "rays")],
-)
-def test_an_engine_of_an_add_on_is_no_rasteriser(engine, renderer, scene, drawn, judged):
+@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "REFERENCE_TRACER", "CYCLES"])
+def test_the_engine_that_a_blend_is_set_to_is_not_the_pictures(engine, scene, drawn, judged):
     scene.render.engine = engine
     scene.cycles.samples = 1
     drawn(view_transform="Standard")
     _, found, text = judged("--no-diagnosis")
-    assert found["blender"]["renderer"] == renderer
+    assert found["blender"]["renderer"] == "rays"  # whose rounding excuses the least
     assert f", {found['blender']['renderer_known']} (--renderer)" in text
 
 
