@@ -154,8 +154,7 @@ def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
     empty = bpy.data.scenes.new("Reference Tracer")
     empty.frame_set(scene.frame_current, subframe=scene.frame_subframe)  # it is rendered (5.2)
     try:
-        known = judge is None or judge.known
-        context = empty if known else bpy.context.scene
+        context: Any = empty if judge is None or judge.known else bpy.context.scene
         override = bpy.context.temp_override(scene=context, view_layer=context.view_layers[0])
         with values_restored(), override, _one_frame(turns, scene):
             bpy.ops.render.render(scene=scene.name, animation=writes)

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import bpy
 import pytest
+from reference_tracer.blender import evaluating
 from reference_tracer.blender.jobs.compare import gather_case
-from reference_tracer.blender.reading import export as export_module
 from reference_tracer.pictures.certificate import CameraMismatchError
 
 from . import test_compare_scenes as settings
@@ -39,14 +39,14 @@ def test_every_camera_has_one(setting, build):
 def test_another_camera_is_refused_before_any_picture(build, monkeypatch):
     build.scene()
     build.corner_camera()
-    real = export_module.export
+    real = evaluating.export
 
-    def shifted(depsgraph):
-        scene, manifest = real(depsgraph)
+    def shifted(depsgraph, known=None):
+        scene, manifest = real(depsgraph, known)
         window = replace(scene.camera.window, left=scene.camera.window.left * 1.1)
         return replace(scene, camera=replace(scene.camera, window=window)), manifest
 
-    monkeypatch.setattr(export_module, "export", shifted)
+    monkeypatch.setattr(evaluating, "export", shifted)
     with pytest.raises(CameraMismatchError, match="not Blender's"):
         gather_case(bpy.context)
     with pytest.raises(RuntimeError, match="not Blender's"):

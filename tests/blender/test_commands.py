@@ -108,7 +108,6 @@ def test_4_no_file_is_open(build, out, capsys):
     "argv",
     [
         [],
-        ["compare"],
         ["nothing"],
         ["compare", "--out"],
         ["compare", "--out", "x", "--method", "magic"],
@@ -122,6 +121,11 @@ def test_4_an_option_that_is_wrong(argv, saved, capsys):
     assert in_blender.run(argv) == 4
     message = capsys.readouterr().err
     assert "--help" in message
+
+
+def test_4_without_a_folder(saved, capsys):
+    assert in_blender.run(["compare"]) == 4
+    assert "name a folder with --out" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("samples", ["0", "-1", "65"])
@@ -231,7 +235,7 @@ def test_explain_prints_or_writes(saved, tmp_path, capsys):
     page, again = tmp_path / "pixel.html", tmp_path / "pixel.json"
     written = ["--out", str(page), "--reproducer", str(again)]
     assert in_blender.run(["explain", "--pixel", "30", "18", *written]) == 0
-    assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    assert page.read_text(encoding="utf-8").startswith("<!doctype html>")
     assert "reference_tracer.pixel/2" in again.read_text(encoding="utf-8")
 
 

@@ -152,7 +152,7 @@ def test_command_for_a_pixel(blender, folder):
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "The pixel sees Cone, triangle 9" in done.stdout
-    assert (path / "pixel.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    assert (path / "pixel.html").read_text(encoding="utf-8").startswith("<!doctype html>")
 
 
 def test_command_refuses_a_file_that_is_not_there(blender, folder):
