@@ -201,7 +201,8 @@ def _moved(pixels: OpenPixels) -> Work[Floats]:
 def _thin(open_: Bools, most: int) -> Places:
     """Close open pixels until no more than `most` are left; return which were closed."""
     found = np.flatnonzero(open_)
-    left = np.linspace(0, len(found) - 1, min(most, len(found))).astype(int)
+    count = min(most, len(found))
+    left = np.arange(count) * len(found) // max(count, 1)  # all of them, if they are few enough
     closed = np.delete(found, left)
     open_.flat[closed] = False
     return closed

@@ -144,12 +144,13 @@ def _explanations(own: Camera, other: Camera, allowed: float) -> list[Steps]:
     options = list(mistakes(own))
     if singles := _all(((step,) for step in options), sees_as):
         return singles
+    halves = ((step,) for step in half_pixels(own))
     beside = ((first, step) for first in options for step in half_pixels(first.camera))
     alone = ((step,) for step in fitted(own, other))
     further = [(first, step) for first in options for step in fitted(first.camera, other)]
     # A turn, a move or an offset can look like two mistakes: these come before.
     focal = (steps for steps in further if steps[1].fault.name.startswith("focal"))
-    if found := _first(chain(beside, alone, focal), sees_as):
+    if found := _first(chain(halves, beside, alone, focal), sees_as):
         return found
     if pairs := _all(((a, b) for a in options for b in second(a, other)), sees_as):
         return pairs

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -17,9 +18,13 @@ from ..tracer.camera import film_of
 from .camera_difference import CameraDifference, apart, explained, measured, points_before
 from .camera_steps import Steps, focal_step, mistakes
 
-_FEW = 6  # cameras, among all, on which an explanation is tried first
+_FEW = 6  # cameras, among all, on which another world is tried first
+_ASKED = 3  # cameras, among those that differ, of which an explanation is tried on all
 _ONE_PLACE = 1e-20  # of the squared places: what is less is the rounding of their mean
 _NEGLIGIBLE = 1e-6  # of a turn in radians, a scale less 1, and a move in shares of all places
+
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,10 +126,11 @@ def trajectory_difference(
     if not wrong:
         return found
     pairs = [(own[k], other[k], each[k].allowed) for k in wrong]
-    first = explained(each[wrong[0]], own[wrong[0]], other[wrong[0]])
-    for steps in first.explanations:
-        if all(_sees_as(_with(a, steps), b, allowed) for a, b, allowed in pairs):
-            return replace(found, steps=steps)
+    # A camera that looks along an axis may hide what is wrong: several are asked.
+    for k in _spread(wrong, _ASKED):
+        for steps in explained(each[k], own[k], other[k]).explanations:
+            if all(_sees_as(_with(a, steps), b, allowed) for a, b, allowed in pairs):
+                return replace(found, steps=steps)
     every = [(a, b, one.allowed) for a, b, one in zip(own, other, each, strict=True)]
     if len(wrong) == len(each) and (common := _in_another_world(every)):
         return replace(found, steps=common[0], world=common[1])
@@ -154,11 +160,17 @@ def _sees_as(
 
 def _in_another_world(pairs: _Pairs) -> tuple[Steps, Similarity] | None:
     """Return a world, and what is wrong before it, of which all cameras are the scene's."""
-    few = [pairs[k] for k in np.unique(np.linspace(0, len(pairs) - 1, _FEW).astype(int))]
-    for steps in _before(pairs[0]):
-        if (world := _world(few, steps)) and (world := _world(pairs, steps)):
+    few = _spread(pairs, _FEW)
+    for steps in _before(few[len(few) // 2]):
+        if _world(few, steps) and (world := _world(pairs, steps)) and world.words():
             return steps, world
     return None
+
+
+def _spread(every: Sequence[T], most: int) -> list[T]:
+    """Return some items, spread over all."""
+    count = min(most, len(every))
+    return [every[k * len(every) // count] for k in range(count)]
 
 
 def _before(pair: tuple[Camera, Camera, float]) -> list[Steps]:

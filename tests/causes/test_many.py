@@ -36,3 +36,12 @@ def test_where_some_have_a_cause_all_are_asked(room, monkeypatch):
     again = explained(room, color, sample_radius=0.25)
     assert count(once, EDGE) > 0 and again.not_asked == 0
     np.testing.assert_array_equal(once.cause, again.cause)
+
+
+@pytest.mark.parametrize("size", range(1, 400, 7))
+def test_few_pixels_are_all_asked(size):
+    """Whatever their number: places that are spread by floats would leave some out."""
+    open_ = np.ones((1, size), bool)
+    assert not len(causes._thin(open_, size)) and open_.all()
+    closed = causes._thin(open_, max(1, size // 3))
+    assert open_.sum() == max(1, size // 3) and len(closed) == size - open_.sum()

@@ -250,6 +250,19 @@ def test_what_two_mistakes_explain_both_are_said(own):
     assert names == [["matrix_transposed"], ["matrix_inverted"]] and "or:" in found.lines()
 
 
+@pytest.mark.parametrize(
+    "axes", [np.eye(3), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [1, 0, 0], [0, 1, 0]]]
+)
+def test_half_a_pixel_is_no_other_mistake_of_a_camera_along_an_axis(axes, own):
+    """From above, the front or the side, a mistake of the matrix may change nothing."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes
+    matrix[:3, 3] = matrix[:3, 2] * 5
+    there = replace(own, world_from_camera=matrix, window=ViewWindow(-0.4, 0.4, -0.225, 0.225))
+    found = difference(there, half_pixel(there))
+    assert [step.fault.name for step in found.steps] == ["pixel_offset"]
+
+
 def test_the_sentences_say_which(own):
     assert difference(own, shift_up_left_out(own)).lines()[1] == "the camera's shift up is left out"
     assert "OpenCV's axes" in difference(own, opencv_for_opengl(own)).lines()[1]

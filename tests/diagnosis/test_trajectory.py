@@ -10,9 +10,11 @@ from reference_tracer.diagnosis.trajectory import Similarity, trajectory_differe
 from reference_tracer.scene import Camera, ViewWindow
 
 from .test_camera_difference import (
+    half_pixel,
     inverse_of_opencv,
     longer,
     opencv_for_opengl,
+    place_for_t,
     transposed_in_opencv,
 )
 
@@ -38,6 +40,35 @@ def path():
         matrix[:3, 3] = rng.normal(size=3) * 4
         cameras.append(Camera(matrix, window, 640, 360, clip_start=0.5, clip_end=40))
     return cameras
+
+
+def turntable(count=8):
+    """Cameras around the origin: the first looks along an axis."""
+    cameras = []
+    for k in range(count):
+        angle = 2 * np.pi * k / count
+        matrix = np.eye(4)
+        matrix[:3, :3] = rotation(angle, (0, 0, 1)) @ [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
+        matrix[:3, 3] = matrix[:3, 2] * 5
+        window = ViewWindow(-0.4, 0.4, -0.225, 0.225)
+        cameras.append(Camera(matrix, window, 640, 360, clip_start=0.5, clip_end=40))
+    return cameras
+
+
+@pytest.mark.parametrize(
+    ("mistake", "name"),
+    [
+        (half_pixel, "pixel_offset"),
+        (transposed_in_opencv, "matrix_transposed"),
+        (inverse_of_opencv, "matrix_inverted"),
+        (place_for_t, "place_for_translation"),
+    ],
+)
+def test_a_turntable_hides_no_mistake(mistake, name):
+    own = turntable()
+    found = trajectory_difference(NAMES[: len(own)], own, [mistake(camera) for camera in own])
+    assert [step.fault.name for step in found.steps] == [name]
+    assert not any(line.endswith("world is ") for line in found.lines())
 
 
 def in_world(camera, turn, scale, move):
