@@ -11,6 +11,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -92,8 +93,15 @@ def _take_names_of_places() -> None:
             below[0].name = name
 
 
+def bundled() -> str:
+    """Return the folder of the modules that Blender brings along, USD's among them."""
+    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    return str(Path(bpy.utils.resource_path("LOCAL"), "python", "lib", version, "site-packages"))
+
+
 def _look_into(path: str, missing: list[str], notes: list[str]) -> float:
     """Find out what a USD file has that Blender does not show; return its first time."""
+    sys.path.append(bundled())
     from pxr import Sdf, Tf, Usd, UsdGeom
 
     try:

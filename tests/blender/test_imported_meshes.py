@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from pxr import Usd, UsdGeom, UsdUtils
 from reference_tracer import load_scene
+from reference_tracer.blender.importing import bundled
 from reference_tracer.cli.opening import SOURCES
 from reference_tracer.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
@@ -23,6 +23,9 @@ from reference_tracer_meshes import FORMATS, by_blender
 from reference_tracer_meshes.load import load_meshes
 
 from ..meshes.gltf_build import SQUARE, UNIT, Build, box, moved, read, rich, skinned, sparse
+
+sys.path.append(bundled())
+from pxr import Usd, UsdGeom, UsdUtils  # Blender's own
 
 NEAR = 1e-6  # of float32, in which Blender counts
 
