@@ -19,6 +19,7 @@ Of guesses that are as good, those with the fewest fitted numbers are told, all 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypeVar
@@ -172,6 +173,11 @@ class Guessing:
         """
         promising = PROMISING * max((gain for gain, _, _ in scored), default=0.0)
         scored = sorted((one for one in scored if one[0] >= promising), key=lambda one: -one[0])
+        # Of guesses that are as good, one of each fault comes first: one has dozens of ways.
+        tried: Counter[str] = Counter()
+        ranks = [tried.update([fault.name]) or tried[fault.name] for _, fault, _ in scored]
+        order = sorted(range(len(scored)), key=lambda n: (-scored[n][0], ranks[n]))
+        scored = [scored[n] for n in order]
         exact = [one for one in scored if not one[1].vague]
         vague = [one for one in scored if one[1].vague]
         out: list[Trial] = []

@@ -155,7 +155,10 @@ def test_a_copy_is_offered_below_its_own_finding_alone(seen, compare, monkeypatc
     scene, camera = seen
     comparison = compare()
     case, told = comparison.case, []
-    for name, guess in ("focal_length", Numbers((5.0,))), ("roll", Numbers((3.0,))):
+    for name, guess in (
+        ("focal_length", Numbers((5.0,), words="it is off")),
+        ("roll", Numbers((3.0,))),
+    ):
         case = BY_NAME[name].assume(case, guess)
         frame = render(case.scene)
         told.append(Told(BY_NAME[name], guess, 9, 4, 9, 0, frame, comparison.picture))

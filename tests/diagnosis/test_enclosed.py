@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.diagnosis.faults.fault import Numbers
+from reference_tracer.diagnosis.faults.pose import about_point
 
 from .diagnosing import fitted, pictured
 
@@ -29,7 +30,8 @@ def enclosed(few, seed, size):
     scene = few(*size, parallel=rng.random() < 0.25, seed=seed)
     values = tuple(float(v) for v in KINDS[name](rng))
     guess = Numbers(values, object=str(rng.choice(OBJECTS)) if "object" in name else "")
-    found = fitted(scene, pictured(scene, name, guess), name)
+    made = about_point(guess) if name == "object_scaled" else guess
+    found = fitted(scene, pictured(scene, name, made), name)
     if found is None:
         return None
     assert all(a <= v <= b for a, v, b in zip(found.low, found.values, found.high, strict=True))

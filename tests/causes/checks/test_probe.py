@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.causes.checks import probe as probing
 from reference_tracer.causes.checks.probe import Probe
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
 from reference_tracer.tracer import candidates
@@ -107,7 +108,8 @@ def test_nothing_wanted_and_nothing_there(scene, make, wanted):
 
 
 def test_steps_are_small(scene, wanted, monkeypatch):
-    monkeypatch.setattr(candidates, "PAIRS", 100)
+    for module in (candidates, probing):
+        monkeypatch.setattr(module, "PAIRS", 100)
     shares = []
     made = result_of(plan(scene, PLAIN, 0.5))
     probe = result_of(Probe.of(made, TILE, wanted, PLAIN), shares.append)

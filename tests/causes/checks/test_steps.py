@@ -46,7 +46,8 @@ def work(monkeypatch):
         monkeypatch.setattr(module, "test_pairs", counted_pairs)
     monkeypatch.setattr(hull, "_pair", counted_numbers)
     monkeypatch.setattr(Picture, "other_color", counted_pixels)
-    monkeypatch.setattr(candidates, "PAIRS", BOUNDS["pairs"])
+    for module in (candidates, probe):
+        monkeypatch.setattr(module, "PAIRS", BOUNDS["pairs"])
     monkeypatch.setattr(hull, "STEP", BOUNDS["numbers"] // 4)
     monkeypatch.setattr(probe, "BLOCK", BOUNDS["pixels"])
     monkeypatch.setattr(coloring, "ENOUGH", BOUNDS["pixels"])
