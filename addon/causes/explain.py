@@ -125,12 +125,12 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     pixels = OpenPixels(case, frame, picture, out, np.zeros(frame.shape, bool), band)
     yield from scaled(_open(pixels), 0.0, _OPENING)
     yield from scaled(unmodelled.check_in_place(pixels), _OPENING, 0.0)
-    coloring, *others = CHECKS
-    yield from scaled(_checked(pixels, [coloring]), _OPENING, 0.0)
     if at_most is not None:
         out.passed_over = _thin(pixels.open, at_most)
-        yield from scaled(_checked(pixels, others), _OPENING, 1 - _OPENING)
+        yield from scaled(_checked(pixels, CHECKS), _OPENING, 1 - _OPENING)
     else:
+        coloring, *others = CHECKS
+        yield from scaled(_checked(pixels, [coloring]), _OPENING, 0.0)
         yield from scaled(_some_first(pixels, others), _OPENING, 1 - _OPENING)
     pixels.give(pixels.open, UNEXPLAINED)
     looking = wrong_behind(case, frame, find_causes)
