@@ -34,7 +34,6 @@ from .json_files import (
     radians_of,
 )
 
-_LENSES = "fl_x", "fl_y", "cx", "cy"
 _DISTORTIONS = "k1", "k2", "k3", "k4", "p1", "p2", "is_fisheye"
 # Of another projection if they are there at all, also as 0 or false.
 _OTHER_PROJECTIONS = {"ftheta_p0", "latlong"} | PROJECTIONS.keys() - {PERSPECTIVE.name}

@@ -20,4 +20,4 @@ def read(path: Path) -> Contents:
     SceneError
         If it cannot be read, or refers to other files.
     """
-    return by_blender.imported(path.resolve(), f"{path.suffix} files take")
+    return by_blender.imported(path.absolute(), f"{path.suffix} files take")

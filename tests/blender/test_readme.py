@@ -28,7 +28,7 @@ def test_its_commands_run(build, tmp_path, monkeypatch, reftrace):
     for command in commands:
         words = shlex.split(command)[1:]
         if words[0] == "conform":
-            shutil.copy(EXAMPLE, "mine.py")
+            shutil.copy(EXAMPLE, "renderer.py")
             words += ["--only", "camera-plain", "--no-sandbox"]  # which hides a clone in /tmp
         done = reftrace(*words)
         assert done.returncode == 0, (command, done.stderr)

@@ -226,7 +226,7 @@ def failed(operator: Any, error: Exception) -> Answer:
     from ...errors import EXPECTED, show_traceback, words
 
     if kind := getattr(operator, "kind", None):
-        drop(kind, bpy.context.scene)
+        drop(kind)
         redraw(bpy.context)
     if not isinstance(error, EXPECTED):
         show_traceback(error)

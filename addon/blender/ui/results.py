@@ -126,12 +126,10 @@ def content(kind: Kind, scene: Any) -> Any:
     return found and found.content
 
 
-def drop(kind: Kind, scene: Any) -> None:
-    """Drop a scene's result of a kind, with its pictures."""
-    if latest(kind, scene):
-        del _latest[kind]
-        if kind is Kind.COMPARISON:
-            _forget_comparison()
+def drop(kind: Kind) -> None:
+    """Drop the latest result of a kind, with its pictures: also another scene's, which they show."""
+    if _latest.pop(kind, None) and kind is Kind.COMPARISON:
+        _forget_comparison()
 
 
 def _forget_comparison() -> None:
