@@ -127,7 +127,7 @@ def content(kind: Kind, scene: Any) -> Any:
 
 
 def drop(kind: Kind) -> None:
-    """Drop the latest result of a kind, with its pictures: also another scene's, which they show."""
+    """Drop the latest result of a kind, of whichever scene, with its pictures."""
     if _latest.pop(kind, None) and kind is Kind.COMPARISON:
         _forget_comparison()
 
