@@ -128,7 +128,17 @@ class _File:
             view = item(self.content, "bufferViews", accessor["bufferView"])
             if COMPRESSED & view.get("extensions", {}).keys():
                 return False
+            self._check_view(view, 12 if accessor is position else 1)
         return position["componentType"] == _FLOAT and primitive.get("mode", _LISTS) <= _STRIPS
+
+    def _check_view(self, view: Content, row: int) -> None:
+        """Refuse a view that is not in its buffer, or whose rows, of so many bytes, overlap."""
+        item(self.content, "buffers", view["buffer"])
+        end = view.get("byteOffset", 0) + view["byteLength"]
+        if end > len(self.buffers[view["buffer"]]):
+            raise SceneError("one of its bufferViews ends behind its buffer: export it again")
+        if view.get("byteStride", row) < row:
+            raise SceneError(f"its byteStride is {view['byteStride']}: rows of {row} bytes overlap")
 
     def by_trimesh(self) -> Contents:
         """Return the meshes that are shown, of arrays that trimesh decodes."""

@@ -36,7 +36,8 @@ def read(path: Path) -> Contents:
     corners: list[Index] = [np.zeros(0, np.intp)]
     sizes: list[Index] = [np.zeros(0, np.intp)]
     notes = []
-    for element in _elements(path):
+    elements, behind = _elements(path)
+    for element in elements:
         if element.name == "vertex":
             vertices = _vertices(element)
         elif element.name in ("face", "tristrips"):
@@ -51,12 +52,18 @@ def read(path: Path) -> Contents:
             if element.name == "edge":
                 row, rows, why = "edge is", "edges are", "drawn: what has no surface meets no ray"
             notes.append(f"{count_of(element.count, row, rows)} not {why}")
+    if behind:
+        said = count_of(behind, "byte behind the last row is", "bytes behind the last row are")
+        notes.append(f"{said} not understood, and left out")
     faces = np.concatenate(corners), np.concatenate(sizes)
     return of_faces(vertices, *faces, [path.stem], notes=notes)
 
 
-def _elements(path: Path) -> Any:
-    """Return the elements of a file, once its head is one that the library understands."""
+def _elements(path: Path) -> tuple[Any, int]:
+    """Return the elements of a file, whose head is made one that the library understands.
+
+    And how many bytes are behind the last row.
+    """
     try:
         from plyfile import PlyData, PlyParseError
     except ImportError:
@@ -75,10 +82,18 @@ def _elements(path: Path) -> Any:
         if (plain := _plain(head[0])) != head[0]:
             path = Path(folder, "plain.ply")
             path.write_bytes(plain + content[head.end() :])
-        for size in (3, 4):  # faces of one size are read at once
-            with suppress(PlyParseError):
-                return PlyData.read(str(path), mmap="r", known_list_len=_all(size)).elements
-        return PlyData.read(str(path), mmap=False).elements
+        if b"format ascii" in head[0]:  # the library closes what it reads as text
+            rows = sum(map(int, _ELEMENT.findall(head[0])))
+            behind = b"\n".join(content[head.end() :].split(b"\n")[rows:])
+            return PlyData.read(str(path), mmap=False).elements, len(behind.strip())
+        with path.open("rb") as stream:
+            for size in (3, 4):  # faces of one size are read at once
+                stream.seek(0)
+                with suppress(PlyParseError):
+                    found = PlyData.read(stream, mmap="r", known_list_len=_all(size))
+                    return found.elements, len(stream.read())
+            stream.seek(0)
+            return PlyData.read(stream, mmap=False).elements, len(stream.read())
 
 
 def _all(size: int) -> dict[str, dict[str, int]]:

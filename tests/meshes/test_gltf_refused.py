@@ -181,3 +181,21 @@ class TestNotes:
         extension = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
         primitive(extensions=extension)(build)
         assert len(load_meshes(build.write(tmp_path / "a.glb")).placed[0].mesh.triangles) == 2
+
+
+@pytest.mark.parametrize(
+    ("change", "pattern"),
+    [
+        ({"byteStride": 4}, "byteStride is 4"),
+        ({"byteLength": 1 << 20}, "byteLength 1,048,576|behind its buffer"),
+        ({"byteOffset": 52}, "behind its buffer"),
+        ({"buffer": 3}, "buffers"),
+    ],
+)
+def test_a_view_that_is_not_in_its_buffer_or_whose_rows_overlap(change, pattern, tmp_path):
+    build = Build().shown()
+    last = build.json["bufferViews"][-1]
+    for view in build.json["bufferViews"]:
+        if "byteStride" in change or "buffer" in change or view is last:
+            view.update(change)
+    refused(build.write(tmp_path / "a.gltf"), pattern)

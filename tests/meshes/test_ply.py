@@ -166,3 +166,19 @@ def test_an_index_out_of_range_is_refused_with_its_face(tmp_path):
     (tmp_path / "a.ply").write_text(f"{HEAD}{XYZ}{FACE}{BODY}3 0 1 3")
     with pytest.raises(ValueError, match="face 1 names vertex 3 of 3, counted from 0"):
         read_ply(tmp_path / "a.ply")
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_bytes_behind_the_last_row_are_named(form, tmp_path):
+    """In a file of triangles, and in one of mixed sizes, which is read in another way."""
+    points = np.zeros(5, [(axis, "f4") for axis in "xyz"])
+    points["x"], points["y"] = [0, 1, 1, 0, 2], [0, 0, 1, 1, 2]
+    for rows in ([(0, 1, 2)], [(0, 1, 2, 3), (0, 1, 2)]):
+        path = tmp_path / "a.ply"
+        elements = [plyfile.PlyElement.describe(points, "vertex"), lists("face", rows, "i4")]
+        written(path, elements, form)
+        assert not read_ply(path).notes
+        path.write_bytes(path.read_bytes() + b"extra")
+        assert read_ply(path).notes == (
+            "5 bytes behind the last row are not understood, and left out",
+        )
