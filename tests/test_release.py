@@ -248,12 +248,12 @@ def test_wheel_is_of_use_alone(name: str, release: Path, tmp_path: Path):
     assert reftrace("--version").split()[-1] in wheel.name
     size = "--width", "48", "--height", "32"
     ball = trimesh.creation.icosphere(2)
-    for suffix in ("ply", "glb"):
+    for suffix in ("obj", "glb"):
         ball.export(tmp_path / f"ball.{suffix}")
         reftrace("trace", f"ball.{suffix}", *size, "--out", f"{suffix}.png")
     stored = Path(site, "reference_tracer_grading/scenes/exercise_triangle.npz")
     reftrace("trace", stored, "--out", "stored.png")
-    reftrace("compare", "ball.ply", *size, "--against", "ply.png", "--out", "compared")
+    reftrace("compare", "ball.obj", *size, "--against", "obj.png", "--out", "compared")
     assert (tmp_path / "compared" / "page.html").exists()
     blend = PROJECT / "sample_scenes/suzanne.blend"
     said = reftrace("trace", blend, "--out", "x.png", code=INPUT_ERROR)
@@ -262,7 +262,7 @@ def test_wheel_is_of_use_alone(name: str, release: Path, tmp_path: Path):
         assert 'module: pip install "reference_tracer[blender]"' in said
     else:
         assert f"made for Python 3.11 and 3.13 and not for {version}: python3.13 -m pip" in said
-    exr = reftrace("trace", "ball.ply", *size, "--out", "ball.exr", code=INPUT_ERROR)
+    exr = reftrace("trace", "ball.obj", *size, "--out", "ball.exr", code=INPUT_ERROR)
     assert 'pip install "reference_tracer[images]"' in exr
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 
 from ...causes.case import Case
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
+from ...tracer.progress import Work
+from ..evidence import Evidence
 from .fault import AnyFault, Effort, Example, Fault, Numbers, of_camera, with_values
 from .film import CROPPED, FOCAL, FOCALS, OFFSET, ROLL
 from .fitting import fitting
@@ -28,6 +32,15 @@ _OFFSET, _FOCAL, _FOCALS, _ROLL, _MOVED, _PANNED, _CROPPED, _PLACED = (
     for family in (OFFSET, FOCAL, FOCALS, ROLL, MOVED, TURNED, CROPPED, PLACED)
 )
 
+
+def _find_offset(evidence: Evidence) -> Work[list[Numbers]]:
+    """Guess an offset: half a pixel, the commonest, exactly; and what is found in the picture."""
+    camera = evidence.case.scene.camera
+    halves = product((0.5, -0.5), repeat=2)
+    exact = [Numbers(v, words=OFFSET.words(camera, *v)) for v in halves]
+    return [*exact, *(yield from _OFFSET.find(evidence))]
+
+
 CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "pixel_offset",
@@ -39,7 +52,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "(i + 1/2, j + 1/2), and the principal point is at half of the width and the height, plus "
         "the shift",
         of_camera(OFFSET.camera),
-        _OFFSET.find,
+        _find_offset,
         ("dx", "dy"),
         refine=_OFFSET.refine,
         effort=Effort.FILM,
