@@ -62,14 +62,6 @@ def area(points):
     return 0.5 * float(x @ np.roll(y, -1) - np.roll(x, -1) @ y)
 
 
-def without_straight_corners(rng, points):
-    """Return the same shape without some of the corners at which it does not turn."""
-    before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
-    (a, b), (c, d) = (points - before).T, (after - points).T
-    is_straight = (a * d == b * c) & (a * c + b * d > 0)
-    return points[~is_straight | (rng.random(len(points)) < 0.3)]
-
-
 def in_space(rng, points, scale=1.0, offset=0.0):
     """Return the corners (n, 3) in a random plane."""
     axes, _ = np.linalg.qr(rng.normal(size=(3, 3)))
