@@ -18,6 +18,7 @@ from reference_tracer.diagnosis.faults.fault import AnyFault
 from reference_tracer.methods import Method
 from reference_tracer.report.page.content import hex_color
 
+
 class _Name(str):
     """A number's name, which stands in a text where the number would, in whatever format."""
 
