@@ -8,6 +8,7 @@ PACKAGES = {  # by the folder that each stands in
     "packages/cluster": "reference_tracer_cluster",
     "packages/conformance": "reference_tracer_conformance",
     "packages/meshes": "reference_tracer_meshes",
+    "packages/rays": "reference_tracer_rays",
     "packages/processes": "reference_tracer_processes",
     "packages/verify": "reference_tracer_verify",
     "packages/scene_diff": "reference_tracer_scene_diff",

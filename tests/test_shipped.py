@@ -107,7 +107,7 @@ def beside_the_code(source: str) -> list[str]:
 # Who advises to install packages, and why nobody reads that in Blender.
 NOT_IN_BLENDER = {
     "cli.opening": "said where there is no Blender",
-    "exr": "of OpenImageIO, which Blender brings along",
+    "files.exr": "of OpenImageIO, which Blender brings along",
 }
 # Who hands a folder of its own to others, and to whom.
 HANDED_ON = {

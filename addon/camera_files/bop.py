@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..checked_json import Content, part
+from ..files.checked_json import Content, part
 from ..scene import SceneError
 from . import frame
 from .convention import Convention, Files, Source, View

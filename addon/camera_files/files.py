@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..file_kinds import check_is_file
+from ..files.file_kinds import check_is_file
 from ..scene import Camera, SceneError
 from ..wording import count_of
 from .bop import BOP

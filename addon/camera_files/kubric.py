@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checked_json import Content, numbers, part
+from ..files.checked_json import Content, numbers, part
 from ..scene import SceneError
 from . import frame
 from .colmap import rotation

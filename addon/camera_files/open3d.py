@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..checked_json import Content, part
+from ..files.checked_json import Content, part
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import ASPECT, SHIFT

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content, numbers, part
+from ..files.checked_json import Content, numbers, part
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError
 from . import frame

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..checked_json import Content, numbers
+from ..files.checked_json import Content, numbers
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import ASPECT

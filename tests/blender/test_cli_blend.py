@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 import pytest
 from PIL import Image
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.settings import Settings
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"

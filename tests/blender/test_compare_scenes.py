@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 
 from .scenes import HALF_FLOAT
 

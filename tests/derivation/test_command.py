@@ -13,7 +13,7 @@ import trimesh
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 from reference_tracer.derivation import reproducer, writers
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files.scenes import save_scene
 
 SMALL = ["--width", "24", "--height", "16"]
 

@@ -62,12 +62,6 @@ def _camera() -> ModuleType:
     return camera
 
 
-def _rays() -> ModuleType:
-    from . import rays
-
-    return rays
-
-
 COMMANDS = {  # in the order of `--help`
     "compare": Command(
         "trace a scene and compare it with Blender's own picture, or with any other", _compare
@@ -76,7 +70,7 @@ COMMANDS = {  # in the order of `--help`
     "explain": Command(
         "show the maths of one pixel's ray: every step, in float32, float64 and exactly", _explain
     ),
-    "rays": Command("find what any rays meet in a scene, certified, in bulk", _rays),
+    "rays": Command("find what any rays meet in a scene, certified, in bulk", None),
     "judge": Command("judge students' own ray/triangle tests (this runs their code)", None),
     "conform": Command("judge a renderer or an exporter on forty small scenes", None),
     "verify": Command("check a certificate of `trace`, by a program that knows no tracer", None),

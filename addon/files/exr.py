@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .arrays import Array, Colors
+from ..arrays import Array, Colors
 
 _ROWS = 64  # written at a time: several of a file's blocks
 

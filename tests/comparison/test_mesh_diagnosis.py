@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.mesh_diagnosis import diagnose
+from reference_tracer.comparison.mesh_diagnosis import diagnose
 from reference_tracer.scene import Mesh
 
 

@@ -10,15 +10,14 @@ from collections.abc import Collection
 from pathlib import Path
 
 from numpy.typing import ArrayLike
-
-from .api import compare
-from .comparison.comparison import Comparison
-from .comparison.verdict import Verdict
-from .report import comparison as comparison_report
-from .report import page as comparison_page
-from .report.junit import wrong_in
-from .scene import Camera, Scene
-from .tracer.progress import result_of
+from reference_tracer.api import compare
+from reference_tracer.comparison.comparison import Comparison
+from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.report import comparison as comparison_report
+from reference_tracer.report import page as comparison_page
+from reference_tracer.report.junit import wrong_in
+from reference_tracer.scene import Camera, Scene
+from reference_tracer.tracer.progress import result_of
 
 
 def assert_sees(

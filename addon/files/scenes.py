@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arrays import Array
+from ..manifest import Effect, Manifest, Unmodelled
+from ..scene import Instance, Mesh, Plane, Scene, SceneError
 from . import npz
-from .arrays import Array
 from .checked_json import Content, camera_of, numbers, part, whole
-from .manifest import Effect, Manifest, Unmodelled
-from .scene import Instance, Mesh, Plane, Scene, SceneError
 
 _SCHEMA = "reference_tracer.scene/3"
 # Those before had arrays for each mesh, instance and plane; the first, "orthographic" for

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from reference_tracer.runs import by_runs, places, run_starts
+from reference_tracer.arrays import by_runs, places, run_starts
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int32, np.uint8, bool])

@@ -11,9 +11,9 @@ import numpy as np
 import OpenEXR
 import pytest
 from PIL import Image
-from reference_tracer import exr, png
-from reference_tracer.exr import MissingLibraryError
-from reference_tracer.images import open_picture, read_picture, save_png, to_display
+from reference_tracer.files import exr, png
+from reference_tracer.files.exr import MissingLibraryError
+from reference_tracer.files.images import open_picture, read_picture, save_png, to_display
 
 from .png_files import chunk, png_file
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array, Bytes
+from ...arrays import Array, Bytes
 from .said import remarks
 from .samples import CHANNELS, GREY, PALETTE, RGB, RGBA, Header, PngError, in_channels, unpacked
 

@@ -9,8 +9,8 @@ import zlib
 import numpy as np
 import pytest
 from PIL import Image
-from reference_tracer import images, png
-from reference_tracer.images import read_picture
+from reference_tracer.files import images, png
+from reference_tracer.files.images import read_picture
 
 from .png_files import png_file
 

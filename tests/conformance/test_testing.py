@@ -11,16 +11,17 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from reference_tracer import Verdict, images, render, save_scene
+from reference_tracer import Verdict, render, save_scene
+from reference_tracer.files import images
+from reference_tracer.files.scenes import Account
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.opened import file_manifest
-from reference_tracer.pytest_plugin import _name_of
 from reference_tracer.report.junit import Judged, junit
-from reference_tracer.scene_files import Account
-from reference_tracer.testing import assert_sees as check
+from reference_tracer_conformance.pytest_plugin import _name_of
 from reference_tracer_conformance.scenes import kit_scenes
+from reference_tracer_conformance.testing import assert_sees as check
 
-PAGE = Path(__file__).parent.parent / "docs" / "testing.md"
+PAGE = Path(__file__).parents[2] / "docs" / "testing.md"
 RENDERER = """
 import os
 from dataclasses import replace
@@ -136,7 +137,7 @@ def test_folders_of_tests_with_long_names_can_be_made(tmp_path):
 
 
 def test_the_plugin_imports_nothing_before_it_is_used():
-    code = "import sys, reference_tracer.pytest_plugin; print('numpy' in sys.modules)"
+    code = "import sys, reference_tracer_conformance.pytest_plugin; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

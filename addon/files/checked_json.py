@@ -9,9 +9,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .arrays import Floats
-from .projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS, Projection
-from .scene import Camera, Region, SceneError, ViewWindow
+from ..arrays import Floats
+from ..projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS, Projection
+from ..scene import Camera, Region, SceneError, ViewWindow
 
 Content = dict[str, Any]  # an object of JSON
 T = TypeVar("T")

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .arrays import Array
+from ..arrays import Array
+from ..scene import Scene
+from ..tracer.frame import Frame
 from .npz import save
-from .scene import Scene
-from .tracer.frame import Frame
 
 SCHEMA = "reference_tracer.certificate/2"
 

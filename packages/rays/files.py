@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-
-from . import npz
-from .arrays import Array, Floats
-from .scene import Scene, SceneError
-from .tracer.camera import Rays
-from .tracer.hits import NOTHING, Hits
+from reference_tracer.arrays import Array, Floats
+from reference_tracer.files import npz
+from reference_tracer.scene import Scene, SceneError
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.hits import NOTHING, Hits
 
 ORIGINS, DIRECTIONS = "origins", "directions"
 

@@ -8,21 +8,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from reference_tracer.certified.any_rays import nearest_hits
+from reference_tracer.certified.arithmetic import check_assumptions
+from reference_tracer.cli.camera_options import CAMERA_OPTIONS, add_parts_of_blend, choice_from
+from reference_tracer.cli.opening import SOURCES, open_file
+from reference_tracer.cli.parser import AGREE, Parser, number
+from reference_tracer.cli.running import progress_bar
+from reference_tracer.framing import Choice
+from reference_tracer.report import folders
+from reference_tracer.scene import SceneError
+from reference_tracer.tracer.hits import NOTHING, Statistics
+from reference_tracer.tracer.progress import called, result_of
+from reference_tracer.tracer.world import refused
+from reference_tracer.wording import count_of, show
 
-from ...certified.any_rays import nearest_hits
-from ...certified.arithmetic import check_assumptions
-from ...framing import Choice
-from ...ray_files import load_rays, save_hits
-from ...report import folders
-from ...scene import SceneError
-from ...tracer.hits import NOTHING, Statistics
-from ...tracer.progress import called, result_of
-from ...tracer.world import refused
-from ...wording import count_of, show
-from ..camera_options import CAMERA_OPTIONS, add_parts_of_blend, choice_from
-from ..opening import SOURCES, open_file
-from ..parser import AGREE, Parser, number
-from ..running import progress_bar
+from .files import load_rays, save_hits
 
 _NO_CAMERA: dict[str, Any] = dict.fromkeys(CAMERA_OPTIONS) | {"frame_all": False}
 _T = number(float, lambda value: not np.isnan(value), "a number")

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from .manifest import Manifest
-from .scene import Mesh, Scene
+from ..manifest import Manifest
+from ..scene import Mesh, Scene
 
 
 def diagnose(mesh: Mesh) -> dict[str, int]:

@@ -15,11 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arrays import Array, Bytes, Colors, Floats, by_runs
 from . import exr, png
-from .arrays import Array, Bytes, Colors, Floats
 from .file_kinds import mistaken
 from .png.samples import PngError
-from .runs import by_runs
 
 EIGHT_BITS = 255  # levels above 0
 _TOGETHER = 1 << 16  # pixels

@@ -13,7 +13,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Iterator, Mapping, Set
 
-from ..wording import count_of
+from ...wording import count_of
 from .samples import PALETTE, Header, PngError
 
 _CRITICAL = {b"IHDR", b"PLTE", b"IDAT", b"IEND"}

@@ -11,7 +11,7 @@ from codecs import BOM_UTF8
 from pathlib import Path
 from typing import NamedTuple
 
-from .scene import SceneError
+from ..scene import SceneError
 
 _READ = 84  # bytes, in which each kind shows
 

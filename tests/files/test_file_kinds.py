@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.file_kinds import check_is_file, mistaken
-from reference_tracer.images import open_picture
+from reference_tracer.files.file_kinds import check_is_file, mistaken
+from reference_tracer.files.images import open_picture
+from reference_tracer.files.scenes import load_scene, save_scene
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import load_scene, save_scene
 from reference_tracer_meshes import FORMATS as READERS
 
 SUFFIXES = *READERS, ".npz", ".blend", ".png", ".exr", ".json"

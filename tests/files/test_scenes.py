@@ -10,11 +10,11 @@ import warnings
 
 import numpy as np
 import pytest
-from reference_tracer import npz
+from reference_tracer.files import npz
+from reference_tracer.files.scenes import load_account, load_scene, save_scene
 from reference_tracer.manifest import Effect, Manifest, ObjectEntry, Unmodelled
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
-from reference_tracer.scene_files import load_account, load_scene, save_scene
 from reference_tracer_meshes.load import load_meshes
 
 from .old_scenes import old_arrays

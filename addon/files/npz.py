@@ -19,10 +19,10 @@ from zipfile import ZipFile
 
 import numpy as np
 
-from .arrays import Array
+from ..arrays import Array
+from ..scene import SceneError
+from ..tracer.memory import free_memory
 from .file_kinds import check_is_file
-from .scene import SceneError
-from .tracer.memory import free_memory
 
 # A file's arrays take at most so many times its own length, or so many bytes: what is small, such
 # as a picture of nothing, may be packed as well as it can be.

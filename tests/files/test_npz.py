@@ -8,10 +8,10 @@ import zipfile
 
 import numpy as np
 import pytest
-from reference_tracer import npz
-from reference_tracer.ray_files import load_rays
+from reference_tracer.files import npz
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import load_scene
+from reference_tracer_rays.files import load_rays
 
 
 def test_a_file_that_unpacks_to_far_more_than_itself_is_refused(tmp_path):

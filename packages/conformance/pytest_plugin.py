@@ -16,7 +16,7 @@ from zlib import crc32
 import pytest
 
 if TYPE_CHECKING:
-    from .comparison.comparison import Comparison
+    from reference_tracer.comparison.comparison import Comparison
 
 _OPTION = "--reftrace-pages"
 _LONGEST = 120  # bytes of a folder's name: file systems allow 255, and some less for a whole path
@@ -33,7 +33,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.fixture
 def assert_sees(request: pytest.FixtureRequest, tmp_path: Path) -> Callable[..., Comparison]:
-    """Return `reference_tracer.testing.assert_sees`, whose failures leave a page."""
+    """Return `reference_tracer_conformance.testing.assert_sees`, whose failures leave a page."""
     from .testing import assert_sees as check
 
     asked = request.config.getoption(_OPTION)
