@@ -55,7 +55,6 @@ def _section(title: str, body: str) -> Iterator[str]:
         yield from ([told.strip(), ""] if told.strip() else [])
         # The empty line ends what is expected.
         yield from ("<!-- not run: a test runs it -->", "```pycon", f">>> {code}", "", "```")
-        yield "<!-- /run -->"
         return
     for line in body.splitlines():
         named = line and not line.startswith(" ")
