@@ -16,7 +16,6 @@ from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault
 from reference_tracer.methods import Method
-from reference_tracer.report.page.content import hex_color
 
 
 class _Name(str):
@@ -78,10 +77,8 @@ def _cause(cause: Cause) -> Iterator[str]:
     """Yield a cause's section."""
     yield f"### {cause.label.capitalize()}"
     numbers = {name: _Name(name) for name in ("figure", "allowed", "name")}
-    color = f", `{hex_color(cause.color)}` on the map" if cause.color else ""
-    known = f"`{cause.key}`, {cause.number} in `frame.npz`{color}"
-    yield f"“{cause.sentence.format(**numbers)}” ({known})"
-    yield f"![Traced, the other picture, and the causes](images/causes/{cause.key}.png)"
+    yield f"“{cause.sentence.format(**numbers)}” (`{cause.key}`, {cause.number})"
+    yield f"![Traced, shown, causes](images/causes/{cause.key}.png)"
     yield _list(
         ("Why", cause.why),
         ("The check", cause.check),
