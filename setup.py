@@ -5,6 +5,7 @@ PACKAGES = {  # by the folder that each stands in
     "addon": "reference_tracer",
     "packages/grading": "reference_tracer_grading",
     "packages/benchmarks": "reference_tracer_benchmarks",
+    "packages/cameras": "reference_tracer_cameras",
     "packages/cluster": "reference_tracer_cluster",
     "packages/conformance": "reference_tracer_conformance",
     "packages/meshes": "reference_tracer_meshes",

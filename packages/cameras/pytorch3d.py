@@ -16,15 +16,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-
-from ..arrays import Floats
-from ..files.checked_json import Content, numbers, part
-from ..projections import ORTHOGRAPHIC, PERSPECTIVE
-from ..scene import SceneError
-from . import frame
-from .convention import Convention, Files, Source, View
-from .features import ASPECT, PARALLEL, SHIFT
-from .json_files import dumped
+from reference_tracer.arrays import Floats
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.features import ASPECT, PARALLEL, SHIFT
+from reference_tracer.camera_files.json_files import dumped
+from reference_tracer.files.checked_json import Content, numbers, part
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
+from reference_tracer.scene import SceneError
 
 _CLASSES = {"PerspectiveCameras": PERSPECTIVE, "OrthographicCameras": ORTHOGRAPHIC}
 

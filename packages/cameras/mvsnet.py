@@ -12,12 +12,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-
-from ..arrays import Floats
-from ..scene import Camera, SceneError
-from . import frame
-from .convention import Convention, Files, Source, View
-from .features import ASPECT, SHIFT
+from reference_tracer.arrays import Floats
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.features import ASPECT, SHIFT
+from reference_tracer.scene import Camera, SceneError
 
 ENDING = "_cam.txt"
 _EXTRINSIC, _INTRINSIC = "extrinsic", "intrinsic"  # words before 16 and 9 numbers

@@ -24,13 +24,12 @@ from collections.abc import Sequence
 from xml.etree import ElementTree
 
 import numpy as np
-
-from ..arrays import Floats
-from ..projections import ORTHOGRAPHIC, PERSPECTIVE
-from ..scene import SceneError
-from . import frame
-from .convention import Convention, Files, Source, View
-from .features import PARALLEL, SHIFT
+from reference_tracer.arrays import Floats
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.features import PARALLEL, SHIFT
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
+from reference_tracer.scene import SceneError
 
 _KINDS = {"perspective": PERSPECTIVE, "orthographic": ORTHOGRAPHIC}
 _CLIP = {"near_clip": 1e-2, "far_clip": 1e4}  # with what Mitsuba takes where a file says none

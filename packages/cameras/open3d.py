@@ -14,11 +14,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..files.checked_json import Content, part
-from . import frame
-from .convention import Convention, Files, Source, View
-from .features import ASPECT, SHIFT
-from .json_files import CENTERS_KEY, dumped, first_center, flat, objects, offset_of
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.features import ASPECT, SHIFT
+from reference_tracer.camera_files.json_files import (
+    CENTERS_KEY,
+    dumped,
+    first_center,
+    flat,
+    objects,
+    offset_of,
+)
+from reference_tracer.files.checked_json import Content, part
 
 _ONE, _MANY = "PinholeCameraParameters", "PinholeCameraTrajectory"
 _VERSION = {"version_major": 1, "version_minor": 0}

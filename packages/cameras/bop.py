@@ -13,12 +13,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..files.checked_json import Content, part
-from ..scene import SceneError
-from . import frame
-from .convention import Convention, Files, Source, View
-from .features import ASPECT, SHIFT
-from .json_files import CENTERS_KEY, dumped, first_center, flat, offset_of
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.features import ASPECT, SHIFT
+from reference_tracer.camera_files.json_files import (
+    CENTERS_KEY,
+    dumped,
+    first_center,
+    flat,
+    offset_of,
+)
+from reference_tracer.files.checked_json import Content, part
+from reference_tracer.scene import SceneError
 
 SCENE, CAMERA = "scene_camera.json", "camera.json"
 _MILLIMETRES = 1000.0  # in a metre

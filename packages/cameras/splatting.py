@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..files.checked_json import Content, numbers
-from . import frame
-from .convention import Convention, Files, Source, View
-from .features import ASPECT
-from .json_files import dumped, flat, objects
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.features import ASPECT
+from reference_tracer.camera_files.json_files import dumped, flat, objects
+from reference_tracer.files.checked_json import Content, numbers
 
 _LIST = "cameras"  # what messages call the list, which has no name in the file
 
