@@ -104,7 +104,7 @@ def test_faces_beside_loose_edges_and_points_are_read(name, tmp_path):
     EXPORTERS[name](filepath=str(tmp_path / f"a.{name}"))
     found = load_meshes(tmp_path / f"a.{name}")
     assert len(found.placed[0].mesh.triangles) == 3 and found.missing == ()
-    up = [note for note in found.notes if "--up z" in note]
+    up = [note for note in found.notes if "up=z" in note]
     assert all("not drawn" in note for note in found.notes if note not in up)
     assert bool(up) == (name == "obj")  # Blender writes that one with Y up
     assert name != "obj" or found.placed[0].object == "Loose"
