@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.files.scenes import save_scene
-from reference_tracer.scene import Instance, Mesh, Plane
+from reference_tracer.scene import Instance, Mesh, Plane, SceneError
 from reference_tracer_scene_diff.differences import differences
 from reference_tracer_scene_diff.matching import matched
 
@@ -250,3 +250,10 @@ def test_up_is_refused_where_nothing_is_turned(scene, tmp_path, capsys, exit_cod
     save_scene(tmp_path / "a.npz", scene)
     assert exit_code(["diff", *[str(tmp_path / "a.npz")] * 2, "--set", "up=y"]) == 4
     assert "--set up is for meshes" in capsys.readouterr().err
+
+
+def test_an_object_too_large_to_be_compared_is_named(scene):
+    for size in (1e308, 1e160):
+        large = with_instance(scene, 1, np.diag((size, size, size, 1)))
+        with pytest.raises(SceneError, match="'Box' is too large to be compared"):
+            differences(scene, large)
