@@ -117,9 +117,11 @@ def _fault(fault: AnyFault) -> str:
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
+    repository, _, number = fault.witness.partition("#")
     told = _list(
         ("Why", fault.why),
         ("What to do", fault.advice.format(**given)),
         ("The self-check makes", "; ".join(example.text for example in fault.examples)),
+        ("Seen in", f"[{fault.witness}](https://github.com/{repository}/issues/{number})"),
     )
     return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{told}"

@@ -164,6 +164,7 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
         sampled=False,
         after=_mean_of_samples,
         effort=Effort.PIXELS,
+        witness="Unity-Technologies/com.unity.perception#441",
     ),
     Fault(
         "filter_radius",
@@ -178,5 +179,6 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
         sampled=False,
         effort=Effort.ANYTHING,
         vague=True,
+        witness="GPUOpen-LibrariesAndSDKs/RadeonProRenderBlenderAddon#17",
     ),
 )

@@ -116,6 +116,7 @@ DEPTH_FAULTS = (
         "A ray tracer's t is a distance where directions have unit length.",
         "divide by the length of (x, y, 1), the pixel on the plane at depth 1; or --holds distance",
         once(lambda made, seen: distance(seen)),
+        witness="mitsuba-renderer/mitsuba2#79",
     ),
     data_fault(
         "depth_for_distance",
@@ -124,6 +125,7 @@ DEPTH_FAULTS = (
         "Rasterisers, and Blender's Z pass, have depths along the view axis.",
         "multiply by the length of (x, y, 1), the pixel on the plane at depth 1; or --holds depth",
         once(lambda made, seen: depth(seen)),
+        witness="google-research/kubric#151",
     ),
     data_fault(
         "data_unit",
@@ -133,6 +135,7 @@ DEPTH_FAULTS = (
         "convert to metres, or name the unit with scale= of --holds",
         _units,
         words="millimetres in place of metres, and so on",
+        witness="ScanNet/ScanNet#17",
     ),
     data_fault(
         "data_scale",
@@ -142,6 +145,7 @@ DEPTH_FAULTS = (
         "divide the values by {factor:.6g}, or name the unit with scale= of --holds",
         _factor,
         ("factor",),
+        witness="alexklwong/void-dataset#3",
     ),
     data_fault(
         "depth_buffer",
@@ -151,6 +155,7 @@ DEPTH_FAULTS = (
         "of values d from 0 to 1, z = n f / (f - d (f - n))",
         _buffers,
         words="the range of the buffer, and whether it is reversed",
+        witness="NVIDIA/VisRTX#60",
     ),
     data_fault(
         "depth_normalised",
@@ -161,6 +166,7 @@ DEPTH_FAULTS = (
         "save the depths themselves, before they are normalised to be looked at",
         _normalised,
         words="over which range, and whether they are reversed",
+        witness="zju3dv/pvnet-rendering#5",
     ),
     data_fault(
         "inverse_depth",
@@ -169,6 +175,7 @@ DEPTH_FAULTS = (
         "Stereo and networks for depth predict 1 / z.",
         "take 1 over each value",
         once(_inverse),
+        witness="LiheYoung/Depth-Anything#47",
     ),
     data_fault(
         "data_sign",
@@ -177,5 +184,6 @@ DEPTH_FAULTS = (
         "A camera looks along -Z: depths there are negative.",
         "change the sign",
         once(_scaled(-1.0)),
+        witness="ssloy/tinyrenderer#67",
     ),
 )
