@@ -47,6 +47,7 @@ def variants(
     scene = next((s for s in bpy.data.scenes if s.name_full == name), None)
     if scene is None or layer not in scene.view_layers:
         return ()
+    scene.view_layers[layer].update()  # the world matrices of its objects
     with temporary_scene(scene, layer, ignored, palette) as tmp, everything(tmp):
         try:
             origin = Origin.of(scene, layer, tmp, palette)
