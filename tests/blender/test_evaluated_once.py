@@ -11,10 +11,12 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender import slowest
+from reference_tracer.blender.jobs.animation import compare_frames
 from reference_tracer.blender.jobs.variants import variants
 from reference_tracer.blender.reading import opened
 from reference_tracer.pictures.palette import By
 from reference_tracer.scene import SceneError
+from reference_tracer.tracer.progress import doing
 
 from ..evaluations import DONE, counted
 
@@ -105,6 +107,21 @@ def test_what_takes_long_is_known_before(heavy, monkeypatch):
     bpy.context.collection.objects.link(third)
     layer.update()
     assert slowest.slowest(layer) == ""  # none of the three is the one
+
+
+def test_what_takes_long_is_said_before_each_frame(heavy, monkeypatch, tmp_path):
+    """By its name from when Blender has evaluated it once on."""
+    heavy.frame_end = 2
+    wave = bpy.data.objects["Heavy"].modifiers["Subdivision"]
+    wave.levels = 5
+    wave.keyframe_insert("show_on_cage", frame=1)  # so that each frame evaluates it anew
+    monkeypatch.setattr(slowest, "LONG", 0.01)
+    told = [doing(share) for share in compare_frames(str(tmp_path), range(1, 3), lambda rows: None)]
+    said = [words for words in told if "Blender" in words]
+    assert said[1:] == [
+        "frame 1: Blender evaluates 'Heavy'",
+        *2 * ["frame 2: Blender evaluates 'Heavy'"],
+    ]
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
