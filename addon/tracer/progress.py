@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Generator, MutableMapping
+from contextlib import closing
 from functools import wraps
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
@@ -51,20 +52,21 @@ def doing(share: float) -> str:
     return share.doing if isinstance(share, Share) else ""
 
 
-def called(work: Work[T], words: str) -> Work[T]:
-    """Run work whose steps say in these words what is being done, whatever its parts say."""
-    return mapped(work, lambda share: Share(share, words))
+def called(work: Work[T], words: str, over: bool = True) -> Work[T]:
+    """Run work whose steps say in these words what is being done, over what its parts say."""
+    return mapped(work, lambda share: Share(share, (not over and doing(share)) or words))
 
 
 def result_of(work: Work[T], progress: Callable[[float], None] | None = None) -> T:
     """Run work to its end, call `progress` with every share, and return the result."""
-    while True:
-        try:
-            share = next(work)
-        except StopIteration as stop:
-            return stop.value
-        if progress:
-            progress(share)
+    with closing(work):  # it may have changed Blender's data, where progress raises
+        while True:
+            try:
+                share = next(work)
+            except StopIteration as stop:
+                return stop.value
+            if progress:
+                progress(share)
 
 
 def mapped(work: Generator[A, None, T], of: Callable[[A], B]) -> Generator[B, None, T]:
