@@ -8,10 +8,10 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from .files.scenes import Account, load_account, load_scene
 from .framing import Choice
 from .manifest import Manifest, ObjectEntry
 from .scene import Scene, SceneError
-from .scene_files import Account, load_account, load_scene
 
 
 class Opened(NamedTuple):

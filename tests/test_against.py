@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import exr, images
 from reference_tracer.cli.main import main
+from reference_tracer.files import exr, images
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.manifest import Effect, Manifest, Unmodelled
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.palette import By
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region
-from reference_tracer.scene_files import save_scene
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..checked_json import Content, whole
+from ..files.checked_json import Content, whole
 from ..scene import Camera, SceneError
 from .features import FEATURES, Feature
 

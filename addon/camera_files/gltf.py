@@ -19,7 +19,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content
+from ..files.checked_json import Content
 from ..framing import SIZE
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow

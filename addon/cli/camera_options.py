@@ -10,7 +10,7 @@ from pathlib import Path
 from ..camera_files.convention import View
 from ..camera_files.files import CONVENTIONS, is_seen_to_be, read
 from ..camera_files.files import chosen as chosen_view
-from ..file_kinds import check_is_file
+from ..files.file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
 from ..opened import mesh_formats
 from ..scene import SceneError

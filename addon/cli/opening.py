@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..file_kinds import check_is_file
+from ..files.file_kinds import check_is_file
 from ..framing import Choice
 from ..manifest import Manifest
 from ..opened import mesh_formats, open_scene

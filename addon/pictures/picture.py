@@ -13,8 +13,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where
-from ..runs import by_runs
+from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where, by_runs
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.frame import Frame

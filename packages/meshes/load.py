@@ -11,13 +11,13 @@ from typing import TypeVar
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.exr import MissingLibraryError
-from reference_tracer.file_kinds import check_is_file
+from reference_tracer.files.exr import MissingLibraryError
+from reference_tracer.files.file_kinds import check_is_file
+from reference_tracer.files.scenes import Account
 from reference_tracer.framing import ANGLE, BACKWARD, SIZE, Choice, axes_of, framing, shown_points
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.opened import Opened, file_manifest
 from reference_tracer.scene import Camera, Instance, Scene, SceneError, check_size
-from reference_tracer.scene_files import Account
 
 from . import FORMATS
 from .contents import Contents

@@ -7,9 +7,9 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer import images
 from reference_tracer.blender import registration
 from reference_tracer.cli.main import main
+from reference_tracer.files import images
 
 
 @pytest.fixture

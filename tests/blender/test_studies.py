@@ -119,12 +119,6 @@ def test_the_commands(solids, tmp_path, capsys):
     assert "has no camera" in capsys.readouterr().err
 
 
-def test_the_command_for_the_trade_needs_a_file(build, tmp_path, capsys):
-    build.camera()
-    assert in_blender.run(["trade", "--out", str(tmp_path / "out")]) == 4
-    assert "no file is open" in capsys.readouterr().err
-
-
 def test_the_command_for_the_extremes_runs_all(tmp_path, monkeypatch, capsys):
     """All of them take minutes: what is left of them here is one."""
     [fan] = [s for s in extremes.SCENARIOS if s.name == "closed_fan"]

@@ -14,8 +14,8 @@ from reference_tracer.camera_files.files import WRITTEN, texts
 from reference_tracer.cli.camera_options import choice_from
 from reference_tracer.cli.main import parser
 from reference_tracer.cli.opening import open_file
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.camera import film_of
 
 from ..camera_files.cameras import camera

@@ -6,12 +6,12 @@ import json
 
 import numpy as np
 import pytest
-from reference_tracer import images
-from reference_tracer.certificate_file import save_certificate
+from reference_tracer.files import images
+from reference_tracer.files.certificates import save_certificate
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.manifest import Effect, Manifest, ObjectEntry, Unmodelled
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Plane, Scene
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.wording import LONGEST
 from reference_tracer_verify import verify

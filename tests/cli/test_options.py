@@ -11,8 +11,8 @@ from reference_tracer import __version__
 from reference_tracer.cli.arguments import GivenSettings
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
 
 from .parts import SMALL

@@ -14,12 +14,12 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
-from reference_tracer import images
 from reference_tracer.cli import running
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.files import images
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import save_scene
 
 COMMAND = [sys.executable, "-m", "reference_tracer.cli.main"]
 posix = pytest.mark.skipif(os.name != "posix", reason="signals and descriptors of POSIX")

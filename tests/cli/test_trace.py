@@ -9,8 +9,8 @@ from PIL import Image
 from reference_tracer.certified import arithmetic
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Region
-from reference_tracer.scene_files import save_scene
 
 from .parts import SMALL, channels, trace
 

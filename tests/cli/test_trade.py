@@ -7,7 +7,7 @@ import json
 import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files.scenes import save_scene
 
 pytestmark = pytest.mark.slow
 

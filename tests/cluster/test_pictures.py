@@ -12,8 +12,8 @@ import pytest
 from reference_tracer.certainty import Certainty
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render, steps
-from reference_tracer.scene_files import save_scene
 from reference_tracer.study import extremes
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of

@@ -14,7 +14,7 @@ from functools import partial
 import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files.scenes import save_scene
 from reference_tracer_grading import extremes
 from reference_tracer_grading.command import built_in
 from reference_tracer_processes.sandbox import sandbox

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli import opening
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer_meshes.load import load_meshes, scene_of_meshes
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Instance, Mesh, Plane
-from reference_tracer.scene_files import save_scene
 from reference_tracer_scene_diff.differences import differences
 from reference_tracer_scene_diff.matching import matched
 

@@ -11,11 +11,11 @@ import zlib
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import png
 from reference_tracer.cli.main import main
-from reference_tracer.images import save_png, to_display
+from reference_tracer.files import png
+from reference_tracer.files.images import save_png, to_display
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer import memory
 from reference_tracer.tracer.memory import (
     ALWAYS,

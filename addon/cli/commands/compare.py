@@ -9,13 +9,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ... import images
 from ...camera_files.files import of_frames
 from ...causes.case import Case, without_colors
 from ...comparison import engines
 from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
+from ...files import images
 from ...framing import FRAMED
 from ...manifest import Effect
 from ...pictures import colors_file

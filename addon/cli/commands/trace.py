@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ... import exr, images, npz
 from ...camera_files.files import of_frames
-from ...certificate_file import save_certificate
 from ...comparison.animation import frames_named
+from ...files import exr, images, npz
+from ...files.certificates import save_certificate
 from ...framing import Choice
 from ...methods import Method
 from ...opened import mesh_formats

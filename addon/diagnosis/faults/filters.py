@@ -15,7 +15,7 @@ import numpy as np
 
 from ...arrays import Array, Colors
 from ...causes.case import Case
-from ...images import decoded, encoded
+from ...files.images import decoded, encoded
 from ...pictures.bounds import largest_within
 from ...pictures.metrics import beside_edges
 from ...tracer import shading

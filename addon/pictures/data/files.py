@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ... import exr, npz, png
 from ...arrays import Array
-from ...file_kinds import mistaken
-from ...png.samples import PngError
+from ...files import exr, npz, png
+from ...files.file_kinds import mistaken
+from ...files.png.samples import PngError
 from .kind import Kind
 from .step import Step, step_of
 

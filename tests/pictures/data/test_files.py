@@ -8,14 +8,15 @@ from zipfile import ZipFile
 
 import numpy as np
 import pytest
-from reference_tracer import compare, exr
+from reference_tracer import compare
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.diagnosis.faults.data import DATA_FAULTS
+from reference_tracer.files import exr
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.pictures.data.depth import DEPTH
 from reference_tracer.pictures.data.files import read
 from reference_tracer.pictures.picture import SizeError
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import save_scene
 
 PAGE = Path(__file__).parents[3] / "docs" / "data.md"
 
