@@ -15,7 +15,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from ...tracer.progress import Work, doing, result_of
+from ...tracer.progress import Left, Work, doing, result_of
 from ...wording import say
 from ..slowest import slowest
 from ..versions import RELATIVE
@@ -122,6 +122,7 @@ class LongWork(Mixin):
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
         self._began = time.monotonic()
+        self._left = Left()
         self._shown = self._began
         self._words = ""
         LongWork.running = self.bl_label
@@ -170,13 +171,14 @@ class LongWork(Mixin):
         self._words = doing(share)
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
-        left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
+        seconds = self._left.seconds(past, share)
+        left = "" if seconds is None else f"  {seconds:.0f} s"
         LongWork.share = share
         self._say(context, rpt_(doing(share)), f": {int(100 * share)} %{left}")
 
     def _say(self, context: Any, what: str, rest: str = "") -> None:
         """Say where the user looks what is done, how far it is, and how to end it."""
-        said = self.doing or ", ".join(filter(None, (rpt_(self.bl_label), what)))
+        said = ", ".join(filter(None, (self.doing or rpt_(self.bl_label), what)))
         said += rest
         LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"
         LongWork._told.add(context.workspace.as_pointer())
