@@ -15,7 +15,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from ...tracer.progress import Work, doing, result_of
+from ...tracer.progress import Left, Work, doing, result_of
 from ...wording import say
 from ..slowest import announced
 from ..temporary import is_temporary
@@ -122,6 +122,7 @@ class LongWork(Mixin):
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
         self._began = time.monotonic()
+        self._left = Left()
         self._shown = self._began
         self._words = ""
         LongWork.running = self.bl_label
@@ -169,7 +170,8 @@ class LongWork(Mixin):
         self._words = doing(share)
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
-        left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
+        seconds = self._left.seconds(past, share)
+        left = "" if seconds is None else f"  {seconds:.0f} s"
         LongWork.share = share
         self._say(context, doing(share), f": {int(100 * share)} %{left}")
 
