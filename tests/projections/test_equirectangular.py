@@ -10,11 +10,11 @@ import pytest
 import trimesh
 from check_rounding import check_rounding
 from reference_tracer.certified.rounding import rounding
+from reference_tracer.files.scenes import load_scene, save_scene
 from reference_tracer.methods import Method
 from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow
-from reference_tracer.scene_files import load_scene, save_scene
 from reference_tracer.tracer.camera import (
     camera_rays,
     corner_rays,

@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.images import curve, to_display
+from reference_tracer.files.images import curve, to_display
 from reference_tracer.rendering import render, steps
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.coloring import BACK, FARTHEST
