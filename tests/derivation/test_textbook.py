@@ -87,17 +87,6 @@ def test_rays_are_the_cameras(make, kind, projection):
         np.testing.assert_array_equal(found["d"], rays.directions[:, 0])
 
 
-def test_exactly_a_panoramas_ray_is_of_unit_length(make):
-    camera = make.camera(37, 23, projection=PROJECTIONS["equirectangular"])  # axes of integers
-    for x, y in ((0, 0), (36, 22), (11, 7)):
-        exact, near = (camera_steps(kind, camera, x, y) for kind in (Arithmetic.EXACT, FLOATS[1]))
-        assert abs(sum(v * v for v in exact["d"]) - 1) < Fraction(1, 1 << 1500)
-        for true, found in zip(exact["d"], near["d"].tolist(), strict=True):
-            assert abs(true - Fraction(found)) < Fraction(1, 1 << 50)
-    middle = camera_steps(Arithmetic.EXACT, camera, 18, 11)["d"]
-    assert middle.tolist() == [0, 0, -1]
-
-
 def test_exactly_the_weights_sum_to_one_and_make_x(rng):
     """x = s₁p₁ + s₂p₂ + s₃p₃ with sᵢ as here, not as printed; and sum = 1 says nothing."""
     for _ in range(20):
@@ -109,15 +98,6 @@ def test_exactly_the_weights_sum_to_one_and_make_x(rng):
         for axis in range(3):
             made = sum(w * q[axis] for w, q in zip(weights, p, strict=True))
             assert made == found["x"][axis]
-
-
-def test_exactly_parallel_ends_where_one_would_divide():
-    exact = Arithmetic.EXACT.vector
-    corners = exact((0, 0, -1)), exact((1, 0, -1)), exact((0, 1, -1))
-    found = surface_steps(TRIANGLE, exact((0, 0, 0)), exact((1, 1, 0)), *corners)
-    assert found["towards"] == 0 and "t" not in found
-    vectors = exact((0, 0, 0)), exact((1, 1, 0)), exact((0, 0, 1)), exact((0, 0, 2))
-    assert "t" not in surface_steps(PLANE, *vectors)
 
 
 @pytest.mark.parametrize(
