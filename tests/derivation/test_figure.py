@@ -8,6 +8,15 @@ from reference_tracer.derivation.derivation import derive
 from reference_tracer.derivation.figure import shapes
 
 
+@pytest.mark.parametrize("pixel", [(12, 9), (3, 2), (0, 17), (16, 13)])
+def test_shapes_are_meshes(ball_scene, pixel):
+    for shape in shapes(derive(ball_scene, *pixel)):
+        assert np.isfinite(shape.vertices).all() and (shape.edges or shape.faces)
+        used = {k for part in (*shape.edges, *shape.faces) for k in part}
+        assert used <= set(range(len(shape.vertices)))
+        assert all(len(set(face)) == len(face) >= 3 for face in shape.faces)
+
+
 def test_pieces_lie_in_their_planes_and_hold_x(ball_scene):
     found = derive(ball_scene, 12, 9)
     pieces = {s.name.split()[0]: s for s in shapes(found) if " plane of " in s.name}

@@ -87,6 +87,17 @@ def test_rays_are_the_cameras(make, kind, projection):
         np.testing.assert_array_equal(found["d"], rays.directions[:, 0])
 
 
+def test_exactly_a_panoramas_ray_is_of_unit_length(make):
+    camera = make.camera(37, 23, projection=PROJECTIONS["equirectangular"])  # axes of integers
+    for x, y in ((0, 0), (36, 22), (11, 7)):
+        exact, near = (camera_steps(kind, camera, x, y) for kind in (Arithmetic.EXACT, FLOATS[1]))
+        assert abs(sum(v * v for v in exact["d"]) - 1) < Fraction(1, 1 << 1500)
+        for true, found in zip(exact["d"], near["d"].tolist(), strict=True):
+            assert abs(true - Fraction(found)) < Fraction(1, 1 << 50)
+    middle = camera_steps(Arithmetic.EXACT, camera, 18, 11)["d"]
+    assert middle.tolist() == [0, 0, -1]
+
+
 def test_exactly_the_weights_sum_to_one_and_make_x(rng):
     """x = s₁p₁ + s₂p₂ + s₃p₃ with sᵢ as here, not as printed; and sum = 1 says nothing."""
     for _ in range(20):
