@@ -113,13 +113,8 @@ def _family(of: tuple[AnyFault, ...], said: str) -> str:
 
 
 def _fault(fault: AnyFault) -> str:
-    """Return a fault's section."""
+    """Return a fault's section: what is said of it, and who makes it, and how."""
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
-    told = _list(
-        ("Why", fault.why),
-        ("What to do", fault.advice.format(**given)),
-        ("The self-check makes", "; ".join(example.text for example in fault.examples)),
-    )
-    return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{told}"
+    return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{fault.why}"
