@@ -38,13 +38,11 @@ def values() -> dict[str, str]:
 
 
 def camera_conventions() -> str:
-    """Return a table of the conventions of cameras, and what each can say."""
-    columns = [(f.short, f) for f in FEATURES]
-    head = ["`--convention`", "what is written", *(short for short, _ in columns)]
-    rows = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    """Return a table of the conventions of cameras, and what each cannot say."""
+    rows = ["| `--convention` | what is written | what it cannot say |", "|---|---|---|"]
     for name, own in CONVENTIONS.items():
-        says = ["yes" if f in own.says else "no" for _, f in columns]
-        rows.append(f"| `{name}` | {own.title}: {own.file} | {' | '.join(says)} |")
+        lacks = ", ".join(f.short for f in FEATURES if f not in own.says)
+        rows.append(f"| `{name}` | {own.title}: {own.file} | {lacks} |")
     return "\n".join(rows)
 
 
