@@ -49,7 +49,7 @@ def open_scene(path: Path, choice: Choice | None = None) -> Opened:
         scene = load_scene(path)
         return Opened(scene, file_manifest(path, scene, load_account(path)))
     if suffix not in mesh_formats():
-        raise SceneError(f"'{path}' is none of .npz, {', '.join(mesh_formats())}")
+        raise SceneError(f"'{path}' is none of {', '.join(('.npz', *mesh_formats()))}")
     return mesh_formats()[suffix](path, choice or Choice())
 
 

@@ -150,7 +150,7 @@ def _size(own: Content, label: str, aspect: float | None, source: Source) -> tup
     if aspect is not None and abs(size[0] / size[1] / aspect - 1) > 1 / min(size):
         raise SceneError(
             f"{label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
-            "pixels: choose --width or --height alone"
+            "pixels: choose width or height alone"
         )
     return size
 

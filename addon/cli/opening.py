@@ -26,7 +26,9 @@ from .camera_options import check_kind
 
 PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
-SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
+SOURCES = "scene.blend or scene.npz"
+if mesh_formats():
+    SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
 
 
 class OpenedFile(NamedTuple):

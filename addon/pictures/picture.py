@@ -44,7 +44,8 @@ def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
         (height, width), (h, w) = own[:2], traced[:2]
         raise SizeError(
             f"The picture has {width} x {height} pixels, the traced one {w} x {h}. Render it at "
-            f"that size, or trace a .blend or a mesh at its own: --width {width} --height {height}"
+            "that size, or trace a .blend or a mesh at its own: "
+            f"--set width={width} height={height}"
         )
 
 

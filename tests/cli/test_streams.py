@@ -63,7 +63,7 @@ def test_wrong_options_change_nothing(compared, tmp_path, exit_code):
     assert main([*map(str, compared), "--out", str(out)]) == AGREE
     before = {p.name: p.read_bytes() for p in out.iterdir()}
     shown, scene = out / "traced.png", str(compared[1])
-    for options in (["--judge", "cycles"], ["--frame-all", "--eye", "1", "2", "3"]):
+    for options in (["--judge", "cycles"], ["--set", "eye=all", "eye=1,2,3"]):
         assert exit_code([*map(str, compared), *options, "--out", str(out)]) == INPUT_ERROR
     shutil.copy(shown, out / "Traced.PNG")  # one file, where the case of names does not count
     for file in (shown, out / "Traced.PNG"):

@@ -251,7 +251,7 @@ def test_an_obj_of_blenders_has_y_up_where_nobody_says_otherwise(up, tmp_path):
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
     assert read(text) == ((), up == "y")
     notes, turned = read(f"# Blender 5.0.0\n{text}")
-    assert ["--up z" in note for note in notes] == [True] * (up is None)
+    assert ["up=z" in note for note in notes] == [True] * (up is None)
     assert turned == (up != "z")
 
 

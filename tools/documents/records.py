@@ -115,4 +115,7 @@ def _fault(fault: AnyFault) -> str:
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
-    return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{fault.why}"
+    repository, _, number = fault.witness.partition("#")
+    seen = f"[{fault.witness}](https://github.com/{repository}/issues/{number})"
+    said = f"“{fault.sentence.format(**given)}”"
+    return f"### `{fault.name}`\n\n{said}\n\n{fault.why} Seen in {seen}."

@@ -56,12 +56,6 @@ def _export() -> ModuleType:
     return export
 
 
-def _camera() -> ModuleType:
-    from . import camera
-
-    return camera
-
-
 COMMANDS = {  # in the order of `--help`
     "compare": Command(
         "trace a scene and compare it with Blender's own picture, or with any other", _compare
@@ -83,5 +77,5 @@ COMMANDS = {  # in the order of `--help`
     "bench": Command("measure the speed of the tracer beside embreex, Cycles and others", None),
     "diff": Command("list object by object how two files of a scene differ", None),
     "export": Command("export a .blend to a scene that needs no Blender", _export),
-    "camera": Command("write a scene's camera for other programs, or check one of theirs", _camera),
+    "camera": Command("write a scene's camera for other programs, or check one of theirs", None),
 }

@@ -87,5 +87,6 @@ PROCESSED: tuple[AnyFault, ...] = (
         vague=True,
         after=lambda colors, guess, evidence: guess.made,
         effort=Effort.ANYTHING,
+        witness="tonyyxliu/CUHKSZ-CSC4005#71",
     ),
 )

@@ -9,22 +9,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.camera_files.convention import CENTERS, HALF, View
+from reference_tracer.camera_files.files import CONVENTIONS, chosen, number_of, read
+from reference_tracer.camera_files.frame import part
+from reference_tracer.camera_files.opencv import OPENCV
+from reference_tracer.cli.arguments import check_frames, is_blend, refuse
+from reference_tracer.cli.camera_options import LAST_FRAME, add_camera, choice_from
+from reference_tracer.cli.opening import SOURCES, open_blend, open_file
+from reference_tracer.cli.parser import AGREE, DIFFERENCES, Parser
+from reference_tracer.comparison.animation import frames_named
+from reference_tracer.framing import Choice
+from reference_tracer.report.cameras import SceneCamera, write_cameras
+from reference_tracer.scene import Camera, Region, SceneError
+from reference_tracer.wording import show
 
-from ...camera_files.convention import CENTERS, HALF, View
-from ...camera_files.files import CONVENTIONS, chosen, number_of, read
-from ...camera_files.frame import part
-from ...camera_files.opencv import OPENCV
-from ...comparison.animation import frames_named
-from ...diagnosis.camera_difference import CameraDifference, difference
-from ...diagnosis.trajectory import TrajectoryDifference, trajectory_difference
-from ...framing import Choice
-from ...report.cameras import SceneCamera, write_cameras
-from ...scene import Camera, Region, SceneError
-from ...wording import show
-from ..arguments import check_frames, is_blend, refuse
-from ..camera_options import LAST_FRAME, add_camera, choice_from
-from ..opening import SOURCES, open_blend, open_file
-from ..parser import AGREE, DIFFERENCES, Parser
+from .difference import CameraDifference, difference
+from .trajectory import TrajectoryDifference, trajectory_difference
 
 _HELP = "that of a camera.json of this command, transforms.json, a folder of COLMAP's, and so on"
 
@@ -135,8 +135,8 @@ def _scene(options: CameraOptions) -> Iterator[_At]:
         yield lambda frames: [SceneCamera.of(camera, "0001.png")] * len(frames or [1])
         return
     with open_blend(options.scene, options.choice) as blender:
-        from ...blender.jobs.animation import frames_of
-        from ...blender.jobs.cameras import cameras
+        from reference_tracer.blender.jobs.animation import frames_of
+        from reference_tracer.blender.jobs.cameras import cameras
 
         def at(frames: Sequence[int] | None) -> list[SceneCamera]:
             if frames is None and options.frames:

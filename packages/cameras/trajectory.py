@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.scene import Camera
+from reference_tracer.tracer.camera import film_of
 
-from ..arrays import Floats
-from ..scene import Camera
-from ..tracer.camera import film_of
-from .camera_difference import CameraDifference, apart, explained, measured, points_before
-from .camera_steps import Steps, focal_step, mistakes
+from .difference import CameraDifference, apart, explained, measured, points_before
+from .steps import Steps, focal_step, mistakes
 
 _FEW = 6  # cameras, among all, on which another world is tried first
 _ASKED = 3  # cameras, among those that differ, of which an explanation is tried on all

@@ -12,20 +12,12 @@ from dataclasses import dataclass, replace
 from itertools import chain, islice
 
 import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.pictures.certificate import certify, known_points
+from reference_tracer.scene import Camera
+from reference_tracer.tracer.camera import film_of
 
-from ..arrays import Floats
-from ..pictures.certificate import certify, known_points
-from ..scene import Camera
-from ..tracer.camera import film_of
-from .camera_steps import (
-    Steps,
-    fitted,
-    half_pixels,
-    last_resort,
-    looks_as,
-    mistakes,
-    second,
-)
+from .steps import Steps, fitted, half_pixels, last_resort, looks_as, mistakes, second
 
 # Pixels: what float32 moves in a large picture, and a file's digits may; less is no difference.
 CLOSE = 1e-3

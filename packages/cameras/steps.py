@@ -10,16 +10,15 @@ from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
-
-from ..scene import Camera
-from ..tracer.camera import pixel_size, project
-from .faults.camera import CAMERA_FAULTS
-from .faults.fault import AnyFault, Numbers, Values, Ways
-from .faults.film import FOCAL, FOCALS, OFFSET, ROLL
-from .faults.fitting import Family
-from .faults.lens import LENS_FAULTS
-from .faults.matrices import MATRIX_FAULTS
-from .faults.stand import MOVED, TURNED
+from reference_tracer.diagnosis.faults.camera import CAMERA_FAULTS
+from reference_tracer.diagnosis.faults.fault import AnyFault, Numbers, Values, Ways
+from reference_tracer.diagnosis.faults.film import FOCAL, FOCALS, OFFSET, ROLL
+from reference_tracer.diagnosis.faults.fitting import Family
+from reference_tracer.diagnosis.faults.lens import LENS_FAULTS
+from reference_tracer.diagnosis.faults.matrices import MATRIX_FAULTS
+from reference_tracer.diagnosis.faults.stand import MOVED, TURNED
+from reference_tracer.scene import Camera
+from reference_tracer.tracer.camera import pixel_size, project
 
 _DIGITS = 6  # of an offset in pixels, so that half a pixel is one
 _PLACES = 12  # of a percentage, so that a rounding is none

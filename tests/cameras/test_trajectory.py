@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.diagnosis.trajectory import Similarity, trajectory_difference
 from reference_tracer.scene import Camera, ViewWindow
+from reference_tracer_cameras.trajectory import Similarity, trajectory_difference
 
-from .test_camera_difference import (
+from .test_difference import (
     half_pixel,
     inverse_of_opencv,
     longer,

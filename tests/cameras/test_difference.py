@@ -11,9 +11,9 @@ from itertools import islice, product
 import numpy as np
 import pytest
 from reference_tracer.camera_files import frame
-from reference_tracer.diagnosis.camera_difference import CLOSE, difference
 from reference_tracer.projections import EQUIRECTANGULAR, ORTHOGRAPHIC
 from reference_tracer.scene import Camera, ViewWindow
+from reference_tracer_cameras.difference import CLOSE, difference
 
 from ..sampled import sampled
 
