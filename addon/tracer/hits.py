@@ -1,4 +1,4 @@
-"""What rays meet, and what it took to find out."""
+"""The hits of rays, and statistics of finding them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _TOGETHER = 1 << 17  # rows of ties looked at together
 
 @dataclass
 class Statistics:
-    """What a picture took."""
+    """Statistics of a picture."""
 
     method: str = ""  # what `auto` came to; else what was asked for
     triangles: int = 0  # over all instances
@@ -163,7 +163,7 @@ class Ties(Mapping[int, frozenset[Name]]):
 
 @dataclass(eq=False)
 class Hits:
-    """What n rays meet: which surface, how that was decided, and where on it.
+    """The hits of n rays: which surface, how that was decided, and where on it.
 
     Parameters
     ----------
