@@ -12,7 +12,7 @@ from enum import StrEnum, auto
 
 @dataclass(frozen=True)
 class MethodRecord:
-    """What there is to say of a method."""
+    """A method's name, number, colour and texts."""
 
     label: str  # in Blender's panel
     words: str  # in plots and sentences
@@ -40,7 +40,7 @@ class Method(StrEnum):
 
     @property
     def record(self) -> MethodRecord:
-        """What there is to say of it."""
+        """The method's record."""
         return RECORDS[self]
 
     @property

@@ -34,7 +34,7 @@ class SceneError(ValueError):
 
 @dataclass(frozen=True)
 class ViewWindow:
-    """What the whole picture shows, along the camera's right and up axes.
+    """The bounds of the whole picture along the camera's right and up axes.
 
     On the plane at depth 1 (perspective), in metres (orthographic), or, of a panorama, in radians
     of longitude and latitude.

@@ -1,4 +1,4 @@
-"""What a convention of camera files says of itself, what it writes, and what it reads."""
+"""The record of a convention of camera files, with its writer and its reader."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Source:
 
     @cached_property
     def text(self) -> str:
-        """What the file holds; "" of a folder, and of what begins as no file of cameras does."""
+        """The file's text; "" for a folder, and for what begins as no file of cameras does."""
         if self.path.is_dir():
             return ""
         with self.path.open("rb") as file:
@@ -56,7 +56,7 @@ class Source:
 
     @cached_property
     def json(self) -> Any:
-        """What the file holds as JSON; None if it is none."""
+        """The file's JSON, or None if it is none."""
         try:
             return json.loads(self.text)
         except (ValueError, RecursionError):

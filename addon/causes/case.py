@@ -1,4 +1,4 @@
-"""What a comparison takes: a scene, the other side's picture of it, and what is known of both."""
+"""The input of a comparison: a scene, the other side's picture of it, and what is known of both."""
 
 from __future__ import annotations
 

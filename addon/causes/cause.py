@@ -1,4 +1,4 @@
-"""What is said of a pixel: a cause's record, and what a comparison found out about every pixel.
+"""The record of a cause, and the causes of all pixels of a comparison.
 
 The record of a cause stands beside the check that gives it, in `checks/`; the four below have no
 check. `explain.py` lists them all. Counts, texts, JSON, the page's legend, the panel and the

@@ -52,7 +52,7 @@ from .ties import seen_and_ties
 
 
 class Seen(NamedTuple):
-    """What a ray sees."""
+    """The surface that a ray sees."""
 
     name: Name  # instance and triangle; NOWHERE for nothing
     t: float  # the ray's parameter on it, of a camera's ray the depth in metres; inf for nothing

@@ -1,4 +1,4 @@
-"""What every command line does around its work: hears signals, prints, and says what is wrong.
+"""Runs a command line's work: hears signals, prints, and reports errors.
 
 Little is imported here, so that a Ctrl-C is heard while the rest is.
 """

@@ -83,7 +83,7 @@ class Derivation:
 
     @property
     def seen(self) -> Candidate | None:
-        """What is certainly seen; None for the background."""
+        """The candidate that is certainly seen; None for the background."""
         return self.named(self.certified.seen)
 
     @property

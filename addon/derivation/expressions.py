@@ -39,7 +39,7 @@ class Letter(NamedTuple):
 
 
 class Negated(NamedTuple):
-    """What has the other sign."""
+    """A tree with the other sign."""
 
     of: Tree
 

@@ -49,7 +49,7 @@ class Told:
 
     @property
     def sentence(self) -> str:
-        """What is wrong, without a full stop."""
+        """The fault in words, without a full stop."""
         return self.fault.sentence_of(self.guess)
 
     def effect(self) -> str:
@@ -115,7 +115,7 @@ class Told:
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What accounts for the unexplained pixels of a comparison."""
+    """The faults that account for the unexplained pixels of a comparison."""
 
     told: tuple[Told, ...] = ()
     guesses: int = 0  # that were tried on the sample
@@ -206,7 +206,8 @@ def diagnose(
             evidence = carried(evidence, trials[0])
         remain = int((evidence.unexplained & at_first).sum())
         broken = int((evidence.unexplained & ~at_first).sum())
-        # What was broken is no other fault's, nor is what is beside, or what a rough fit leaves.
+        # Do not blame another fault for pixels that this one broke, for their neighbours, or for
+        # what a rough fit leaves.
         own = ROUGHLY * at_first.sum() if len(chain[0][0].guess.values) > ENCLOSED else 0
         if remain < max(LEAST_SETTLED, broken, own):
             break

@@ -135,7 +135,7 @@ class Evidence:
 
     @cached_property
     def shown(self) -> Picture:
-        """What the n sampled pixels show."""
+        """The other side's picture at the n sampled pixels."""
         return self.picture.at(self.sample)
 
     @cached_property

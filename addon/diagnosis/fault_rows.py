@@ -1,4 +1,4 @@
-"""What the self-check made of each fault: a row, and the rows as text.
+"""The results of the self-check: a row for each fault, and the rows as text.
 
 Apart from the faults themselves, which take a twentieth of a second to import.
 """
@@ -25,7 +25,7 @@ class FaultRow(NamedTuple):
 
     @property
     def result(self) -> str:
-        """What became of it: 'caught', 'missed', or why it could not be caught."""
+        """The outcome: 'caught', 'missed', or why it could not be caught."""
         if not self.changed:
             return "cannot be seen here"
         if self.unexplained or self.named:

@@ -146,7 +146,7 @@ TIMED = frozenset(c.name for c in COLUMNS if c.timed)
 
 @dataclass(frozen=True)
 class Trade:
-    """What was measured on a scene, and the advice that follows from it."""
+    """The measurements on a scene, and the advice that follows from them."""
 
     scene: str
     rows: list[TradeRow]

@@ -1,4 +1,4 @@
-"""What the tracer gives back: one array for each output, row 0 at the bottom.
+"""The tracer's result: one array for each output, row 0 at the bottom.
 
 Stored is what tracing finds. What follows from it is computed when it is asked for; of a certified
 picture, t and the barycentrics are, too.

@@ -1,4 +1,4 @@
-"""What rays meet, and what it took to find out."""
+"""The hits of rays, and statistics of finding them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
 
 @dataclass
 class Statistics:
-    """What a picture took."""
+    """Statistics of a picture."""
 
     method: str = ""  # what `auto` came to; else what was asked for
     triangles: int = 0  # over all instances
@@ -62,7 +62,7 @@ class Statistics:
 
 @dataclass(eq=False)
 class Hits:
-    """What n rays meet: which surface, how that was decided, and where on it.
+    """The hits of n rays: which surface, how that was decided, and where on it.
 
     Parameters
     ----------

@@ -40,13 +40,11 @@ def values() -> dict[str, str]:
 
 
 def camera_conventions() -> str:
-    """Return a table of the conventions of cameras, and what each can say."""
-    columns = [(f.short, f) for f in FEATURES]
-    head = ["`--convention`", "what is written", *(short for short, _ in columns)]
-    rows = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    """Return a table of the conventions of cameras, and what each cannot say."""
+    rows = ["| `--convention` | what is written | what it cannot say |", "|---|---|---|"]
     for name, own in CONVENTIONS.items():
-        says = ["yes" if f in own.says else "no" for _, f in columns]
-        rows.append(f"| `{name}` | {own.title}: {own.file} | {' | '.join(says)} |")
+        lacks = ", ".join(f.short for f in FEATURES if f not in own.says)
+        rows.append(f"| `{name}` | {own.title}: {own.file} | {lacks} |")
     return "\n".join(rows)
 
 
@@ -126,15 +124,11 @@ def _family(of: tuple[AnyFault, ...], said: str) -> str:
 
 
 def _fault(fault: AnyFault) -> str:
-    """Return a fault's section."""
+    """Return a fault's section: what is said of it, and who makes it, and how."""
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
     repository, _, number = fault.witness.partition("#")
-    told = _list(
-        ("Why", fault.why),
-        ("What to do", fault.advice.format(**given)),
-        ("The self-check makes", "; ".join(example.text for example in fault.examples)),
-        ("Seen in", f"[{fault.witness}](https://github.com/{repository}/issues/{number})"),
-    )
-    return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{told}"
+    seen = f"[{fault.witness}](https://github.com/{repository}/issues/{number})"
+    said = f"“{fault.sentence.format(**given)}”"
+    return f"### `{fault.name}`\n\n{said}\n\n{fault.why} Seen in {seen}."

@@ -108,7 +108,7 @@ def _vertex_color(objects: Collection[Any], tree: Any, slots_of: Callable[[], _S
 
 
 class _Slots(NamedTuple):
-    """What the file has in each material slot, and where it is found."""
+    """The colours of each material slot in the file, and the data paths to them."""
 
     colors: list[set[Color | None]]  # of materials; None where there is no material
     paths: tuple[str, ...]  # of a material's viewport colour, for an object and its slot

@@ -107,7 +107,7 @@ class Drawing(Plan):
 
 
 class Drawn(NamedTuple):
-    """What Blender has drawn of one evaluation."""
+    """Blender's drawing of one evaluation, with the scene exported from it."""
 
     drawing: Drawing
     scene: Scene  # what was exported, its planes in the colours drawn

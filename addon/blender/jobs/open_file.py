@@ -1,4 +1,4 @@
-"""What a comparison of the open file is asked for, and the file's scene as it is exported."""
+"""The options of a comparison of the open file, and the export of its scene."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's 
 
 
 class Wanted(NamedTuple):
-    """What a view is to show; two that are equal look the same."""
+    """The picture that a view is to show; equal ones look the same."""
 
     camera: str  # all that it has
     version: int  # of the scene

@@ -1,4 +1,4 @@
-"""What the diagnosis found, in the panel: a line each, and buttons that lead to it.
+"""Shows the diagnosis in the panel: a line for each fault, and buttons that lead to it.
 
 A fault of an object has a button that selects the object; one of the camera a button that adds a
 copy of the camera that sees what the picture shows, and then one that makes the copy the scene's

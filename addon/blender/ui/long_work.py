@@ -1,4 +1,4 @@
-"""What every operator shares, and what those with long work do while the interface stays alive.
+"""Operators' base classes; long work goes on in steps while the interface stays alive.
 
 An operator returns the work from `begin`: a generator that yields the share that is done. Its
 `finish` shows the result. A script's call runs through. A button's call goes on in small steps,

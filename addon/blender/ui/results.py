@@ -38,7 +38,7 @@ _SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of a
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What a panel shows; computed once, since panels are drawn many times a second."""
+    """A result as a panel shows it; computed once, since panels are drawn many times a second."""
 
     content: Any  # what the kind says
     lines: tuple[str, ...]  # sentences; a panel shows the first

@@ -84,7 +84,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 class _Asked(NamedTuple):
-    """What the edge and tie tests have found so far for the n pixels of a part."""
+    """The results of the edge and tie tests so far, for the n pixels of a part."""
 
     centre: Hits
     resolution: Floats  # (n,) m: how far apart in depth surfaces are told apart there

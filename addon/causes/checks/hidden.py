@@ -1,4 +1,4 @@
-"""What only one side has: an object, or another frame of the scene.
+"""Checks for an object, or another frame of the scene, that only one side has.
 
 The manifest names objects that the tracer was told to leave out: if the picture is known to show
 one, this is the cause. An alternative scene is believed if tracing it gives what the picture shows

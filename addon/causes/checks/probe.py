@@ -68,7 +68,7 @@ def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bool
 
 @dataclass(eq=False)
 class OpenPixels:
-    """What a check takes: it gives some of the open pixels their cause."""
+    """The open pixels: a check gives some of them their cause."""
 
     case: Case
     frame: Frame  # what was traced

@@ -36,7 +36,7 @@ class PngError(ValueError):
 
 
 class Header(NamedTuple):
-    """What a PNG says of itself before its pixels (11.2.1)."""
+    """The header of a PNG (11.2.1)."""
 
     width: int
     height: int

@@ -21,7 +21,7 @@ _ENDS = ("rgba", "rgb", "xyz", "z", "v", "y", "r", "x")  # letters of a layer's 
 
 @dataclass(frozen=True, eq=False)
 class StoredData:
-    """What a file holds of a kind of data, in its own integers or floats."""
+    """The values of a file, of a kind of data, in its own integers or floats."""
 
     values: Array  # (h, w, c), row 0 at the bottom
     step: Step  # of integers with a unit of 1

@@ -70,7 +70,7 @@ class GivenData:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """The file's name, or "array"."""
         return self.path.name if isinstance(self.path, Path) else "array"
 
     def conventions(self, stored: StoredData) -> Iterator[Kind]:

@@ -1,4 +1,4 @@
-"""What the rays through pixels' centres see of the surfaces that are named, wherever these end."""
+"""Follows named surfaces, wherever they end, to the rays through pixels' centres."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ...tracer.world import world_corners
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """What n pixels would show, if the ray through each centre met the plane of a named surface.
+    """The values of n pixels, if the ray through each centre met the plane of a named surface.
 
     A surface beside an edge is followed to the centre: that is where a renderer computes what it
     shows, whichever surface it takes to be there.
