@@ -41,7 +41,7 @@ def test_a_page_has_what_the_records_say(part):
 
 def test_every_record_is_told_once():
     for cause in CAUSES[1:]:
-        assert VALUES["causes"].count(f"`{cause.key}`, {cause.number} in") == 1
+        assert VALUES["causes"].count(f"`{cause.key}`, {cause.number})") == 1
     for fault in FAULTS:
         assert VALUES["faults"].count(f"\n### `{fault.name}`\n") == 1 and fault.why
     assert all(example.text[1:] in VALUES["faults"] for _, example in EXAMPLES)

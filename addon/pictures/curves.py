@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..arrays import Array
-from ..images import EIGHT_BITS, curve, curve_undone
+from ..files.images import EIGHT_BITS, curve, curve_undone
 from .picture import MAJORITY, Curve, Transform
 
 FITTED_SHARE = 0.9  # the share of pixels for a curve with a number that was fitted to them

@@ -53,7 +53,7 @@ GIVEN_FAULTS = (
         "other_frame",
         "the picture is of another frame: {words}",
         "A script renders the frame at which the file was saved, or counts frames from 0.",
-        "render the frame that the scene is at, or compare with --frame",
+        "render the frame that the scene is at, or compare with --set frame=",
         Example("wrong_frame", "the scene a frame later", _a_frame_later),
         witness="KhronosGroup/glTF-Blender-Exporter#322",
     ),

@@ -7,10 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Array
+from ...arrays import Array, by_runs
 from ...causes.case import Case
 from ...pictures.picture import Transform, straight
-from ...runs import by_runs
 from .fault import Guess, Make
 
 
