@@ -21,7 +21,9 @@ from .comparison.verdict import Verdict as Verdict
 from .derivation.candidates import LIMIT
 from .derivation.derivation import derive
 from .derivation.document import document_markdown
-from .images import open_picture
+from .files.images import open_picture
+from .files.scenes import Account
+from .files.scenes import save_scene as save_scene
 from .opened import file_manifest, open_scene
 from .pictures.data.given import GivenData, picture_of_data
 from .pictures.given import Making, picture_of_array, picture_of_file
@@ -36,8 +38,6 @@ from .scene import Region as Region
 from .scene import Scene
 from .scene import SceneError as SceneError
 from .scene import ViewWindow as ViewWindow
-from .scene_files import Account
-from .scene_files import save_scene as save_scene
 from .tracer.camera import Rays as Rays
 from .tracer.camera import camera_rays as camera_rays
 from .tracer.frame import Frame as Frame

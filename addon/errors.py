@@ -7,7 +7,7 @@ import traceback
 from collections.abc import Callable
 
 from .certified.arithmetic import AssumptionError
-from .exr import MissingLibraryError
+from .files.exr import MissingLibraryError
 from .pictures.picture import SizeError
 from .scene import SceneError
 from .tracer.memory import PictureTooLargeError

@@ -159,7 +159,7 @@ class Choice:
         backward = eye - np.asarray(target, np.float64)
         distance = float(np.linalg.norm(backward))
         if not distance:
-            raise SceneError("--eye and --target are the same point: move one of them.")
+            raise SceneError("eye and target are the same point: move one of them.")
         return Camera(
             _pose(axes_of(backward), eye),
             _window(half, width, height, tall),
@@ -168,7 +168,7 @@ class Choice:
             projection,
             clip_start=distance * 1e-3,
             clip_end=distance * 1e3,
-            name="--eye",
+            name="eye",
         )
 
 

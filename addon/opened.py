@@ -8,10 +8,10 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from .files.scenes import Account, load_account, load_scene
 from .framing import Choice
 from .manifest import Manifest, ObjectEntry
 from .scene import Scene, SceneError
-from .scene_files import Account, load_account, load_scene
 
 
 class Opened(NamedTuple):
@@ -49,7 +49,7 @@ def open_scene(path: Path, choice: Choice | None = None) -> Opened:
         scene = load_scene(path)
         return Opened(scene, file_manifest(path, scene, load_account(path)))
     if suffix not in mesh_formats():
-        raise SceneError(f"'{path}' is none of .npz, {', '.join(mesh_formats())}")
+        raise SceneError(f"'{path}' is none of {', '.join(('.npz', *mesh_formats()))}")
     return mesh_formats()[suffix](path, choice or Choice())
 
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli.main import parser
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import load_scene
 
 PROJECT = Path(__file__).parent.parent
 TEXT = (PROJECT / "README.md").read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..checked_json import Content, whole
+from ..files.checked_json import Content, whole
 from ..scene import Camera, SceneError
 from .features import FEATURES, Feature
 
@@ -77,7 +77,7 @@ class Source:
             return whole(dict(own), keys[0], where), whole(dict(own), keys[1], where)
         width, height = self.size
         if width is None or height is None:
-            raise SceneError("it says no size of the picture: add --width and --height")
+            raise SceneError("it says no size of the picture: add --set width=PIXELS height=PIXELS")
         return width, height
 
 

@@ -19,7 +19,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content
+from ..files.checked_json import Content
 from ..framing import SIZE
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow
@@ -150,7 +150,7 @@ def _size(own: Content, label: str, aspect: float | None, source: Source) -> tup
     if aspect is not None and abs(size[0] / size[1] / aspect - 1) > 1 / min(size):
         raise SceneError(
             f"{label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
-            "pixels: choose --width or --height alone"
+            "pixels: choose width or height alone"
         )
     return size
 

@@ -16,7 +16,7 @@ from typing import NoReturn
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content, numbers
+from ..files.checked_json import Content, numbers
 from ..scene import SceneError
 
 VISIBILITY = "KHR_node_visibility"

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content, numbers, part
+from ..files.checked_json import Content, numbers, part
 from ..scene import Camera, SceneError
 from .convention import CENTERS, FIRST, HALF, Files, Source, View
 

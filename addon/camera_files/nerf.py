@@ -18,7 +18,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..checked_json import Content, numbers
+from ..files.checked_json import Content, numbers
 from ..projections import PERSPECTIVE, PROJECTIONS
 from ..scene import SceneError
 from . import frame

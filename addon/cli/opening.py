@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..file_kinds import check_is_file
+from ..files.file_kinds import check_is_file
 from ..framing import Choice
 from ..manifest import Manifest
 from ..opened import mesh_formats, open_scene
@@ -26,7 +26,9 @@ from .camera_options import check_kind
 
 PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
-SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
+SOURCES = "scene.blend or scene.npz"
+if mesh_formats():
+    SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
 
 
 class OpenedFile(NamedTuple):

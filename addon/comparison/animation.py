@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from ..checked_json import Content
+from ..files.checked_json import Content
 from .verdict import Verdict
 
 _NAMED = re.compile(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?")

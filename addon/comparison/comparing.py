@@ -15,13 +15,13 @@ from ..causes.counts import count_pixels
 from ..causes.excused import excused
 from ..causes.explain import explain
 from ..diagnosis.fault_rows import FaultRow
-from ..mesh_diagnosis import diagnosed as with_mesh_faults
 from ..pictures.metrics import boundary, image_metrics
 from ..rendering import steps
 from ..tracer.frame import Frame
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, called, scaled
 from .comparison import Comparison
+from .mesh_diagnosis import diagnosed as with_mesh_faults
 from .methods import list_methods
 
 # Shares of the work, roughly. A self-check takes the larger part of it.

@@ -244,7 +244,7 @@ class Comparison:
         if self.case.picture.source.file:
             words, known = self.case.picture.sampling.renderer.words, self.case.picture.source.known
             why = f", {known}" if known else ""
-            yield f"a pixel may differ by the rounding of {words}{why} (--renderer)"
+            yield f"a pixel may differ by the rounding of {words}{why} (--excuse renderer)"
         if self.background:
             yield self.background.line()
         if self.empty:

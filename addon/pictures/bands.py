@@ -10,9 +10,8 @@ from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index
+from ..arrays import Bools, Floats, Index, places
 from ..certainty import Certainty
-from ..runs import places
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions, pixel_size
 from ..tracer.frame import Frame

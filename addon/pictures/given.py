@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..images import PictureFile
+from ..files.images import PictureFile
 from ..scene import Camera
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from .bounds import Storage

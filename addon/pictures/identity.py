@@ -15,8 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Bools, Colors, Floats, Index, Integers, Where
-from ..runs import by_runs
+from ..arrays import Bools, Colors, Floats, Index, Integers, Where, by_runs
 from ..scene import Scene
 
 NOTHING, UNKNOWN = -1, -2

@@ -13,8 +13,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where
-from ..runs import by_runs
+from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where, by_runs
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.frame import Frame
@@ -45,7 +44,8 @@ def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
         (height, width), (h, w) = own[:2], traced[:2]
         raise SizeError(
             f"The picture has {width} x {height} pixels, the traced one {w} x {h}. Render it at "
-            f"that size, or trace a .blend or a mesh at its own: --width {width} --height {height}"
+            "that size, or trace a .blend or a mesh at its own: "
+            f"--set width={width} height={height}"
         )
 
 

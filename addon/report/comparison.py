@@ -12,7 +12,6 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 
-from .. import images, png
 from ..arrays import Array, Colors
 from ..causes.case import Case
 from ..causes.cause import UNEXPLAINED
@@ -24,6 +23,7 @@ from ..comparison.extras import Extras
 from ..comparison.extras import extras as find_extras
 from ..comparison.verdict import Verdict
 from ..diagnosis.regions import Region, regions, sides
+from ..files import images, png
 from ..tracer.frame import PASSES
 from ..tracer.progress import Work, called, scaled
 from ..tracer.vector import parts

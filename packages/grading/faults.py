@@ -94,7 +94,10 @@ def raising(student: Submission) -> list[Fault]:
         for given, array in zip(student.form.given, case, strict=True)
     ]
     where = f" in line {error.line}" * (error.line is not None)
-    text = f"it raises {error.message}{where}, as it does with {', '.join(numbers)}"
+    what = error.message if error.kind == "ended" else f"it raises {error.message}{where}"
+    text = f"{what}, as it does with {', '.join(numbers)}"
+    if student.unasked:
+        text += f" ({student.unasked:,} of these in groups: so many are not tried one by one)"
     return [Fault("raises", text, student.raises)]
 
 

@@ -153,7 +153,7 @@ def parallel(scene):
         ("other_camera", "Side", None, through_the_side),
         ("sensor_width_for_height", "", None, sides_swapped),
         ("sensor_fit_setting", "vertical", None, fitted_vertically),
-        ("orthographic_for_perspective", "", None, parallel),
+        ("camera_type", "orthographic", None, parallel),
     ],
 )
 def test_a_variant_is_what_blender_exports_after_the_change(

@@ -110,7 +110,7 @@ def test_several_frames_are_found_by_name_and_by_number(name, tmp_path):
         film, points = rays_of(cameras[1], rng)
         x, y, _ = film_of(again, points)
         assert apart(np.stack((x, again.height - y)), film) < SHARP
-    with pytest.raises(SceneError, match="3 cameras: --camera-view"):
+    with pytest.raises(SceneError, match="3 cameras: --set camera-view"):
         chosen(found, None)
     with pytest.raises(SceneError, match="no camera '9'; there are"):
         chosen(found, "9")

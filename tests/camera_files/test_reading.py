@@ -82,7 +82,7 @@ def test_nerf_of_blenders_first_exporter_has_an_angle_alone(tmp_path):
     }
     path = tmp_path / "transforms_train.json"
     path.write_text(json.dumps(content), encoding="utf-8")
-    with pytest.raises(SceneError, match="no size of the picture: add --width and --height"):
+    with pytest.raises(SceneError, match="no size of the picture: add --set width="):
         read(path)
     view = chosen(read(path, size=(800, 800)), "r_1")
     assert view.camera.window.right == pytest.approx(np.tan(0.6911112070083618 / 2))

@@ -8,10 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 import pytest
-from reference_tracer import images
 from reference_tracer.cli.commands import trace as trace_command
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.files import images
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.tracer import signals
 from reference_tracer.tracer.progress import result_of

@@ -60,7 +60,7 @@ def test_other_commands_say_it_too(said, capfd):
     assert main(["explain", str(path), "--pixel", "8", "8", *SMALL]) == AGREE
     told = capfd.readouterr()
     assert words in told.err and words not in told.out
-    assert main(["trade", str(path), "--width", "8", "--samples", "1"]) == AGREE
+    assert main(["trade", str(path), "--set", "width=8", "--samples", "1"]) == AGREE
     assert words in capfd.readouterr().out
 
 

@@ -13,7 +13,7 @@ from reference_tracer.cli import running
 from reference_tracer.cli.commands import extremes as command
 from reference_tracer.cli.main import main
 from reference_tracer.cli.watch import watched
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.study import extremes
 from reference_tracer.study.scenarios.sweeps import BY_NAME
 from reference_tracer.tracer.progress import Share

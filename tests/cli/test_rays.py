@@ -11,8 +11,8 @@ import trimesh
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from reference_tracer.certified.definition import seen_by
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Plane
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.camera import Rays
 
 PAGE = Path(__file__).parents[2] / "docs" / "rays.md"

@@ -14,12 +14,12 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
-from reference_tracer import images
 from reference_tracer.cli import running
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.files import images
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import save_scene
 
 COMMAND = [sys.executable, "-m", "reference_tracer.cli.main"]
 posix = pytest.mark.skipif(os.name != "posix", reason="signals and descriptors of POSIX")
@@ -63,7 +63,7 @@ def test_wrong_options_change_nothing(compared, tmp_path, exit_code):
     assert main([*map(str, compared), "--out", str(out)]) == AGREE
     before = {p.name: p.read_bytes() for p in out.iterdir()}
     shown, scene = out / "traced.png", str(compared[1])
-    for options in (["--judge", "cycles"], ["--frame-all", "--eye", "1", "2", "3"]):
+    for options in (["--judge", "cycles"], ["--set", "eye=all", "eye=1,2,3"]):
         assert exit_code([*map(str, compared), *options, "--out", str(out)]) == INPUT_ERROR
     shutil.copy(shown, out / "Traced.PNG")  # one file, where the case of names does not count
     for file in (shown, out / "Traced.PNG"):

@@ -9,8 +9,8 @@ from PIL import Image
 from reference_tracer.certified import arithmetic
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Region
-from reference_tracer.scene_files import save_scene
 
 from .parts import SMALL, channels, trace
 
@@ -33,9 +33,7 @@ def test_other_meshes(suffix, tmp_path):
 def test_eye_target_angle(ball, tmp_path):
     """Seen from 2 radii, a sphere fills the cone of 30 degrees around the axis."""
     half = np.degrees(np.arctan(np.tan(np.radians(30)) * 1.25))
-    assert (
-        trace(ball, tmp_path / "b.exr", "--eye", "0", "-2", "0", "--angle", str(2 * half)) == AGREE
-    )
+    assert trace(ball, tmp_path / "b.exr", "--set", "eye=0,-2,0", f"angle={2 * half}") == AGREE
     depth = channels(tmp_path / "b.exr")["Z"]
     assert depth[7:9, 11:13].min() == pytest.approx(1, abs=0.03)
     rows = np.flatnonzero(np.isfinite(depth).any(axis=1))
@@ -44,16 +42,13 @@ def test_eye_target_angle(ball, tmp_path):
 
 def test_target_and_up(ball, tmp_path):
     """Looking past the ball to its right and above, one sees it at the left and below."""
-    assert (
-        trace(ball, tmp_path / "b.exr", "--eye", "0", "-5", "0", "--target", "1", "0", "0.7")
-        == AGREE
-    )
+    assert trace(ball, tmp_path / "b.exr", "--set", "eye=0,-5,0", "target=1,0,0.7") == AGREE
     y, x = np.nonzero(np.isfinite(channels(tmp_path / "b.exr")["Z"]))
     assert x.mean() < 11 and y.mean() < 7
 
 
 def test_ortho_scale(ball, tmp_path):
-    assert trace(ball, tmp_path / "b.exr", "--eye", "0", "0", "5", "--ortho-scale", "4") == AGREE
+    assert trace(ball, tmp_path / "b.exr", "--set", "eye=0,0,5", "ortho-scale=4") == AGREE
     found = channels(tmp_path / "b.exr")
     seen = np.isfinite(found["Z"])
     assert seen.any(axis=0).sum() == seen.any(axis=1).sum() == 8  # the height, 4 m, is 16 pixels
@@ -143,15 +138,15 @@ def test_up_turns_a_mesh_and_nothing_else(tmp_path, capsys, make):
     shape.export(tmp_path / "y.ply")
     shape.vertices = shape.vertices[:, [0, 2, 1]] * (1, -1, 1)
     shape.export(tmp_path / "z.ply")
-    assert trace(tmp_path / "y.ply", tmp_path / "y.png", "--up", "y") == AGREE
+    assert trace(tmp_path / "y.ply", tmp_path / "y.png", "--set", "up=y") == AGREE
     assert trace(tmp_path / "z.ply", tmp_path / "z.png") == AGREE
     assert (tmp_path / "y.png").read_bytes() == (tmp_path / "z.png").read_bytes()
-    assert trace(tmp_path / "z.ply", tmp_path / "wide.png", "--frame-all", "--angle", "90") == AGREE
+    assert trace(tmp_path / "z.ply", tmp_path / "wide.png", "--set", "eye=all", "angle=90") == AGREE
     assert (tmp_path / "wide.png").read_bytes() != (tmp_path / "z.png").read_bytes()
     save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
-    options = ["--out", str(tmp_path / "s.png"), "--up", "y"]
+    options = ["--out", str(tmp_path / "s.png"), "--set", "up=y"]
     assert main(["trace", str(tmp_path / "s.npz"), *options]) == INPUT_ERROR
-    assert "--up is for meshes" in capsys.readouterr().err
+    assert "--set up is for meshes" in capsys.readouterr().err
 
 
 def test_color_shows_the_shape_and_a_flat_mesh_says_so(ball, tmp_path, capsys):

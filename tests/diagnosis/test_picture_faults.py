@@ -20,7 +20,7 @@ from reference_tracer.diagnosis.faults.colors import COLOR_FAULTS
 from reference_tracer.diagnosis.faults.fault import Numbers
 from reference_tracer.diagnosis.faults.picture import PICTURE_FAULTS
 from reference_tracer.diagnosis.faults.sizes import Way, resized
-from reference_tracer.images import curve, curve_undone
+from reference_tracer.files.images import curve, curve_undone
 from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture

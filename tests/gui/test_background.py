@@ -96,7 +96,7 @@ def test_operator_in_background(blender, folder):
     check_files(path)
 
 
-@pytest.mark.parametrize("camera", ["", "--eye 3 -9 4 --ortho-scale 7 --frame 2 --width 160"])
+@pytest.mark.parametrize("camera", ["", "--set eye=3,-9,4 ortho-scale=7 frame=2 width=160"])
 def test_command(camera, blender, folder):
     path, inside = folder
     command = "--command", "reference_tracer", "compare", "--out", inside
@@ -112,7 +112,7 @@ def test_command_for_frames(blender, folder):
     outside, inside = folder
     argv = [TRIANGLE, "--command", "reference_tracer", "compare", "--out", inside, "--frames"]
     for frames, told in (("2", ["frame 2:"]), ("1-2", ["frame 1:"])):
-        done = blender.run(*argv, frames, "--frame-all", "--width", "160")
+        done = blender.run(*argv, frames, "--set", "eye=all", "width=160")
         assert done.returncode == 0, done.stdout + done.stderr
         assert re.findall(r"^frame \d+:", done.stderr, re.M) == told
     assert len(json.loads((outside / "animation.json").read_text())["frames"]) == 2
@@ -127,8 +127,8 @@ def test_command_for_the_trade(blender, folder):
         "trade",
         "--out",
         inside,
-        "--width",
-        "16",
+        "--set",
+        "width=16",
         "--samples",
         "1",
     )

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli import opening
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer_meshes.load import load_meshes, scene_of_meshes
 
@@ -251,7 +251,7 @@ def test_an_obj_of_blenders_has_y_up_where_nobody_says_otherwise(up, tmp_path):
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
     assert read(text) == ((), up == "y")
     notes, turned = read(f"# Blender 5.0.0\n{text}")
-    assert ["--up z" in note for note in notes] == [True] * (up is None)
+    assert ["up=z" in note for note in notes] == [True] * (up is None)
     assert turned == (up != "z")
 
 

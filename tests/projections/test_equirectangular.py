@@ -10,11 +10,11 @@ import pytest
 import trimesh
 from check_rounding import check_rounding
 from reference_tracer.certified.rounding import rounding
+from reference_tracer.files.scenes import load_scene, save_scene
 from reference_tracer.methods import Method
 from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow
-from reference_tracer.scene_files import load_scene, save_scene
 from reference_tracer.tracer.camera import (
     camera_rays,
     corner_rays,
@@ -28,12 +28,13 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.settings import Settings
 
 from ..oracle import scene_sights
-from ..tracer.test_candidates import exact_depth, hits_outside
+from ..tracer.test_candidates import check
 from .test_sine import true_sine
 
 WHOLE = ViewWindow(-np.pi, np.pi, -np.pi / 2, np.pi / 2)
 BLENDERS = ViewWindow(*(float(np.float32(v)) for v in vars(WHOLE).values()))  # beyond the poles
 EYE = (3.25, -4.5, 0.125)
+REACHES = 0, 0.25, 0.5  # pixels, of samples
 PARTS = [0, *(pytest.param(n, marks=pytest.mark.torture) for n in (1, 2, 3, 4))]
 
 
@@ -189,27 +190,19 @@ def test_enclosing_rays_enclose(make):
         assert (np.abs(rays).max(axis=1) <= most).all() and (most < 6).all()
 
 
+def hostile(make, seed):
+    rng = np.random.default_rng(seed)
+    scale, camera = hostile_panorama(make, rng)
+    corners = hostile_triangles(camera, scale, rng)
+    return camera, corners.astype(rng.choice([np.float64, np.float32])), float(rng.choice(REACHES))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("part", PARTS)
 def test_no_hit_is_culled(make, part):
     """In float64 and float32: of what floats call a hit outside of a box, none truly is one."""
-    lost, counts = [], np.zeros(3)
-    for seed in range(400 * part, 400 * (part + 1)):
-        rng = np.random.default_rng(seed)
-        scale, camera = hostile_panorama(make, rng)
-        corners = hostile_triangles(camera, scale, rng)
-        corners = corners.astype(rng.choice([np.float64, np.float32]))
-        reach = float(rng.choice([0, 0.25, 0.5]))
-        bounds = pixel_bounds(camera, corners, reach)
-        for dx, dy in {(0, 0), (reach, reach), (-reach, reach), (-reach, -reach)}:
-            for outside, count in hits_outside(camera, corners, bounds, dx, dy):
-                counts += count
-                for o, d, triangle in outside:
-                    t = exact_depth(o, d, triangle)
-                    if t is not None and camera.clip_start <= t <= camera.clip_end:
-                        lost.append((seed, reach, float(t)))
-    assert not lost
-    hits, proposed, possible = counts
+    cases = (hostile(make, seed) for seed in range(400 * part, 400 * (part + 1)))
+    hits, proposed, possible = check(cases, ((0, 0), (1, 1), (-1, 1), (-1, -1)))
     assert hits > 20_000
     assert proposed < 0.6 * possible
 

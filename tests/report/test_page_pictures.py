@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.comparison.animation import FrameRow
 from reference_tracer.comparison.verdict import Verdict
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 from reference_tracer.report import animation
 from reference_tracer.report.page.content import content
 

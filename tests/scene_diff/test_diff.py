@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.scene import Instance, Mesh, Plane
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files.scenes import save_scene
+from reference_tracer.scene import Instance, Mesh, Plane, SceneError
 from reference_tracer_scene_diff.differences import differences
 from reference_tracer_scene_diff.matching import matched
 
@@ -178,7 +178,7 @@ def test_what_differs_is_named_and_nothing_else(scene, name):
 def test_a_file_with_another_axis_up_is_told_which(scene, degrees, up, factor):
     turned = ROTATED(np.radians(degrees), (1, 0, 0)) @ np.diag((factor, factor, factor, 1.0))
     [found] = differences(scene, with_all(scene, turned))
-    assert found.advice == f"if the file has {up.upper()} up, --up {up} turns it"
+    assert found.advice == f"if the file has {up.upper()} up, --set up={up} turns it"
 
 
 def test_beside_what_all_have_in_common_the_rest_is_named(scene):
@@ -248,5 +248,12 @@ def test_infinite_planes_are_compared(scene):
 
 def test_up_is_refused_where_nothing_is_turned(scene, tmp_path, capsys, exit_code):
     save_scene(tmp_path / "a.npz", scene)
-    assert exit_code(["diff", *[str(tmp_path / "a.npz")] * 2, "--up", "y"]) == 4
-    assert "--up is for meshes" in capsys.readouterr().err
+    assert exit_code(["diff", *[str(tmp_path / "a.npz")] * 2, "--set", "up=y"]) == 4
+    assert "--set up is for meshes" in capsys.readouterr().err
+
+
+def test_an_object_too_large_to_be_compared_is_named(scene):
+    for size in (1e308, 1e160):
+        large = with_instance(scene, 1, np.diag((size, size, size, 1)))
+        with pytest.raises(SceneError, match="'Box' is too large to be compared"):
+            differences(scene, large)

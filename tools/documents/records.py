@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import ast
 import inspect
-import sys
 from collections.abc import Iterator
 from importlib import import_module
-from pathlib import Path
 
 from reference_tracer.camera_files.features import FEATURES
 from reference_tracer.camera_files.files import CONVENTIONS
@@ -18,9 +16,6 @@ from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault
 from reference_tracer.methods import Method
-from reference_tracer.report.page.content import hex_color
-
-PROJECT = Path(__file__).resolve().parents[2]
 
 
 class _Name(str):
@@ -74,26 +69,20 @@ def checks() -> str:
 
 def causes() -> str:
     """Return a section for each cause of a pixel that differs, in the order of the legend."""
-    sys.path.insert(0, str(PROJECT))
-    attacks = import_module("tests.attacks.table").withstood()
-    sys.path.remove(str(PROJECT))
-    parts = (_cause(c, attacks.get(c, ())) for c in CAUSES if c.why)
+    parts = (_cause(c) for c in CAUSES if c.why)
     return "\n\n".join(line for part in parts for line in part)
 
 
-def _cause(cause: Cause, attacks: tuple[str, ...]) -> Iterator[str]:
-    """Yield a cause's section; `attacks` are those that it withstands."""
+def _cause(cause: Cause) -> Iterator[str]:
+    """Yield a cause's section."""
     yield f"### {cause.label.capitalize()}"
     numbers = {name: _Name(name) for name in ("figure", "allowed", "name")}
-    color = f", `{hex_color(cause.color)}` on the map" if cause.color else ""
-    known = f"`{cause.key}`, {cause.number} in `frame.npz`{color}"
-    yield f"“{cause.sentence.format(**numbers)}” ({known})"
-    yield f"![Traced, the other picture, and the causes](images/causes/{cause.key}.png)"
+    yield f"“{cause.sentence.format(**numbers)}” (`{cause.key}`, {cause.number})"
+    yield f"![Traced, shown, causes](images/causes/{cause.key}.png)"
     yield _list(
         ("Why", cause.why),
         ("The check", cause.check),
         ("Never excused", cause.never),
-        ("Withstands", "; ".join(attacks)),
         ("What to do", cause.advice),
     )
 
@@ -128,9 +117,11 @@ def _fault(fault: AnyFault) -> str:
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
+    repository, _, number = fault.witness.partition("#")
     told = _list(
         ("Why", fault.why),
         ("What to do", fault.advice.format(**given)),
         ("The self-check makes", "; ".join(example.text for example in fault.examples)),
+        ("Seen in", f"[{fault.witness}](https://github.com/{repository}/issues/{number})"),
     )
     return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{told}"

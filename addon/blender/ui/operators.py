@@ -258,8 +258,8 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
 
     def begin(self, context: Any) -> Work[Any]:
         """Export the scene as a render has it, and write it: it is whole, or not there."""
+        from ...files.scenes import save_scene
         from ...report import folders
-        from ...scene_files import save_scene
         from ..jobs.open_file import export_open_file
 
         path = with_ending(self.filepath, self.filename_ext)

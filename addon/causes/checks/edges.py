@@ -11,9 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Bools, Floats
+from ...arrays import Bools, Floats, places
 from ...pictures.picture import Picture
-from ...runs import places
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits

@@ -13,10 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Array, Bools, Floats, Index, Places
+from ...arrays import Array, Bools, Floats, Index, Places, places
 from ...pictures.bands import SampleBand
 from ...pictures.picture import Picture
-from ...runs import places
 from ...scene import Region, Scene
 from ...tracer.camera import Rays, camera_rays, film_positions
 from ...tracer.candidates import PAIRS, Plan, candidates

@@ -9,19 +9,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ... import images
 from ...camera_files.files import of_frames
 from ...causes.case import Case, without_colors
 from ...comparison import engines
 from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
+from ...files import images
 from ...framing import FRAMED
 from ...manifest import Effect
 from ...pictures import colors_file
 from ...pictures.colors_file import in_colors
 from ...pictures.data.given import GivenData, picture_of_data
-from ...pictures.given import Making, picture_of_file
+from ...pictures.given import picture_of_file
 from ...pictures.palette import By, GivenColors
 from ...pictures.picture import Picture
 from ...report import animation as frames_report
@@ -42,7 +42,7 @@ Given = images.PictureFile | GivenData
 
 _FRAMED = (
     "the camera is none of the mesh's: it was placed to see all of it; "
-    "--eye, --target and --angle name that of the picture"
+    "--set eye=, target= and angle= say that of the picture"
 )
 
 
@@ -101,8 +101,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "colors": _colors(options),
             "identity": options.identity,
             "self_check": options.self_check,
-            "renderer": options.renderer,
-            "filter": options.filter,
+            "renderer": options.making.renderer or None,
+            "filter": options.making.filter_radius or None,
             **place,
         }
         if options.frames:
@@ -237,7 +237,7 @@ def _blend(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Wo
 
         context = blender.context
         dither = DITHER * context.scene.render.dither_intensity
-        making = replace(_making(options), default_dither=dither)
+        making = replace(options.making, default_dither=dither)
         shown: Picture | Callable[[Any], Picture]
         if isinstance(picture, GivenData):
             data = picture  # which is read once the scene is there
@@ -263,19 +263,13 @@ def _file(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Wor
         notes = (*notes, _FRAMED)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))
     if isinstance(picture, GivenData):
-        shown = picture_of_data(picture, scene, _making(options))
+        shown = picture_of_data(picture, scene, options.making)
     else:
-        shown = picture_of_file(picture, scene.camera, _making(options))
+        shown = picture_of_file(picture, scene.camera, options.making)
     settings, checked = options.settings.over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
     case = without_colors(case) if options.data else case
     return (yield from _written(options, replace(case, **place)))
-
-
-def _making(options: CompareOptions) -> Making:
-    """Return how the picture was made, as far as the options say."""
-    known = "as --renderer says"
-    return Making(options.renderer or "", options.filter or 0.0, options.dither, asked=known)
 
 
 def _written(options: CompareOptions, case: Case) -> Work[Comparison]:

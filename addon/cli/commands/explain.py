@@ -9,10 +9,10 @@ from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
-from ... import exr
 from ...derivation import reproducer
 from ...derivation.candidates import LIMIT, gather_pixel
 from ...derivation.pixel import Pixel
+from ...files import exr
 from ...framing import Choice
 from ...report import pixel
 from ...report.folders import place_of

@@ -140,6 +140,7 @@ class Fault(Generic[G]):
     removes: bool = False  # it says that its object is not visible
     examples: tuple[Example, ...] = ()
     words: str = ""  # what a guess' words say, in general: for the documents
+    witness: str = ""  # the public report of it, "owner/repository#number" on GitHub
 
     def sentence_of(self, guess: Guess) -> str:
         """Return the sentence with a guess' numbers and names."""

@@ -227,6 +227,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "check where the camera is and looks, and whether anything is rendered",
         lambda case, guess: case.with_scenes(lambda scene: replace(scene, instances=(), planes=())),
         sums_up=True,
+        witness="facebookresearch/pytorch3d#1308",
     ),
     Fault(
         "object_missing",
@@ -238,6 +239,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         suspects(),
         removes=True,
         examples=(Example("dropped_instance", "the largest object left out", largest),),
+        witness="KhronosGroup/glTF-Blender-IO#2726",
     ),
     Fault(
         "transform_left_out",
@@ -247,6 +249,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "multiply its vertices by its world matrix",
         of_object(lambda instance: replace(instance, world_from_object=np.eye(4))),
         suspects(),
+        witness="OpenNaja/cobra-blender#19",
     ),
     Fault(
         "rotation_left_out",
@@ -256,6 +259,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "multiply its vertices by its whole world matrix",
         _with_axes(lambda axes, lengths: np.diag(np.where(lengths > 0, lengths, 1))),
         suspects(),
+        witness="taniwha/io_object_mu#8",
     ),
     Fault(
         "rotation_transposed",
@@ -266,6 +270,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _with_axes(lambda axes, lengths: axes.T * lengths),
         _transposed,
         words="an object, or of all",
+        witness="cedricpinson/osgexport#8",
     ),
     Fault(
         "object_turned",
@@ -275,6 +280,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _in_turn,
         _turned,
         words="turned by a quarter or a half, or mirrored",
+        witness="rdb/blender-egg-importer#2",
     ),
     Fault(
         "scale_left_out",
@@ -284,6 +290,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "multiply its vertices by its whole world matrix",
         _with_axes(lambda axes, lengths: axes),
         suspects(),
+        witness="X-Plane/XPlane2Blender#257",
     ),
     Fault(
         "place_left_out",
@@ -292,6 +299,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "multiply its vertices by its whole world matrix",
         of_object(_at_origin),
         suspects(),
+        witness="X-Plane/XPlane2Blender#214",
     ),
     Fault(
         "shear_left_out",
@@ -304,6 +312,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
             _with_axes(lambda axes, lengths: _nearest_rotation(axes) * lengths),
         ),
         _sheared,
+        witness="donmccurdy/glTF-Transform#1680",
     ),
     Fault(
         "swapped_transforms",
@@ -315,6 +324,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _pairs,
         examples=(Example("swapped_transforms", "two objects at each other's places", _two),),
         words="two objects",
+        witness="Oygron/SupCom_Import_Export_Blender#1",
     ),
     Fault(
         "object_scaled",
@@ -327,6 +337,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         refine=refine_size,
         effort=Effort.OBJECT,
         words=", about its origin, its base or its middle",
+        witness="assimp/assimp#775",
     ),
     Fault(
         "scene_scaled",
@@ -336,6 +347,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         of_object(_whole),
         always(*(Numbers((factor,)) for factor in UNITS)),
         ("factor",),
+        witness="thodan/obj_pose_eval#1",
     ),
     Fault(
         "object_moved",
@@ -351,6 +363,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         examples=(
             Example("moved_object", "the largest object moved by a pixel", _a_pixel_to_the_right),
         ),
+        witness="AsoboStudio/Microsoft-Flight-Simulator-2020-glTF-Blender-IO#98",
     ),
     Fault(
         "object_twice",
@@ -363,6 +376,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         ("x", "y", "z"),
         refine=TWICE.refine,
         effort=Effort.ANYTHING,
+        witness="LuxCoreRender/BlendLuxCore#366",
     ),
     Fault(
         "smooth_displaced",
@@ -375,5 +389,6 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         ("distance",),
         refine=DISPLACED.refine,
         effort=Effort.OBJECT,
+        witness="LuxCoreRender/LuxCore#350",
     ),
 )

@@ -146,6 +146,7 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
             ),
         ),
         words="90 or 180 degrees",
+        witness="alan-turing-institute/monitoring-ecosystem-resilience#459",
     ),
     Fault(
         "depth_order",
@@ -159,5 +160,6 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
         sampled=False,
         effort=Effort.ANYTHING,
         words="the farthest surface is seen, or objects are drawn one over the other in some order",
+        witness="mrdoob/three.js#12737",
     ),
 )

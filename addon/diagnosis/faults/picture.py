@@ -76,6 +76,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
             ),
         ),
         words="rows or columns are one off, and those at the end are at the other end",
+        witness="steel1990/tga#1",
     ),
     Fault(
         "rows",
@@ -85,6 +86,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         "is shifted up tells this from a camera that is mirrored",
         _upside_down,
         examples=(Example("rows", "the picture's rows from top to bottom"),),
+        witness="glium/glium#1526",
     ),
     *CURVE_FAULTS,
     *ROUNDING_FAULTS,
@@ -96,6 +98,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         recolored(alpha_divided),
         _find_partly,
         sampled=False,
+        witness="Tom94/tev#87",
     ),
     Fault(
         "straight_alpha",
@@ -106,6 +109,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         recolored(alpha_multiplied),
         _find_partly,
         sampled=False,
+        witness="RxLaboratory/Bluik#32",
     ),
     *FILTER_FAULTS,
     *SIZE_FAULTS,

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...arrays import Array, Colors, Floats
 from ...causes.checks.color import groups
-from ...images import encoded
+from ...files.images import encoded
 from ...tracer.progress import at_once
 from ..evidence import Evidence
 from .fault import AnyFault, Effort, Fault, Numbers, unchanged
@@ -87,5 +87,6 @@ PROCESSED: tuple[AnyFault, ...] = (
         vague=True,
         after=lambda colors, guess, evidence: guess.made,
         effort=Effort.ANYTHING,
+        witness="tonyyxliu/CUHKSZ-CSC4005#71",
     ),
 )

@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Array
+from ...arrays import Array, by_runs
 from ...causes.case import Case
-from ...images import EIGHT_BITS
+from ...files.images import EIGHT_BITS
 from ...pictures.picture import Picture, Transform, straight
-from ...runs import by_runs
 from .fault import Guess, Make
 
 

@@ -48,5 +48,6 @@ ROUNDING_FAULTS = (
         _find_rounding,
         ("levels",),
         vague=True,
+        witness="Tom94/tev#150",
     ),
 )

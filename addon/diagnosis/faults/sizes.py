@@ -208,6 +208,7 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
         after=_resampled,
         effort=Effort.PIXELS,
         words="another size, and resampled",
+        witness="ctrl-freaks/freezeframe.js#158",
     ),
     Fault(
         "shrunk",
@@ -222,5 +223,6 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
         after=_enlarged,
         effort=Effort.PIXELS,
         words="a part of its size, and enlarged again",
+        witness="OneZoom/OZtree#891",
     ),
 )

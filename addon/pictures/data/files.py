@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ... import exr, npz, png
 from ...arrays import Array
-from ...file_kinds import mistaken
-from ...png.samples import PngError
+from ...files import exr, npz, png
+from ...files.file_kinds import mistaken
+from ...files.png.samples import PngError
 from .kind import Kind
 from .step import Step, step_of
 
@@ -132,7 +132,7 @@ def _chosen(path: object, layers: Mapping[str, Array], kind: Kind, layer: str) -
     if len(fitting) == 1:
         return fitting[0]
     which = f"several arrays that may be {kind.name}" if fitting else f"no {kind.name}"
-    do = "; --layer names the right one" if fitting else ""
+    do = "; layer= names the right one" if fitting else ""
     raise OSError(f"'{path}' holds {which}: it has {_named(layers)}{do}")
 
 

@@ -98,7 +98,7 @@ def picture_of_data(given: GivenData, scene: Scene, making: Making) -> Picture:
         If the file cannot be read.
     """
     if given.kind == "depth" and not scene.camera.projection.is_linear:
-        raise SceneError("a panorama has no view axis: its depths are distances, --distance")
+        raise SceneError("a panorama has no view axis: its depths are distances: --holds distance")
     stored = read(given.path, KINDS[given.kind]("world", "unit"), given.layer, given.top_down)
     at = traced(scene.camera, stored.values.shape[:2])
     stored = replace(stored, values=stored.values[at])
@@ -144,7 +144,7 @@ def _data(given: GivenData, stored: StoredData, scene: Scene, kind: Kind) -> Dat
     if kind.unit:
         if not stored.step.type and given.scale is None:
             raise SceneError(
-                f"'{given.name}' holds integers: say how many metres 1 is, as --depth-scale 0.001"
+                f"'{given.name}' holds integers: say how many metres 1 is, as scale=0.001"
             )
         unit = 1.0 if given.scale is None else given.scale
     elif not stored.step.type:

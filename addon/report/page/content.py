@@ -12,7 +12,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from ... import png
 from ...causes.cause import AGREE, UNEXPLAINED
 from ...causes.explain import CAUSES
 from ...certainty import Certainty
@@ -21,7 +20,8 @@ from ...comparison.extras import Extras
 from ...comparison.put_right import pictures_put_right
 from ...derivation.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...diagnosis.regions import Region, regions, sides
-from ...images import data_uri, to_display
+from ...files import png
+from ...files.images import data_uri, to_display
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report

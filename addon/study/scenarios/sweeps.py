@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...checked_json import Content
+from ...files.checked_json import Content
 from ...scene import Scene
 from . import scenes
 

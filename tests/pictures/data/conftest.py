@@ -12,11 +12,11 @@ from reference_tracer.comparison.comparing import compared
 from reference_tracer.diagnosis.diagnosis import diagnose
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.data import DATA_FAULTS
+from reference_tracer.files.scenes import Account
 from reference_tracer.opened import file_manifest
 from reference_tracer.pictures.data.given import GivenData, picture_of_data
 from reference_tracer.pictures.given import Making
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import Account
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 

@@ -8,14 +8,15 @@ from zipfile import ZipFile
 
 import numpy as np
 import pytest
-from reference_tracer import compare, exr
+from reference_tracer import compare
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.diagnosis.faults.data import DATA_FAULTS
+from reference_tracer.files import exr
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.pictures.data.depth import DEPTH
 from reference_tracer.pictures.data.files import read
 from reference_tracer.pictures.picture import SizeError
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import save_scene
 
 PAGE = Path(__file__).parents[3] / "docs" / "data.md"
 
@@ -41,7 +42,7 @@ def test_an_array_is_chosen_by_its_name(judged, traced, tmp_path):
     with pytest.raises(OSError, match=r"no layer 'z': it has depth \(24, 32\), other"):
         judged("depth", held, name="all.npz", save=save, layer="z")
     del held["depth"]
-    with pytest.raises(OSError, match=r"several arrays that may be depth.*--layer names"):
+    with pytest.raises(OSError, match=r"several arrays that may be depth.*layer= names"):
         judged("depth", held, name="all.npz", save=save)
 
 
@@ -110,14 +111,13 @@ def test_grey_depths_may_have_nan_where_nothing_is(judged, traced):
 @pytest.mark.parametrize(
     "options, words",
     [
-        (["--depth", "d.npy", "--space", "camera"], "--space is for --normals and --positions"),
-        (["--depth", "d.npy", "--range", "unit"], "--range is for --normals"),
-        (["--ids", "d.npy", "--depth-scale", "1"], "--depth-scale is for --depth and --distance"),
-        (["--depth", "d.npy", "--dither", "1"], "--dither is for colours, and --depth has none"),
-        (["--depth", "d.npy", "--self-check"], "--self-check is for a picture of colours"),
-        (["--depth", "d.npy", "--against", "d.png"], "not allowed with argument"),
-        (["--against", "d.png", "--layer", "Z"], "--layer is for data: --depth, --distance"),
-        (["--depth", "d.npy", "--filter", "0.6"], "cannot be compared: it is sampled up to 0.6 px"),
+        (["depth", "space=camera"], "--holds space is for normals, positions"),
+        (["depth", "range=unit"], "--holds range is for normals"),
+        (["ids", "scale=1"], "--holds scale is for depth, distance, positions"),
+        (["depths"], "--holds kind: depths is none of depth, distance"),
+        (["depth", "--excuse", "dither=1"], "--excuse dither is for colours, and depth has none"),
+        (["depth", "--self-check"], "--self-check is for a picture of colours"),
+        (["depth", "--excuse", "filter=0.6"], "cannot be compared: it is sampled up to 0.6 px"),
     ],
 )
 def test_options_without_effect_are_refused(
@@ -126,15 +126,24 @@ def test_options_without_effect_are_refused(
     monkeypatch.chdir(tmp_path)
     save_scene("scene.npz", solids)
     np.save("d.npy", traced.t)
-    assert exit_code(["compare", "scene.npz", "--out", "out", *options]) == 4
+    compare = ["compare", "scene.npz", "--out", "out", "--holds", *options]
+    assert exit_code([*compare, "--against", "d.npy"]) == 4
     assert words in capsys.readouterr().err
+
+
+def test_what_is_held_is_held_by_a_file(solids, tmp_path, capsys, exit_code):
+    save_scene(tmp_path / "scene.npz", solids)
+    compare = ["compare", str(tmp_path / "scene.npz"), "--out", str(tmp_path), "--holds", "depth"]
+    assert exit_code(compare) == 4
+    assert "--holds is for a file of --against" in capsys.readouterr().err
 
 
 def test_the_command_says_what_it_compared(solids, traced, tmp_path, capsys, exit_code):
     save_scene(tmp_path / "scene.npz", solids)
     np.save(tmp_path / "d.npy", traced.t.astype(np.float32))
-    paths = [str(tmp_path / name) for name in ("scene.npz", "d.npy", "out")]
-    assert exit_code(["compare", paths[0], "--depth", paths[1], "--out", paths[2]]) == 0
+    paths = [str(tmp_path / name) for name in ("scene.npz", "d.npy")]
+    out = "--holds", "depth", "--out", str(tmp_path / "out")
+    assert exit_code(["compare", paths[0], "--against", paths[1], *out]) == 0
     said = capsys.readouterr().out
     assert "768 of 768 pixels agree with depths along the view axis 'd.npy', 0 differ" in said
     assert "note: of 'd.npy': it holds float32" in said

@@ -52,5 +52,6 @@ ID_FAULTS = (
         "number the objects from 1, each by itself, and store as many bits as that takes",
         _shared,
         words="which objects",
+        witness="DIYer22/bpycv#52",
     ),
 )

@@ -65,6 +65,7 @@ STORING_FAULTS = (
         effort=Effort.NOTHING,
         vague=True,
         words="half floats, millimetres or centimetres",
+        witness="nerfstudio-project/nerfstudio#2317",
     ),
     data_fault(
         "data_cut_off",
@@ -73,5 +74,6 @@ STORING_FAULTS = (
         "A cast to integers, such as astype(uint16), drops the fraction.",
         "add half a step before the cast, or round",
         _cut_off,
+        witness="instamatic-dev/instamatic#127",
     ),
 )

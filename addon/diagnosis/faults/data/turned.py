@@ -51,10 +51,11 @@ def data_fault(
     guesses: Guesses,
     numbers: tuple[str, ...] = (),
     words: str = "",
+    witness: str = "",
 ) -> Fault[Turned]:
     """Return the record of a fault of data of some kinds; its sentence begins with the values."""
     find = of_kinds(kinds, guesses)
-    return Fault(name, sentence, why, advice, turned, find, numbers, words=words)
+    return Fault(name, sentence, why, advice, turned, find, numbers, words=words, witness=witness)
 
 
 def once(turn: Turn) -> Guesses:

@@ -115,9 +115,10 @@ VECTOR_FAULTS = (
         BOTH,
         "the values are in {words}",
         "Rasterisers shade in camera space; ray tracers in world space.",
-        "transform them by the camera's matrix, or name their space with --space",
+        "transform them by the camera's matrix, or name their space with space= of --holds",
         _other_space,
         words="camera or world space",
+        witness="hbb1/2d-gaussian-splatting#68",
     ),
     data_fault(
         "data_axes",
@@ -128,15 +129,17 @@ VECTOR_FAULTS = (
         "exchange the axes: Blender's world has Z up, its cameras look along -Z with Y up",
         _other_axes,
         words="which axes, of which space",
+        witness="EasternJournalist/utils3d#7",
     ),
     data_fault(
         "normal_range",
         ("normals",),
         "the values are from {words}",
         "Pictures hold 0 to 1: n / 2 + 1/2 of a normal n, which a reader has to undo.",
-        "store n / 2 + 1/2 or n as is meant, or name the range with --range",
+        "store n / 2 + 1/2 or n as is meant, or name it with range= of --holds",
         _range,
         words="0 or from -1 to 1",
+        witness="unrealcv/unrealcv#77",
     ),
     data_fault(
         "normal_facing",
@@ -146,6 +149,7 @@ VECTOR_FAULTS = (
         "save the normals before they are turned, or after",
         _facing,
         words="towards the camera, or away from it",
+        witness="pygfx/pygfx#105",
     ),
     data_fault(
         "normal_transform",
@@ -156,5 +160,6 @@ VECTOR_FAULTS = (
         "transform normals by the inverse transposed of the object's matrix, and normalise them",
         _untransformed,
         words="not transformed, or by the wrong matrix",
+        witness="KhronosGroup/glTF-Sample-Viewer#60",
     ),
 )
