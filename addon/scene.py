@@ -297,7 +297,7 @@ class Plane:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Everything that the tracer is told.
+    """The tracer's input.
 
     `objects` are names, by the `object` index of instances and planes. Some may have neither: they
     are there, but outside the view.

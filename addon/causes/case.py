@@ -90,7 +90,7 @@ class Case:
     next_frame: Scene | None = None  # the scene a frame later, for the self-check
     behind: Behind | None = None  # if the other side was drawn without what is seen through, too
     tracer: Tracer | None = None  # where whole pictures are traced, if not here
-    # Makes the scene with faults for which Blender is needed; asked only if pixels are unexplained.
+    # Makes the scene with faults that need Blender; called only if pixels are unexplained.
     variants: Callable[[], tuple[Variant, ...]] = no_variants
 
     def __post_init__(self) -> None:

@@ -22,7 +22,7 @@ LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
 
 
 def run(work: Callable[[], int], program: str) -> int:
-    """Do the work of a command line, then print what it said; return the exit code.
+    """Do the work of a command line, then print its lines; return the exit code.
 
     Results are in place before anything is said. If nobody reads it, the exit code stays that of
     the work; if it cannot be printed, as to a full disk, that is an error like any other. Where

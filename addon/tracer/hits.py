@@ -29,7 +29,7 @@ _TOGETHER = 1 << 17  # rows of ties looked at together
 class Statistics:
     """Statistics of a picture."""
 
-    method: str = ""  # what `auto` came to; else what was asked for
+    method: str = ""  # what `auto` came to; else the requested one
     triangles: int = 0  # over all instances
     refused: int = 0  # of those, left out as a corner is not finite in world space
     pairs_tested: int = 0  # (ray, triangle or plane)
@@ -63,7 +63,7 @@ class Statistics:
 
 @dataclass(frozen=True, eq=False)
 class Ties(Mapping[int, frozenset[Name]]):
-    """All that ambiguous rays may be said to see; as a mapping it has the names of each.
+    """All surfaces that ambiguous rays may see; as a mapping it has the names of each.
 
     The k rays `ray`, in their order, may see the `count` (k,) surfaces from `start` (k,) on, of
     those in `instance` and `triangle`, (m,) each: neighbours that may see the same share them.
@@ -133,7 +133,7 @@ class Ties(Mapping[int, frozenset[Name]]):
         return replace(self, ray=self.ray[some], start=self.start[some], count=self.count[some])
 
     def may_see(self, ray: Index, instance: Index, triangle: Index) -> Bools:
-        """Return which of these rays are ambiguous and may be said to see these surfaces, (n,)."""
+        """Return which of these rays are ambiguous and may see these surfaces, (n,)."""
         out = np.zeros(len(ray), bool)
         at = np.searchsorted(self.ray, ray)
         some = np.flatnonzero(np.append(self.ray, -1)[at] == ray)
@@ -223,7 +223,7 @@ class Hits:
 
     @cached_property
     def values(self) -> Measures:
-        """T and the barycentrics of all rays, (4, n), found when they are first asked for."""
+        """T and the barycentrics of all rays, (4, n), found on first use."""
         return self.measured(np.arange(len(self))) if callable(self.measures) else self.measures
 
     @property

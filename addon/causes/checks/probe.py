@@ -58,7 +58,7 @@ def other_color(picture: Picture, colors: Array, ramp: Bools | bool = False) -> 
 
 
 def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bools]:
-    """Return what a function says of each pixel (h, w); it is asked about some rows at a time."""
+    """Return a function's value of each pixel (h, w); it is called for some rows at a time."""
     out = np.zeros(shape, bool)
     for rows in blocks(shape):
         out[rows] = of(rows)
@@ -80,7 +80,7 @@ class OpenPixels:
     def bands(self, at: Some) -> Floats:
         """Return how far from the centres of some pixels Blender's samples may lie, in pixels.
 
-        They were asked for by `band.find`.
+        `band.find` has found them.
         """
         return self.band.values[at] + self.picture.sampling.off_center
 
@@ -194,7 +194,7 @@ class Part:
 
     pixels: OpenPixels
     at: tuple[Places, ...]  # the rows and columns of the n pixels
-    scene: Scene  # the scene that is asked, with its camera's own clip range
+    scene: Scene  # the traced scene, with its camera's own clip range
     picture: Picture  # what the n pixels show
     band: Floats  # (n,) pixels: how far from the centres Blender's samples may lie
     probe: Probe
@@ -236,7 +236,7 @@ def by_parts(
 ) -> Work[None]:
     """Have `look` give causes to the open pixels of a whole picture, a part of it at a time.
 
-    The plan `made` has the scene that is asked, perhaps with another clip range than the case's.
+    The plan `made` has the traced scene, perhaps with another clip range than the case's.
     Only the pixels `asked` (h, w) are looked at, if given.
     """
     r = made.scene.camera.region

@@ -28,7 +28,7 @@ INSIDE = 1 / 4  # of the way to the middle: where a push starts
 CLOSE = 1 / 8  # of the region's half width: the precision of its ends
 WIDER = 1.3  # safety factor of the box: the region's corners lie beyond its known ends
 ANEW = 4  # times that a region is left for a better place beside it, at most
-BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units from a region: where better places are looked for
+BESIDE = (1 / 64, 1 / 32, 1 / 16, 1 / 8)  # units from a region: where better places are searched
 LOTS = 8  # random places at each of these distances
 NEARLY = 0.97  # of the right pixels: from a place with as many it is climbed again
 ENCLOSING = 1 << 20  # pixels that are evaluated to find how far the region of a fault reaches
@@ -107,7 +107,9 @@ class Search(Climb):
         as_good = [place for place, found in beside.items() if found == right]
         places = np.array([*places, *as_good])
         simple = yield from self._simple_numbers(best, places, right)
-        if self.all_axes.shape[1] > 1:  # what is told lies in the region, too, perhaps far away
+        if (
+            self.all_axes.shape[1] > 1
+        ):  # the reported point lies in the region, too, perhaps far away
             places = yield from self._region([np.array(simple), *places], right)
         if self.left <= 0:  # it reaches farther than was looked
             return Numbers(simple, simple, simple, object=name)
@@ -284,7 +286,7 @@ def _simplest(start: Floats, along: Floats) -> Iterator[Floats]:
 
 
 def _spokes(count: int) -> Floats:
-    """Return the directions in which a region's border is looked for, (n, count) unit vectors."""
+    """Return the directions in which a region's border is searched, (n, count) unit vectors."""
     if count == 1:
         return np.eye(1)
     askew = np.random.default_rng(SEED).normal(size=(count, count))
