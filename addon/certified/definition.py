@@ -44,7 +44,8 @@ import numpy as np
 from ..arrays import Index
 from ..scene import Scene
 from ..tracer.camera import Rays, camera_rays, film_positions
-from ..tracer.hits import NOTHING, NOWHERE, Name
+from ..tracer.hits import NOTHING, NOWHERE
+from ..tracer.ties import Name
 from ..tracer.world import WorldTriangles, batches, world_triangles
 from .exact import IntegerBatch
 from .ties import seen_and_ties

@@ -124,7 +124,7 @@ def diagnosed(
     told(comparison)
     case, frame, causes = comparison.case, comparison.frame, comparison.causes
     work = diagnose(case, frame, causes)
-    found = yield from called(work, "looking for what is wrong")
+    found = yield from called(work, "looking for what is wrong", over=False)
     return replace(comparison, diagnosis=found)
 
 

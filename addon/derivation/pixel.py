@@ -18,8 +18,9 @@ from ..methods import Method
 from ..rendering import trace
 from ..scene import Camera, Instance, Mesh, Plane, Scene, SceneError
 from ..tracer.camera import Rays, camera_rays
-from ..tracer.hits import NOTHING, NOWHERE, Name
+from ..tracer.hits import NOTHING, NOWHERE
 from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
+from ..tracer.ties import Name
 from ..tracer.world import WorldTriangles
 
 

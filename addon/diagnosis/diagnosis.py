@@ -76,7 +76,8 @@ class Told:
             return ""
         ends = zip(self.fault.numbers, g.low, g.high, strict=False)
         wide = ((name, f"{low:.6g}", f"{high:.6g}") for name, low, high in ends)
-        return ", ".join(f"{name} from {low} to {high}" for name, low, high in wide if low != high)
+        said = [f"{name} from {low} to {high}" for name, low, high in wide if low != high]
+        return ", ".join([*said, "each by itself"] if len(said) > 1 else said)
 
     def lines(self) -> Iterator[str]:
         """Yield it as lines of text."""

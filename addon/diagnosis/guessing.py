@@ -26,10 +26,10 @@ from typing import TypeVar
 
 from ..causes.case import PRECISE
 from ..scene import SceneError
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work, called, scaled
 from .evidence import FEW, Evidence, Score
 from .faults import FAULTS
-from .faults.fault import AnyFault, Effort, Guess
+from .faults.fault import TRIED, AnyFault, Effort, Guess
 from .faults.fitting import ENCLOSED
 from .faults.given import given
 from .faults.matching import is_everywhere
@@ -50,7 +50,7 @@ NEARLY = 0.5  # of the unexplained pixels: a guess that gains as much may be all
 ENOUGH = 0.995  # of the unexplained pixels: after such a gain, no more effort is made
 ROUGHLY = 0.03  # of the unexplained pixels: what numbers without a range may leave
 ALL_EDGES = 1 << 11  # the sample of a refinement: pixels of each kind
-TRIED = 6  # trials of guesses of all efforts, at most
+MOST_UNSURE = 6  # trials of guesses of all efforts, at most
 MOST_SURE = 24  # trials of guesses that gain nearly all, at most: an empty picture has many
 MAIN = 0.5  # of the unexplained pixels: a guess with such a gain may need a second one beside it
 STARTS = 2  # first guesses of two that are followed
@@ -118,20 +118,24 @@ class Guessing:
         out: list[Trial] = []
         self._done, self._of = 0, len(faults)
         order = Effort if is_everywhere(evidence) else IN_PLACES
-        for effort in order:
+        for number, effort in enumerate(order, 1):
             some = [fault for fault in faults if fault.effort == effort]
-            scored = yield from self._scored(evidence, some)
+            words = f"trying {TRIED[effort][0]}, {number} of {len(order)}"
+            scored = yield from called(self._scored(evidence, some), words, known=False)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
             known = [one for one in scored if one[1].sampled or not one[1].vague]
             pool += [one for one in known if one[0] < NEARLY * unexplained]
             sure = [one for one in known if one[0] >= NEARLY * unexplained]
-            out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
+            trying = self._trials_of(evidence, of, sure, MOST_SURE)
+            out += yield from called(trying, words, known=False)
             if _is_enough(of, out):
                 break
         else:
-            out += yield from self._trials_of(evidence, of, pool, TRIED)
+            trying = self._trials_of(evidence, of, pool, MOST_UNSURE)
+            out += yield from called(trying, words, known=False)
             if not _is_enough(of, out):
-                out += yield from self._trials_of(evidence, of, unknown, MOST_SURE)
+                trying = self._trials_of(evidence, of, unknown, MOST_SURE)
+                out += yield from called(trying, words, known=False)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
     def _scored(

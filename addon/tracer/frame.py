@@ -18,8 +18,9 @@ from ..scene import Region, Scene
 from . import shading
 from .camera import camera_rays, film_positions
 from .frame_measures import FrameMeasures
-from .hits import NOTHING, Hits, Measures, Names, Statistics, Ties
+from .hits import NOTHING, Hits, Measures, Names, Statistics
 from .memory import TRACED, check_memory
+from .ties import Ties
 from .vector import parts
 
 _PIXELS = 1 << 15  # of which something is computed together

@@ -17,7 +17,8 @@ from numpy.typing import DTypeLike, NDArray
 from reference_tracer.certainty import Certainty, Reason
 from reference_tracer.certified.measures import Known
 from reference_tracer.scene import Scene
-from reference_tracer.tracer.hits import NOTHING, Hits, Statistics, Ties
+from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
+from reference_tracer.tracer.ties import Ties
 
 Expected = tuple[DTypeLike, tuple[int | None, ...]]  # None: any length
 

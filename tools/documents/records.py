@@ -14,7 +14,8 @@ from reference_tracer.causes.checks import unmodelled
 from reference_tracer.causes.explain import CAUSES, CHECKS
 from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.fault import AnyFault
+from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault
+from reference_tracer.diagnosis.guessing import IN_PLACES
 from reference_tracer.methods import Method
 
 
@@ -32,6 +33,7 @@ def values() -> dict[str, str]:
         "causes": causes(),
         "checks": checks(),
         "faults": faults_by_family(),
+        "order": order_of_faults(),
         "methods": methods(),
     }
     return {name: f"\n\n{part}\n\n" for name, part in parts.items()}  # blocks of their own
@@ -90,6 +92,17 @@ def _list(*lines: tuple[str, str]) -> str:
     return "\n".join(
         f"- **{name}**: {text[0].upper()}{text[1:].rstrip('.')}." for name, text in lines if text
     )
+
+
+def order_of_faults() -> str:
+    """Return a table of what is tried, in which order, and at which cost."""
+    rows = [
+        f"| {words} | {cost} | {number} | {1 + IN_PLACES.index(effort)} | "
+        f"{sum(f.effort == effort for f in FAULTS)} |"
+        for number, (effort, (words, cost)) in enumerate(TRIED.items(), 1)
+    ]
+    head = "| tried | at which cost | place | where most of the picture agrees | faults |"
+    return "\n".join(("", head, "|---|---|---|---|---|", *rows, ""))
 
 
 def faults_by_family() -> str:

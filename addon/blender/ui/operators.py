@@ -54,8 +54,6 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
                     comparison = told.pop()
                     yield from self._show(context, comparison, share)
                     self.left = rpt_("the comparison stays, without a diagnosis")
-                    count = comparison.counts.unexplained
-                    self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
                     redraw(context)
 
     def _show(self, context: Any, comparison: Any, share: float) -> Work[None]:

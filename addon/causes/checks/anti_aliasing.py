@@ -23,7 +23,8 @@ from ...tracer.progress import Work, scaled
 from .. import hull
 from ..cause import Cause
 from .coverage import coverage
-from .probe import SOUND, OpenPixels, Part, by_parts
+from .parts import Part, by_parts
+from .probe import SOUND, OpenPixels
 
 ANTI_ALIASING = Cause(
     8,

@@ -20,7 +20,8 @@ from ...tracer.progress import Work, scaled
 from ...tracer.vector import transform_points
 from ..cause import Cause
 from .coverage import coverage
-from .probe import LAYERS, OpenPixels, Part, near_surfaces
+from .parts import Part, near_surfaces
+from .probe import LAYERS, OpenPixels
 
 EDGE = Cause(
     1,

@@ -108,12 +108,40 @@ ONCE: Find[Any] = always(Guess())  # of a fault that has no numbers and is of no
 class Effort(IntEnum):
     """The effort of finding a fault: those of less effort are tried first."""
 
-    NOTHING = 0  # it has no numbers, or few values of them are tried
-    FILM = 1  # one or two numbers of the film are fitted
-    CAMERA = 2  # the camera's pose is fitted
-    PIXELS = 3  # pixels, or triangles, are searched
-    OBJECT = 4  # an object's place or size is fitted
-    ANYTHING = 5  # it can be made to look like much else
+    NOTHING = 0
+    FILM = 1
+    CAMERA = 2
+    PIXELS = 3
+    OBJECT = 4
+    ANYTHING = 5
+
+
+# What is tried, in words, and at which cost.
+TRIED = {
+    Effort.NOTHING: (
+        "what has no numbers",
+        "each is put in, and tried in a few hundred pixels; colours are of the whole picture",
+    ),
+    Effort.FILM: (
+        "the lens",
+        "one or two numbers are fitted to edges that are found in the picture, then to a thousand "
+        "pixels",
+    ),
+    Effort.CAMERA: ("the camera's place and turn", "two to six numbers are fitted likewise"),
+    Effort.PIXELS: (
+        "samples, sizes and triangles",
+        "a few hundred pixels say which of some dozen ways is right",
+    ),
+    Effort.OBJECT: (
+        "one object",
+        "up to three numbers of each of two objects are fitted to its edges, then to the pixels "
+        "around it; it alone is traced, over what is behind it",
+    ),
+    Effort.ANYTHING: (
+        "what can look like much else",
+        "a second copy of an object, drawing orders, any filter: on the whole picture",
+    ),
+}
 
 
 @dataclass(frozen=True)
