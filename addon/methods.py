@@ -18,7 +18,7 @@ class MethodRecord:
     words: str  # in plots and sentences
     short: str  # in a table
     number: int  # what a .blend stores: one that was given away is never given to another
-    color: str  # in plots; told apart without telling red from green (after Okabe and Ito)
+    color: str  # in plots; distinct for colour-blind readers (after Okabe and Ito)
     description: str  # the tooltip in Blender's panel
     guarantees: str  # of the picture, for the documents
 

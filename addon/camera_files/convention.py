@@ -63,7 +63,7 @@ class Source:
             return None
 
     def whole_size(self, own: Mapping[str, Any], keys: Sequence[str], where: str = "") -> Any:
-        """Return the width and height that a file's object says, or else those that were asked for.
+        """Return the width and height of a file's object, or else those requested.
 
         Raises
         ------

@@ -91,7 +91,7 @@ class Case:
     next_frame: Scene | None = None  # the scene a frame later, for the self-check
     behind: Behind | None = None  # if the other side was drawn without what is seen through, too
     tracer: Tracer | None = None  # where whole pictures are traced, if not here
-    # Makes the scene with faults for which Blender is needed, one after another; asked only if
+    # Makes the scene with faults for which Blender is needed, one after another; called only if
     # pixels are unexplained.
     variants: Callable[[], Iterable[Variant]] = no_variants
 

@@ -55,7 +55,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
 def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> OpenedFile:
     """Open a .blend, a .npz or a mesh. Meshes are framed where no camera is chosen.
 
-    Of a .blend, what is outside the camera's view is left out, unless the `whole` is asked for.
+    Of a .blend, what is outside the camera's view is left out, unless `whole`.
 
     Raises
     ------

@@ -53,7 +53,7 @@ class Comparison:
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
     background: Background | None = None  # where the picture's is not the scene's
-    diagnosis: Diagnosis | None = None  # what accounts for unexplained pixels, if it was looked for
+    diagnosis: Diagnosis | None = None  # None: not made
 
     @property
     def scene(self) -> Scene:
@@ -283,7 +283,7 @@ class Comparison:
 
 
 def _share(pixels: int, total: int) -> str:
-    """Return a share in per cent. What is not all of it is never said to be 100 %, or 0 %."""
+    """Return a share in per cent: never 100 % or 0 % of a part."""
     share = 100 * pixels / total
     if 1 <= share <= 99 or pixels == total:
         return f"{share:.0f} %"

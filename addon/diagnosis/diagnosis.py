@@ -28,7 +28,7 @@ from .variants import carried, with_variants
 
 ROUNDS = 3  # faults one after the other, at most
 FRAMED = 5  # regions that are named
-ALTERNATIVES = 3  # that are told at length
+ALTERNATIVES = 3  # that are reported in full
 NAMED = 6  # faults that are named where there is no room for more
 
 
@@ -42,9 +42,9 @@ class Told:
     settled: int  # of these, pixels that agree with this put right
     agreed: int  # pixels that agreed or had a cause
     broken: int  # of these, pixels that do not, with this put right
-    frame: Frame  # what is traced with it, and with those told before, in the picture's colours
+    frame: Frame  # traced with it, and with those before it, in the picture's colours
     picture: Colors  # what it is compared with, (h, w, 4) linear RGBA
-    alternative: bool = False  # it does as well as the one told before it
+    alternative: bool = False  # it explains as much as the one before it
     also: tuple[str, ...] = ()  # names of further faults that do as well
 
     @property
@@ -121,10 +121,10 @@ class Diagnosis:
     guesses: int = 0  # that were tried on the sample
     steps: int = 0  # of work
     seconds: float = 0.0
-    untried: tuple[str, ...] = ()  # faults that were not looked for to the end: it took too many
+    untried: tuple[str, ...] = ()  # faults whose search was not finished: it took too many
     left: int = 0  # pixels that nothing accounts for
     regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
-    silent: str = ""  # why no fault was looked for, without a full stop
+    silent: str = ""  # why there was no search, without a full stop
 
     def lines(self) -> list[str]:
         """Return it as lines of text, the most important first."""

@@ -16,7 +16,7 @@ class FaultRow(NamedTuple):
     text: str
     changed: int = 0  # pixels that the fault changes, in the traced picture or in Blender's
     differ: int = 0  # of those, pixels that differ then
-    looked_at: int = 0  # of those, pixels whose cause was looked for
+    looked_at: int = 0  # of those, pixels that were checked
     unexplained: int = 0  # of those, pixels that have none
     within_rounding: bool = False  # Blender's own float32 accounts for every changed pixel
     note: str = ""

@@ -89,7 +89,7 @@ class Guessing:
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
         """Run work that looks for a fault; None if it, or all work, reaches its limit of steps.
 
-        It yields the share of the faults that were looked for before: nobody knows how long one is.
+        Yields the share of the faults searched before: nobody knows how long one takes.
         """
         last = self.steps + self.limit / PART
         while not self.ended and self.steps < last:
@@ -250,7 +250,7 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
 
 def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
-    """Return the trials that may be told."""
+    """Return the trials that may be reported."""
     unexplained = int(evidence.unexplained.sum())
     return [
         t
@@ -264,7 +264,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 
 
 def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
-    """Return whether one that may be told settles nearly all: then no more are tried."""
+    """Return whether one that may be reported settles nearly all: then no more are tried."""
     count = evidence.unexplained.sum()
     least = {True: ENOUGH * count, False: (1 - ROUGHLY) * count}
     return any(t.gain >= least[t.cost <= ENCLOSED] for t in _good(evidence, trials))
@@ -280,7 +280,7 @@ def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     most = max((t.gain for t in good), default=0)
     alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
     fewest = min(((t.fault.vague, t.cost) for t in alike), default=None)
-    # What is done to one object may look the same in more numbers: that is told, too.
+    # A change of one object may look the same in more numbers: report that, too.
     own = {t.guess.object for t in alike if (t.fault.vague, t.cost) == fewest}
     of_one = own - {""} if len(own) == 1 else ()
     alike = [t for t in alike if (t.fault.vague, t.cost) == fewest or t.guess.object in of_one]

@@ -58,7 +58,7 @@ class Renderer:
     most: Callable[[Scene], Floats] | None = None
 
     def resolution(self, camera: Camera, depth: Floats, along: Floats) -> Floats:
-        """Return how far apart in depth two surfaces are told apart, (n,) metres.
+        """Return the resolution of depth, (n,) metres.
 
         Both carry the error `along` (n,).
         """

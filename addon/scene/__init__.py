@@ -40,7 +40,7 @@ from .mesh import drop_non_finite as drop_non_finite
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Everything that the tracer is told.
+    """The tracer's input.
 
     `objects` are names, by the `object` index of instances and planes. Some may have neither: they
     are there, but outside the view.

@@ -36,7 +36,7 @@ class ExtremesRow:
     missed: int  # the certified ray sees a surface, the method nothing
     doubled: int  # the method says to cross more triangles than the certified ray does
     # The method sees another surface than the certified one, or one where there is none. Where a
-    # ray meets an edge, all that the certified ray may be said to see is right.
+    # ray meets an edge, every surface that the certified ray may see is right.
     wrong: int
     refused: int  # triangles and rays that are not finite in this precision, and so are left out
     # In ulp of the certified t (float64), over rays that see the same surface; None without one.

@@ -24,7 +24,7 @@ from .ties import Ties
 from .vector import parts
 
 _PIXELS = 1 << 15  # of which something is computed together
-FEW = 8  # one of so many pixels is few: its measures are found by themselves
+FEW = 8  # fewer than one in 8 pixels are few: their measures are found by themselves
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
 
 
@@ -163,7 +163,7 @@ class Frame:
         width = self.shape[1]
 
         def find(ray: Index, _instance: Names, _triangle: Names) -> Measures:
-            if FEW * len(ray) < (last - first) * width:  # the others may never be asked for
+            if FEW * len(ray) < (last - first) * width:  # the others may never be needed
                 return self.measures.some(ray + first * width)
             return self.measures.of(rows).reshape(4, -1)[:, ray]
 

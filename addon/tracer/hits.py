@@ -28,7 +28,7 @@ NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
 class Statistics:
     """Statistics of a picture."""
 
-    method: str = ""  # what `auto` came to; else what was asked for
+    method: str = ""  # what `auto` came to; else the requested one
     triangles: int = 0  # over all instances
     refused: int = 0  # of those, left out as a corner is not finite in world space
     pairs_tested: int = 0  # (ray, triangle or plane)
@@ -122,7 +122,7 @@ class Hits:
 
     @cached_property
     def values(self) -> Measures:
-        """T and the barycentrics of all rays, (4, n), found when they are first asked for."""
+        """T and the barycentrics of all rays, (4, n), found on first use."""
         return self.measured(np.arange(len(self))) if callable(self.measures) else self.measures
 
     @property

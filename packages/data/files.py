@@ -65,7 +65,7 @@ def read(path: Path | Array, kind: Kind, layer: str = "", top_down: bool = False
 def _stored(
     path: object, layers: Mapping[str, Array], kind: Kind, layer: str, top_down: bool
 ) -> StoredData:
-    """Return the layer that is asked for."""
+    """Return the requested layer."""
     name = _chosen(path, layers, kind, layer)
     values = _shaped(path, layers[name], kind, name)
     if top_down:

@@ -1,4 +1,4 @@
-"""Ids: a number, or a colour, for each object. Which one is whose is told from the picture itself.
+"""Ids: a number, or a colour, for each object. Which one is whose is found from the picture itself.
 
 The value that most of an object's pixels have is taken for the object's own, that of the most
 pixels first; two objects never have one value. So a picture is right if all pixels of an object

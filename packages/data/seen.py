@@ -42,7 +42,7 @@ class Seen:
 
     @cached_property
     def hits(self) -> Hits:
-        """The surfaces, with each corner weighed in full: what is said of all of them is a bound.
+        """The surfaces, with each corner weighed in full: a bound for all of them.
 
         With t, for planes.
         """

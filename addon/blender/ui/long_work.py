@@ -37,7 +37,7 @@ SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answere
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
 
-# Where it is said how far the work is: types of areas, and of regions in them.
+# Types of areas that show progress, and of regions in them.
 _SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
 
 OPERATORS: list[type] = []  # to be registered

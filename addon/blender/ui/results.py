@@ -45,7 +45,7 @@ class Result:
     scene: int | None = None  # its `session_uid`, as its name may change; None: of no scene
     page: str = ""  # the address of its plots
     regions: tuple[Region, ...] = ()  # where it differs, the largest first
-    # By the number of a fault that is told: the picture that it changes, put right.
+    # By the number of a fault of the diagnosis: the picture that it changes, put right.
     put_right: Mapping[int, Colors] = field(default_factory=dict)
     shown: list[int] = field(default_factory=list)  # of the fault that is shown put right
     # The numbers of the faults that a copy of the camera was added for, by its `session_uid`.

@@ -52,7 +52,7 @@ ANTI_ALIASING = Cause(
 )
 
 
-# Rings within the radius, and directions on each, where the tracer is asked. The denser ones are
+# Rings within the radius, and directions on each, where rays are traced. The denser ones are
 # for the pixels that are left: a sliver may pass between the first samples.
 DENSITIES = ((2, 8), (4, 16), (12, 32))
 # Half of the pixels around; the others lie opposite.

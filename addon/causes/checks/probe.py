@@ -58,7 +58,7 @@ def other_color(picture: Picture, colors: Array, ramp: Bools | bool = False) -> 
 
 
 def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bools]:
-    """Return what a function says of each pixel (h, w); it is asked about some rows at a time."""
+    """Return a function's value of each pixel (h, w); it is called for some rows at a time."""
     out = np.zeros(shape, bool)
     for rows in blocks(shape):
         out[rows] = of(rows)
@@ -80,7 +80,7 @@ class OpenPixels:
     def bands(self, at: Some) -> Floats:
         """Return how far from the centres of some pixels Blender's samples may lie, in pixels.
 
-        They were asked for by `band.find`.
+        `band.find` has found them.
         """
         return self.band.values[at] + self.picture.sampling.off_center
 

@@ -26,7 +26,7 @@ FAULTS: tuple[AnyFault, ...] = (
     *ORDER_FAULTS,
     *PICTURE_FAULTS,
 )
-# Those of a picture's colours: they are not looked for in depths and other data.
+# Faults of a picture's colours: not searched in depths and other data.
 OF_COLORS = {f.name for f in (*COLOR_FAULTS, *PICTURE_FAULTS)} - {"rows", "row_off"}
 OF_COLORS |= {f.name for f in FAULTS if f.after}
 # Those that the self-check makes, and how, in the order in which it does.
