@@ -283,7 +283,9 @@ def _written(options: CompareOptions, case: Case) -> Work[Comparison]:
     page_path = options.out / page.NAME
 
     def told(found: Comparison) -> None:
-        show(f"verdict: {found.verdict} ({page_path}); what is wrong is looked for", file=sys.stderr)
+        show(
+            f"verdict: {found.verdict} ({page_path}); what is wrong is looked for", file=sys.stderr
+        )
 
     diagnose, more = options.diagnosis is not False, (options.trade, options.extremes)
     return comparison_report.written(options.out, case, diagnose, *more, told)
