@@ -131,4 +131,4 @@ def _fault(fault: AnyFault) -> str:
     repository, _, number = fault.witness.partition("#")
     seen = f"[{fault.witness}](https://github.com/{repository}/issues/{number})"
     said = f"“{fault.sentence.format(**given)}”"
-    return f"### `{fault.name}`\n\n{said}\n\n{fault.why} Seen in {seen}."
+    return f"### `{fault.name}`\n\n{said}\n\n{fault.why} ({seen})"
