@@ -173,7 +173,7 @@ def _open(pixels: OpenPixels) -> Work[None]:
     frame = pixels.frame
     seen = frame.instance_index
     moved = yield from _moved(pixels)
-    if pixels.picture.data is not None:
+    if not pixels.picture.has_colors:
         finding = by_blocks(frame.shape, lambda rows: ~pixels.picture.at(rows).shows(frame, rows))
     else:
         ramp = shading.interpolated(scene, seen)

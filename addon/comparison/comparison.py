@@ -216,22 +216,18 @@ class Comparison:
         """Say that most surfaces differ, where no fault was found."""
         surfaces = self.causes.cause[self.frame.object_index != NOTHING]
         most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
-        of_colors = self.case.picture.data is None
+        of_colors = self.case.picture.has_colors
         if most and of_colors and not (self.diagnosis and self.diagnosis.told):
             yield "most surfaces are shown in other colours than the scene's"
             yield "           Draw each flat, in those that --colors-out writes"
 
     def _measured(self) -> str:
-        m, data = self.metrics, self.case.picture.data
-        psnr = f"{m.psnr:.1f} dB" if m.rmse else "infinite"
+        m = self.metrics
         x, y = m.largest_difference.pixel
         most = f"largest difference {m.largest_difference.value:.3g} at pixel ({x}, {y})"
         if not m.rmse:
             most = "no difference anywhere"
-        if data is not None:  # what ratios say is of colours
-            unit = data.kind.unit and f" {data.kind.unit}"
-            return f"{data.kind.words}: RMSE {m.rmse:.3g}{unit}, {most}"
-        return f"RMSE {m.rmse:.3g}, PSNR {psnr}, SSIM {m.ssim:.6f}, {most}"
+        return f"{self.case.picture.measured(m)}, {most}"
 
     def _evidence(self) -> Iterator[str]:
         """Say what else was found out about the pixels that differ."""

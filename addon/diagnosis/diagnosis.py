@@ -18,7 +18,7 @@ from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..wording import count_of
 from .evidence import Evidence
-from .faults import FAULTS, OF_COLORS
+from .faults import FAULTS
 from .faults.fault import AnyFault, Guess
 from .faults.fitting import ENCLOSED
 from .guessing import LEAST_SETTLED, ROUGHLY, STEPS, Guessing, accounting
@@ -173,7 +173,7 @@ def diagnose(
     case: Case,
     frame: Frame,
     causes: Causes,
-    faults: Sequence[AnyFault] = FAULTS,
+    faults: Sequence[AnyFault] | None = None,
     steps: float = STEPS,
 ) -> Work[Diagnosis]:
     """Look for what accounts for the unexplained pixels; yields the share of the work done.
@@ -185,13 +185,9 @@ def diagnose(
     if not evidence.unexplained.any() or frame.cancelled:
         return Diagnosis()
     began = time.monotonic()
-    silent = ""
-    if (data := case.picture.data) is not None:
-        silent = data.silent(frame)  # many a fault can empty a picture: none would be sure
-        known = [f for f in faults if f.name not in OF_COLORS and not silent]
-        # An array is turned over more often than a camera is mirrored: of two that do as well.
-        faults = sorted(known, key=lambda fault: fault.name != "rows")
-    guessing = Guessing(faults, steps)
+    silent = case.picture.silent(frame)
+    known = case.picture.faults_of(FAULTS) if faults is None else faults
+    guessing = Guessing(() if silent else known, steps)
     evidence = yield from scaled(with_variants(evidence), 0.0, 0.0)
     at_first = evidence.unexplained
     told: list[Told] = []
@@ -245,13 +241,7 @@ def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
     """Return what is reported of a trial, counted in the evidence before it."""
     after = trial.evidence
     settled, broken, _, _ = counted(evidence, after)
-    color = after.frame.color.copy()
-    picture = after.case.picture
-    if picture.data is not None:
-        color = picture.data.shown(picture.data.of_frame(after.frame))
-    else:
-        made = picture.made_of(color)  # by a transform, if that is the fault
-        color[..., : made.shape[-1]] = made
+    color = after.case.picture.as_shown(after.frame)
     return Told(
         trial.fault,
         trial.guess,

@@ -229,7 +229,7 @@ class Evidence:
         """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
         scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
-        if shown.data:
+        if not shown.has_colors:
             return np.full(len(shown.color), NOTHING, np.int32)
         if shown.owners:
             of_owner = reversed(list(enumerate(shown.owners.instances[:-1])))

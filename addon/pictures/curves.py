@@ -81,6 +81,7 @@ KEYS = {
     "coded_gamma": "a power of coded (sRGB) values",
     "exposure": "an exposure",
     "view_transform": "a view transform",
+    "rounding_level": "rounded to 8 bits",
 }
 
 

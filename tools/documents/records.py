@@ -7,6 +7,7 @@ import inspect
 from collections.abc import Iterator
 from importlib import import_module
 
+import reference_tracer_data.faults
 from reference_tracer.camera_files.features import FEATURES
 from reference_tracer.camera_files.files import CONVENTIONS
 from reference_tracer.causes.cause import Cause
@@ -17,6 +18,7 @@ from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault
 from reference_tracer.diagnosis.guessing import IN_PLACES
 from reference_tracer.methods import Method
+from reference_tracer_data.faults import DATA_FAULTS
 
 
 class _Name(str):
@@ -113,6 +115,7 @@ def faults_by_family() -> str:
             module = import_module(f".{node.module}", faults.__name__)
             families.append((getattr(faults, node.names[0].name), inspect.getdoc(module) or ""))
     families.sort(key=lambda family: FAULTS.index(family[0][0]))
+    families.append((DATA_FAULTS, inspect.getdoc(reference_tracer_data.faults) or ""))
     return "\n\n".join(_family(*family) for family in families)
 
 

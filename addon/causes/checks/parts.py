@@ -143,7 +143,7 @@ def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
     picture = pixels.picture
     colors = np.unique(np.vstack((scene.color_table, np.zeros(4))), axis=0)  # 0: of a hole
     any_color = interpolated(scene, np.arange(len(scene.instance_objects))).any()
-    any_color |= picture.lit or picture.data is not None or np.any(picture.colorless)
+    any_color |= picture.lit or not picture.has_colors or np.any(picture.colorless)
     if any_color or len(colors) > FEW_COLORS:
         return pixels.open
     out = np.zeros_like(pixels.open)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from .camera import CAMERA_FAULTS
 from .colors import COLOR_FAULTS
-from .data import DATA_FAULTS
 from .fault import AnyFault, Example
 from .given import GIVEN_FAULTS
 from .lens import LENS_FAULTS
@@ -26,7 +25,6 @@ FAULTS: tuple[AnyFault, ...] = (
     *COLOR_FAULTS,
     *ORDER_FAULTS,
     *PICTURE_FAULTS,
-    *DATA_FAULTS,
 )
 # Faults of a picture's colours: not searched in depths and other data.
 OF_COLORS = {f.name for f in (*COLOR_FAULTS, *PICTURE_FAULTS)} - {"rows", "row_off"}

@@ -13,7 +13,6 @@ from .fault import AnyFault, Example, Fault, Guess, Make, always
 from .filters import FILTER_FAULTS
 from .processed import PROCESSED
 from .recolor import alpha_divided, alpha_multiplied, recolored
-from .rounding import ROUNDING_FAULTS
 from .sizes import SIZE_FAULTS
 from .tones import CURVE_FAULTS
 
@@ -89,7 +88,6 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         witness="glium/glium#1526",
     ),
     *CURVE_FAULTS,
-    *ROUNDING_FAULTS,
     Fault(
         "premultiplied",
         "the picture's colours are multiplied by alpha twice",

@@ -90,6 +90,7 @@ def _causes(comparison: Comparison) -> list[dict[str, object]]:
             "value": int(cause),
             "name": cause.key,
             "label": _words(cause.label),
+            "place": cause.place or cause.label,
             "sentence": cause.sentence,
             "unit": cause.unit,
             "pixels": count[cause.key],

@@ -11,17 +11,18 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from reference_tracer.arrays import Floats, Places
+from reference_tracer.diagnosis.evidence import Evidence, spread
+from reference_tracer.diagnosis.faults.fault import Numbers, instances_named, with_instances
+from reference_tracer.diagnosis.faults.pose import moved
+from reference_tracer.scene import Scene
+from reference_tracer.tracer.hits import Hits
+from reference_tracer.tracer.progress import Work
 
-from ....arrays import Floats, Places
-from ....pictures.data.depth import ray_length
-from ....pictures.data.kind import Data
-from ....pictures.data.seen import Seen
-from ....scene import Scene
-from ....tracer.hits import Hits
-from ....tracer.progress import Work
-from ...evidence import Evidence, spread
-from ..fault import Numbers, instances_named, with_instances
-from ..pose import moved
+from ..depth import ray_length
+from ..kind import Data
+from ..seen import Seen
+from .turned import data_of
 
 KINDS = "depth", "distance"
 _ROUNDS = 12  # of registration; each is a Newton step, and edges need some more
@@ -34,8 +35,8 @@ _DONE = 2.0**-26  # metres, per metre of the points' distance: float32 knows no 
 
 def by_points(evidence: Evidence) -> Work[list[Numbers]]:
     """Guess where each object that is seen in unexplained pixels is, from their depths."""
-    data = evidence.case.picture.data
-    if data is None or data.kind.name not in KINDS:
+    data = data_of(evidence)
+    if data.kind.name not in KINDS:
         return []
     out = []
     scene, seen = evidence.case.scene, evidence.frame.object_index

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.tracer.hits import NOTHING
 
-from ....arrays import Floats
-from ....pictures.data.depth import depth, distance
-from ....pictures.data.kind import Data, Turn
-from ....pictures.data.seen import Seen
-from ....tracer.hits import NOTHING
-from ...evidence import Evidence
+from ..depth import depth, distance
+from ..kind import Data, Turn
+from ..seen import Seen
 from .turned import Turned, data_fault, once
 
 _UNITS = (

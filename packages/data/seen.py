@@ -6,14 +6,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-
-from ...arrays import Floats, Integers
-from ...scene import Scene
-from ...tracer import plane, shading
-from ...tracer.camera import Rays, camera_rays, dual_axes
-from ...tracer.hits import NOTHING, Hits
-from ...tracer.vector import Vectors
-from ...tracer.world import world_corners
+from reference_tracer.arrays import Floats, Integers
+from reference_tracer.scene import Scene
+from reference_tracer.tracer import plane, shading
+from reference_tracer.tracer.camera import Rays, camera_rays, dual_axes
+from reference_tracer.tracer.hits import NOTHING, Hits
+from reference_tracer.tracer.vector import Vectors
+from reference_tracer.tracer.world import world_corners
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.pictures.bounds import U32, corner_errors
+from reference_tracer.tracer.vector import cross, dot
+from reference_tracer.tracer.world import world_corners
 
-from ...arrays import Floats
-from ...tracer.vector import cross, dot
-from ...tracer.world import world_corners
-from ..bounds import U32, corner_errors
 from .kind import Kind
 from .seen import Seen
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
-from ....causes.case import Case
-from ....pictures.data.kind import Data, Turn
-from ....tracer.progress import at_once
-from ...evidence import Evidence
-from ..fault import Fault, Find, Numbers
+from reference_tracer.causes.case import Case
+from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.diagnosis.faults.fault import Fault, Find, Numbers
+from reference_tracer.tracer.progress import at_once
+
+from ..kind import Data, Turn
+from ..picture import DataPicture
 
 Guesses = Callable[[Evidence, Data], Iterable["Turned"]]
 
@@ -21,23 +23,27 @@ class Turned(Numbers):
     turn: Turn = lambda made, seen: made
 
 
-def turned(case: Case, guess: Turned) -> Case | None:
+def turned(case: Case, guess: Turned) -> Case:
     """Return the case whose file is taken to hold what the fault makes."""
-    data = case.picture.data
-    if data is None:
-        return None
-    return replace(case, picture=replace(case.picture, data=data.turned(guess.turn)))
+    picture = case.picture
+    assert isinstance(picture, DataPicture)
+    return replace(case, picture=replace(picture, data=picture.data.turned(guess.turn)))
+
+
+def data_of(evidence: Evidence) -> Data:
+    """Return the data of the evidence's picture."""
+    picture = evidence.case.picture
+    assert isinstance(picture, DataPicture)
+    return picture.data
 
 
 def of_kinds(kinds: tuple[str, ...], guesses: Guesses) -> Find[Turned]:
-    """Return a function that finds guesses in data of some kinds, and none in other pictures."""
+    """Return a function that finds guesses in data of some kinds, and none in others."""
 
     @at_once
     def find(evidence: Evidence) -> list[Turned]:
-        data = evidence.case.picture.data
-        if data is None or data.kind.name not in kinds:
-            return []
-        return list(guesses(evidence, data))
+        data = data_of(evidence)
+        return list(guesses(evidence, data)) if data.kind.name in kinds else []
 
     return find
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.tracer.hits import NOTHING
 
-from ....arrays import Floats
-from ....pictures.data.kind import Data
-from ....pictures.data.seen import Seen
-from ....tracer.hits import NOTHING
-from ...evidence import Evidence
+from ..kind import Data
+from ..seen import Seen
 from .turned import Turned, data_fault
 
 _MOST = 0.5  # of an object's unexplained pixels that have one id, at least

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from ....causes.case import Case
-from ....pictures.data.kind import Data
-from ....pictures.data.step import Step
-from ....tracer.progress import at_once
-from ...evidence import Evidence
-from ..fault import Effort, Fault, Guess
-from .turned import Turned, data_fault
+from reference_tracer.causes.case import Case
+from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.diagnosis.faults.fault import Effort, Fault, Guess
+from reference_tracer.tracer.progress import at_once
+
+from ..kind import Data
+from ..picture import DataPicture
+from ..step import Step
+from .turned import Turned, data_fault, data_of
 
 _STEPS = (
     (Step("float16"), "half floats, of 11 bits"),
@@ -29,18 +31,17 @@ class Coarser(Guess):
     step: Step
 
 
-def _rounded(case: Case, guess: Coarser) -> Case | None:
-    data = case.picture.data
-    if data is None:
-        return None
-    return replace(case, picture=replace(case.picture, data=replace(data, step=guess.step)))
+def _rounded(case: Case, guess: Coarser) -> Case:
+    picture = case.picture
+    assert isinstance(picture, DataPicture)
+    return replace(case, picture=replace(picture, data=replace(picture.data, step=guess.step)))
 
 
 @at_once
 def _steps(evidence: Evidence) -> list[Coarser]:
     """Guess the steps on which all values lie, as they would if they had been rounded to them."""
-    data = evidence.case.picture.data
-    if data is None or data.kind.name not in NUMBERS:
+    data = data_of(evidence)
+    if data.kind.name not in NUMBERS:
         return []
     own = data.values[~data.blank]
     # Floats were rounded as the file has them, before their unit was applied.

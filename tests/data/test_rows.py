@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.rendering import render
+from reference_tracer_data.faults import faults_of_data
 
 from .conftest import BESIDE
 
-LOOKED_FOR = [f for f in FAULTS if f.name in (*BESIDE, "mirrored_x", "mirrored_y")]
+LOOKED_FOR = [f for f in faults_of_data(FAULTS) if f.name in (*BESIDE, "mirrored_x", "mirrored_y")]
 IN_CAMERA_SPACE = {"positions": {"space": "camera"}}
 
 

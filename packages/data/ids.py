@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from reference_tracer.arrays import Array, Bools, Floats
+from reference_tracer.scene import Scene
+from reference_tracer.tracer.hits import NOTHING, Hits
 
-from ...arrays import Array, Bools, Floats
-from ...scene import Scene
-from ...tracer.hits import NOTHING, Hits
 from .kind import Kind
 from .seen import Seen
 

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.tracer.vector import dot
 
-from ....arrays import Floats
-from ....pictures.data.kind import Data, Turn
-from ....pictures.data.seen import Seen
-from ....pictures.data.vectors import SPACES, normals, positions
-from ....tracer.vector import dot
-from ...evidence import Evidence
+from ..kind import Data, Turn
+from ..seen import Seen
+from ..vectors import SPACES, normals, positions
 from .turned import Turned, data_fault
 
 BOTH = "normals", "positions"

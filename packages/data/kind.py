@@ -11,13 +11,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from reference_tracer.arrays import Array, Bools, Colors, Floats, Where
+from reference_tracer.pictures.bounds import U32
+from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.scene import Camera, Scene
+from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.hits import NOTHING, Hits
 
-from ...arrays import Array, Bools, Colors, Floats, Where
-from ...scene import Camera, Scene
-from ...tracer.frame import Frame
-from ...tracer.hits import NOTHING, Hits
-from ..bounds import U32
-from ..sampling import Sampling
 from .seen import Seen
 from .step import Step
 

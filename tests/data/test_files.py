@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 from reference_tracer import compare
 from reference_tracer.comparison.verdict import Verdict
-from reference_tracer.diagnosis.faults.data import DATA_FAULTS
 from reference_tracer.files import exr
 from reference_tracer.files.scenes import save_scene
-from reference_tracer.pictures.data.depth import DEPTH
-from reference_tracer.pictures.data.files import read
 from reference_tracer.pictures.picture import SizeError
 from reference_tracer.scene import SceneError
+from reference_tracer_data.depth import DEPTH
+from reference_tracer_data.faults import DATA_FAULTS
+from reference_tracer_data.files import read
 
-PAGE = Path(__file__).parents[3] / "docs" / "data.md"
+PAGE = Path(__file__).parents[2] / "docs" / "data.md"
 
 
 def test_our_own_exr_is_right_in_all_that_it_holds(judged, traced):

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-
-from ...arrays import Floats
-from ..bounds import LEVEL_SLACK, U32
+from reference_tracer.arrays import Floats
+from reference_tracer.pictures.bounds import LEVEL_SLACK, U32
 
 _TYPES: dict[str, type[np.floating]] = {
     "float16": np.float16,

@@ -7,25 +7,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.causes.case import Case, without_colors
+from reference_tracer.causes.case import Case
 from reference_tracer.comparison.comparing import compared
 from reference_tracer.diagnosis.diagnosis import diagnose
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.data import DATA_FAULTS
 from reference_tracer.files.scenes import Account
 from reference_tracer.opened import file_manifest
-from reference_tracer.pictures.data.given import GivenData, picture_of_data
 from reference_tracer.pictures.given import Making
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
+from reference_tracer_data.faults import DATA_FAULTS, faults_of_data
+from reference_tracer_data.given import GivenData, picture_of_data
 
 MAKING = Making()
 # The faults of data, and of others a few: all of them take a second for each picture.
 BESIDE = "rows", "object_missing", "flipped_winding"
-CLIP = [f for f in FAULTS if f.name.startswith("clip_")]
-MOVED = [f for f in FAULTS if f.name in ("object_moved", "object_missing", "data_scale")]
-SOME = [f for f in FAULTS if f in DATA_FAULTS or f.name in BESIDE]
+OF_DATA = faults_of_data(FAULTS)
+CLIP = [f for f in OF_DATA if f.name.startswith("clip_")]
+MOVED = [f for f in OF_DATA if f.name in ("object_moved", "object_missing", "data_scale")]
+SOME = [f for f in OF_DATA if f in DATA_FAULTS or f.name in BESIDE]
 
 
 @pytest.fixture(scope="session")
@@ -56,7 +57,7 @@ def judged(solids, tmp_path):
         save(path, values)
         shown = picture_of_data(GivenData(kind, path, **known), scene, making)
         manifest = file_manifest(path, scene, Account())
-        case = without_colors(Case(scene, manifest, Settings(), shown))
+        case = Case(scene, manifest, Settings(), shown)
         return result_of(compared(case))
 
     return run
@@ -66,7 +67,7 @@ def judged(solids, tmp_path):
 def told(judged):
     """Return the function that compares likewise, for the names of what is told."""
 
-    def run(*arguments, faults=FAULTS, **known):
+    def run(*arguments, faults=OF_DATA, **known):
         found = judged(*arguments, **known)
         assert found.counts.unexplained > 10
         said = result_of(diagnose(found.case, found.frame, found.causes, faults, np.inf))

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.tracer.vector import dot
 
-from ...arrays import Floats
-from ...tracer.vector import dot
 from .kind import Kind
 from .seen import Seen
 

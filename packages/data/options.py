@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace, _ActionsContainer
+from argparse import ArgumentParser, Namespace
 from typing import Any
 
-from ..pictures.data.given import KINDS, GivenData
-from ..pictures.data.vectors import RANGES, SPACES
-from ..scene import SceneError
-from .arguments import refuse
-from .named import Named, Setting, add_named, one_of
-from .parser import POSITIVE
+from reference_tracer.cli.arguments import refuse
+from reference_tracer.cli.named import Named, Setting, add_named, one_of
+from reference_tracer.cli.parser import POSITIVE, Parser
+from reference_tracer.scene import SceneError
+
+from .given import KINDS, GivenData
+from .vectors import RANGES, SPACES
 
 _ROWS = (
     Setting(
         "kind",
         "KIND",
         one_of(*KINDS),
-        "data in place of colours, in .exr, .npy, .npz or .png: depth, along the view axis; "
-        "distance, along the ray; normals, of faces; positions; ids, of objects",
+        "depth, along the view axis; distance, along the ray; normals, of faces; "
+        "positions; ids, of objects: in .exr, .npy, .npz or .png",
     ),
     Setting("layer", "NAME", str, "the array of a .npz, or the layer of an .exr"),
     Setting("scale", "METRES", POSITIVE, "what 1 is, such as 0.001 (default 1; integers need it)"),
@@ -44,9 +45,11 @@ class _Held(Named):
         super().__call__(parser, given, [f"kind={kind}", *details], option)
 
 
-def add_data(group: _ActionsContainer) -> None:
-    """Add the option."""
+def add(parser: Parser) -> None:
+    """Add the option, and what it means."""
+    group = parser.add_argument_group("data in place of colours, in the file of --against")
     add_named(group, "--holds", _ROWS, _Held, "KIND NAME=VALUE")
+    parser.set_defaults(held=data_from)
 
 
 def data_from(given: Namespace) -> GivenData | None:

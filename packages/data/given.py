@@ -10,20 +10,21 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.arrays import Array, Bools
+from reference_tracer.pictures.given import Making, traced
+from reference_tracer.pictures.picture import Source
+from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.rendering import trace
+from reference_tracer.scene import Scene, SceneError
+from reference_tracer.tracer.camera import film_positions
+from reference_tracer.tracer.hits import Hits
+from reference_tracer.tracer.settings import Settings
 
-from ...arrays import Array, Bools
-from ...rendering import trace
-from ...scene import Scene, SceneError
-from ...tracer.camera import film_positions
-from ...tracer.hits import Hits
-from ...tracer.settings import Settings
-from ..given import Making, traced
-from ..picture import Picture, Source
-from ..sampling import Sampling
 from . import ids, vectors
 from .depth import DEPTH, DISTANCE
 from .files import StoredData, read
 from .kind import Data, Kind
+from .picture import DataPicture
 from .step import Step
 
 NO_HIT = 1e10  # Blender's own depth where nothing is hit; as much is no distance
@@ -84,19 +85,23 @@ class GivenData:
         for space in spaces:
             yield from (KINDS[self.kind](space, range_) for range_ in ranges)
 
+    def picture(self, scene: Scene, making: Making) -> DataPicture:
+        """Read it as the other side; of a whole view, the camera's region.
 
-def picture_of_data(given: GivenData, scene: Scene, making: Making) -> Picture:
-    """Read a file of data as the other side; of a whole view, the camera's region.
+        Raises
+        ------
+        SizeError
+            If it shows neither the view nor the region.
+        SceneError
+            If integers have no scale, or the camera knows no such depth.
+        MissingLibraryError, OSError
+            If the file cannot be read.
+        """
+        return picture_of_data(self, scene, making)
 
-    Raises
-    ------
-    SizeError
-        If it shows neither the view nor the region.
-    SceneError
-        If integers have no scale, or the camera knows no such depth.
-    MissingLibraryError, OSError
-        If the file cannot be read.
-    """
+
+def picture_of_data(given: GivenData, scene: Scene, making: Making) -> DataPicture:
+    """Read a file of data as the other side, as :meth:`GivenData.picture` does."""
     if given.kind == "depth" and not scene.camera.projection.is_linear:
         raise SceneError("a panorama has no view axis: its depths are distances: --holds distance")
     stored = read(given.path, KINDS[given.kind]("world", "unit"), given.layer, given.top_down)
@@ -120,7 +125,7 @@ def picture_of_data(given: GivenData, scene: Scene, making: Making) -> Picture:
     name = given.name
     said = tuple(f"of '{name}': {remark}" for remark in remarks)
     source = Source(file=name, known=known, remarks=said, what=data.kind.words)
-    return Picture(data.color, source, sampling=sampling, data=data)
+    return DataPicture(data.color, source, sampling=sampling, data=data)
 
 
 def _film(scene: Scene) -> Array:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.arrays import Array
+from reference_tracer.files import exr, npz, png
+from reference_tracer.files.file_kinds import mistaken
+from reference_tracer.files.png.samples import PngError
 
-from ...arrays import Array
-from ...files import exr, npz, png
-from ...files.file_kinds import mistaken
-from ...files.png.samples import PngError
 from .kind import Kind
 from .step import Step, step_of
 
