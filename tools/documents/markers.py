@@ -1,4 +1,4 @@
-"""What `make docs` fills in: parts of a Markdown file.
+"""Fills in parts of a Markdown file, for `make docs`.
 
     ```console              a command, and what it prints; if the text has nothing of that, it is
     $ reftrace trace …      only run

@@ -1,4 +1,4 @@
-"""What the records of causes, faults and methods say of themselves: Markdown."""
+"""The records of causes, faults and methods as Markdown."""
 
 from __future__ import annotations
 

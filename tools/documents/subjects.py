@@ -1,4 +1,4 @@
-"""What the pages on grading say of each subject, from its record."""
+"""The records of the grading's subjects as Markdown."""
 
 from __future__ import annotations
 
