@@ -24,6 +24,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypeVar
 
+import numpy as np
+
 from ..causes.case import PRECISE
 from ..scene import SceneError
 from ..tracer.progress import Work, called, scaled
@@ -59,8 +61,10 @@ LOST = 0.1  # of the pixels that a first guess settles: it may break no more
 # or pixels, the same on each machine.
 IN_PLACES = (  # where most of the picture agrees
     Effort.NOTHING,
+    Effort.LEFT_OUT,
     Effort.OBJECT,
     Effort.PIXELS,
+    Effort.VIEW,
     Effort.FILM,
     Effort.CAMERA,
     Effort.ANYTHING,
@@ -180,21 +184,25 @@ class Guessing:
         # Among equally good guesses try one of each fault first: a fault may have dozens.
         tried: Counter[str] = Counter()
         ranks = [tried.update([fault.name]) or tried[fault.name] for _, fault, _ in scored]
-        order = sorted(range(len(scored)), key=lambda n: (-scored[n][0], ranks[n]))
+        best = scored[0][0] if scored else 0.0
+        cost = [len(g.low) if gain >= AS_GOOD * best else np.inf for gain, _, g in scored]
+        order = sorted(range(len(scored)), key=lambda n: (cost[n], -scored[n][0], ranks[n]))
         scored = [scored[n] for n in order]
         exact = [one for one in scored if not one[1].vague]
         vague = [one for one in scored if one[1].vague]
         out: list[Trial] = []
-        done: set[str] = set()  # faults with a guess that does it all
+        done: dict[str, int] = {}  # faults with a guess that does it all, in so many numbers
         for gain, fault, guess in (*exact[:most], *vague[:most]):
-            if fault.name in done or (done and guess.low and gain < AS_GOOD * scored[0][0]):
+            worse = bool(guess.low) and gain < AS_GOOD * best
+            longer = not guess.object and len(guess.low) > min(done.values(), default=0)
+            if fault.name in done or (done and (worse or longer)):
                 continue
             guess = yield from self._finer(evidence, fault, guess)
             trial = yield from self._limited(trial_of(evidence, fault, guess, of), fault)
             if trial and trial.gain > 0:
                 out.append(trial)
                 if trial.perfect:
-                    done.add(fault.name)
+                    done[fault.name] = trial.cost
         return out
 
 

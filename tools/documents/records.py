@@ -114,7 +114,8 @@ def faults_by_family() -> str:
         if isinstance(node, ast.ImportFrom) and node.names[0].name.endswith("_FAULTS"):
             module = import_module(f".{node.module}", faults.__name__)
             families.append((getattr(faults, node.names[0].name), inspect.getdoc(module) or ""))
-    families.sort(key=lambda family: FAULTS.index(family[0][0]))
+    names = [fault.name for fault in FAULTS]
+    families.sort(key=lambda family: names.index(family[0][0].name))
     families.append((DATA_FAULTS, inspect.getdoc(reference_tracer_data.faults) or ""))
     return "\n\n".join(_family(*family) for family in families)
 

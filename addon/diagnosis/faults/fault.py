@@ -109,25 +109,29 @@ class Effort(IntEnum):
     """The effort of finding a fault: those of less effort are tried first."""
 
     NOTHING = 0
-    FILM = 1
-    CAMERA = 2
-    PIXELS = 3
-    OBJECT = 4
-    ANYTHING = 5
+    VIEW = 1
+    FILM = 2
+    CAMERA = 3
+    LEFT_OUT = 4
+    PIXELS = 5
+    OBJECT = 6
+    ANYTHING = 7
 
 
 # What is tried, in words, and at which cost.
 TRIED = {
     Effort.NOTHING: (
-        "what has no numbers",
-        "each is put in, and tried in a few hundred pixels; colours are of the whole picture",
+        "colours, rows, and what Blender says of the scene",
+        "each is put in, and tried in a few hundred pixels; it has no numbers",
     ),
+    Effort.VIEW: ("a camera's conventions", "likewise"),
     Effort.FILM: (
         "the lens",
         "one or two numbers are fitted to edges that are found in the picture, then to a thousand "
         "pixels",
     ),
     Effort.CAMERA: ("the camera's place and turn", "two to six numbers are fitted likewise"),
+    Effort.LEFT_OUT: ("an object that is missing, or as in its file", "as colours"),
     Effort.PIXELS: (
         "samples, sizes and triangles",
         "a few hundred pixels say which of some dozen ways is right",

@@ -181,7 +181,7 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
         fine = bool(guess.low)
         if guess.values:
             starts, step = [guess.values], FINER if fine else 1.0
-        elif not kept:
+        elif pose.camera and not kept:
             found, moves = _matched(looked, pose), _matched(looked, _placed(looked))
             if moves and not (found and found.share >= NEARLY * moves.share):
                 return None

@@ -121,11 +121,13 @@ class Search(Climb):
         return place + good * along
 
     def _rounded(self, best: Values, places: Floats, right: int) -> Work[Values]:
-        """Round numbers to as few digits as are as good: the middles of ranges, or the best."""
+        """Round numbers to as few digits as are as good: 0, the middles of ranges, or the best."""
         low, high = places.min(axis=0), places.max(axis=0)
+        middle = (low + high) / 2
+        simple = np.where((low <= 0) & (high >= 0), 0, middle)
         known = np.clip(np.floor(-np.log10(np.maximum(high - low, 1e-12))), -6, 12)
         for more in DIGITS:
-            for place in (values_of((low + high) / 2), best):
+            for place in (*map(values_of, (simple, middle)), best):
                 near = tuple(
                     round(v, int(d) + more) + 0.0 for v, d in zip(place, known, strict=True)
                 )
