@@ -84,7 +84,7 @@ class DrawnOver:
 
     @property
     def known(self) -> Integers:
-        """Which feature each pixel shows over what is known to lie beneath, (...), or NOTHING."""
+        """The feature that each pixel shows over known surfaces, (...), or NOTHING."""
         known = self.beneath is not None and np.isfinite(self.beneath).all(axis=-1)
         return np.where(known, self.feature, np.int32(NOTHING))
 
