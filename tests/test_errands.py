@@ -259,7 +259,7 @@ with redirect_stdout(StringIO()) as said:
     except SystemExit:
         pass
 assert "triangles: 1" in said.getvalue() and "count the triangles" in said.getvalue()
-assert main(["count", "scene.npz", "--frame", "3"]) == 4
+assert main(["count", "scene.npz", "--set", "frame=3"]) == 4
 """
 SEES_COMMAND_IN_BLENDER = """
 from contextlib import redirect_stdout

@@ -128,7 +128,7 @@ def chosen(views: Sequence[View], which: str | None) -> View:
         if len(views) == 1:
             return views[0]
         many = f"it has {len(views)} cameras"
-        raise SceneError(f"{many}: --camera-view names one of {_names(views)}")
+        raise SceneError(f"{many}: --set camera-view=NAME chooses one of {_names(views)}")
     named = [view for view in views if which in (view.name, Path(view.name).stem)]
     if not named and _WHOLE.fullmatch(which):
         number = int(which)

@@ -1,4 +1,4 @@
-"""What every command line does around its work: hears signals, prints, and says what is wrong.
+"""Runs a command line's work: hears signals, prints, and reports errors.
 
 Little is imported here, so that a Ctrl-C is heard while the rest is.
 """
@@ -21,7 +21,7 @@ LINE_EVERY = 10.0  # seconds between two lines that say how much is done
 
 
 def run(work: Callable[[], int], program: str) -> int:
-    """Do the work of a command line, then print what it said; return the exit code.
+    """Do the work of a command line, then print its lines; return the exit code.
 
     Results are in place before anything is said. If nobody reads it, the exit code stays that of
     the work; if it cannot be printed, as to a full disk, that is an error like any other. Where

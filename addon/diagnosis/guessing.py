@@ -1,6 +1,6 @@
-"""Makes guesses of what is wrong, tries them, and says which may be told.
+"""Guesses what is wrong, tries the guesses, and decides which to report.
 
-A guess is told under three conditions.
+A guess is reported under three conditions.
 
 - It is right in nearly all the pixels that it changes (`PRECISE`). A wrong guess has no reason to
   be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
@@ -13,8 +13,8 @@ A guess is told under three conditions.
   is wrong in a way that is not known, a small thing that is shown elsewhere looks like a missing
   one: in the test bed it settled a tenth.
 
-Of guesses that are as good, those with the fewest fitted numbers are told, all of them. One that is
-`vague`, as it allows for more than one picture, is told if no exact one is as good.
+Among equally good guesses, all with the fewest fitted numbers are reported. A `vague` one, which
+allows for several pictures, is reported if no exact one is as good.
 """
 
 from __future__ import annotations
@@ -82,8 +82,8 @@ class Guessing:
         self.limit = limit
         self.steps = 0
         self.guesses = 0
-        self.untried: set[str] = set()  # names of faults that were not looked for to the end
-        self._done, self._of = 0, 1  # faults that were looked for, of those that are now
+        self.untried: set[str] = set()  # names of faults whose search was not finished
+        self._done, self._of = 0, 1  # faults searched so far, and the total of this round
 
     @property
     def ended(self) -> bool:
@@ -93,7 +93,7 @@ class Guessing:
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
         """Run work that looks for a fault; None if it, or all work, reaches its limit of steps.
 
-        It yields the share of the faults that were looked for before: nobody knows how long one is.
+        Yields the share of the faults searched before: nobody knows how long one takes.
         """
         last = self.steps + self.limit / PART
         while not self.ended and self.steps < last:
@@ -177,11 +177,11 @@ class Guessing:
     ) -> Work[list[Trial]]:
         """Try the guesses with the most gain, refining fitted ones.
 
-        Vague ones come last: their trials take long, and what is exact is told in their place.
+        Vague ones come last: their trials take long, and exact ones are reported in their place.
         """
         promising = PROMISING * max((gain for gain, _, _ in scored), default=0.0)
         scored = sorted((one for one in scored if one[0] >= promising), key=lambda one: -one[0])
-        # Of guesses that are as good, one of each fault comes first: one has dozens of ways.
+        # Among equally good guesses try one of each fault first: a fault may have dozens.
         tried: Counter[str] = Counter()
         ranks = [tried.update([fault.name]) or tried[fault.name] for _, fault, _ in scored]
         best = scored[0][0] if scored else 0.0
@@ -258,7 +258,7 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
 
 def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
-    """Return the trials that may be told."""
+    """Return the trials that may be reported."""
     unexplained = int(evidence.unexplained.sum())
     return [
         t
@@ -272,7 +272,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 
 
 def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
-    """Return whether one that may be told settles nearly all: then no more are tried."""
+    """Return whether one that may be reported settles nearly all: then no more are tried."""
     count = evidence.unexplained.sum()
     least = {True: ENOUGH * count, False: (1 - ROUGHLY) * count}
     return any(t.gain >= least[t.cost <= ENCLOSED] for t in _good(evidence, trials))
@@ -288,7 +288,7 @@ def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     most = max((t.gain for t in good), default=0)
     alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
     fewest = min(((t.fault.vague, t.cost) for t in alike), default=None)
-    # What is done to one object may look the same in more numbers: that is told, too.
+    # A change of one object may look the same in more numbers: report that, too.
     own = {t.guess.object for t in alike if (t.fault.vague, t.cost) == fewest}
     of_one = own - {""} if len(own) == 1 else ()
     alike = [t for t in alike if (t.fault.vague, t.cost) == fewest or t.guess.object in of_one]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Generator, MutableMapping
+from contextlib import closing
 from functools import wraps
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
@@ -75,20 +76,29 @@ def doing(share: float) -> str:
     return share.doing if isinstance(share, Share) else ""
 
 
-def called(work: Work[T], words: str, known: bool = True) -> Work[T]:
-    """Run work whose steps say in these words what is being done, whatever its parts say."""
-    return mapped(work, lambda share: Share(share, words, known))
+def called(work: Work[T], words: str, over: bool = True, known: bool = True) -> Work[T]:
+    """Run work whose steps say in these words what is being done, over what its parts say.
+
+    `known` says whether they tell how long the rest takes, as far as its parts do.
+    """
+
+    def with_words(share: float) -> Share:
+        of_part = share if isinstance(share, Share) else Share(share, "")
+        return Share(share, (not over and of_part.doing) or words, known and of_part.known)
+
+    return mapped(work, with_words)
 
 
 def result_of(work: Work[T], progress: Callable[[float], None] | None = None) -> T:
     """Run work to its end, call `progress` with every share, and return the result."""
-    while True:
-        try:
-            share = next(work)
-        except StopIteration as stop:
-            return stop.value
-        if progress:
-            progress(share)
+    with closing(work):  # it may have changed Blender's data, where progress raises
+        while True:
+            try:
+                share = next(work)
+            except StopIteration as stop:
+                return stop.value
+            if progress:
+                progress(share)
 
 
 def mapped(work: Generator[A, None, T], of: Callable[[A], B]) -> Generator[B, None, T]:

@@ -22,7 +22,7 @@ from reference_tracer.scene import Camera, Instance, Scene, SceneError, check_si
 from . import FORMATS
 from .contents import Contents
 
-_BLENDERS_OBJ = "it is taken to have Y up, as Blender writes it unless told otherwise: then --up z"
+_BLENDERS_OBJ = "it is taken to have Y up, as Blender writes it unless told otherwise: then up=z"
 _Y_UP = frozenset((".glb", ".gltf"))  # as their specification says; the others do not say
 _SAYS_ITSELF = "usd"
 
@@ -54,7 +54,7 @@ def load_meshes(path: str | Path, up: str | None = None) -> Contents:
     if suffix not in FORMATS:
         raise SceneError(f"'{path}' is no mesh: a mesh is one of {', '.join(FORMATS)}")
     if up and FORMATS[suffix] == _SAYS_ITSELF:
-        raise SceneError(f"'{path}' says itself which axis is up: leave out --up")
+        raise SceneError(f"'{path}' says itself which axis is up: leave out up=")
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # a library's, of its own work

@@ -5,12 +5,11 @@ from __future__ import annotations
 from argparse import Namespace
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from reference_tracer.certified.any_rays import nearest_hits
 from reference_tracer.certified.arithmetic import check_assumptions
-from reference_tracer.cli.camera_options import CAMERA_OPTIONS, add_parts_of_blend, choice_from
+from reference_tracer.cli.camera_options import add_parts, choice_from
 from reference_tracer.cli.opening import SOURCES, open_file
 from reference_tracer.cli.parser import AGREE, Parser, number
 from reference_tracer.cli.running import progress_bar
@@ -24,7 +23,6 @@ from reference_tracer.wording import count_of, show
 
 from .files import load_rays, save_hits
 
-_NO_CAMERA: dict[str, Any] = dict.fromkeys(CAMERA_OPTIONS) | {"frame_all": False}
 _T = number(float, lambda value: not np.isnan(value), "a number")
 
 
@@ -86,13 +84,7 @@ def add(parser: Parser) -> None:
         action="store_true",
         help="test each ray with each triangle, without a tree of boxes: sees the same, far slower",
     )
-    parser.add_argument(
-        "--up",
-        choices=["y", "z"],
-        help="which axis of a mesh is up (default y of glTF, z of others); it is turned to Z",
-    )
-    add_parts_of_blend(parser)
-    parser.set_defaults(**_NO_CAMERA)
+    add_parts(parser)
 
 
 def rays(options: RaysOptions) -> int:

@@ -57,7 +57,9 @@ def test_the_file_says_what_it_means_and_is_certified(scene, tmp_path, reftrace)
     assert (file["frame"], file["name"]) == (1, "0001.png")
     done = reftrace("camera", scene, "--check", tmp_path / "new" / "camera.json")
     assert done.returncode == 0 and "agree" in done.stdout
-    done = reftrace("camera", scene, "--frame", "3", "--check", tmp_path / "new" / "camera.json")
+    done = reftrace(
+        "camera", scene, "--set", "frame=3", "--check", tmp_path / "new" / "camera.json"
+    )
     assert "it is the camera of frame 1, and the scene is at 3" in done.stdout
 
 
@@ -90,9 +92,9 @@ def test_frames_are_written_and_checked(name, scene, tmp_path, reftrace):
 def test_one_view_is_checked_at_another_frame(scene, tmp_path, reftrace):
     out = tmp_path / "sparse"
     reftrace("camera", scene, "--out", out, "--convention", "colmap", "--frames", "1-5:2")
-    one = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "3")
+    one = reftrace("camera", scene, "--check", out, "--view", "3", "--set", "frame=3")
     assert one.returncode == 0 and one.stdout.count("agree") == 1
-    other = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "5")
+    other = reftrace("camera", scene, "--check", out, "--view", "3", "--set", "frame=5")
     assert other.returncode == 2 and "the camera is moved by" in other.stdout
 
 
@@ -132,7 +134,7 @@ def test_what_else_a_file_has_is_told_in_lines(scene, tmp_path, reftrace):
         (["--out", "a.json", "--view", "3"], "--view is for --check"),
         (["--check", "a.json", "--centers", "half"], "--centers is for --out"),
         (["--out", "a.json", "--frames", "5-1"], "ends before it begins"),
-        (["--out", "a.json", "--frames", "1-5", "--frame", "3"], "not for --frames"),
+        (["--out", "a.json", "--frames", "1-5", "--set", "frame=3"], "not for --frames"),
         (["--check", "missing.json"], "missing.json"),
     ],
 )
@@ -187,12 +189,12 @@ def test_a_camera_that_blender_cannot_have_is_refused(scene):
 def test_a_command_takes_the_file(scene, tmp_path, reftrace):
     """A camera is written at one frame, and the file at another is seen through it."""
     path = tmp_path / "there.json"
-    assert reftrace("camera", scene, "--frame", "5", "--out", path).returncode == 0
+    assert reftrace("camera", scene, "--set", "frame=5", "--out", path).returncode == 0
     again = tmp_path / "again.json"
     assert reftrace("camera", scene, "--camera", path, "--out", again).returncode == 0
-    done = reftrace("camera", scene, "--frame", "5", "--check", again)
+    done = reftrace("camera", scene, "--set", "frame=5", "--check", again)
     assert done.returncode == 0, done.stdout
-    assert reftrace("camera", scene, "--frame", "1", "--check", again).returncode == 2
+    assert reftrace("camera", scene, "--set", "frame=1", "--check", again).returncode == 2
 
 
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])

@@ -60,12 +60,12 @@ def test_a_file_without_a_camera(small, tmp_path, reftrace):
     """It is framed, or seen from where the options say."""
     bpy.context.scene.camera = None
     bpy.ops.wm.save_mainfile()
-    done = reftrace("compare", small, "--out", tmp_path / "out", "--frame-all", "--width", "32")
+    done = reftrace("compare", small, "--out", tmp_path / "out", "--set", "eye=all", "width=32")
     assert done.returncode == 0, done.stderr
     assert "camera 'framing'" in done.stdout and "verdict: agree" in done.stdout
     found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
     assert found["scene"]["camera"] == "framing" and found["pixels"]["agree"] == 32 * 18
-    eye = "--eye", "4", "-4", "3", "--ortho-scale", "5"
+    eye = "--set", "eye=4,-4,3", "ortho-scale=5"
     done = reftrace("export", small, "--out", tmp_path / "s.npz", *eye)
     assert done.returncode == 0, done.stderr
     camera = load_scene(tmp_path / "s.npz").camera
@@ -74,7 +74,7 @@ def test_a_file_without_a_camera(small, tmp_path, reftrace):
 
 def test_compare_warns_by_its_exit_code(tmp_path, reftrace, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    done = reftrace("compare", SAMPLES / "far_away.blend", "--out", "out", "--width", "240")
+    done = reftrace("compare", SAMPLES / "far_away.blend", "--out", "out", "--set", "width=240")
     assert done.returncode == 1, done.stderr
     assert "not decidable" in done.stdout
     assert (tmp_path / "out" / "comparison.json").is_file()  # beside where the shell is
@@ -163,7 +163,7 @@ def test_interrupted_while_blender_is_imported(command, tmp_path):
 
 
 def test_too_large_a_picture(reftrace):
-    done = reftrace("trade", SAMPLES / "suzanne.blend", "--width", "10000000", "--samples", "1")
+    done = reftrace("trade", SAMPLES / "suzanne.blend", "--set", "width=10000000", "--samples", "1")
     assert done.returncode == 4
     assert "choose a smaller size" in done.stderr and "Traceback" not in done.stderr
 

@@ -184,6 +184,16 @@ def test_a_usd_file_that_refers_to_others_is_refused(tmp_path):
         load_meshes(tmp_path / "a.usda")
 
 
+def test_a_package_of_several_layers_is_refused_as_one(tmp_path):
+    stage(tmp_path / "other.usda").Save()
+    made = stage(tmp_path / "in.usda")
+    made.OverridePrim("/More").GetReferences().AddReference("./other.usda")
+    made.Save()
+    UsdUtils.CreateNewUsdzPackage(str(tmp_path / "in.usda"), str(tmp_path / "a.usdz"))
+    with pytest.raises(SceneError, match=r"package of several USD files, such as '.*other\.usda'"):
+        load_meshes(tmp_path / "a.usdz")
+
+
 @pytest.mark.parametrize("content", [b"#usda 1.0\nover", b"PXR-USDC" + bytes(99), b"x" * 99])
 def test_a_usd_file_that_is_damaged_is_refused(content, tmp_path):
     (tmp_path / "a.usd").write_bytes(content)

@@ -106,7 +106,7 @@ def test_results_go_with_their_file(solids):
 
 def test_the_commands(solids, tmp_path, capsys):
     out = tmp_path / "out"
-    trade = ["trade", "--out", str(out), "--width", "16", "--samples", "1"]
+    trade = ["trade", "--out", str(out), "--set", "width=16", "--samples", "1"]
     assert in_blender.run(trade) == 0
     assert {p.name for p in out.iterdir()} == TRADE_FILES
     assert "float32" in capsys.readouterr().out

@@ -30,32 +30,6 @@ class Clock:
         return self.now
 
 
-def test_a_line_every_ten_seconds(capsys):
-    clock = Clock()
-    with running.progress_bar(clock) as show:
-        for second in range(36):
-            clock.now = 100.0 + second
-            show(Share(second / 40, f"stage {second // 20}"))
-            show(second / 40)
-    assert capsys.readouterr().err.splitlines() == [
-        " 25 %, stage 0 (10 s, 30 s left)",
-        " 50 %, stage 1 (20 s, 20 s left)",
-        " 75 %, stage 1 (30 s, 10 s left)",
-    ]
-
-
-def test_after_a_long_step_one_line_is_enough(capsys):
-    clock = Clock()
-    with running.progress_bar(clock) as show:
-        show(0.0)
-        clock.now += 47.0
-        show(0.0)
-        show(0.001)
-        clock.now += 4.0
-        show(0.5)
-    assert capsys.readouterr().err.splitlines() == ["  0 % (47 s)", " 50 % (51 s, 51 s left)"]
-
-
 def test_an_estimate_never_grows_by_more_than_a_tenth(capsys):
     """Of what slows down, or of what nobody knows, no seconds are said."""
     clock = Clock()
@@ -92,20 +66,6 @@ def test_what_has_no_steps_is_named_every_ten_seconds(capsys):
         "reading scene.obj (20 s)",
     ]
     assert turns == [running.LINE_EVERY] * 4 and not running.named
-
-
-def test_reading_and_explaining_are_named(make, tmp_path, monkeypatch):
-    said = []
-
-    class Named(list):
-        def append(self, words):
-            said.append(words)
-            super().append(words)
-
-    monkeypatch.setattr(running, "named", Named())
-    save_scene(tmp_path / "s.npz", make.scene(make.camera(8, 6), make.quad(-1, 1, -1, 1, -2)))
-    assert main(["explain", str(tmp_path / "s.npz"), "--pixel", "1", "1"]) == 0
-    assert said == ["reading s.npz", "finding what the ray may meet"]
 
 
 def test_tracing_is_said(make, tmp_path, capsys, monkeypatch):

@@ -182,7 +182,7 @@ def test_commands(shared, scene, tmp_path, capsys, monkeypatch):
     with np.load(here) as one, np.load(there) as two:
         assert one.files == two.files
         assert all(one[name].tobytes() == two[name].tobytes() for name in one.files)
-    small = ["--width", "6", "--samples", "1"]
+    small = ["--set", "width=6", "--samples", "1"]
     found = [
         json.loads((p / "tradeoff.json").read_text()) for p in both("trade", "t", path, *small)
     ]

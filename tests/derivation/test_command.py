@@ -11,7 +11,7 @@ from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 from reference_tracer.derivation import reproducer, writers
 from reference_tracer.files.scenes import save_scene
 
-SMALL = ["--width", "24", "--height", "16"]
+SMALL = ["--set", "width=24", "height=16"]
 
 
 @pytest.fixture
@@ -77,7 +77,7 @@ def test_what_is_wrong_is_said(ball, capsys, exit_code, options, says):
     assert says in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("option", [["--pixel", "1", "1"], ["--limit", "3"], ["--width", "9"]])
+@pytest.mark.parametrize("option", [["--pixel", "1", "1"], ["--limit", "3"], ["--set", "width=9"]])
 def test_a_pixel_takes_no_option_of_a_scene(tmp_path, capsys, option):
     assert explain(tmp_path / "pixel.json", *option) == INPUT_ERROR
     assert "which is one pixel by itself" in capsys.readouterr().err

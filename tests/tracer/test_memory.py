@@ -126,6 +126,6 @@ def test_the_largest_picture_that_blender_has_is_refused_at_once(tmp_path, comma
     (tmp_path / "other.png").write_bytes(png.SIGNATURE + chunk)  # no pixel is read
     own = ["--against", str(tmp_path / "other.png")] if command == "compare" else []
     out = str(tmp_path / ("out" if own else "out.png"))
-    size = ["--width", "32767", "--height", "32767"]
+    size = ["--set", "width=32767", "height=32767"]
     assert main([command, str(tmp_path / "box.ply"), *own, "--out", out, *size]) == 4
     assert re.match(REFUSED, capsys.readouterr().err.splitlines()[-1])

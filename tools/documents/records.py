@@ -7,6 +7,7 @@ import inspect
 from collections.abc import Iterator
 from importlib import import_module
 
+import reference_tracer_data.faults
 from reference_tracer.camera_files.features import FEATURES
 from reference_tracer.camera_files.files import CONVENTIONS
 from reference_tracer.causes.cause import Cause
@@ -17,6 +18,7 @@ from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault
 from reference_tracer.diagnosis.guessing import IN_PLACES
 from reference_tracer.methods import Method
+from reference_tracer_data.faults import DATA_FAULTS
 
 
 class _Name(str):
@@ -40,13 +42,11 @@ def values() -> dict[str, str]:
 
 
 def camera_conventions() -> str:
-    """Return a table of the conventions of cameras, and what each can say."""
-    columns = [(f.short, f) for f in FEATURES]
-    head = ["`--convention`", "what is written", *(short for short, _ in columns)]
-    rows = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    """Return a table of the conventions of cameras, and what each cannot say."""
+    rows = ["| `--convention` | what is written | what it cannot say |", "|---|---|---|"]
     for name, own in CONVENTIONS.items():
-        says = ["yes" if f in own.says else "no" for _, f in columns]
-        rows.append(f"| `{name}` | {own.title}: {own.file} | {' | '.join(says)} |")
+        lacks = ", ".join(f.short for f in FEATURES if f not in own.says)
+        rows.append(f"| `{name}` | {own.title}: {own.file} | {lacks} |")
     return "\n".join(rows)
 
 
@@ -116,6 +116,7 @@ def faults_by_family() -> str:
             families.append((getattr(faults, node.names[0].name), inspect.getdoc(module) or ""))
     names = [fault.name for fault in FAULTS]
     families.sort(key=lambda family: names.index(family[0][0].name))
+    families.append((DATA_FAULTS, inspect.getdoc(reference_tracer_data.faults) or ""))
     return "\n\n".join(_family(*family) for family in families)
 
 
@@ -127,13 +128,11 @@ def _family(of: tuple[AnyFault, ...], said: str) -> str:
 
 
 def _fault(fault: AnyFault) -> str:
-    """Return a fault's section."""
+    """Return a fault's section: what is said of it, and who makes it, and how."""
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
-    told = _list(
-        ("Why", fault.why),
-        ("What to do", fault.advice.format(**given)),
-        ("The self-check makes", "; ".join(example.text for example in fault.examples)),
-    )
-    return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{told}"
+    repository, _, number = fault.witness.partition("#")
+    seen = f"[{fault.witness}](https://github.com/{repository}/issues/{number})"
+    said = f"“{fault.sentence.format(**given)}”"
+    return f"### `{fault.name}`\n\n{said}\n\n{fault.why} Seen in {seen}."

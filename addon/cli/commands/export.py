@@ -47,7 +47,7 @@ def add(parser: Parser) -> None:
         metavar="SCENE.npz",
         help="the file to write",
     )
-    add_camera(parser, of_meshes=False)
+    add_camera(parser)
 
 
 def export(options: ExportOptions) -> int:

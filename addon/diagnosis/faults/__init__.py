@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from .camera import CAMERA_FAULTS
 from .colors import COLOR_FAULTS
-from .data import DATA_FAULTS
 from .fault import AnyFault, Effort, Example
 from .given import GIVEN_FAULTS
 from .lens import LENS_FAULTS
@@ -36,9 +35,8 @@ FAULTS: tuple[AnyFault, ...] = (
     *COLOR_FAULTS,
     *ORDER_FAULTS,
     *PICTURE_FAULTS,
-    *DATA_FAULTS,
 )
-# Those of a picture's colours: they are not looked for in depths and other data.
+# Faults of a picture's colours: not searched in depths and other data.
 OF_COLORS = {f.name for f in (*COLOR_FAULTS, *PICTURE_FAULTS)} - {"rows", "row_off"}
 OF_COLORS |= {f.name for f in FAULTS if f.after}
 # Those that the self-check makes, and how, in the order in which it does.

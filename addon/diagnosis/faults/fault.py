@@ -1,4 +1,4 @@
-"""What a fault is: how it is made, how it is fitted to a picture, and what is said of it.
+"""The record of a fault: how it is made, how it is fitted to a picture, and its texts.
 
 A fault is what a mistaken exporter, camera or reader would have made. The self-check makes it, to
 see that the comparison finds it; the diagnosis puts it into the scene that is traced, to see
@@ -106,7 +106,7 @@ ONCE: Find[Any] = always(Guess())  # of a fault that has no numbers and is of no
 
 
 class Effort(IntEnum):
-    """What it takes to find a fault: those of less effort are looked for first."""
+    """The effort of finding a fault: those of less effort are tried first."""
 
     NOTHING = 0
     VIEW = 1
@@ -166,12 +166,13 @@ class Fault(Generic[G]):
     sampled: bool = True  # whether a guess can be scored on single pixels
     refine: Refine[G] | None = None  # fits a guess on a finer sample
     effort: Effort = Effort.NOTHING
-    sums_up: bool = False  # it says what is visible: faults that do as well are reasons for it
-    everywhere: bool = False  # it is in all pixels: not looked for beside an object's fault
-    vague: bool = False  # it allows for more than one picture: an exact fault is told in its place
-    removes: bool = False  # it says that its object is not visible
+    sums_up: bool = False  # a summary: faults that explain as much are listed as its causes
+    everywhere: bool = False  # changes all pixels: not tried beside an object's fault
+    vague: bool = False  # allows for several pictures: an exact fault is reported in its place
+    removes: bool = False  # its object is not visible
     examples: tuple[Example, ...] = ()
-    words: str = ""  # what a guess' words say, in general: for the documents
+    words: str = ""  # the words of any guess, for the documents
+    witness: str = ""  # the public report of it, "owner/repository#number" on GitHub
 
     def sentence_of(self, guess: Guess) -> str:
         """Return the sentence with a guess' numbers and names."""

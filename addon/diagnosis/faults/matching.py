@@ -19,7 +19,7 @@ from ...scene import Camera
 from ...tracer.camera import camera_rays, film_of
 from ..evidence import BEYOND, NEAR, Evidence, spread
 
-POINTS = 384  # pixels at edges that are looked for
+POINTS = 384  # pixels at edges that are searched
 WINDOW = 4  # pixels on each side of one that are compared
 FAR = 8  # windows' pixels that one may have moved, at the coarsest
 CLOSE = 2  # the same, at finer scales

@@ -1,4 +1,4 @@
-"""Fits an object to a picture: where it is, how large, or how far its surface is displaced."""
+"""Fits an object to a picture: where it is, or how large."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ import numpy as np
 from ...arrays import Bools, Floats
 from ...causes.case import Case
 from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, Instance, Mesh, Scene
+from ...scene import Camera, Instance, Scene
 from ...tracer.progress import Work
-from ...tracer.vector import cross, transform_points
+from ...tracer.vector import transform_points
 from ..evidence import Evidence
 from .climbing import values_of
-from .fault import Numbers, Values, instances_named, with_instances, with_meshes
+from .fault import Numbers, Values, instances_named, with_instances
 from .fitting import FINER, FOUND, NEARLY, Fit
 from .looked import Looked
 from .matching import Fitted, fitted, matches
@@ -78,17 +78,6 @@ def copied(case: Case, guess: Numbers) -> Case:
         return replace(scene, instances=(*scene.instances, *more))
 
     return case.with_scenes(twice)
-
-
-def displaced(mesh: Mesh, distance: float) -> Mesh:
-    """Displace vertices along their area-weighted normals."""
-    vertices = mesh.vertices.astype(np.float64)
-    a, b, c = (vertices[mesh.triangles[:, k]].T for k in range(3))
-    normals = np.zeros_like(vertices)
-    for k in range(3):
-        np.add.at(normals, mesh.triangles[:, k], cross(b - a, c - a).T)
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    return replace(mesh, vertices=vertices + distance * normals / np.where(length > 0, length, 1))
 
 
 @dataclass(frozen=True)
@@ -152,20 +141,6 @@ def _sized(about: int) -> Callable[[Looked], Pose]:
     return of
 
 
-def _inflated(looked: Looked) -> Pose:
-    """Return the displacement of an object's surface."""
-    scene = looked.evidence.case.scene
-    matrix = scene.instances[instances_named(scene, looked.name)[0]].world_from_object
-    size = float(np.cbrt(abs(np.linalg.det(matrix[:3, :3])))) or 1.0
-    unit = looked.pixel / size
-    start = (looked.growth - 1) * looked.width / 2 * unit
-
-    def change(scene: Scene, values: Values) -> Scene:
-        return with_meshes(scene, "", lambda mesh: displaced(mesh, *values))
-
-    return Pose(change, np.array([[unit]]), [(start,), (0.0,)])
-
-
 def _matched(looked: Looked, pose: Pose) -> Fitted | None:
     """Return the change with which the object's edges are where the picture has them."""
     if not pose.camera:
@@ -227,7 +202,7 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
     return Fit(find, refine)
 
 
-MOVED, TWICE, DISPLACED = posing(_placed), posing(_placed, kept=True), posing(_inflated)
+MOVED, TWICE = posing(_placed), posing(_placed, kept=True)
 _SCALED = [posing(_sized(about)) for about in range(len(ABOUT))]
 
 
