@@ -65,7 +65,6 @@ class Evidence:
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
     fine: bool = False  # whether only pixels beside edges are sampled
-    chosen: tuple[Places, Places] | None = None  # the sample, if it is given
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # a cache that faults share
     trees: Trees = field(default_factory=Trees)
@@ -93,13 +92,8 @@ class Evidence:
     @cached_property
     def sample(self) -> tuple[Places, Places]:
         """Rows and columns of the n sampled pixels, row by row from the lowest."""
-        rows, columns = np.nonzero(self._weights) if self.chosen is None else self.chosen
+        rows, columns = np.nonzero(self._weights)
         return rows, columns
-
-    def only(self, some: Places) -> Evidence:
-        """Return the evidence restricted to some of the sampled pixels, by index."""
-        rows, columns = self.sample
-        return replace(self, chosen=(rows[some], columns[some]))
 
     @cached_property
     def _weights(self) -> Floats:
