@@ -15,7 +15,7 @@ from .scene import Scene, SceneError
 
 
 class Opened(NamedTuple):
-    """What a file gives."""
+    """An opened file: its scene, and the account of what it holds and lacks."""
 
     scene: Scene
     manifest: Manifest

@@ -1,4 +1,4 @@
-"""The options of `reftrace compare`: what it is told, and what contradicts itself."""
+"""The options of `reftrace compare`, and which of them contradict each other."""
 
 from __future__ import annotations
 

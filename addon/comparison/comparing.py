@@ -49,13 +49,13 @@ def compared(
     ----------
     case : Case
     diagnose : bool
-        Whether what accounts for unexplained pixels is looked for, if there are any.
+        Whether to diagnose unexplained pixels, if there are any.
     told : callable
-        Hears of the comparison before that.
+        Called with the comparison before the diagnosis starts.
     kept : callable
-        Returns the work of keeping a comparison: once it is there, and again with its diagnosis.
+        Makes the step that saves a comparison: run after comparing, and again after diagnosing.
     shares : (float, float)
-        Of the work that are done when the comparison is there, and when it is kept.
+        Shares of the work done when the comparison exists, and when it is saved.
     literally : bool
         Whether the literal textbook's picture is wanted, where it costs little.
 
@@ -123,7 +123,7 @@ def diagnosed(
     told(comparison)
     case, frame, causes = comparison.case, comparison.frame, comparison.causes
     work = diagnose(case, frame, causes)
-    found = yield from called(work, "looking for what is wrong")
+    found = yield from called(work, "looking for what is wrong", over=False)
     return replace(comparison, diagnosis=found)
 
 

@@ -53,7 +53,7 @@ class Comparison:
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
     background: Background | None = None  # where the picture's is not the scene's
-    diagnosis: Diagnosis | None = None  # what accounts for unexplained pixels, if it was looked for
+    diagnosis: Diagnosis | None = None  # None: not made
 
     @property
     def scene(self) -> Scene:
@@ -62,13 +62,13 @@ class Comparison:
 
     @property
     def manifest(self) -> Manifest:
-        """What was exported, skipped, not modelled, and what is to be said of the picture."""
+        """The manifest of the scene, with notes on the picture."""
         own = self.case.manifest
         return replace(own, notes=(*own.notes, *self.case.picture.source.remarks))
 
     @property
     def picture(self) -> Colors:
-        """What the scene is compared with, (h, w, 4) linear RGBA."""
+        """The other side's picture, (h, w, 4) linear RGBA."""
         return self.case.picture.color
 
     @property
@@ -126,7 +126,7 @@ class Comparison:
 
     @property
     def required(self) -> list[str]:
-        """What it took to certify the picture, and what was left out, in words, a fact a line."""
+        """Sentences on how the picture was certified, and on what was left out."""
         return list(dict.fromkeys(line for row in self.methods for line in row.required))
 
     def to_dict(self) -> dict[str, object]:
@@ -285,7 +285,7 @@ class Comparison:
 
 
 def _share(pixels: int, total: int) -> str:
-    """Return a share in per cent. What is not all of it is never said to be 100 %, or 0 %."""
+    """Return a share in per cent: never 100 % or 0 % of a part."""
     share = 100 * pixels / total
     if 1 <= share <= 99 or pixels == total:
         return f"{share:.0f} %"

@@ -135,7 +135,7 @@ class Evidence:
 
     @cached_property
     def shown(self) -> Picture:
-        """What the n sampled pixels show."""
+        """The other side's picture at the n sampled pixels."""
         return self.picture.at(self.sample)
 
     @cached_property
@@ -176,7 +176,7 @@ class Evidence:
 
     @cached_property
     def _own_hits(self) -> list[Hits]:
-        """The hits of the sampled pixels in the scene as it is, once they were asked for."""
+        """The hits of the sampled pixels in the scene as it is, found on first use."""
         return []
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:

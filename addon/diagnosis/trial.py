@@ -21,7 +21,7 @@ from .evidence import Evidence
 from .faults.fault import AnyFault, Guess
 
 HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
-LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
+LOOKED_AT = 1 << 14  # differing pixels that are checked, at most
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from .sampling import Sampling
 
 @dataclass(frozen=True)
 class Making:
-    """What is known of how a picture was made.
+    """How a picture was made, as far as it is known.
 
     Raises
     ------

@@ -77,7 +77,7 @@ class Source:
 
 @dataclass(frozen=True, eq=False)
 class DrawnOver:
-    """What draws itself over what is traced, as hair does: where, and what lies beneath."""
+    """Features that draw themselves over surfaces, as hair does: where, and what is beneath."""
 
     feature: Integers  # (...) its index among the unmodelled features, or NOTHING
     beneath: Colors | None = None  # (..., 4) the colour without these; NaN: not known

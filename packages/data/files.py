@@ -21,7 +21,7 @@ _ENDS = ("rgba", "rgb", "xyz", "z", "v", "y", "r", "x")  # letters of a layer's 
 
 @dataclass(frozen=True, eq=False)
 class StoredData:
-    """What a file holds of a kind of data, in its own integers or floats."""
+    """The values of a file, of a kind of data, in its own integers or floats."""
 
     values: Array  # (h, w, c), row 0 at the bottom
     step: Step  # of integers with a unit of 1
@@ -65,7 +65,7 @@ def read(path: Path | Array, kind: Kind, layer: str = "", top_down: bool = False
 def _stored(
     path: object, layers: Mapping[str, Array], kind: Kind, layer: str, top_down: bool
 ) -> StoredData:
-    """Return the layer that is asked for."""
+    """Return the requested layer."""
     name = _chosen(path, layers, kind, layer)
     values = _shaped(path, layers[name], kind, name)
     if top_down:

@@ -50,9 +50,9 @@ class GivenData:
     kind: str  # of KINDS
     path: Path | Array  # or an array, (h, w) or (h, w, c), row 0 at the bottom
     layer: str = ""  # of several arrays in the file; '': as they are named
-    scale: float | None = None  # metres that 1 is; None: 1, but integers have to be told
-    space: str = ""  # of vectors.SPACES; '': told from the data
-    range: str = ""  # of vectors.RANGES; '': told from the data
+    scale: float | None = None  # metres that 1 is; None: 1, but required of integers
+    space: str = ""  # of vectors.SPACES; '': found from the data
+    range: str = ""  # of vectors.RANGES; '': found from the data
     top_down: bool = False  # an array's first row is the topmost
     names: Path | None = None  # a table of ids, which says whose is whose
 
@@ -72,7 +72,7 @@ class GivenData:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """The file's name, or "array"."""
         return self.path.name if isinstance(self.path, Path) else "array"
 
     def conventions(self, stored: StoredData) -> Iterator[Kind]:

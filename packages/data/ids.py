@@ -1,8 +1,8 @@
-"""Ids: a number, or a colour, for each object; whose is whose is named, or told from the picture.
+"""Ids: a number, or a colour, for each object; whose is whose is named, or found from the picture.
 
-Told from the picture, the value that most of an object's pixels have is taken for the object's own,
-that of the most pixels first; two objects never have one value. So a picture is right if all pixels
-of an object have one value, and no pixel of another object, or of none, has it. Objects that have
+Found from the picture, an object's own value is the one that most of its pixels have, that of the
+most pixels first; two objects never have one value. So a picture is right if all pixels of an
+object have one value, and no pixel of another object, or of none, has it. Objects that have
 exchanged their values agree then: only a table of names finds that.
 """
 

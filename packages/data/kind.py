@@ -1,4 +1,4 @@
-"""What a kind of data is, and the data of a picture: which values are right in a pixel.
+"""A kind of data, and the data of a picture: which values are right in a pixel.
 
 A value is right if it is what the tracer computes of the surface that it sees, but for what the
 file's own steps, and the float32 arithmetic of a renderer, may change. Nothing here is tuned: the
@@ -62,8 +62,8 @@ class Data:
     values: Floats  # (..., c) as the file has them, integers times their unit
     blank: Bools  # (...) the file says that nothing is there
     film: Floats  # (..., 2) the pixels' centres, in pixels of the whole picture
-    # With the clip range of the scene itself: a depth buffer's steps grow with it, and a guess of
-    # another one would else excuse any depth.
+    # With the scene's own clip range: a depth buffer's steps grow with it, and a guessed one could
+    # excuse any depth.
     camera: Camera
     step: Step
     full: float = 1.0  # the largest value that the file can hold; 1 of floats

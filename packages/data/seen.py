@@ -1,4 +1,4 @@
-"""What the rays through pixels' centres see of the surfaces that are named, wherever these end."""
+"""Follows named surfaces, wherever they end, to the rays through pixels' centres."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from reference_tracer.tracer.world import world_corners
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """What n pixels would show, if the ray through each centre met the plane of a named surface.
+    """The values of n pixels, if the ray through each centre met the plane of a named surface.
 
     A surface beside an edge is followed to the centre: that is where a renderer computes what it
     shows, whichever surface it takes to be there.
@@ -42,7 +42,7 @@ class Seen:
 
     @cached_property
     def hits(self) -> Hits:
-        """The surfaces, with each corner weighed in full: what is said of all of them is a bound.
+        """The surfaces, with each corner weighed in full: a bound for all of them.
 
         With t, for planes.
         """

@@ -25,7 +25,7 @@ class Step:
 
     @property
     def words(self) -> str:
-        """What the numbers are, in words."""
+        """The type of the numbers, or their step, in words."""
         return self.type or f"steps of {self.unit:.6g}"
 
     def half(self, values: Floats) -> Floats:

@@ -263,5 +263,13 @@ def _file(
 
 
 def _written(options: CompareOptions, case: Case) -> Work[Comparison]:
-    diagnose = options.diagnosis is not False
-    return comparison_report.written(options.out, case, diagnose, options.trade, options.extremes)
+    """Compare and write; say on standard error what is there before what is wrong is looked for."""
+    page_path = options.out / page.NAME
+
+    def told(found: Comparison) -> None:
+        show(
+            f"verdict: {found.verdict} ({page_path}); what is wrong is looked for", file=sys.stderr
+        )
+
+    diagnose, more = options.diagnosis is not False, (options.trade, options.extremes)
+    return comparison_report.written(options.out, case, diagnose, *more, told)

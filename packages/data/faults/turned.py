@@ -18,7 +18,7 @@ Guesses = Callable[[Evidence, Data], Iterable["Turned"]]
 
 @dataclass(frozen=True, eq=False)
 class Turned(Numbers):
-    """What a fault makes of right values."""
+    """Right values as a fault changes them."""
 
     turn: Turn = lambda made, seen: made
 
