@@ -179,7 +179,7 @@ def _add_colors(parser: Parser) -> None:
         "--colors-out",
         type=parser.path_ending(".json"),
         metavar="FILE",
-        help="write a colors.json for another renderer; without --out that alone",
+        help="write a colors.json; without --out nothing else",
     )
 
 

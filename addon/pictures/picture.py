@@ -193,6 +193,11 @@ class Picture:
         psnr = f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"
         return f"RMSE {metrics.rmse:.3g}, PSNR {psnr}, SSIM {metrics.ssim:.6f}"
 
+    @property
+    def presumed(self) -> str:
+        """What of it is taken to be so, as nobody says it; empty if nothing is."""
+        return ""
+
     def silent(self, frame: Frame) -> str:
         """Say why such a picture says nothing of what is wrong; empty if it does."""
         return ""
