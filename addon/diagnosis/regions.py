@@ -35,7 +35,7 @@ class Region:
     height: int
     pixels: int  # of the mask in it
     objects: tuple[str, ...] = ()  # that either side shows in these pixels, the largest first
-    cause: int = 0  # the number of the cause that most of its pixels have, if it was asked for
+    cause: int = 0  # the number of the cause that most of its pixels have, if requested
 
     @property
     def top(self) -> int:

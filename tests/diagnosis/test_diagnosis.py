@@ -8,15 +8,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.causes.case import WHOLE, Variant
-from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.causes.case import MOST_VARIANTS, WHOLE, Variant
+from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option, Pair
 from reference_tracer.diagnosis.faults.picture import Rolled
 from reference_tracer.diagnosis.faults.triangles import Triangles
+from reference_tracer.diagnosis.variants import ASKING
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.progress import doing, result_of
 
 from ..cases import case_of
 from .diagnosing import BY_NAME, diagnosis_of, names, pictured, within
@@ -222,6 +223,26 @@ def test_a_variant_is_told_by_its_fault_and_words(solids):
     found = diagnosis_of(lacking, shown, variants=lambda: asked)
     assert names(found) == ["other_camera"]
     assert "'Side'" in found.diagnosis.told[0].sentence
+
+
+def test_between_two_variants_it_is_told_how_many_and_can_be_stopped(solids):
+    """Each may take Blender long, which hears nothing meanwhile."""
+    made = []
+
+    def variants():
+        for number in range(5):
+            made.append(number)
+            yield Variant("other_camera", solids, f"'{number}'")
+
+    shown = np.roll(render(solids).color, 7, axis=1)
+    case = case_of(solids, Picture(shown), curves=(), variants=variants)
+    before = result_of(trace_and_compare(case))
+    told = []
+    for share in diagnosed(before):
+        told.append(doing(share))
+        if len(made) == 3:
+            break
+    assert told == [f"{n}/{MOST_VARIANTS}: {ASKING}" for n in (1, 2, 3, 4)]
 
 
 def test_a_variant_may_number_its_instances_otherwise(solids):

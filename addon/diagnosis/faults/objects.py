@@ -15,7 +15,6 @@ from ...tracer.frame import Frame
 from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 from .climbing import values_of
-from .data.moving import by_points
 from .fault import (
     AnyFault,
     Effort,
@@ -164,12 +163,6 @@ def _in_turn(case: Case, guess: Option) -> Case | None:
     return _with_axes(lambda axes, lengths: axes * lengths @ turn)(case, guess)
 
 
-def _moved_or_by_points(evidence: Evidence) -> Work[list[Numbers]]:
-    """Search for the places of objects; depths say them."""
-    find = MOVED.find if evidence.case.picture.data is None else by_points
-    return (yield from find(evidence))
-
-
 def _whole(instance: Instance, factor: float) -> Instance:
     """Scale an instance about the world's origin."""
     matrix = instance.world_from_object.copy()
@@ -303,7 +296,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "centred its mesh.",
         "compare its world matrix with the one that the scene has",
         of_object(moved),
-        _moved_or_by_points,
+        MOVED.find,
         ("x", "y", "z"),
         refine=MOVED.refine,
         effort=Effort.OBJECT,

@@ -22,7 +22,7 @@ def _upside_down(case: Case, guess: Guess) -> Case:
     return replace(case, picture=case.picture.moved(np.arange(len(case.picture.color))[::-1]))
 
 
-# By how many columns and rows all are off, and what is said of it.
+# By how many columns and rows all are off, and the sentence.
 _ROLLS = (
     (0, 1, "rows are one too high, and the topmost is at the bottom"),
     (0, -1, "rows are one too low, and the lowest is at the top"),

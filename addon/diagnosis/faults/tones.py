@@ -86,7 +86,7 @@ def _curve_of(evidence: Evidence) -> Work[Curve | None]:
 def _rounded(evidence: Evidence) -> Sequence[Curve]:
     """Return the transforms with roundings to 8 bits that explain more than one rounding.
 
-    Where one rounding explains all, two must not be told.
+    Where one rounding explains all, two must not be reported.
     """
     found = surfaces(evidence)
     if found is None:
