@@ -141,8 +141,9 @@ def test_a_page_without_what_was_left_out(show, differing):
 
 def test_a_card_is_one_record(show, differing):
     tab = show(differing)
-    card = "{ title: 'Seeds', of: () => ['Sown', ' and grown'] }"
-    tab.evaluate(f"() => {{ CARDS.push({card}, {{ title: 'None', of: () => [] }}); drawTables(); }}")
+    seeds = "{ title: 'Seeds', of: () => ['Sown', ' and grown'] }"
+    cards = f"{seeds}, {{ title: 'None', of: () => [] }}"
+    tab.evaluate(f"() => {{ CARDS.push({cards}); drawTables(); }}")
     assert tab.locator("#tables h2").all_inner_texts()[-1] == "Seeds"
     assert "Sown and grown" in tab.locator("#tables").inner_text()
 
