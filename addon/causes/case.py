@@ -1,4 +1,4 @@
-"""What a comparison takes: a scene, the other side's picture of it, and what is known of both."""
+"""The input of a comparison: a scene, the other side's picture of it, and what is known of both."""
 
 from __future__ import annotations
 
@@ -85,13 +85,13 @@ class Case:
     picture: Picture  # what it is compared with
     certificate: CameraCertificate | None = None
     alternatives: tuple[Alternative, ...] = ()  # the scene as the other side may have it
-    # What may have been done to the colours, besides what is always tried. None: nothing was.
+    # Transforms of the colours to try besides the usual ones. None: the colours are as drawn.
     curves: tuple[Curve, ...] | None = None
     self_check: bool = False  # whether known faults are to be made, and found
     next_frame: Scene | None = None  # the scene a frame later, for the self-check
     behind: Behind | None = None  # if the other side was drawn without what is seen through, too
     tracer: Tracer | None = None  # where whole pictures are traced, if not here
-    # Makes the scene with faults for which Blender is needed, one after another; asked only if
+    # Makes the scene with faults for which Blender is needed, one after another; called only if
     # pixels are unexplained.
     variants: Callable[[], Iterable[Variant]] = no_variants
 

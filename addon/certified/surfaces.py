@@ -18,7 +18,7 @@ from . import exact
 if TYPE_CHECKING:
     from ..scene import Scene
 
-# What is in doubt about a candidate: nothing; the sign of an edge function or of D; the clip range.
+# The doubt about a candidate: none; the sign of an edge function or of D; the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
 PlaneOf = tuple[Floats, Floats]  # a point and the normal, (3,) each
 
@@ -56,7 +56,7 @@ class Candidates(Arrays):
 
 @dataclass(frozen=True, eq=False)
 class Surfaces:
-    """What candidates index: infinite planes, then triangles.
+    """The surfaces that candidates index: infinite planes, then triangles.
 
     The first of the planes is called by the instance `first_plane`.
     """

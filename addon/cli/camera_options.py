@@ -109,7 +109,7 @@ def _add(parser: Parser, rows: Sequence[Setting]) -> _ArgumentGroup:
     return group
 
 
-# What Blender imports and `reftrace` does not read.
+# Formats that Blender imports and `reftrace` does not read.
 _OF_OTHERS = frozenset(".3ds .abc .bvh .collada .dae .dxf .fbx .svg .vrml .wrl .x3d".split())
 
 
@@ -201,7 +201,7 @@ def _views(given: Namespace, mesh: Path | None, of_frames: bool) -> list[View]:
 
 
 def _refuse_without_camera(given: Namespace, is_mesh: bool) -> None:
-    """Refuse what is said about a new camera where none is made."""
+    """Refuse options of a new camera where none is made."""
     if given.camera is not None:
         refuse(given, ("eye",), "is for a new camera, and --camera names one")
     if given.ortho_scale is not None:

@@ -65,19 +65,18 @@ class Evidence:
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
     fine: bool = False  # whether only pixels beside edges are sampled
-    chosen: tuple[Places, Places] | None = None  # the sample, if it is given
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # a cache that faults share
     trees: Trees = field(default_factory=Trees)
 
     @cached_property
     def unexplained(self) -> Bools:
-        """Which pixels (h, w) are unexplained."""
+        """The unexplained pixels, (h, w)."""
         return self.causes.cause == UNEXPLAINED
 
     @cached_property
     def judged(self) -> Bools:
-        """Which pixels (h, w) agree or have a cause, and can be judged."""
+        """The pixels (h, w) that agree or have a cause, and can be judged."""
         return ~self.unexplained & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
 
     @cached_property
@@ -93,13 +92,8 @@ class Evidence:
     @cached_property
     def sample(self) -> tuple[Places, Places]:
         """Rows and columns of the n sampled pixels, row by row from the lowest."""
-        rows, columns = np.nonzero(self._weights) if self.chosen is None else self.chosen
+        rows, columns = np.nonzero(self._weights)
         return rows, columns
-
-    def only(self, some: Places) -> Evidence:
-        """Return the evidence restricted to some of the sampled pixels, by index."""
-        rows, columns = self.sample
-        return replace(self, chosen=(rows[some], columns[some]))
 
     @cached_property
     def _weights(self) -> Floats:
@@ -121,7 +115,7 @@ class Evidence:
 
     @cached_property
     def beside_edges(self) -> Bools:
-        """Which pixels (h, w) lie beside an edge of the picture, where small changes show."""
+        """The pixels (h, w) beside an edge of the picture, where small changes show."""
         out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
         return out if (out & self.unexplained).any() else np.ones_like(out)
 
@@ -135,12 +129,12 @@ class Evidence:
 
     @cached_property
     def shown(self) -> Picture:
-        """What the n sampled pixels show."""
+        """The other side's picture at the n sampled pixels."""
         return self.picture.at(self.sample)
 
     @cached_property
     def unexplained_sampled(self) -> Bools:
-        """Which of the n sampled pixels are unexplained, (n,)."""
+        """The unexplained pixels among the n sampled ones, (n,)."""
         return self.unexplained[self.sample]
 
     def probe(self, scene: Scene, reach: float = 0.0) -> Work[Probe]:
@@ -176,7 +170,7 @@ class Evidence:
 
     @cached_property
     def _own_hits(self) -> list[Hits]:
-        """The hits of the sampled pixels in the scene as it is, once they were asked for."""
+        """The hits of the sampled pixels in the scene as it is, found on first use."""
         return []
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
@@ -229,7 +223,7 @@ class Evidence:
         """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
         scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
-        if shown.data:
+        if not shown.has_colors:
             return np.full(len(shown.color), NOTHING, np.int32)
         if shown.owners:
             of_owner = reversed(list(enumerate(shown.owners.instances[:-1])))

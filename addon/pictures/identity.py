@@ -21,7 +21,7 @@ from ..scene import Scene
 NOTHING, UNKNOWN = -1, -2
 
 LEVELS = 32  # of a channel: a step is 8 of 255
-MOST_OBJECTS = LEVELS**3 // 2  # that can be told apart
+MOST_OBJECTS = LEVELS**3 // 2  # that can be distinguished
 _OFF = 0.1  # how far a channel may lie from its digit, in steps (half of 1/255 is 0.06)
 
 
@@ -34,7 +34,7 @@ class Shows(NamedTuple):
 
 
 class Identity(NamedTuple):
-    """Which object each side shows."""
+    """The object that each side shows."""
 
     names: tuple[str, ...]
     traced: Integers  # (h, w) indices into `names`, or NOTHING
@@ -58,7 +58,7 @@ class Identity(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Owners:
-    """Which object a picture shows in each pixel, and whose the traced scene's instances are.
+    """The object that a picture shows in each pixel, and that of each traced instance.
 
     What is instanced belongs to the object that instances it.
     """
@@ -77,7 +77,7 @@ class Owners:
 
     @property
     def known(self) -> Bools:
-        """Where it is known which object is shown, (...)."""
+        """The pixels whose object is known, (...)."""
         return self.pixels != UNKNOWN
 
     def same(self, instance: Index) -> Bools:

@@ -58,17 +58,6 @@ def test_a_mesh_is_seen_as_the_file_says(name, own, ball, tmp_path):
     )
 
 
-def test_a_picture_is_traced_through_it(own, ball, tmp_path, exit_code, capsys):
-    """Of a camera whose file says no clip range: nothing that is before it is left out."""
-    near = replace(
-        own, world_from_camera=np.array([*np.eye(4)[:2], [0, 0, 1, 1.001], [0, 0, 0, 1]])
-    )
-    path = written(near, "nerf", tmp_path / "written").rename(tmp_path / "transforms.json")
-    out = tmp_path / "out.png"
-    assert exit_code(["trace", str(ball), "--camera", str(path), "--out", str(out)]) == 0
-    assert "640 x 360 pixels" in capsys.readouterr().out and out.is_file()
-
-
 def test_a_size_is_the_files_or_asked_for(own, ball, tmp_path):
     path = written(own, "nerf", tmp_path / "written").rename(tmp_path / "transforms.json")
     assert apart(own, seen(ball, "--camera", path, "--set", f"width={640}")) < 1e-9
@@ -126,14 +115,6 @@ def test_a_glbs_own_camera_is_chosen_by_name(own, glb):
         seen(glb, "--camera", "Side", "--set", f"width={640}", "up=z")
 
 
-def test_a_glbs_cameras_are_named_where_none_is_chosen(glb, exit_code, capsys, tmp_path):
-    assert (
-        exit_code(["trace", str(glb), "--set", "width=32", "--out", str(tmp_path / "a.png")]) == 0
-    )
-    said = capsys.readouterr().out
-    assert "has 2 cameras; --camera uses one by its node's name: Side, Free." in said
-
-
 @pytest.mark.parametrize(
     ("options", "said"),
     [
@@ -146,13 +127,6 @@ def test_a_glbs_cameras_are_named_where_none_is_chosen(glb, exit_code, capsys, t
 def test_what_names_no_camera_is_refused(options, said, ball):
     with pytest.raises((SceneError, OSError), match=said):
         seen(ball, *options)
-
-
-def test_a_npz_has_its_own_camera(own, tmp_path):
-    save_scene(tmp_path / "scene.npz", Scene(own))
-    path = written(own, "nerf", tmp_path / "written").rename(tmp_path / "transforms.json")
-    with pytest.raises(SceneError, match=r"--camera is for a \.blend or a mesh"):
-        seen(tmp_path / "scene.npz", "--camera", path)
 
 
 def test_what_of_a_file_is_not_applied_is_said(own, ball, tmp_path, capsys):

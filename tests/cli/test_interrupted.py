@@ -79,18 +79,6 @@ def test_interrupted_while_writing(number, ball, tmp_path, monkeypatch):
     assert {p: p.read_bytes() for p in tmp_path.iterdir()} == before
 
 
-def test_what_is_held_comes_at_its_end():
-    steps = []
-    with pytest.raises(KeyboardInterrupt), signals.heard():
-        with signals.held():
-            signal.raise_signal(signal.SIGINT)
-            steps.append("inside")
-        steps.append("after")
-    assert steps == ["inside"]
-    with signals.heard():
-        signals.check()  # of an earlier one nothing is left
-
-
 def test_what_is_held_within_what_is_held_comes_at_the_outer_end():
     steps = []
     with pytest.raises(KeyboardInterrupt), signals.heard():

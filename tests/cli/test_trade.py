@@ -27,14 +27,6 @@ def test_trade(small_ball, tmp_path, capsys):
     assert held["advice"] in said
 
 
-def test_trade_without_out_only_prints(small_ball, tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    before = sorted(tmp_path.rglob("*"))
-    assert main(["trade", small_ball, *TRADE]) == AGREE
-    assert "wrong pixels" in capsys.readouterr().out
-    assert sorted(tmp_path.rglob("*")) == before
-
-
 @pytest.mark.parametrize(
     "options, word",
     [
@@ -59,13 +51,6 @@ def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
     assert "10 × 6 " in capsys.readouterr().out
     assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1", "--set", "width=20"]) == AGREE
     assert "20 × 12 " in capsys.readouterr().out
-
-
-def test_trade_help_says_whose_the_width_is(capsys):
-    with pytest.raises(SystemExit):
-        main(["trade", "--help"])
-    said = capsys.readouterr().out
-    assert "width=PIXELS: of the largest picture" in said and "height=" not in said
 
 
 def test_trade_of_nothing(make, tmp_path, capsys):

@@ -14,7 +14,6 @@ from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.study.truth import sample, truth_of
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Precision
 
 from ..sampled import daily
 from ..scenarios import quick
@@ -42,18 +41,6 @@ def faults(rows):
 
 def certified(rows):
     return [r for r in rows if r.method == "certified"]
-
-
-def test_a_row_for_every_scene_method_and_precision(rows):
-    plain = {(m.value, p.value) for m in Method if not m.is_proven for p in Precision}
-    expected = {
-        (s.name, scale, *choice)
-        for s in quick()
-        for scale in s.scales
-        for choice in plain | {("certified", "float64")}
-    }
-    assert {(r.scenario, r.scale, r.method, r.precision) for r in rows} == expected
-    assert len(rows) == len(expected)
 
 
 def test_certified_is_never_wrong(rows):
@@ -158,12 +145,6 @@ def truth():
     return scenario, result_of(truth_of(scenario.build(6.0, 16, 12)))
 
 
-def test_a_picture_of_one_pixel(make):
-    """Its ray is asked with both triangles at once: it meets their common edge."""
-    scene = make.scene(make.camera(1, 1), make.quad(-1, 1, -1, 1, -2))
-    assert result_of(truth_of(scene)).count.tolist() == [1]
-
-
 def judged_row(truth, frame=None, count=None, odd=True, judged=16):
     scenario, true = truth
     count = true.count if count is None else count
@@ -215,13 +196,6 @@ def test_steps_and_stopping():
     stopped = measure([scenario])
     next(stopped)
     stopped.close()
-
-
-def test_the_number_of_rays_can_be_chosen():
-    scenario = replace(BY_NAME["grazing"], scales=(1.0,))
-    for rays in (1, 50, 300):
-        row = result_of(measure([scenario], rays))[0]
-        assert rays / 1.2 <= row.rays <= 1.2 * rays
 
 
 def row(scale, missed=0, wrong=0, doubled=0, scenario="tiny", method="watertight"):

@@ -84,7 +84,7 @@ def _heard() -> Iterator[list[Any]]:
 
 
 def notes() -> tuple[str, ...]:
-    """Return what is to be said of how the open file was opened, a sentence each."""
+    """Return notes on how the open file was opened, a sentence each."""
     said = [f"Blender opened the file with a report: {line}" for line in _reported()]
     if bpy.app.autoexec_fail:
         scripts = [f"'{text.name}'" for text in bpy.data.texts if text.use_module]

@@ -1,4 +1,4 @@
-"""What every operator shares, and what those with long work do while the interface stays alive.
+"""Operators' base classes; long work goes on in steps while the interface stays alive.
 
 An operator returns the work from `begin`: a generator that yields the share that is done. Its
 `finish` shows the result. A script's call runs through. A button's call goes on in small steps,
@@ -15,7 +15,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from ...tracer.progress import Work, doing, result_of
+from ...tracer.progress import Left, Work, doing, result_of
 from ...wording import say
 from ..slowest import announced
 from ..temporary import is_temporary
@@ -37,7 +37,7 @@ SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answere
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
 
-# Where it is said how far the work is: types of areas, and of regions in them.
+# Types of areas that show progress, and of regions in them.
 _SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
 
 OPERATORS: list[type] = []  # to be registered
@@ -122,6 +122,7 @@ class LongWork(Mixin):
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
         self._began = time.monotonic()
+        self._left = Left()
         self._shown = self._began
         self._words = ""
         LongWork.running = self.bl_label
@@ -169,7 +170,8 @@ class LongWork(Mixin):
         self._words = doing(share)
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
-        left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
+        seconds = self._left.seconds(past, share)
+        left = "" if seconds is None else f"  {seconds:.0f} s"
         LongWork.share = share
         self._say(context, doing(share), f": {int(100 * share)} %{left}")
 

@@ -41,7 +41,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         return self._showing(context, work, told)
 
     def _showing(self, context: Any, work: Work[Any], told: list[Any]) -> Work[Any]:
-        """Show what has been told while the work goes on, and its result."""
+        """Show intermediate results while the work goes on, and then its result."""
         with closing(work):
             while True:
                 try:

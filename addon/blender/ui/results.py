@@ -38,14 +38,14 @@ _SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of a
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What a panel shows; computed once, since panels are drawn many times a second."""
+    """A result as a panel shows it; computed once, since panels are drawn many times a second."""
 
     content: Any  # what the kind says
     lines: tuple[str, ...]  # sentences; a panel shows the first
     scene: int | None = None  # its `session_uid`, as its name may change; None: of no scene
     page: str = ""  # the address of its plots
     regions: tuple[Region, ...] = ()  # where it differs, the largest first
-    # By the number of a fault that is told: the picture that it changes, put right.
+    # By the number of a fault of the diagnosis: the picture that it changes, put right.
     put_right: Mapping[int, Colors] = field(default_factory=dict)
     shown: list[int] = field(default_factory=list)  # of the fault that is shown put right
     # The numbers of the faults that a copy of the camera was added for, by its `session_uid`.
