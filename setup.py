@@ -8,6 +8,7 @@ PACKAGES = {  # by the folder that each stands in
     "packages/cameras": "reference_tracer_cameras",
     "packages/cluster": "reference_tracer_cluster",
     "packages/conformance": "reference_tracer_conformance",
+    "packages/data": "reference_tracer_data",
     "packages/meshes": "reference_tracer_meshes",
     "packages/rays": "reference_tracer_rays",
     "packages/processes": "reference_tracer_processes",

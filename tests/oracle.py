@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from reference_tracer.arrays import Bools, Index
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.camera import camera_rays, film_positions
-from reference_tracer.tracer.hits import NOTHING, NOWHERE, Name
+from reference_tracer.tracer.hits import NOTHING, NOWHERE
+from reference_tracer.tracer.ties import Name
 from reference_tracer.tracer.vector import Vectors, transform_points
 
 from .moved_rays import (

@@ -91,13 +91,7 @@ def test_commands_and_figures(path, tools, values):
     for folder in tools["make"].MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     text = path.read_text(encoding="utf-8")
-
-    def run(command):
-        if command.here:
-            return command.printed  # as it is: another machine's
-        return tools["make"].run(command)
-
-    again = tools["markers"].refreshed(text, run, values)
+    again = tools["markers"].refreshed(text, tools["make"].run, values)
     assert again.splitlines() == text.splitlines()
 
 
@@ -205,13 +199,11 @@ def test_every_failure_is_described():
 def test_markers(tools):
     markers = tools["markers"]
     silent = "```console\n$ reftrace y\n```\n"
-    text = (
-        "a <!-- one -->0<!-- / --> b\n```console\n$ reftrace x\nold\n```\n"
-        f"{silent}```console here\n$ reftrace z\nold\n```\n"
-    )
-    x, y, z = found = markers.commands(text)
-    assert [c.text[-1] for c in found] == ["x", "y", "z"]
-    assert (x.printed, y.printed, x.here, z.here) == ("old", "", False, True)
+    text = f"a <!-- one -->0<!-- / --> b\n```console\n$ reftrace x\nold\n```\n{silent}"
+    assert [(c.text, c.printed) for c in markers.commands(text)] == [
+        ("reftrace x", "old"),
+        ("reftrace y", ""),
+    ]
     assert markers.figures(text) == ["one"]
 
     def run(command):
@@ -220,7 +212,6 @@ def test_markers(tools):
     once = markers.refreshed(text, run, {"one": "1"})
     assert "a <!-- one -->1<!-- / --> b" in once and silent in once
     assert "```console\n$ reftrace x\nreftrace x in … s\nend\n```" in once
-    assert "```console here\n$ reftrace z\nreftrace z in … s\nend\n```" in once
     assert markers.refreshed(once, run, {"one": "1"}) == once
     with pytest.raises(KeyError):
         markers.refreshed(text, run, {})

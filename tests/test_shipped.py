@@ -28,7 +28,7 @@ def shipped() -> dict[str, Path]:
 def test_the_zip_holds_what_blender_can_reach_and_nothing_else():
     """Blender runs `register` of the package; nothing is imported by a name that is made up.
 
-    But for what opens files of meshes, which packages beside the add-on bring along.
+    But for what packages beside the add-on bring along.
     """
     assert "blender.registration" in whole_graph()[""]
     assert shipped().keys() == reached(whole_graph(), {""})

@@ -138,7 +138,7 @@ def _number(lens: Content, label: str, key: str) -> float:
 
 
 def _size(own: Content, label: str, aspect: float | None, source: Source) -> tuple[int, int]:
-    """Return the picture's size: that of the extras, or as asked for, with the aspect ratio."""
+    """Return the picture's size: of the extras, or the requested one, with the aspect ratio."""
     extras = own.get("extras")
     width, height = source.size
     ratio = aspect or SIZE[0] / SIZE[1]  # without one it is the picture's, whatever that is

@@ -1,4 +1,4 @@
-"""What several commands share: the settings of the tracer, and where the work is done."""
+"""Options that several commands share: the settings of the tracer, and where the work is done."""
 
 from __future__ import annotations
 

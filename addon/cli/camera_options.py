@@ -201,7 +201,7 @@ def _views(given: Namespace, mesh: Path | None, of_frames: bool) -> list[View]:
 
 
 def _refuse_without_camera(given: Namespace, is_mesh: bool) -> None:
-    """Refuse what is said about a new camera where none is made."""
+    """Refuse options of a new camera where none is made."""
     if given.camera is not None:
         refuse(given, ("eye",), "is for a new camera, and --camera names one")
     if given.ortho_scale is not None:

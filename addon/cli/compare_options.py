@@ -1,4 +1,4 @@
-"""The options of `reftrace compare`: what it is told, and what contradicts itself."""
+"""The options of `reftrace compare`, and which of them contradict each other."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..framing import Choice
-from ..pictures.data.given import GivenData
-from ..pictures.given import Making
+from ..pictures.given import GivenPicture, Making
 from ..pictures.palette import By
 from ..scene import SceneError
 from .arguments import (
@@ -21,7 +20,6 @@ from .arguments import (
     settings_from,
 )
 from .camera_options import add_camera, choice_from
-from .data_options import add_data, data_from
 from .excuses import add_excuses, making_from
 from .parser import Parser
 
@@ -65,7 +63,7 @@ class CompareOptions:
     frames: str | None  # of an animation, as they are typed
     # Another picture, in place of Blender's.
     against: Path | None
-    data: GivenData | None  # depths and so on in place of colours
+    data: GivenPicture | None  # what it holds in place of colours
     making: Making  # how it was made, which excuses a pixel
     colors_out: Path | None  # where the colours are written that it should have
     junit: Path | None  # where the verdict is written as JUnit's XML
@@ -86,7 +84,7 @@ class CompareOptions:
             refuse(given, ("colors_out",), "is for one judge, not for --judge all")
         if given.as_is:
             refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
-        data = data_from(given)
+        held = getattr(given, "held", None)  # as `place`, of a package beside the add-on
         if given.against is None:
             _check_judge(given.judge or "auto", given)
             refuse(given, ("dither",), "is for a picture of --against")
@@ -107,7 +105,7 @@ class CompareOptions:
             diagnosis=given.diagnosis,
             frames=given.frames,
             against=given.against,
-            data=data,
+            data=held and held(given),
             making=making_from(given),
             colors_out=given.colors_out,
             junit=given.junit,
@@ -115,11 +113,6 @@ class CompareOptions:
             extremes=given.extremes,
             place=place_from(given),
         )
-
-    @property
-    def file(self) -> Path | None:
-        """The picture or data in place of Blender's picture."""
-        return self.against
 
     def of_a_frame(self) -> dict[str, str]:
         """Return the options that a frame's comparison depends on, in words that can be stored."""
@@ -198,8 +191,7 @@ def _add_blenders_picture(parser: Parser) -> None:
     group.add_argument(
         "--judge",
         metavar="JUDGE",
-        help=f"what draws it: {names}; an add-on's engine, such as MY_ENGINE; or all, for a table "
-        "(in a window with the viewport)",
+        help=f"what draws it: {names}; an add-on's engine, as MY_ENGINE; or all, in a table",
     )
     group.add_argument(
         "--as-is",
@@ -225,8 +217,7 @@ def _add_blenders_picture(parser: Parser) -> None:
     group.add_argument(
         "--frames",
         metavar="FRAMES",
-        help="of an animation: 1-250, 1-250:5, 7, or all, but for those that the same command has "
-        "finished in DIR",
+        help="of an animation: 1-250, 1-250:5, 7, or all; finished ones are not done again",
     )
 
 
@@ -250,5 +241,4 @@ def _add_against(parser: Parser) -> None:
         help="a .png (sRGB) or .exr (linear) of the same camera and size, on a background of one "
         "colour or none",
     )
-    add_data(group)
     add_excuses(group)

@@ -21,7 +21,7 @@ SCHEMA = "reference_tracer.engines/1"
 
 
 class EngineRow(NamedTuple):
-    """What came of one engine's picture."""
+    """The result of one engine's picture."""
 
     engine: str
     verdict: Verdict

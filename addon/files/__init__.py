@@ -1,1 +1,1 @@
-"""What reads and writes files: arrays, scenes, certificates, pictures, and JSON that is checked."""
+"""Readers and writers of files: arrays, scenes, certificates, pictures, and checked JSON."""

@@ -34,14 +34,14 @@ _HEADERS = {
 
 
 class Header(NamedTuple):
-    """What an array says of itself."""
+    """The header of an array."""
 
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
 
 
 class Arrays(Mapping[str, Array]):
-    """The arrays of an open .npz by their names; each is read when it is asked for."""
+    """The arrays of an open .npz by their names; each is read on first use."""
 
     def __init__(self, stored: ZipFile, path: str | Path) -> None:
         """List the arrays; whatever else is in the archive is none."""

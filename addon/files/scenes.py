@@ -31,7 +31,7 @@ _Parts = tuple[tuple[Mesh, ...], tuple[Instance, ...], tuple[Plane, ...]]
 
 
 class Account(NamedTuple):
-    """What a scene's file said of where it came from."""
+    """The account of a scene's source that its file holds."""
 
     lacks: tuple[Unmodelled, ...] = ()
     notes: tuple[str, ...] = ()

@@ -70,7 +70,7 @@ ROUNDED = (
         key="cut_off",
     ),
 )
-# The names of the faults of colours, in the order in which they are told, and what they are.
+# The names of the faults of colours, in the order in which they are reported, and what they are.
 KEYS = {
     "channels": "channels swapped",
     "gamma": "a power of linear values",
@@ -81,6 +81,7 @@ KEYS = {
     "coded_gamma": "a power of coded (sRGB) values",
     "exposure": "an exposure",
     "view_transform": "a view transform",
+    "rounding_level": "rounded to 8 bits",
 }
 
 

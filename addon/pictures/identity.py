@@ -21,7 +21,7 @@ from ..scene import Scene
 NOTHING, UNKNOWN = -1, -2
 
 LEVELS = 32  # of a channel: a step is 8 of 255
-MOST_OBJECTS = LEVELS**3 // 2  # that can be told apart
+MOST_OBJECTS = LEVELS**3 // 2  # that can be distinguished
 _OFF = 0.1  # how far a channel may lie from its digit, in steps (half of 1/255 is 0.06)
 
 

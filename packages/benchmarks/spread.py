@@ -1,4 +1,4 @@
-"""What two processes make of a long picture: seconds of waiting, times one process's.
+"""Measures two processes on a long picture: seconds of waiting, times one process's.
 
 As a user waits: `reftrace trace` with `--scheduler local:2` against the same without, on all cores.
 """

@@ -1,4 +1,4 @@
-"""What workers do: bytes, numbers and texts come in, bytes go out. None of our objects travels."""
+"""The workers' tasks: bytes, numbers and texts come in, bytes go out; no object of ours travels."""
 
 from __future__ import annotations
 

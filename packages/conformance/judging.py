@@ -60,7 +60,7 @@ class Program:
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What came of a scene."""
+    """The result of a scene."""
 
     kit: KitScene
     judged: Judged

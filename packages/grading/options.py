@@ -1,4 +1,4 @@
-"""What was asked of `reftrace judge`: its options, checked."""
+"""The options of `reftrace judge`, checked."""
 
 from __future__ import annotations
 

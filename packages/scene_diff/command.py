@@ -100,7 +100,7 @@ def side(path: Path, up: str | None) -> Side:
             from reference_tracer.blender.jobs.variants import variants
 
             context = blender.context
-            made = variants(context.scene.name_full, context.view_layer.name, None)
+            made = tuple(variants(context.scene.name_full, context.view_layer.name, None))
             whole = next((v.scene for v in made if v.fault == WHOLE), None)
             scene = whole or export_open_file(context)[0]
         return Side(scene, tuple(v for v in made if v.fault != WHOLE))

@@ -61,10 +61,12 @@ def test_the_claims_need_every_file():
     assert required("Claims") == set(prove.listed())
 
 
-def test_every_folder_says_what_each_of_its_files_proves():
-    for path in prove.listed():
-        text = (path.parent / "README.md").read_text(encoding="utf-8")
-        assert f"`{path.name}`" in text, f"{path.parent.name}/README.md leaves out {path.name}"
+def test_every_file_begins_with_what_it_proves_and_every_folder_is_on_the_page():
+    page = (prove.PROOFS / "README.md").read_text(encoding="utf-8")
+    for path in prove.files():
+        assert re.match(r"\(\*\* .{20,}", path.read_text(encoding="utf-8")), path.name
+        folder = path.parent.relative_to(prove.PROOFS).as_posix()
+        assert folder == "." or f"`{folder}/`" in page, folder
 
 
 # What can be read for `certified_with_depth`, without the rest.

@@ -4,7 +4,6 @@
     $ reftrace trace …      only run
     what it prints
     ```
-    ```console here         the same, where what it prints depends on the machine
     <!-- not run: REASON --> above a block that stays as it is
     <!-- NAME -->123<!-- / --> a figure of `figures.py`; a part of `derivations.py`, of `records.py`
 
@@ -17,9 +16,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-_RUN = re.compile(
-    r"^```console(?P<here> here)?\n\$ (?P<command>[^\n]+)\n(?P<body>.*?)^```$", re.M | re.S
-)
+_RUN = re.compile(r"^```console\n\$ (?P<command>[^\n]+)\n(?P<body>.*?)^```$", re.M | re.S)
 _FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>.*?)<!-- / -->", re.S)
 _LEFT = re.compile(r"<!-- not run: [^\n]+? -->\n(?P<in> *)```.*?^(?P=in)```$", re.M | re.S)
 _SECONDS = re.compile(r"\b\d+\.\d+ s\b")
@@ -28,11 +25,10 @@ _BLENDERS_OWN = re.compile(r"^(\d\d:\d\d\.\d+ |Array iterator out of range).*\n"
 
 @dataclass(frozen=True)
 class Command:
-    """A command of a text: what the text has of its output, and whether that is this machine's."""
+    """A command of a text, and what the text has of its output."""
 
     text: str
     printed: str
-    here: bool = False
 
 
 def commands(text: str) -> list[Command]:
@@ -41,7 +37,7 @@ def commands(text: str) -> list[Command]:
 
 
 def _command(m: re.Match) -> Command:
-    return Command(m["command"], m["body"].strip("\n"), m["here"] is not None)
+    return Command(m["command"], m["body"].strip("\n"))
 
 
 def figures(text: str) -> list[str]:
@@ -80,8 +76,7 @@ def refreshed(text: str, run: Callable[[Command], str], values: Mapping[str, str
         command = _command(m)
         output = settled(run(command))
         shown = [output] if command.printed else []
-        head = f"```console{m['here'] or ''}"
-        return "\n".join([head, f"$ {command.text}", *shown, "```"])
+        return "\n".join(["```console", f"$ {command.text}", *shown, "```"])
 
     text = _RUN.sub(filled, text)
     return _FIGURE.sub(lambda m: f"<!-- {m['name']} -->{values[m['name']]}<!-- / -->", text)

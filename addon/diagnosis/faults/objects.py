@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 
 from ...arrays import Floats
 from ...causes.case import Case
-from ...scene import Instance, Scene
+from ...scene import Instance
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
 from .climbing import values_of
-from .data.moving import by_points
 from .fault import (
     AnyFault,
     Effort,
@@ -26,21 +24,17 @@ from .fault import (
     Make,
     Numbers,
     Option,
-    Pair,
     always,
     instances_named,
-    of_meshes,
     of_object,
     one_of,
 )
 from .pose import (
-    DISPLACED,
     MOVED,
     TWICE,
     Sized,
     about_point,
     copied,
-    displaced,
     find_sizes,
     moved,
     refine_size,
@@ -111,42 +105,6 @@ def _sheared(evidence: Evidence) -> list[Option]:
     return found
 
 
-def _exchanged(case: Case, guess: Pair) -> Case:
-    """Return the case with two objects at each other's places."""
-
-    def exchanged(scene: Scene) -> Scene:
-        own = [instances_named(scene, name) for name in (guess.first, guess.second)]
-        if any(len(some) != 1 for some in own):
-            return scene
-        instances = list(scene.instances)
-        first, second = (some[0] for some in own)
-        a, b = instances[first], instances[second]
-        instances[first] = replace(a, world_from_object=b.world_from_object)
-        instances[second] = replace(b, world_from_object=a.world_from_object)
-        return replace(scene, instances=tuple(instances))
-
-    return case.with_scenes(exchanged)
-
-
-@at_once
-def _pairs(evidence: Evidence) -> list[Pair]:
-    """Guess each pair of suspects with one instance."""
-    names = _single(evidence.case.scene, evidence.suspects)
-    return [Pair(a, b, words=f"'{a}' and '{b}'") for a, b in combinations(names, 2)]
-
-
-def _two(case: Case, frame: Frame) -> Pair | None:
-    """Pick the two objects visible in the most pixels, of those with one instance."""
-    scene = case.scene
-    seen = (scene.objects[scene.instances[n].object] for n in seen_instances(case, frame))
-    names = _single(scene, dict.fromkeys(seen))[:2]
-    return Pair(*names) if len(names) == 2 else None
-
-
-def _single(scene: Scene, names: Iterable[str]) -> list[str]:
-    return [name for name in names if len(instances_named(scene, name)) == 1]
-
-
 def _sized(case: Case, guess: Sized) -> Case | None:
     """Return the case with an object of another size."""
     if not instances_named(case.scene, guess.object):
@@ -203,12 +161,6 @@ def _in_turn(case: Case, guess: Option) -> Case | None:
     """Return the case with an object turned, or mirrored, about its origin."""
     turn, _ = _TURNS[guess.number]
     return _with_axes(lambda axes, lengths: axes * lengths @ turn)(case, guess)
-
-
-def _moved_or_by_points(evidence: Evidence) -> Work[list[Numbers]]:
-    """Search for the places of objects; depths say them."""
-    find = MOVED.find if evidence.case.picture.data is None else by_points
-    return (yield from find(evidence))
 
 
 def _whole(instance: Instance, factor: float) -> Instance:
@@ -315,18 +267,6 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         witness="donmccurdy/glTF-Transform#1680",
     ),
     Fault(
-        "swapped_transforms",
-        "{words} have each other's transforms",
-        "Meshes and matrices come in two lists in different orders: bpy.data is sorted by "
-        "name, the objects of a scene are not.",
-        "check by which index, or in which order, world matrices are taken",
-        _exchanged,
-        _pairs,
-        examples=(Example("swapped_transforms", "two objects at each other's places", _two),),
-        words="two objects",
-        witness="Oygron/SupCom_Import_Export_Blender#1",
-    ),
-    Fault(
         "object_scaled",
         "'{object}' is {factor:.4g} times as large{words}",
         "FBX files are in centimetres, CAD files often in millimetres, Blender's in metres.",
@@ -356,7 +296,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "centred its mesh.",
         "compare its world matrix with the one that the scene has",
         of_object(moved),
-        _moved_or_by_points,
+        MOVED.find,
         ("x", "y", "z"),
         refine=MOVED.refine,
         effort=Effort.OBJECT,
@@ -377,18 +317,5 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         refine=TWICE.refine,
         effort=Effort.ANYTHING,
         witness="LuxCoreRender/BlendLuxCore#366",
-    ),
-    Fault(
-        "smooth_displaced",
-        "the vertices of '{object}' are displaced along their normals by {distance:+.4g} m",
-        "Blender's Displace modifier has a midlevel of 0.5; other programs have none, or "
-        "another one.",
-        "check a displacement's strength and midlevel, and whether normals are smooth",
-        of_meshes(displaced),
-        DISPLACED.find,
-        ("distance",),
-        refine=DISPLACED.refine,
-        effort=Effort.OBJECT,
-        witness="LuxCoreRender/LuxCore#350",
     ),
 )

@@ -13,7 +13,6 @@ from .fault import AnyFault, Example, Fault, Guess, Make, always
 from .filters import FILTER_FAULTS
 from .processed import PROCESSED
 from .recolor import alpha_divided, alpha_multiplied, recolored
-from .rounding import ROUNDING_FAULTS
 from .sizes import SIZE_FAULTS
 from .tones import CURVE_FAULTS
 
@@ -23,7 +22,7 @@ def _upside_down(case: Case, guess: Guess) -> Case:
     return replace(case, picture=case.picture.moved(np.arange(len(case.picture.color))[::-1]))
 
 
-# By how many columns and rows all are off, and what is said of it.
+# By how many columns and rows all are off, and the sentence.
 _ROLLS = (
     (0, 1, "rows are one too high, and the topmost is at the bottom"),
     (0, -1, "rows are one too low, and the lowest is at the top"),
@@ -89,7 +88,6 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         witness="glium/glium#1526",
     ),
     *CURVE_FAULTS,
-    *ROUNDING_FAULTS,
     Fault(
         "premultiplied",
         "the picture's colours are multiplied by alpha twice",

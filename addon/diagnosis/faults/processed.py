@@ -29,7 +29,7 @@ GRAIN = {0.9: 0.06, 0.98: 0.2}
 
 @dataclass(frozen=True, eq=False)
 class Processed(Numbers):
-    """What the picture shows, where a processed surface may."""
+    """A picture whose surfaces' colours were processed."""
 
     made: Colors = None  # type: ignore[assignment]
 

@@ -9,8 +9,7 @@ import numpy as np
 
 from ...arrays import Array, by_runs
 from ...causes.case import Case
-from ...files.images import EIGHT_BITS
-from ...pictures.picture import Picture, Transform, straight
+from ...pictures.picture import Transform, straight
 from .fault import Guess, Make
 
 
@@ -49,11 +48,3 @@ def recolored(of_pixels: Callable[[Array], Array]) -> Make[Guess]:
 def by_curve(case: Case, of: Transform) -> Case:
     """Return the case with a transform of the traced colours."""
     return replace(case, picture=replace(case.picture, transform=of))
-
-
-def with_slack(picture: Picture, slack: float) -> Picture:
-    """Return a picture with a tolerance of some levels of 8 bits beyond its own rounding."""
-    if slack < 0:
-        return picture
-    levels, dither = picture.storage.levels or EIGHT_BITS, picture.storage.dither + slack
-    return replace(picture, storage=replace(picture.storage, levels=levels, dither=dither))

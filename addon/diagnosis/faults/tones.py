@@ -60,6 +60,10 @@ _WHY = {  # for each of `KEYS`, why it happens, and who has seen it
         "3.6), and every PNG is saved with it.",
         "appleseedhq/blenderseed#486",
     ),
+    "rounding_level": (
+        "Linear values were rounded to 8 bits of sRGB's curve, and read as floats again.",
+        "Tom94/tev#150",
+    ),
 }
 
 
@@ -82,7 +86,7 @@ def _curve_of(evidence: Evidence) -> Work[Curve | None]:
 def _rounded(evidence: Evidence) -> Sequence[Curve]:
     """Return the transforms with roundings to 8 bits that explain more than one rounding.
 
-    Where one rounding explains all, two must not be told.
+    Where one rounding explains all, two must not be reported.
     """
     found = surfaces(evidence)
     if found is None:
@@ -91,9 +95,9 @@ def _rounded(evidence: Evidence) -> Sequence[Curve]:
         once = (agree(evidence.picture, found, ROUNDED_ONCE.of) & found.wrong).sum()
         evidence.known["rounded"] = [
             c
-            for c in ROUNDED
+            for c in (ROUNDED_ONCE, *ROUNDED)
             if (same := agree(evidence.picture, found, c.of)).mean() > FITTED_SHARE
-            and (same & found.wrong).sum() > once
+            and (same & found.wrong).sum() > (once if c is not ROUNDED_ONCE else 0)
         ]
     rounded: Sequence[Curve] = evidence.known["rounded"]
     return rounded

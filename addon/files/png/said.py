@@ -1,4 +1,4 @@
-"""What a PNG says of its pixels that the reader does not apply: each is told in words.
+"""Notes on what a PNG says of its pixels and the reader does not apply.
 
 All values are read by sRGB's curve.
 

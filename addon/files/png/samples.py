@@ -36,7 +36,7 @@ class PngError(ValueError):
 
 
 class Header(NamedTuple):
-    """What a PNG says of itself before its pixels (11.2.1)."""
+    """The header of a PNG (11.2.1)."""
 
     width: int
     height: int
@@ -76,7 +76,7 @@ def unpacked(header: Header, packed: bytes) -> Array:
 
 
 def _inflated(packed: bytes, size: int) -> bytes:
-    """Return so many bytes of zlib's; never more, whatever the stream holds."""
+    """Return `size` bytes of zlib's; never more, whatever the stream holds."""
     reader = zlib.decompressobj()
     try:
         data = reader.decompress(packed, min(size, sys.maxsize))

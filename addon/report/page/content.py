@@ -90,6 +90,7 @@ def _causes(comparison: Comparison) -> list[dict[str, object]]:
             "value": int(cause),
             "name": cause.key,
             "label": _words(cause.label),
+            "place": cause.place or cause.label,
             "sentence": cause.sentence,
             "unit": cause.unit,
             "pixels": count[cause.key],
@@ -134,7 +135,7 @@ def _pictures(
 
 
 def _put_right(comparison: Comparison) -> Iterator[dict[str, str]]:
-    """Yield the picture that each told fault changes, put right."""
+    """Yield the picture that each fault changes, put right."""
     told = comparison.diagnosis.told if comparison.diagnosis else ()
     for number, side, color in pictures_put_right(comparison):
         yield {
