@@ -71,12 +71,12 @@ class Evidence:
 
     @cached_property
     def unexplained(self) -> Bools:
-        """Which pixels (h, w) are unexplained."""
+        """The unexplained pixels, (h, w)."""
         return self.causes.cause == UNEXPLAINED
 
     @cached_property
     def judged(self) -> Bools:
-        """Which pixels (h, w) agree or have a cause, and can be judged."""
+        """The pixels (h, w) that agree or have a cause, and can be judged."""
         return ~self.unexplained & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
 
     @cached_property
@@ -115,7 +115,7 @@ class Evidence:
 
     @cached_property
     def beside_edges(self) -> Bools:
-        """Which pixels (h, w) lie beside an edge of the picture, where small changes show."""
+        """The pixels (h, w) beside an edge of the picture, where small changes show."""
         out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
         return out if (out & self.unexplained).any() else np.ones_like(out)
 
@@ -134,7 +134,7 @@ class Evidence:
 
     @cached_property
     def unexplained_sampled(self) -> Bools:
-        """Which of the n sampled pixels are unexplained, (n,)."""
+        """The unexplained pixels among the n sampled ones, (n,)."""
         return self.unexplained[self.sample]
 
     def probe(self, scene: Scene, reach: float = 0.0) -> Work[Probe]:

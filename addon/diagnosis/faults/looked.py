@@ -98,7 +98,7 @@ class Looked:
 
     @cached_property
     def _beneath(self) -> Bools:
-        """Which of the n pixels show what is behind the object."""
+        """The pixels, among n, that show what is behind the object."""
         return self._agree(self.rest, self.behind, np.ones(len(self.behind), bool))
 
     def _agree(self, scene: Scene, hits: Hits, where: Bools) -> Bools:
