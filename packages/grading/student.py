@@ -150,15 +150,15 @@ class Student(Submission):
         if not line.endswith(b"\n") and len(line) < _LONGEST:
             raise EOFError
         try:
-            seconds, error = parsed(line, self.limits.memory)
+            seconds, found = parsed(line, self.limits.memory)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             text = "its process answered something that is no answer: does the file write to other"
             text += " streams than the standard ones, or change numpy or json?"
             raise StudentError("ended", text) from error
-        if error and error.kind != self.raising:
-            raise error
+        if found and found.kind != self.raising:
+            raise found
         self.seconds += seconds
-        return error
+        return found
 
 
 def _read(stream: IO[bytes], size: int) -> bytes:
