@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from reference_tracer.camera_files.convention import View
 from reference_tracer.camera_files.files import CONVENTIONS, of_frames, read, texts
-from reference_tracer.mesh_diagnosis import diagnosed
+from reference_tracer.comparison.mesh_diagnosis import diagnosed
+from reference_tracer.files.scenes import Account, load_scene, save_scene
 from reference_tracer.methods import Method
 from reference_tracer.opened import file_manifest
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
-from reference_tracer.scene_files import Account, load_scene, save_scene
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.class_folder import ClassFolder
@@ -23,9 +23,9 @@ from reference_tracer_grading.subjects.triangle import TRIANGLE
 from reference_tracer_meshes.load import load_meshes
 from reference_tracer_scene_diff.differences import differences
 
+from .files.old_scenes import old_arrays
 from .growth import of_each_pair
 from .meshes.gltf_build import Build
-from .old_scenes import old_arrays
 
 pytestmark = pytest.mark.slow
 MANY = 120

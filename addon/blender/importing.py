@@ -16,9 +16,9 @@ from typing import Any
 
 import bpy
 
+from ..files.scenes import save_scene
 from ..manifest import Effect, Unmodelled
 from ..scene import SceneError
-from ..scene_files import save_scene
 from ..wording import count_of
 from . import registration
 from .reading.export import export

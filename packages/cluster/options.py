@@ -21,8 +21,8 @@ def add(parser: Parser, name: str) -> None:
     group.add_argument(
         "--scheduler",
         metavar="ADDRESS",
-        help="have the workers of a Dask scheduler do the work: tcp://HOST:PORT on this machine, "
-        "tls://HOST:PORT on any, or local:N, which starts N processes for it",
+        help="Dask's, whose workers do the work: tcp://HOST:PORT, tls:// (other machines), or "
+        "local:N (N processes)",
     )
     parser.set_defaults(place=lambda given: place(given, name))
 

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.measures import Known, Measured
 from reference_tracer.scene import Region, Scene
-from reference_tracer.tracer.hits import Hits, Statistics, Ties
+from reference_tracer.tracer.hits import Hits, Statistics
+from reference_tracer.tracer.ties import Ties
 
 
 @dataclass(frozen=True, eq=False)

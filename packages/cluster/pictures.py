@@ -13,9 +13,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.nearest import TraceBand
 from reference_tracer.tracer.progress import Work, scaled

@@ -30,7 +30,7 @@ Form = dict[str, Any]
 
 
 class Refused(Exception):  # noqa: N818  # it is what the student reads, not a name that we raise by
-    """What the function returned is not what it has to return; the message says what it is."""
+    """The function returned something of the wrong form; the message says what."""
 
 
 def serve(path: Path, form: Form, requests: BinaryIO, answers: BinaryIO) -> None:

@@ -1,4 +1,4 @@
-"""What is wrong with a student's function, by name, from what it makes of the cases.
+"""Names what is wrong with a student's function, from its answers to the cases.
 
 First it is looked for among wrong programs (`matching.py`): one that gives the same answers names
 what is wrong, in one place or in two. Of other faults, as of an epsilon or of float32, each is a

@@ -1,4 +1,4 @@
-"""What a student's process answers -> the seconds that it took, and what it did wrong."""
+"""Reads a student's process's answer: the seconds that it took, and what it did wrong."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ADVICE = {
 
 
 class StudentError(Exception):
-    """What a student's code did wrong.
+    """An error of a student's code.
 
     `kind` is one of KINDS ("answer": of a wrong form); `trace` has the lines of the student's own
     files, (file, line, function, text), outermost first.

@@ -28,7 +28,7 @@ class Raising(NamedTuple):
 
 
 class Submission(ABC):
-    """What a student handed in; to be used in a `with` block."""
+    """A student's submission; to be used in a `with` block."""
 
     raising: str  # the kind of error after which a part of what was asked is asked again
     parts = float("inf")  # how many parts of a question are asked at most

@@ -21,8 +21,8 @@ from urllib.request import urlopen
 import numpy as np
 from reference_tracer.arrays import Floats, Index
 from reference_tracer.camera_files.gltf_file import Tree, as_specified, item, open_gltf, read_tree
-from reference_tracer.checked_json import Content
 from reference_tracer.cli.opening import import_trimesh
+from reference_tracer.files.checked_json import Content
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.wording import count_of
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from reference_tracer.arrays import Floats, Index
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 from reference_tracer.wording import count_of
 

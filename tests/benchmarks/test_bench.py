@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -286,19 +286,6 @@ def test_a_row_for_each_scene_size_camera_and_method(bench):
         assert r.embreex_differs < 0.01
         assert (r.bvhtree_s, r.cycles_s, r.workbench_s) == (None, None, None)
     assert not bench.notes
-
-
-def test_who_comes_late_gets_less_time(monkeypatch):
-    wanted = replace(tiny("cube", cameras=scenes.CAMERAS), budget=6.0, seconds=10.0)
-    now = [100.0]
-    monkeypatch.setattr(measure.time, "perf_counter", lambda: now[0])
-    pace = measure.Pace(wanted)
-    assert pace.budget(wanted.cases[0]) == pytest.approx(5.0)
-    now[0] += 7
-    assert pace.budget(wanted.cases[1]) == pytest.approx(3.0)
-    pace = measure.Pace(wanted)
-    now[0] += 99
-    assert pace.budget(wanted.cases[0]) == 0
 
 
 def test_stages_are_parts_of_a_frame(bench):

@@ -163,17 +163,6 @@ def test_interrupted_it_leaves_what_was_measured(tmp_path, monkeypatch, capsys):
     assert (tmp_path / UNFINISHED / TIMES).is_file() and not (tmp_path / JSON).exists()
 
 
-def test_interrupted_at_once(tmp_path, monkeypatch, capsys):
-    def interrupted(plan, bench, cache):
-        raise KeyboardInterrupt
-        yield 0.0
-
-    monkeypatch.setattr(bench_run, "measure", interrupted)
-    assert main(["bench", "cube", "--out", str(tmp_path)]) == INTERRUPTED
-    assert not any(tmp_path.iterdir())
-    assert "nothing was measured" in capsys.readouterr().out
-
-
 @pytest.mark.parametrize("rows", [0, 4])
 def test_an_older_result_outlives_a_run_that_is_interrupted(rows, bench, tmp_path, monkeypatch):
     def interrupted(plan, measured, cache):

@@ -16,7 +16,7 @@ import trimesh
 from reference_tracer import load_scene
 from reference_tracer.blender.importing import bundled
 from reference_tracer.cli.opening import SOURCES
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer_meshes import FORMATS, by_blender

@@ -19,8 +19,8 @@ from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.colors import COLOR_FAULTS
 from reference_tracer.diagnosis.faults.fault import Numbers
 from reference_tracer.diagnosis.faults.picture import PICTURE_FAULTS
-from reference_tracer.diagnosis.faults.sizes import Way, resized
-from reference_tracer.images import curve, curve_undone
+from reference_tracer.diagnosis.faults.sizes import resized
+from reference_tracer.files.images import curve, curve_undone
 from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture
@@ -147,7 +147,7 @@ MADE = {
     "srgb_left_out": [of_rgb(lambda c: curve_undone(eight(c)))],
     "power_for_srgb": [of_rgb(lambda c: curve_undone(eight(c ** (1 / 2.2))))],
     "filter_radius": [gaussian],
-    "shrunk": [halved, lambda c: halved(mean(2)(c)), lambda c: halved(np.roll(c, -1, (0, 1)))],
+    "resampled": [halved, lambda c: halved(mean(2)(c)), lambda c: halved(np.roll(c, -1, (0, 1)))],
 }
 # The first of each is quick enough for every run.
 CASES = [
@@ -168,10 +168,11 @@ def test_it_gets_its_name_and_no_other(quads, name, change):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("way", [Way.NEAREST, Way.LINEAR])
-def test_a_picture_of_half_the_size_is_resampled(quads, way):
+@pytest.mark.parametrize("linearly", [True, False])
+def test_a_picture_of_half_the_size_is_resampled(quads, linearly):
     small = resolved(quads, 0.5)
-    assert set(told(quads, resized(small, (48, 72), way))) == {"resampled"}
+    large = resized(small, (48, 72)) if linearly else small.repeat(2, axis=0).repeat(2, axis=1)
+    assert set(told(quads, large)) == {"resampled"}
 
 
 @pytest.mark.slow

@@ -128,6 +128,7 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
             Example("swapped_colors", "two objects with one another's colours", _two_colors),
         ),
         words="two objects",
+        witness="WolvenKit/WolvenKit#1036",
     ),
     Fault(
         "recolored",
@@ -147,5 +148,6 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
                 _recolored(lambda c: c[:, [2, 1, 0, 3]]),
             ),
         ),
+        witness="godotengine/collada-exporter#115",
     ),
 )
