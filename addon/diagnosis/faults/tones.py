@@ -29,6 +29,8 @@ _WHY = {  # for each of `KEYS`, why it happens
     "power_for_srgb": "A power of 2.2 is close to sRGB's curve, which is linear near black and "
     "then has an exponent of 2.4.",
     "cut_off": "`int(255 * x)` and numpy's `astype(uint8)` cut off instead of rounding.",
+    "few_levels": "Linear values take more than 8 bits where it is dark; displays and textures of "
+    "16 bits a pixel have 5, 6 and 5 bits (RGB565).",
     "coded_gamma": "The *Gamma* of Blender's color management, or of a viewer, is applied to the "
     "displayed values.",
     "exposure": "Blender's color management, cameras and tone mappers have an exposure.",
