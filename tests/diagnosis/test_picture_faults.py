@@ -143,6 +143,30 @@ def in_bits(*bits):
     return coded(lambda c: np.rint(most * c) / most)
 
 
+def smoothly_halved(color):
+    """Take every other pixel, and enlarge them as an editor does."""
+    small = curve(color[::2, ::2])
+    parts = [Image.fromarray(small[..., k]).resize((72, 48), Image.Resampling.BICUBIC) for k in range(4)]
+    return curve_undone(np.clip(np.stack([np.asarray(p) for p in parts], axis=-1), 0, 1))
+
+
+def in_hues(change):
+    """Return what changes hues alone, as a JPEG has them (Rec. 601)."""
+
+    def changed(c):
+        other = change(np.concatenate((c, c[..., :1]), axis=-1))[..., :3]
+        return other + ((c - other) @ (0.299, 0.587, 0.114))[..., None]
+
+    return coded(changed)
+
+
+def four(color):
+    """Smooth it as four samples a pixel do: every second pixel is mixed with its neighbours."""
+    rng = np.random.default_rng(SEED)
+    some = rng.random(color.shape[:2]) < 0.5
+    return np.where(some[..., None], mean(2)(color), color)
+
+
 # Each fault, and what it makes of the right picture.
 MADE = {
     "row_off": [
@@ -170,8 +194,14 @@ MADE = {
     "few_levels": [in_bits(5, 6, 5), of_rgb(eight)],
     "swapped_colors": [of_rgb(elsewhere)],
     "color_source": [of_rgb(recolored), of_rgb(lambda c: 0 * c + 0.8)],
-    "filter_radius": [gaussian],
-    "shrunk": [halved, lambda c: halved(mean(2)(c)), lambda c: halved(np.roll(c, -1, (0, 1)))],
+    "filter_radius": [gaussian, four],
+    "shrunk": [
+        smoothly_halved,
+        in_hues(lambda c: halved(mean(2)(c))),
+        halved,
+        lambda c: halved(mean(2)(c)),
+        lambda c: halved(np.roll(c, -1, (0, 1))),
+    ],
 }
 # The first of each is quick enough for every run.
 CASES = [
@@ -253,6 +283,7 @@ ALIKE = {
     "noise in a part": in_part(noisy(2.0)),
     "a mean in a part": in_part(mean(2)),
     "a part shrunk": in_part(halved),
+    "hues of a part": in_part(in_hues(lambda c: halved(mean(2)(c)))),
 }
 QUICK = "a light", "a part in other colours"
 ALIKE_CASES = [
@@ -264,8 +295,7 @@ ALIKE_CASES = [
 @pytest.mark.slow
 @pytest.mark.parametrize("change", ALIKE_CASES)
 def test_what_looks_like_it_does_not_get_its_name(quads, change):
-    quick = [f for f in LOOKED_FOR if f.name != "filter_radius"]  # which is older
-    assert not set(told(quads, change(render(quads).color), faults=quick))
+    assert not set(told(quads, change(render(quads).color)))
 
 
 EXCUSED = {curve.name: curve.of for curve in CURVES} | {"an exposure": lambda c: 1.3 * c}

@@ -6,20 +6,25 @@ are tried that are right in most of the sampled pixels.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import partial
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
 from ...arrays import Array, Colors, Floats, Places
 from ...causes.case import Case
+from ...images import decoded, encoded
 from ...scene import Region, ViewWindow
 from ...tracer import shading
 from ...tracer.camera import pixel_size
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import AnyFault, Effort, Fault, Guess, Values, unchanged
+from .fault import AnyFault, Effort, Fault, Guess, Values
+from .recolor import with_slack
 
 # Of what may have been resampled, and how they are called. Larger ones are means of several
 # samples, or, by the nearest pixel, offsets of the camera.
@@ -40,13 +45,56 @@ class Way(StrEnum):
     """How a picture is resampled, in words."""
 
     NEAREST = "by the nearest pixel"
-    LINEAR = "linearly"
     MEAN = "by the mean of pixels"
+    LINEAR = "linearly"
+    CUBIC = "bicubically"
+    SHARP = "bicubically, sharply"
+    LANCZOS = "by Lanczos' filter"
+
+
+def _cubic(a: float, x: Floats) -> Floats:
+    """Return Keys' cubic kernel (1981): a is -0.5 in Pillow, -0.75 in OpenCV."""
+    x = np.abs(x)
+    near = ((a + 2) * x - (a + 3)) * x * x + 1
+    return np.where(x < 1, near, np.where(x < 2, a * (((x - 5) * x + 8) * x - 4), 0))
+
+
+# How many pixels each reaches, and its weight of one that is x pixels away.
+_KERNELS: dict[Way, tuple[int, Callable[[Floats], Floats]]] = {
+    Way.LINEAR: (1, lambda x: np.maximum(1 - np.abs(x), 0)),
+    Way.CUBIC: (2, partial(_cubic, -0.5)),
+    Way.SHARP: (2, partial(_cubic, -0.75)),
+    Way.LANCZOS: (3, lambda x: np.where(np.abs(x) < 3, np.sinc(x) * np.sinc(x / 3), 0)),
+}
+
+
+class Coding(NamedTuple):
+    """The values in which colours (..., 4) are mixed."""
+
+    into: Callable[[Array], Array]  # from linear, premultiplied ones
+    back: Callable[[Array], Array]
+    words: str
+
+
+# As a renderer mixes them; and as programs do that have a file's values.
+CODINGS = (
+    Coding(np.asarray, np.asarray, ""),
+    Coding(encoded, lambda c: decoded(np.clip(c, 0, 1)), ", in sRGB values"),
+)
+
+
+def as_stored(case: Case, guess: Guess) -> Case:
+    """Return the case with a level more for what was rounded before it was mixed, in a file."""
+    levels = case.picture.storage.levels
+    return replace(case, picture=with_slack(case.picture, 1.0)) if levels else case
 
 
 def sampled_right(evidence: Evidence, colors: Array) -> bool:
     """Return whether most sampled pixels, and most unexplained ones, show colours (n, 4)."""
-    right = ~evidence.shown.other_color(colors)
+    shown = evidence.shown
+    if shown.storage.levels:
+        shown = with_slack(shown, 1.0)
+    right = ~shown.other_color(colors)
     return bool(right[evidence.unexplained_sampled].mean() > RIGHT and right.mean() > RIGHT)
 
 
@@ -73,6 +121,7 @@ class Resampled(Guess):
 
     size: float
     way: Way
+    coding: Coding
 
     @property
     def values(self) -> Values:
@@ -88,24 +137,35 @@ def _mix(have: int, size: int, way: Way) -> Mix:
     place = (np.arange(size) + 0.5) * have / size - 0.5
     if way is Way.NEAREST:
         return [(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), np.ones(size))]
-    low = np.clip(np.floor(place), 0, have - 1).astype(int)
-    share = np.clip(place - low, 0, 1)
-    return [(low, 1 - share), (np.minimum(low + 1, have - 1), share)]
+    reach, kernel = _KERNELS[way]
+    pixels = np.floor(place).astype(int) - reach + 1 + np.arange(2 * reach)[:, None]
+    weights = np.where((pixels >= 0) & (pixels < have), kernel(place - pixels), 0)
+    return [*zip(pixels.clip(0, have - 1), weights / weights.sum(axis=0), strict=True)]
 
 
 def _resampled(colors: Colors, guess: Resampled, evidence: Evidence) -> Colors:
     """Resample a picture (h', w', 4) to the size of the evidence's."""
-    return resized(colors, evidence.unexplained.shape, guess.way)
+    mixed = resized(guess.coding.into(colors), evidence.unexplained.shape, guess.way)
+    return guess.coding.back(mixed).astype(np.float32)
 
 
-def resized(colors: Array, shape: tuple[int, ...], way: Way) -> Colors:
-    """Resample a picture (h', w', 4) to another size (h, w)."""
-    out: Array = np.asarray(colors, np.float64)
-    for axis, size in enumerate(shape):
-        shares = [-1 if n == axis else 1 for n in range(out.ndim)]
-        parts = _mix(out.shape[axis], size, way)
-        out = np.sum([out.take(at, axis=axis) * weight.reshape(shares) for at, weight in parts], 0)
-    return out.astype(np.float32)
+At = tuple[Places, Places]  # rows and columns
+
+
+def _everywhere(shape: tuple[int, ...]) -> At:
+    rows, columns = np.ogrid[: shape[0], : shape[1]]
+    return rows, columns
+
+
+def resized(colors: Array, shape: tuple[int, ...], way: Way, at: At | None = None) -> Array:
+    """Resample a picture (h', w', 4) to another size (h, w); return all pixels, or some."""
+    rows, columns = at or _everywhere(shape)
+    ups, acrosses = (_mix(*sizes, way) for sizes in zip(colors.shape[:2], shape[:2], strict=True))
+    parts = (
+        (up[rows] * across[columns])[..., None] * colors[y[rows], x[columns]]
+        for (y, up), (x, across) in product(ups, acrosses)
+    )
+    return np.asarray(sum(parts))
 
 
 def _find_size(evidence: Evidence) -> Work[list[Resampled]]:
@@ -113,23 +173,31 @@ def _find_size(evidence: Evidence) -> Work[list[Resampled]]:
 
     A pixel of the other size is a ray beside the centre of one of the sampled pixels.
     """
+    evidence = evidence.few
     scene, region = evidence.case.scene, evidence.case.scene.camera.region
     rows, columns = evidence.sample
-    probe = yield from evidence.probe(scene, reach=np.sqrt(2) / min(SIZES))
+    reach = _KERNELS[Way.CUBIC][0] * np.sqrt(2) / min(SIZES)
+    probe = yield from evidence.probe(scene, reach)
     out = []
-    for (size, name), way in product(SIZES.items(), (Way.NEAREST, Way.LINEAR)):
+    for size, name in SIZES.items():
         wide, high = (max(1, round(size * n)) for n in (region.width, region.height))
-        total = np.zeros((len(rows), 4))
-        for (y, up), (x, across) in product(
-            _mix(high, region.height, way), _mix(wide, region.width, way)
-        ):
-            dx = (x[columns] + 0.5) * region.width / wide - columns - 0.5
-            dy = (y[rows] + 0.5) * region.height / high - rows - 0.5
-            hits = yield from probe.trace(dx, dy)
-            weight = (up[rows] * across[columns])[:, None]
-            total += weight * shading.colors(scene, hits)
-        if sampled_right(evidence, total):
-            out.append(Resampled(size, way, words=f"{name} its size, and resampled {way}"))
+        traced: dict[tuple[bytes, bytes], Colors] = {}  # by where, as ways share their pixels
+        for way in (Way.NEAREST, Way.LINEAR, Way.CUBIC, Way.SHARP):
+            totals = [np.zeros((len(rows), 4)) for _ in CODINGS]
+            for (y, up), (x, across) in product(
+                _mix(high, region.height, way), _mix(wide, region.width, way)
+            ):
+                at = y[rows].tobytes(), x[columns].tobytes()
+                if at not in traced:
+                    dx = (x[columns] + 0.5) * region.width / wide - columns - 0.5
+                    dy = (y[rows] + 0.5) * region.height / high - rows - 0.5
+                    traced[at] = shading.colors(scene, (yield from probe.trace(dx, dy)))
+                for total, coding in zip(totals, CODINGS, strict=True):
+                    total += (up[rows] * across[columns])[:, None] * coding.into(traced[at])
+            for total, coding in zip(totals, CODINGS, strict=True):
+                if sampled_right(evidence, coding.back(total)):
+                    words = f"{name} its size, and resampled {way}{coding.words}"
+                    out.append(Resampled(size, way, coding, words=words))
     return out
 
 
@@ -144,6 +212,8 @@ class Shrunk(Guess):
     down: Way
     up: Way
     corner: tuple[int, int]  # which pixel of each n x n is taken if one is: row, column
+    coding: Coding
+    hues: bool = False  # whether these alone were, and not the brightness
 
     @property
     def values(self) -> Values:
@@ -169,29 +239,56 @@ def _shrunk(colors: Array, guess: Shrunk) -> Array:
     return out[::-1]
 
 
+def _grown(small: Array, guess: Shrunk, shape: tuple[int, ...], at: At) -> Array:
+    """Return some pixels of a picture that is enlarged again."""
+    rows, columns = at
+    if guess.up is Way.NEAREST:  # counted from above: a last block may be smaller
+        return small[(rows - shape[0]) // guess.n + len(small), columns // guess.n]
+    return resized(small, shape, guess.up, at)
+
+
 def _enlarged(colors: Colors, guess: Shrunk, evidence: Evidence) -> Colors:
     """Shrink a picture (h, w, 4) and enlarge it again."""
-    small, n = _shrunk(colors, guess), guess.n
-    height, width = colors.shape[:2]
-    if guess.up is Way.NEAREST:  # counted from above: a last block may be smaller
-        rows = small.shape[0] - 1 - np.arange(height)[::-1] // n
-        return small[rows][:, np.arange(width) // n].astype(np.float32)
-    return resized(small, (height, width), Way.LINEAR)
+    coded = guess.coding.into(colors)
+    at = _everywhere(colors.shape)
+    return _recoded(coded, _grown(_shrunk(coded, guess), guess, colors.shape, at), guess)
+
+
+def _recoded(coded: Array, large: Array, guess: Shrunk) -> Colors:
+    """Return linear colours; with their own brightness (Rec. 601) if the hues alone were shrunk."""
+    if guess.hues:
+        large[..., :3] += ((coded - large)[..., :3] @ (0.299, 0.587, 0.114))[..., None]
+    return guess.coding.back(large).astype(np.float32)
 
 
 def _find_shrunk(evidence: Evidence) -> Work[list[Shrunk]]:
     """Guess by what factor the picture was shrunk, and how, by the sampled pixels."""
     at, out = evidence.sample, []
+    for coding in CODINGS:
+        coded = coding.into(evidence.frame.color)
+        for downs in _downs(coding):
+            small = _shrunk(coded, downs[0])
+            for guess in downs:
+                large = _grown(small, guess, coded.shape, at)
+                if sampled_right(evidence, _recoded(coded[at], large, guess)):
+                    out.append(guess)
+            yield 0.0
+    return out
+
+
+def _downs(coding: Coding) -> Iterator[list[Shrunk]]:
+    """Yield the guesses of each way to shrink a picture."""
     for n, name in SHARES.items():
         places = sorted({0, n // 2, n - 1})
         downs = [*((Way.NEAREST, corner) for corner in product(places, places)), (Way.MEAN, (0, 0))]
-        for (down, corner), up in product(downs, (Way.NEAREST, Way.LINEAR)):
-            words = f"{name} its size {down}, and enlarged again {up}"
-            guess = Shrunk(n, down, up, corner, words=words)
-            if sampled_right(evidence, _enlarged(evidence.frame.color, guess, evidence)[at]):
-                out.append(guess)
-            yield 0.0
-    return out
+        for down, corner in downs:
+            hues = [False, True] if down is Way.MEAN and coding.words else [False]
+            yield [
+                Shrunk(n, down, up, corner, coding, alone, words=words)
+                for alone, up in product(hues, (Way.NEAREST, *_KERNELS))
+                for whose in (("'s hues alone were" if alone else " was"),)
+                for words in (f"{whose} shrunk to {name} the size {down}, and enlarged again {up}",)
+            ]
 
 
 SIZE_FAULTS: tuple[AnyFault, ...] = (
@@ -200,7 +297,7 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
         "the picture was rendered at {words}",
         "A screenshot, or the scaling of a screen or a program, changes the size after rendering.",
         "render it at the size at which it is compared",
-        lambda case, guess: at_size(case, guess.size),
+        lambda case, guess: at_size(as_stored(case, guess), guess.size),
         _find_size,
         ("size",),
         everywhere=True,
@@ -211,16 +308,17 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
     ),
     Fault(
         "shrunk",
-        "the picture was shrunk to {words}",
-        "A preview or a thumbnail was rendered or stored small, and enlarged to be compared.",
+        "the picture{words}",
+        "A preview or a thumbnail was rendered or stored small, and enlarged to be compared; a "
+        "JPEG and a video have the hues (chroma) at half the size: 4:2:0.",
         "compare the picture as it was rendered",
-        unchanged,
+        as_stored,
         _find_shrunk,
         ("n",),
         everywhere=True,
         sampled=False,
         after=_enlarged,
         effort=Effort.PIXELS,
-        words="a part of its size, and enlarged again",
+        words=" was shrunk to a part of its size, and enlarged again, or its hues alone were",
     ),
 )
