@@ -92,6 +92,7 @@ class Case:
     tracer: Tracer | None = None  # where whole pictures are traced, if not here
     # Makes the scene with faults for which Blender is needed; asked only if pixels are unexplained.
     variants: Callable[[], tuple[Variant, ...]] = no_variants
+    background: Colors | None = None  # (4,) the scene's own, where it was put before another one
 
     def __post_init__(self) -> None:
         if self.settings.color != Color.OBJECT:
@@ -136,4 +137,6 @@ class Case:
         behind = partial(replace, background=background)
         picture = replace(self.picture, background=background)
         then = self.next_frame and behind(self.next_frame)
-        return replace(self.with_scenes(behind), picture=picture, next_frame=then)
+        own = self.scene.background if self.background is None else self.background
+        changed = self.with_scenes(behind)
+        return replace(changed, picture=picture, next_frame=then, background=own)

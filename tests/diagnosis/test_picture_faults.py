@@ -146,7 +146,9 @@ def in_bits(*bits):
 def smoothly_halved(color):
     """Take every other pixel, and enlarge them as an editor does."""
     small = curve(color[::2, ::2])
-    parts = [Image.fromarray(small[..., k]).resize((72, 48), Image.Resampling.BICUBIC) for k in range(4)]
+    parts = [
+        Image.fromarray(small[..., k]).resize((72, 48), Image.Resampling.BICUBIC) for k in range(4)
+    ]
     return curve_undone(np.clip(np.stack([np.asarray(p) for p in parts], axis=-1), 0, 1))
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
@@ -25,9 +24,11 @@ from .fault import (
     AnyFault,
     Example,
     Fault,
+    Key,
     Numbers,
     Pick,
     instances_named,
+    keys_of,
     of_object,
 )
 from .processed import shades_apart
@@ -83,8 +84,6 @@ def _shown_color(evidence: Evidence) -> Work[list[Numbers]]:
 
 # ---- several in other colours
 
-Key = tuple[str, int]  # an object's name, and which of its instances and planes it is
-
 
 @dataclass(frozen=True, eq=False)
 class Painted(Numbers):
@@ -93,22 +92,12 @@ class Painted(Numbers):
     colors: Mapping[Key, Colors] = field(default_factory=dict)  # by material slot, (k, 4)
 
 
-def _keys(scene: Scene) -> list[Key]:
-    """Return what each instance and plane is called, also where a scene lists them otherwise."""
-    before: Counter[str] = Counter()
-    out = []
-    for name in (scene.objects[n] for n in scene.instance_objects[:-1]):
-        out.append((name, before[name]))
-        before[name] += 1
-    return out
-
-
 def _painted(case: Case, guess: Painted) -> Case:
     """Return the case with objects in other colours."""
 
     def painted(scene: Scene) -> Scene:
-        keys, count = _keys(scene), len(scene.instances)
-        of, others = guess.colors, zip(_keys(scene)[count:], scene.planes, strict=True)
+        keys, count = keys_of(scene), len(scene.instances)
+        of, others = guess.colors, zip(keys_of(scene)[count:], scene.planes, strict=True)
         instances = zip(keys[:count], scene.instances, strict=True)
         return replace(
             scene,
@@ -122,14 +111,14 @@ def _painted(case: Case, guess: Painted) -> Case:
 def _with_table(scene: Scene, table: Array, *numbers: float, words: str) -> Painted:
     """Guess the colours of a table, one for each row of the scene's `color_table`."""
     first, last = scene.color_rows
-    rows = zip(_keys(scene), first, last, strict=False)
+    rows = zip(keys_of(scene), first, last, strict=False)
     colors = {key: table[a : b + 1].astype(np.float32) for key, a, b in rows}
     return Painted(numbers, numbers, numbers, colors, words=words)
 
 
 def _swapped(scene: Scene, first: int, second: int) -> Painted:
     """Guess two instances in each other's colours."""
-    keys, instances = _keys(scene), scene.instances
+    keys, instances = keys_of(scene), scene.instances
     colors = {keys[first]: instances[second].colors, keys[second]: instances[first].colors}
     return Painted(colors=colors)
 

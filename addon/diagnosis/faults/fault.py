@@ -7,6 +7,7 @@ whether this gives the picture that was to be explained. Both read the records o
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import IntEnum
@@ -138,6 +139,7 @@ class Fault(Generic[G]):
     everywhere: bool = False  # it is in all pixels: not looked for beside an object's fault
     vague: bool = False  # it allows for more than one picture: an exact fault is told in its place
     removes: bool = False  # it says that its object is not visible
+    turns: bool = False  # it turns the picture: looked for also where all colours are wrong
     examples: tuple[Example, ...] = ()
     words: str = ""  # what a guess' words say, in general: for the documents
 
@@ -211,6 +213,19 @@ def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Ways, Find[Opt
 def instances_named(scene: Scene, name: str) -> list[int]:
     """Return the instances of an object's meshes; those of all objects if the name is empty."""
     return [n for n, i in enumerate(scene.instances) if name in ("", scene.objects[i.object])]
+
+
+Key = tuple[str, int]  # an object's name, and which of its instances and planes it is
+
+
+def keys_of(scene: Scene) -> list[Key]:
+    """Return what each instance and plane is called, also where a scene lists them otherwise."""
+    before: Counter[str] = Counter()
+    out = []
+    for name in (scene.objects[n] for n in scene.instance_objects[:-1]):
+        out.append((name, before[name]))
+        before[name] += 1
+    return out
 
 
 def of_object(change: Callable[..., Instance | None]) -> Make[Guess]:

@@ -84,6 +84,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         "Blender's row 0 is at the bottom, that of most files at the top. A picture whose camera "
         "is shifted up tells this from a camera that is mirrored",
         _upside_down,
+        turns=True,
         examples=(Example("rows", "the picture's rows from top to bottom"),),
     ),
     *CURVE_FAULTS,
