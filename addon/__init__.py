@@ -11,7 +11,7 @@ from typing import Any
 
 __version__ = "0.1.0"
 
-__all__ = [  # noqa: F822  # each is imported once it is asked for
+__all__ = [  # noqa: F822  # each is imported on first use
     "Camera",
     "Comparison",
     "Frame",

@@ -12,19 +12,22 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .arrays import Array
 from .camera_files.files import CONVENTIONS, chosen, read
 from .camera_files.frame import part
-from .causes.case import Case, without_colors
+from .causes.case import Case
 from .comparison.comparing import compared
 from .comparison.comparison import Comparison
 from .comparison.verdict import Verdict as Verdict
 from .derivation.candidates import LIMIT
 from .derivation.derivation import derive
 from .derivation.document import document_markdown
-from .images import open_picture
-from .opened import file_manifest, open_scene
-from .pictures.data.given import GivenData, picture_of_data
-from .pictures.given import Making, picture_of_array, picture_of_file
+from .files.exr import MissingLibraryError
+from .files.images import open_picture
+from .files.scenes import Account
+from .files.scenes import save_scene as save_scene
+from .opened import beside, file_manifest, open_scene
+from .pictures.given import GivenPicture, Making, picture_of_array, picture_of_file
 from .rendering import render as render
 from .rendering import trace as trace
 from .report.cameras import SceneCamera, write_cameras
@@ -36,8 +39,6 @@ from .scene import Region as Region
 from .scene import Scene
 from .scene import SceneError as SceneError
 from .scene import ViewWindow as ViewWindow
-from .scene_files import Account
-from .scene_files import save_scene as save_scene
 from .tracer.camera import Rays as Rays
 from .tracer.camera import camera_rays as camera_rays
 from .tracer.frame import Frame as Frame
@@ -167,14 +168,31 @@ def compare(
         scene, manifest = scene.seen_by(camera), replace(manifest, camera=camera.name)
     if kind:
         source = Path(picture) if isinstance(picture, (str, Path)) else np.asarray(picture)
-        shown = picture_of_data(GivenData(kind, source, scale=scale), scene, making)
+        shown = _given_data(kind, source, scale).picture(scene, making)
     elif isinstance(picture, (str, Path)):
         shown = picture_of_file(open_picture(picture), scene.camera, making)
     else:
         shown = picture_of_array(picture, scene.camera, making)
     case = Case(scene, manifest, settings or Settings(), shown, curves=(), self_check=self_check)
-    case = without_colors(case) if kind else case
     return result_of(compared(case, diagnose))
+
+
+def _given_data(kind: str, source: Path | Array, scale: float | None = None) -> GivenPicture:
+    """Return a file or an array of data; a package beside the add-on reads it.
+
+    Raises
+    ------
+    MissingLibraryError
+        If there is no such package, as in Blender.
+    ValueError
+        If there is no such kind, or it has no scale.
+    """
+    for package in beside("data"):
+        given: GivenPicture = package.given_data(kind, source, scale)
+        return given
+    raise MissingLibraryError(
+        f"{kind}: data are compared by reference_tracer_data, which is not part of the extension"
+    )
 
 
 def explain(scene: Scene, x: int, y: int, limit: int = LIMIT) -> str:

@@ -1,7 +1,12 @@
-"""Short names for the types of arrays. Those of vectors are in `tracer/vector.py`."""
+"""Short names for the types of arrays, and runs of equal items.
+
+The types of vectors are in `tracer/vector.py`. A picture in constant colours has some thousand
+runs, and millions of pixels: what follows from a pixel alone is computed once a run.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -16,3 +21,38 @@ Index = NDArray[np.integer]
 Integers = NDArray[np.int32]
 Where = Array | slice | tuple[Array, ...]  # some of the items of an array
 Places = NDArray[np.intp]  # what numpy's searches return
+
+
+def run_starts(*values: Array) -> Places:
+    """Return where the runs of n items begin, (k,).
+
+    Each of `values` is (n, ...). In a run, all of them have the same bits.
+    """
+    count = len(values[0])
+    new = np.zeros(count, bool)
+    new[:1] = True
+    for value in values if count > 1 else ():
+        rows = np.ascontiguousarray(value).reshape(count, -1)
+        size = next(s for s in (8, 4, 2, 1) if rows[0].nbytes % s == 0)
+        for column in rows.view(f"u{size}").T:
+            new[1:] |= column[1:] != column[:-1]
+    return np.flatnonzero(new)
+
+
+def places(mask: Bools) -> tuple[Places, ...]:
+    """Return what `numpy.nonzero` does: where a mask is True, an array for each of its axes.
+
+    numpy goes through a mask of two dimensions several times as slowly as through a flat one.
+    """
+    return np.unravel_index(np.flatnonzero(mask), mask.shape)
+
+
+def by_runs(of: Callable[..., Array], *values: Array) -> Array:
+    """Return what a function makes of n items, (n, ...); it has to treat each item by itself.
+
+    `values` are its arguments, (n, ...) each. The function is asked about the first of each run.
+    """
+    first, count = run_starts(*values), len(values[0])
+    if 2 * len(first) > count:
+        return of(*values)
+    return np.repeat(of(*(v[first] for v in values)), np.diff(first, append=count), axis=0)

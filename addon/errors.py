@@ -7,7 +7,7 @@ import traceback
 from collections.abc import Callable
 
 from .certified.arithmetic import AssumptionError
-from .exr import MissingLibraryError
+from .files.exr import MissingLibraryError
 from .pictures.picture import SizeError
 from .scene import SceneError
 from .tracer.memory import PictureTooLargeError
@@ -18,7 +18,7 @@ EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, As
 
 
 def words(error: BaseException) -> str:
-    """Return what a user is told of an error, in one line."""
+    """Return the message of an error for a user, in one line."""
     text = " ".join(str(error).split())
     if isinstance(error, MemoryError) and not isinstance(error, PictureTooLargeError):
         return f"there is not enough memory{text and f' ({text})'}: choose a smaller size"

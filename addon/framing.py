@@ -108,7 +108,7 @@ def shown_points(meshes: Sequence[Mesh], instances: Iterable[Instance]) -> Itera
 
 @dataclass(frozen=True)
 class Choice:
-    """What to look at in a file, and through which camera; None for what the file itself says.
+    """The choice of what to look at in a file, and of the camera; None for the file's own.
 
     Of a .blend, `blender.choice` sets it in the open file.
     """
@@ -118,7 +118,7 @@ class Choice:
     view_layer: str | None = None
     frame: int | None = None
     camera: str | None = None  # the name of one that is there
-    # The camera of a file, or those of its frames: what is made of one depends on its own alone.
+    # A file's camera, or one for each frame.
     seen_by: View | None = None
     views: Sequence[View] = field(default=(), repr=False)
     # A new camera: one that frames all, or one that is placed.
@@ -159,7 +159,7 @@ class Choice:
         backward = eye - np.asarray(target, np.float64)
         distance = float(np.linalg.norm(backward))
         if not distance:
-            raise SceneError("--eye and --target are the same point: move one of them.")
+            raise SceneError("eye and target are the same point: move one of them.")
         return Camera(
             _pose(axes_of(backward), eye),
             _window(half, width, height, tall),
@@ -168,7 +168,7 @@ class Choice:
             projection,
             clip_start=distance * 1e-3,
             clip_end=distance * 1e3,
-            name="--eye",
+            name="eye",
         )
 
 

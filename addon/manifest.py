@@ -39,7 +39,7 @@ class ObjectEntry:
 
 
 class Effect(Enum):
-    """What a feature that the tracer does not model does to the other side's picture."""
+    """The effect on the other side's picture of a feature that the tracer does not model."""
 
     NONE = "it changes nothing that is compared"
     UNPLACED = "it may change the picture, and nobody knows where"
@@ -106,7 +106,7 @@ class Unmodelled:
 
 @dataclass(frozen=True)
 class Manifest:
-    """What one export holds, and what it lacks."""
+    """The account of an export: what it holds, and what it lacks."""
 
     file: str
     scene: str
@@ -131,7 +131,7 @@ class Manifest:
 
     @property
     def lacks(self) -> tuple[Unmodelled, ...]:
-        """What the scene itself cannot show of its file, also the triangles that are left out."""
+        """Everything of the file that the scene lacks, the triangles that are left out included."""
         return self.unmodelled + tuple(
             Unmodelled(e.name, NOT_FINITE, f"{e.left_out:,}", None, Effect.MISSING)
             for e in self.objects

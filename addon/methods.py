@@ -12,13 +12,13 @@ from enum import StrEnum, auto
 
 @dataclass(frozen=True)
 class MethodRecord:
-    """What there is to say of a method."""
+    """A method's name, number, colour and texts."""
 
     label: str  # in Blender's panel
     words: str  # in plots and sentences
     short: str  # in a table
     number: int  # what a .blend stores: one that was given away is never given to another
-    color: str  # in plots; told apart without telling red from green (after Okabe and Ito)
+    color: str  # in plots; distinct for colour-blind readers (after Okabe and Ito)
     description: str  # the tooltip in Blender's panel
     guarantees: str  # of the picture, for the documents
 
@@ -40,7 +40,7 @@ class Method(StrEnum):
 
     @property
     def record(self) -> MethodRecord:
-        """What there is to say of it."""
+        """The method's record."""
         return RECORDS[self]
 
     @property

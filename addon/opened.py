@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+from .files.scenes import Account, load_account, load_scene
 from .framing import Choice
 from .manifest import Manifest, ObjectEntry
 from .scene import Scene, SceneError
-from .scene_files import Account, load_account, load_scene
 
 
 class Opened(NamedTuple):
-    """What a file gives."""
+    """An opened file: its scene, and the account of what it holds and lacks."""
 
     scene: Scene
     manifest: Manifest
@@ -23,17 +23,19 @@ class Opened(NamedTuple):
 
 @cache
 def mesh_formats() -> dict[str, Callable[[Path, Choice], Opened]]:
-    """Return what opens a mesh's file, by its suffix: packages beside the add-on do.
-
-    In Blender there is none: nothing in its windows opens a file of meshes.
-    """
-    from importlib.metadata import entry_points
-
+    """Return what opens a mesh's file, by its suffix; nothing in Blender's windows does."""
     out: dict[str, Callable[[Path, Choice], Opened]] = {}
-    for found in entry_points(group="reference_tracer.meshes"):
-        package = found.load()
+    for package in beside("meshes"):
         out |= dict.fromkeys(package.FORMATS, package.open_meshes)
     return out
+
+
+def beside(group: str) -> Iterator[Any]:
+    """Yield what packages beside the add-on bring along for a use; in Blender there is none."""
+    from importlib.metadata import entry_points
+
+    for found in entry_points(group=f"reference_tracer.{group}"):
+        yield found.load()
 
 
 def open_scene(path: Path, choice: Choice | None = None) -> Opened:
@@ -49,7 +51,7 @@ def open_scene(path: Path, choice: Choice | None = None) -> Opened:
         scene = load_scene(path)
         return Opened(scene, file_manifest(path, scene, load_account(path)))
     if suffix not in mesh_formats():
-        raise SceneError(f"'{path}' is none of .npz, {', '.join(mesh_formats())}")
+        raise SceneError(f"'{path}' is none of {', '.join(('.npz', *mesh_formats()))}")
     return mesh_formats()[suffix](path, choice or Choice())
 
 

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 from itertools import combinations, product
 
-from reference_tracer.tracer.hits import NOWHERE, Name
+from reference_tracer.tracer.hits import NOWHERE
+from reference_tracer.tracer.ties import Name
 
 from .moved_rays import (
     Surface,

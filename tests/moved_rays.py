@@ -25,7 +25,8 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from numpy.typing import NDArray
-from reference_tracer.tracer.hits import NOWHERE, Name
+from reference_tracer.tracer.hits import NOWHERE
+from reference_tracer.tracer.ties import Name
 
 Vector = Sequence[Any] | NDArray[Any]  # three integers, or three arrays of them
 THE_RULE: tuple[Vector, ...] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))  # d + (x, x^2, x^3)

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from reference_tracer.arrays import Bools, Index
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.camera import camera_rays, film_positions
-from reference_tracer.tracer.hits import NOTHING, NOWHERE, Name
+from reference_tracer.tracer.hits import NOTHING, NOWHERE
+from reference_tracer.tracer.ties import Name
 from reference_tracer.tracer.vector import Vectors, transform_points
 
 from .moved_rays import (
@@ -108,7 +109,6 @@ class Crossing(NamedTuple):
 
     t: Fraction
     at_edge: bool
-    hit: bool  # by the moved ray
     surface: Surface  # in floats or fractions
 
 
@@ -120,7 +120,6 @@ class Sight:
     direction: Vectors  # (3,)
     seen: Name  # what the ray that the rule moves sees first, NOWHERE for nothing
     t: Fraction | None  # where the stored ray meets it
-    crossings: int  # how many surfaces the moved ray crosses within the clip range
     # All surfaces that the textbook leaves open: the nearest that the closed triangles have, and
     # those that the ray meets at an edge before it.
     front: tuple[Surface, ...]
@@ -190,14 +189,14 @@ def sights(
         result = intersect_pairs(origins[:, ray], directions[:, ray], corners[:, :, triangle])
         for k in np.flatnonzero(result.within(*clip)).tolist():
             surface = Surface(names[triangle[k]], list(corners[:, :, triangle[k]]))
-            crossing = Crossing(result.t(k), result.side[k] == EDGE, bool(result.hit[k]), surface)
+            crossing = Crossing(result.t(k), result.side[k] == EDGE, surface)
             found[ray[k]].append(crossing)
     for ray_number, crossings in enumerate(found):
         o, d = ([Fraction(float(x)) for x in v[:, ray_number]] for v in (origins, directions))
         for name, point, normal in planes:
             p, w = ([Fraction(float(x)) for x in v] for v in (point, normal))
             if dot(d, w) and _within(t := (dot(p, w) - dot(o, w)) / dot(d, w), *clip):
-                crossings.append(Crossing(t, False, True, Surface(name, [p], w)))
+                crossings.append(Crossing(t, False, Surface(name, [p], w)))
     return [_sight(origins[:, k], directions[:, k], m) for k, m in enumerate(found)]
 
 
@@ -210,4 +209,4 @@ def _sight(o: Vectors, d: Vectors, crossings: list[Crossing]) -> Sight:
     else:
         seen = nearest_of_moved(*in_integers(o, d, surfaces), THE_RULE) if front else NOWHERE
     t = next((m.t for m in front if m.surface.name == seen), None)
-    return Sight(o, d, seen, t, sum(m.hit for m in crossings), surfaces, sure is not None)
+    return Sight(o, d, seen, t, surfaces, sure is not None)

@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import exr, images
 from reference_tracer.cli.main import main
+from reference_tracer.files import exr, images
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.manifest import Effect, Manifest, Unmodelled
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.palette import By
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region
-from reference_tracer.scene_files import save_scene
 
 
 @pytest.fixture
@@ -188,7 +188,7 @@ def test_a_smoothed_picture_needs_its_filter(scene, against):
 
     color = render(scene, Settings(samples=4)).color
     assert against(color, "smooth.exr")[0] == 2
-    code, found, _ = against(color, "smooth.exr", options=("--filter", "1"))
+    code, found, _ = against(color, "smooth.exr", options=("--excuse", "filter=1"))
     assert code == 1 and found["pixels"]["unexplained"] == 0
     assert found["pixels"]["by_cause"]["anti_aliasing"] > 50
     assert found["blender"]["filter_radius"] == 1
@@ -214,7 +214,7 @@ def test_a_whole_picture_for_a_border(scene, against, tmp_path):
 
 def test_a_mesh_with_a_camera_of_the_command_line(against, tmp_path):
     trimesh.creation.box((1, 2, 1)).export(tmp_path / "box.ply")
-    options = ("--width", "40", "--height", "30", "--eye", "4", "3", "2")
+    options = ("--set", "width=40", "height=30", "eye=4,3,2")
     arguments = ["trace", tmp_path / "box.ply", "--out", tmp_path / "box.png", *options]
     assert main([str(a) for a in arguments]) == 0
     code, found, _ = against(
@@ -253,9 +253,9 @@ def test_what_is_no_picture_is_said(against, tmp_path, name, content, message):
     [
         (("--judge", "cycles"), "--judge is for Blender's picture"),
         (("--as-is",), "--as-is is for Blender's picture"),
-        (("--filter", "-1"), "at least 0"),
-        (("--filter", "nan"), "at least 0"),
-        (("--eye", "1", "2", "3"), "has its own camera"),
+        (("--excuse", "filter=-1"), "at least 0"),
+        (("--excuse", "filter=nan"), "at least 0"),
+        (("--set", "eye=1,2,3"), "has its own camera"),
     ],
 )
 def test_options_that_do_not_fit(scene, against, options, message):
@@ -267,9 +267,9 @@ def test_options_that_do_not_fit(scene, against, options, message):
 def test_a_filter_needs_a_picture(tmp_path, capsys):
     """Or an engine that is named: that is said before the file is opened."""
     for judge in ((), ("--judge", "workbench"), ("--judge", "auto")):
-        options = *judge, "--filter", "1", "--out", str(tmp_path)
+        options = *judge, "--excuse", "filter=1", "--out", str(tmp_path)
         assert main(["compare", str(tmp_path / "a.blend"), *options]) == 4
-        assert "--filter is for a picture of --against" in capsys.readouterr().err
+        assert "--excuse filter is for a picture of --against" in capsys.readouterr().err
 
 
 @pytest.mark.slow
@@ -282,7 +282,7 @@ def test_whose_rounding_excuses_is_chosen_and_said(make, against, tmp_path):
     code, found, text = against(color, "far.exr", source="walls.npz")
     assert code == 2 and found["blender"]["renderer"] == "rays"
     assert "by the rounding of float32 rays" in text
-    options = ("--renderer", "raster")
+    options = ("--excuse", "renderer=raster")
     code, found, text = against(color, "far.exr", source="walls.npz", options=options)
     assert code == 1 and found["blender"]["renderer"] == "raster"
     assert found["pixels"]["unexplained"] == 0 and found["excused"]["share"] > 0.02
@@ -303,14 +303,14 @@ def test_a_mesh_says_in_which_colours_and_from_where_it_is_to_be_drawn(tmp_path,
         for o in json.loads(Path(colors).read_text(encoding="utf-8"))["objects"]
     }
     assert len({tuple(color) for color in wanted.values()}) == len(wanted) == 2
-    eye = ["--eye", "4", "-5", "3"]
+    eye = ["--set", "eye=4,-5,3"]
     for camera, is_placed in ((eye, False), ([], True)):
-        size = [*camera, "--width", "64", "--height", "36"]
+        size = [*camera, "--set", "width=64", "height=36"]
         picture = str(tmp_path / "picture.png")
         main(["trace", mesh, *size, "--out", picture])
         capsys.readouterr()
         main(["compare", mesh, *size, "--against", picture, "--no-diagnosis", *out])
-        assert ("--eye, --target and --angle name" in capsys.readouterr().out) == is_placed
+        assert ("eye=, target= and angle= say" in capsys.readouterr().out) == is_placed
 
 
 def test_what_a_file_says_of_unknown_colours_excuses_none_that_are_given(scene, tmp_path, capsys):

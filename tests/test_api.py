@@ -10,11 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import reference_tracer
-from reference_tracer import Region, compare, images, load_scene, render, save_scene
+from reference_tracer import Region, compare, load_scene, render, save_scene
+from reference_tracer.files import images
 from reference_tracer.opened import open_scene
 from reference_tracer.scene import SceneError
 
-from .png_files import chunk
+from .files.png_files import chunk
 
 PAGE = Path(__file__).parent.parent / "docs" / "python.md"
 TRIANGLE = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n"

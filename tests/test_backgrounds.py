@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import images
 from reference_tracer.causes.case import Case
 from reference_tracer.causes.explain import UNEXPLAINED
 from reference_tracer.comparison.comparing import compare, trace_and_compare
+from reference_tracer.files import images
 from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.picture import Picture

@@ -79,13 +79,9 @@ def texts():
     return sorted(p for p in DOCS.rglob("*.md"))
 
 
-def marked():
-    return [p for p in texts() if "<!-- " in p.read_text(encoding="utf-8")]
-
-
 def originals():
     """Not translations, whose commands and figures test_lesson_languages.py holds to these."""
-    return [p for p in marked() if not re.match(r"lessons/[a-z]{2}/", str(p.relative_to(DOCS)))]
+    return [p for p in texts() if not re.match(r"lessons/[a-z]{2}/", str(p.relative_to(DOCS)))]
 
 
 @pytest.mark.blender
@@ -95,18 +91,8 @@ def test_commands_and_figures(path, tools, values):
     for folder in tools["make"].MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     text = path.read_text(encoding="utf-8")
-
-    def run(command):
-        if command.how.startswith("here"):
-            return tools["markers"].printed(command)  # as it is: another machine's
-        return tools["make"].run(command)
-
-    again = tools["markers"].refreshed(text, run, values)
+    again = tools["markers"].refreshed(text, tools["make"].run, values)
     assert again.splitlines() == text.splitlines()
-
-
-def test_all_marked_documents_are_refreshed(tools):
-    assert tools["make"].documents() == marked() and len(marked()) >= 11
 
 
 @pytest.mark.parametrize("path", texts(), ids=lambda p: p.stem)
@@ -212,30 +198,24 @@ def test_every_failure_is_described():
 
 def test_markers(tools):
     markers = tools["markers"]
-    text = (
-        "a <!-- one -->0<!-- / --> b\n<!-- run: reftrace x -->\nold\n<!-- /run -->\n"
-        "<!-- run silently: reftrace y -->\n<!-- /run -->\n"
-        "<!-- run here folded: reftrace z -->\n<!-- /run -->\n"
-    )
-    found = [(c.how, c.text, c.body) for c in markers.commands(text)]
-    unfolded = [("", "reftrace x", "old"), ("silently", "reftrace y", "")]
-    assert found == [*unfolded, ("here folded", "reftrace z", "")]
+    silent = "```console\n$ reftrace y\n```\n"
+    text = f"a <!-- one -->0<!-- / --> b\n```console\n$ reftrace x\nold\n```\n{silent}"
+    assert [(c.text, c.printed) for c in markers.commands(text)] == [
+        ("reftrace x", "old"),
+        ("reftrace y", ""),
+    ]
     assert markers.figures(text) == ["one"]
 
     def run(command):
         return f"{command.text} in 0.25 s\n00:01.234  blend | Read\nend\n"
 
     once = markers.refreshed(text, run, {"one": "1"})
-    assert "a <!-- one -->1<!-- / --> b" in once
-    assert "```\n$ reftrace x\nreftrace x in … s\nend\n```" in once
-    assert "```\n$ reftrace y\n```" in once
-    assert "$ reftrace z\n```\n\n<details>" in once and once.count("details>") == 2
-    printed = [markers.printed(c) for c in markers.commands(once)]
-    assert printed == ["reftrace x in … s\nend", "", "reftrace z in … s\nend"]
+    assert "a <!-- one -->1<!-- / --> b" in once and silent in once
+    assert "```console\n$ reftrace x\nreftrace x in … s\nend\n```" in once
     assert markers.refreshed(once, run, {"one": "1"}) == once
     with pytest.raises(KeyError):
         markers.refreshed(text, run, {})
-    left = "<!-- not run: it takes long -->\n```\nreftrace z\n```\n<!-- /run -->\n"
+    left = "<!-- not run: it takes long -->\n```\nreftrace z\n```\n"
     assert markers.refreshed(left, run, {}) == left
     assert markers.unmarked(f"before\n{left}after\n{once}").split() == (
         ["before", "after", "a", "<!--", "one", "-->1<!--", "/", "-->", "b"]
@@ -243,9 +223,9 @@ def test_markers(tools):
 
 
 def test_only_reftrace_is_run(tools):
-    command = tools["markers"].Command("", "rm -r /", "")
+    command = tools["markers"].Command("rm -r /", "")
     with pytest.raises(SystemExit, match="run reftrace"):
         tools["make"].run(command)
-    broken = tools["markers"].Command("", "reftrace trace not_there.ply --out out/a.png", "")
+    broken = tools["markers"].Command("reftrace trace not_there.ply --out out/a.png", "")
     with pytest.raises(SystemExit, match=r"no file 'not_there\.ply'"):
         tools["make"].run(broken)

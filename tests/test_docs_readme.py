@@ -9,10 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import trimesh
 from reference_tracer.cli.main import parser
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import load_scene
 
 PROJECT = Path(__file__).parent.parent
 TEXT = (PROJECT / "README.md").read_text(encoding="utf-8")
@@ -99,15 +98,6 @@ def test_there_are_commands_of_every_kind():
     targets = re.findall(r"^([a-z-]+):.*##", (PROJECT / "Makefile").read_text("utf-8"), re.M)
     for target in re.findall(r"(?:`|^)make ([a-z-]+)", TEXT, re.M):
         assert target in targets, target
-
-
-def test_its_code_runs(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    trimesh.creation.icosphere(2).export("mesh.ply")
-    text = DOCUMENTS[PROJECT / "docs" / "commands.md"]
-    [code] = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
-    exec(compile(code, "commands.md", "exec"), {})
-    assert "decided by the error bound" in capsys.readouterr().out
 
 
 def test_the_scene_of_its_own_making_is_read(tmp_path, monkeypatch):

@@ -1,5 +1,6 @@
 """What the documents say of causes, faults and methods is what their records say."""
 
+import re
 import sys
 from pathlib import Path
 
@@ -7,8 +8,9 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer.causes.explain import CAUSES
-from reference_tracer.diagnosis.faults import EXAMPLES, FAULTS
+from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.methods import Method
+from reference_tracer_data.faults import DATA_FAULTS
 
 from .attacks.table import withstood
 
@@ -40,11 +42,18 @@ def test_a_page_has_what_the_records_say(part):
 
 def test_every_record_is_told_once():
     for cause in CAUSES[1:]:
-        assert VALUES["causes"].count(f"`{cause.key}`, {cause.number} in") == 1
-    for fault in FAULTS:
+        assert VALUES["causes"].count(f"`{cause.key}`, {cause.number})") == 1
+    for fault in (*FAULTS, *DATA_FAULTS):
         assert VALUES["faults"].count(f"\n### `{fault.name}`\n") == 1 and fault.why
-    assert all(example.text[1:] in VALUES["faults"] for _, example in EXAMPLES)
     assert all(VALUES["methods"].count(f"\n| `{method}`, ") == 1 for method in Method)
+
+
+def test_every_fault_has_a_witness():
+    """The public report in which somebody made it stands in its record, and in its row."""
+    for fault in (*FAULTS, *DATA_FAULTS):
+        assert re.fullmatch(r"[\w.-]+/[\w.-]+#\d+", fault.witness), fault.name
+        repository, number = fault.witness.split("#")
+        assert f"(https://github.com/{repository}/issues/{number})" in VALUES["faults"]
 
 
 def test_a_cause_that_excuses_says_why_and_what_to_do():

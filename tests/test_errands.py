@@ -103,7 +103,7 @@ from dataclasses import replace
 from reference_tracer.derivation.derivation import derive
 from reference_tracer.derivation.writers import to_dict
 from reference_tracer.projections import PROJECTIONS
-from reference_tracer.scene_files import load_scene, save_scene
+from reference_tracer.files.scenes import load_scene, save_scene
 new = replace(scene, camera=replace(scene.camera, projection=PROJECTIONS["equirectangular"]))
 for method in ("textbook", "certified"):
     away = np.sqrt((render(new, Settings(method)).position ** 2).sum(axis=-1))
@@ -250,7 +250,7 @@ SEES_COMMAND = """
 from contextlib import redirect_stdout
 from io import StringIO
 from reference_tracer.cli.main import main
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files.scenes import save_scene
 save_scene("scene.npz", scene)
 with redirect_stdout(StringIO()) as said:
     assert main(["count", "scene.npz"]) == 0
@@ -259,7 +259,7 @@ with redirect_stdout(StringIO()) as said:
     except SystemExit:
         pass
 assert "triangles: 1" in said.getvalue() and "count the triangles" in said.getvalue()
-assert main(["count", "scene.npz", "--frame", "3"]) == 4
+assert main(["count", "scene.npz", "--set", "frame=3"]) == 4
 """
 SEES_COMMAND_IN_BLENDER = """
 from contextlib import redirect_stdout

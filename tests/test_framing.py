@@ -82,7 +82,7 @@ def test_a_placed_camera_has_its_target_in_the_middle(scale, rng):
     assert camera.window.top == pytest.approx(1.5 if scale else np.tan(np.radians(20)))
     assert camera.window.right / camera.window.top == pytest.approx(30 / 40)
     assert (camera.projection is ORTHOGRAPHIC) == bool(scale)
-    with pytest.raises(SceneError, match="--target are the same point"):
+    with pytest.raises(SceneError, match="target are the same point"):
         Choice(eye=eye, target=eye).placed(30, 20)
 
 

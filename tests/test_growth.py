@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.mesh_diagnosis import diagnosed
+from reference_tracer.comparison.mesh_diagnosis import diagnosed
+from reference_tracer.files.scenes import Account, load_scene, save_scene
 from reference_tracer.opened import file_manifest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
-from reference_tracer.scene_files import Account, load_scene, save_scene
 from reference_tracer.tracer.progress import result_of
 
+from .files.old_scenes import old_arrays
 from .growth import operations
-from .old_scenes import old_arrays
 
 FEW, MANY = 60, 240
 

@@ -18,7 +18,7 @@ LEVELS = [(" ".join(FOUND[k:]), kernel) for k in range(len(FOUND) + 1) for kerne
 SAMPLE = [
     "tests/tracer",
     "tests/derivation",
-    "tests/certified/sweep",
+    "tests/certified/test_order.py",
     "tests/certified/test_definition.py",
     "tests/certified/test_dropped.py",
 ]

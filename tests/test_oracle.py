@@ -7,11 +7,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-import trimesh
 from reference_tracer.scene import Mesh
-from reference_tracer.tracer.hits import NOWHERE
 
-from .moved import may
 from .oracle import (
     EDGE,
     INSIDE,
@@ -19,7 +16,6 @@ from .oracle import (
     intersect_pairs,
     scaled_integers,
     scene_sights,
-    sights,
 )
 
 TINY = Fraction(1, 2**2000)  # beside integers of a few digits
@@ -138,74 +134,6 @@ def test_integers_are_the_floats(rng):
     assert exponent.min() < -1000
     for floats, ints, e in zip(values.T, whole.T, exponent, strict=True):
         assert [Fraction(n) * Fraction(2) ** int(e) for n in ints] == fractions(floats)[0]
-
-
-def test_what_may_be_seen_is_what_moved_rays_see(make, rng):
-    """Rays moved by 2^-40, in hundreds of directions: no sector is missed, and none is made up."""
-    fan = np.array([[np.cos(a), np.sin(a), -2] for a in rng.uniform(0, 2 * np.pi, 24)])
-    order = np.argsort(np.arctan2(fan[:, 1], fan[:, 0]))
-    fan = np.round(fan[order] * 16) / 16
-    corners = np.stack([np.array([(0, 0, -2.0), fan[k - 1], fan[k]]) for k in range(24)], axis=2)
-    corners = np.delete(corners, [3, 4, 11], axis=2)  # what is behind may be seen through these
-    behind = np.array([[-9.0, -9, -3], [9, -9, -3], [0, 20, -3]])[:, :, None]
-    slanted = np.array([[-9.0, -9, -3], [9, -9, -3], [0, 9, -3]])[:, :, None]
-    corners = np.concatenate((corners, behind, slanted), axis=2)
-    corners[:, 2, -1] += corners[:, 0, -1] / 4
-    o, d = np.zeros((3, 1)), np.array([[0], [0], [-1.0]])
-    [sight] = sights(o, d, corners)
-    ways = rng.normal(size=(3, 800)) * 2.0**-40
-    moved = sights(np.zeros((3, 800)), d + ways, corners)
-    assert {s.seen for s in moved} == may(sight)
-    assert len(may(sight)) > 20
-
-
-def moved_hits(o, d, corners):
-    """What the ray d + (x, x^2, x^3) crosses, the nearest first: (t of it, index)."""
-    by = TINY, TINY**2, TINY**3
-    found = ((met(o, d, corners[:, :, k], by), k) for k in range(corners.shape[2]))
-    return sorted((hit[0], k) for hit, k in found if hit)
-
-
-def check(o, d, corners):
-    """Check one ray against fractions: what it sees, its t, and how many it crosses."""
-    o, d = np.asarray(o, float), np.asarray(d, float)
-    [sight] = sights(o[:, None], d[:, None], corners)
-    hits = [(t, k) for t, k in moved_hits(o, d, corners) if t > 0]
-    assert sight.seen == ((0, hits[0][1]) if hits else NOWHERE)
-    assert sight.t == (met(o, d, corners[:, :, hits[0][1]])[0] if hits else None)
-    assert sight.crossings == len(hits)
-    return sight
-
-
-@pytest.fixture
-def box():
-    """A cube of 4 m about the origin: its vertices, and the corners of its triangles."""
-    cube = trimesh.creation.box((4, 4, 4))
-    return cube.vertices, cube.vertices[cube.faces].transpose(1, 2, 0)
-
-
-def test_a_closed_surface_is_crossed_once_from_inside(box):
-    """Integers: every ray meets a corner, an edge or a diagonal."""
-    vertices, corners = box
-    centers = corners.mean(axis=0).T
-    for target in [*vertices, *centers, (2, 0, 0), (2, 2, 0)]:
-        assert check((0, 0, 0), target, corners).crossings == 1
-    for target in vertices:
-        assert check((1, 0, 1), target - (1, 0, 1), corners).crossings == 1
-
-
-def test_an_outline_is_crossed_twice_or_not_at_all(box):
-    for x in (-2, 0, 2):
-        for y in (-2, 1, 2):
-            assert check((x, y, 9), (0, 0, -1), box[1]).crossings in (0, 2)
-
-
-def test_two_that_meet_at_the_ray_are_ordered_by_the_moved_one():
-    """Two planes through one point of the ray: to the side it is moved to, one is nearer."""
-    slopes = [[[-9, -9, 5 + s * -9], [9, -9, 5 + s * 9], [0, 9, 5]] for s in (1, -1)]
-    corners = np.array(slopes, float).transpose(1, 2, 0)
-    assert check((0, 0, 0), (0, 0, 1), corners).seen == (0, 1)
-    assert check((0, 0, 0), (0, 0, 1), corners[:, :, ::-1]).seen == (0, 0)
 
 
 def test_what_is_not_finite_is_not_seen(make):

@@ -246,7 +246,7 @@ def test_wheel_is_of_use_alone(name: str, release: Path, tmp_path: Path):
         return done.stdout + done.stderr
 
     assert reftrace("--version").split()[-1] in wheel.name
-    size = "--width", "48", "--height", "32"
+    size = "--set", "width=48", "height=32"
     ball = trimesh.creation.icosphere(2)
     for suffix in ("obj", "glb"):
         ball.export(tmp_path / f"ball.{suffix}")

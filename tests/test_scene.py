@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import (
     Camera,
     Instance,
@@ -130,59 +129,6 @@ def test_fault_is_named(fault):
         assert word in str(caught.value)
 
 
-def test_what_is_right_passes():
-    whole = scene(planes=[Plane(0, (0, 0, 0), (0, 0, 1e-20))])
-    assert whole.triangle_count == 1
-    assert whole.camera.region == Region(0, 0, 8, 6)
-    assert camera(projection=ORTHOGRAPHIC, clip_start=-5.0).clip_start == -5
-    assert mesh().slots.tolist() == [0]
-    assert mesh(triangles=np.zeros((0, 3), int), vertices=POINTS[:0]).triangles.shape == (0, 3)
-
-
-def test_triangles_count_over_instances():
-    two = mesh(triangles=[[0, 1, 2], [0, 2, 1]])
-    instances = [Instance(0, 0, np.eye(4)), Instance(1, 0, np.eye(4)), Instance(1, 0, np.eye(4))]
-    assert scene(meshes=[mesh(), two], instances=instances).triangle_count == 5
-
-
-def test_axes_of_the_camera_are_columns():
-    matrix = np.arange(16.0).reshape(4, 4)
-    matrix[0, 0], matrix[3] = 50, (0, 0, 0, 1)
-    c = camera(world_from_camera=matrix)
-    for axis, column in ((c.right, 0), (c.up, 1), (c.origin, 3)):
-        assert np.array_equal(axis, matrix[:3, column])
-    assert np.array_equal(c.forward, -matrix[:3, 2])
-
-
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_vertices_keep_their_precision(dtype):
-    assert mesh(vertices=POINTS.astype(dtype)).vertices.dtype == dtype
-
-
-def test_arrays_are_read_only():
-    whole = scene(
-        planes=[Plane(0, (0, 0, 0), (0, 0, 1))], meshes=[mesh(corner_colors=np.ones((1, 3, 4)))]
-    )
-    m, i, p = whole.meshes[0], whole.instances[0], whole.planes[0]
-    for array in (
-        whole.camera.world_from_camera,
-        whole.background,
-        m.vertices,
-        m.triangles,
-        m.slots,
-        m.corner_colors,
-        i.world_from_object,
-        i.colors,
-        p.point,
-        p.normal,
-        p.color,
-    ):
-        with pytest.raises(ValueError, match="read-only"):
-            array[...] = 0
-    with pytest.raises(AttributeError):
-        whole.camera.width = 3
-
-
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_drop_non_finite(dtype):
     vertices = np.arange(15, dtype=dtype).reshape(5, 3)
@@ -232,14 +178,3 @@ def test_a_view_window_is_moved_scaled_and_centred_anew():
     assert window.scaled(-1, 1) == ViewWindow(-3, 1, 0, 2)
     assert window.about((0, 0), y=3) == ViewWindow(-2, 2, -3, 3)
     assert window.about(window.centre) == window
-
-
-def test_other_meshes_of_some_instances(make):
-    """Two that get the same mesh share it; the others keep theirs."""
-    scene = make.scene(make.camera(), *(make.quad(x, x + 1, 0, 1, -2) for x in range(4)))
-    mesh = make.quad(0, 9, 0, 9, -3)
-    found = scene.with_meshes({0: mesh, 2: mesh, 3: scene.meshes[1]})
-    assert len(found.meshes) == 6
-    seen = [found.meshes[i.mesh] for i in found.instances]
-    assert seen == [mesh, scene.meshes[1], mesh, scene.meshes[1]]
-    assert found.instances[0].mesh == found.instances[2].mesh

@@ -36,9 +36,10 @@ from reference_tracer.tracer.camera import (
 )
 from reference_tracer.tracer.candidates import candidates, cull
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.hits import NOTHING, Hits, Name
+from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.ties import Name
 from reference_tracer.tracer.vector import Vectors, transform_points
 from reference_tracer.tracer.world import world_corners
 

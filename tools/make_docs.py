@@ -29,7 +29,8 @@ from documents import (
     story,
     subjects,
 )
-from documents.markers import MARKED, Command, refreshed
+from documents.markers import Command, commands, refreshed
+from documents.markers import figures as figures_of
 from reference_tracer.cli import main as reftrace
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -39,8 +40,9 @@ LINES = 100  # of one command's output, at most
 
 
 def documents() -> list[Path]:
-    """The Markdown files that have markers."""
-    return [p for p in sorted(DOCS.rglob("*.md")) if MARKED in p.read_text(encoding="utf-8")]
+    """The Markdown files that have something to be filled in."""
+    texts = {path: path.read_text(encoding="utf-8") for path in sorted(DOCS.rglob("*.md"))}
+    return [path for path, text in texts.items() if commands(text) or figures_of(text)]
 
 
 @cache  # lessons in two languages have the same commands, of which one writes a file only once
@@ -63,7 +65,7 @@ def printed(text: str) -> str:
 def run(command: Command) -> str:
     """Return what a command of a document prints."""
     out = printed(command.text)
-    if command.how != "silently" and (lines := out.count("\n")) > LINES:
+    if command.printed and (lines := out.count("\n")) > LINES:
         raise SystemExit(f"{command.text} prints {lines} lines: no document has room for that")
     return out
 
@@ -79,7 +81,7 @@ def main() -> None:
     pictures.write(DOCS / "images" / "lessons")
     causes.write(DOCS / "images" / "causes")
     if not options.files:  # it takes a minute
-        run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
+        run(Command("reftrace extremes --out out/docs/extremes", ""))
         story.write(DOCS / "images" / "diagnosis.gif")
     if not options.no_browser:
         from documents import browser, drawings

@@ -42,7 +42,6 @@ CRASHES = (
 # The wheels of 4.5 and 5.0 are made for numpy 1: with 2 their module of sound complains once, with
 # a traceback, and these want none.
 COMPLAINS = (
-    "blender/test_cli_blend.py::test_a_scene_that_cannot_be_traced",
     "blender/test_cli_blend.py::test_input_errors",
     "blender/test_cli_blend.py::test_too_large_a_picture",
     "blender/test_engine_faults.py::test_a_picture_that_does_not_fit_is_refused_in_words",

@@ -31,8 +31,8 @@ PLACEHOLDER = "https://example.org/reference-tracer"
 # What has it: the files that users see.
 ADDRESSED = "README.md", "CITATION.cff", "blender_manifest.toml", "pyproject.toml"
 # The comparison to try is the one of the moving picture: another angle of view than the scene's.
-TRIED = ("sample_scenes/suzanne.blend", "--eye", "4", "-7.5", "3.6", "--target", "0", "0", "1",
-         "--width", "320", "--height", "180")  # fmt: skip
+TRIED = ("sample_scenes/suzanne.blend", "--set", "eye=4,-7.5,3.6", "target=0,0,1", "width=320",
+         "height=180")  # fmt: skip
 ANGLES = "38", "40"
 COURSE = """<h2>In a course</h2>
 <p><a href="{0}">{0}</a> has all that four lessons need: unpack it, and open its index.html.</p>
@@ -213,8 +213,8 @@ def compared(work: Path, source: Path) -> Path:
     scene, *camera = TRIED
     render, out = work / "render.png", work / "compared"
     for words, code in (
-        (("trace", scene, *camera, "--angle", wrong, "--out", render), 0),
-        (("compare", scene, *camera, "--angle", right, "--against", render, "--out", out), 2),
+        (("trace", scene, *camera, f"angle={wrong}", "--out", render), 0),
+        (("compare", scene, *camera, f"angle={right}", "--against", render, "--out", out), 2),
     ):
         command = [sys.executable, "-m", "reference_tracer.cli", *words]
         env = os.environ | {"PYTHONPATH": str(work / "site")}

@@ -95,8 +95,9 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     def _fill(self, frame: Frame, settings: Settings, layer: str, picture: Sequence[Pass]) -> int:
         """Trace a frame and show its picture as it grows; return how many rows are shown."""
         from ..rendering import steps
+        from ..tracer.progress import Left
 
-        began = time.monotonic()
+        began, left = time.monotonic(), Left()
         due = began + SHOW_EVERY
         shown = 0
         for share in steps(frame.scene, settings, frame):
@@ -108,8 +109,9 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
             shown = min(shown, done)  # none is, if what was traced had to be withdrawn
             now = time.monotonic()
             if now > due:
-                left = f", {(now - began) * (1 - share) / share:.0f} s left" if share else ""
-                self.update_stats("", f"Tracing {int(100 * share)} %{left}")
+                seconds = left.seconds(now - began, share)
+                rest = "" if seconds is None else f", {seconds:.0f} s left"
+                self.update_stats("", f"Tracing {int(100 * share)} %{rest}")
                 if done > shown:
                     self._show(frame, layer, picture, slice(shown, done))
                     shown = done

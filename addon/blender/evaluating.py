@@ -1,9 +1,9 @@
 """Has Blender evaluate a temporary scene once, to be exported, and drawn as often as is wanted.
 
 To evaluate is to apply every modifier, which may take minutes; each render does it anew. A window
-keeps what it has evaluated. In a render, engines that draw by the GPU keep it from frame to frame
-of an animation: so one frame is rendered again and again. What is changed in between, Blender
-evaluates alone, before it draws.
+keeps what it has evaluated. In a render, Blender's engines can keep it from frame to frame of an
+animation: so one frame is rendered again and again. What is changed in between, Blender evaluates
+alone, before it draws.
 """
 
 from __future__ import annotations
@@ -151,6 +151,7 @@ def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
     # Blender crashes if it is to write, within the render, what an engine did not finish (5.2). And
     # an animation has no frame below 0.
     writes = judge is not None and judge.known and scene.frame_current >= 0
+    scene.render.use_persistent_data = writes  # Cycles keeps the evaluation, too
     empty = bpy.data.scenes.new("Reference Tracer")
     empty.frame_set(scene.frame_current, subframe=scene.frame_subframe)  # it is rendered (5.2)
     try:
@@ -160,6 +161,7 @@ def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
             bpy.ops.render.render(scene=scene.name, animation=writes)
     finally:
         remove(empty)
+        scene.render.engine = ENGINE  # the one that has drawn lets go of what it kept
     if judge and not writes:
         try:
             _render_results()[0].save_render(f"{scene.render.filepath}.exr", scene=scene)
@@ -203,29 +205,36 @@ def _one_frame(turns: _InTurns[Any], scene: Any) -> Iterator[None]:
         pictures += 1
         scene.frame_current = rendered - 1 if turns.wants_more else rendered
 
+    with _told(render_pre=begins, frame_change_post=is_evaluated, render_write=is_written):
+        scene.frame_start = rendered
+        scene.frame_end = rendered
+        scene.frame_step = 0
+        try:
+            yield
+        finally:
+            restore()
+
+
+@contextmanager
+def _told(**handlers: Callable[..., None]) -> Iterator[None]:
+    """Tell handlers of Blender's events for a while, by the names of these.
+
+    Whatever is changed after a picture crashes Blender in the next one (5.2): so no other is told
+    that it is there.
+    """
     events: Any = bpy.app.handlers
-    heard = (
-        (events.render_pre, begins),
-        (events.frame_change_post, is_evaluated),
-        (events.render_write, is_written),
-    )
-    # Whatever is changed after a picture crashes Blender in the next one (5.2): no other is told.
-    unheard = [(event, event.copy()) for event in (events.render_post, events.render_write)]
-    for event, _ in unheard:
+    untold = [(event, event.copy()) for event in (events.render_post, events.render_write)]
+    for event, _ in untold:
         event.clear()
-    for event, handler in heard:
-        event.append(handler)
-    scene.frame_start = rendered
-    scene.frame_end = rendered
-    scene.frame_step = 0
+    for name, handler in handlers.items():
+        getattr(events, name).append(handler)
     try:
         yield
     finally:
-        for event, handler in heard:
-            event.remove(handler)
-        for event, others in unheard:
+        for name, handler in handlers.items():
+            getattr(events, name).remove(handler)
+        for event, others in untold:
             event.extend(others)
-        restore()
 
 
 def export_certified(depsgraph: Any, known: dict[Any, Any] | None = None) -> Certified:

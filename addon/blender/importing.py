@@ -16,9 +16,9 @@ from typing import Any
 
 import bpy
 
+from ..files.scenes import save_scene
 from ..manifest import Effect, Unmodelled
 from ..scene import SceneError
-from ..scene_files import save_scene
 from ..wording import count_of
 from . import registration
 from .reading.export import export
@@ -111,7 +111,9 @@ def _look_into(path: str, missing: list[str], notes: list[str]) -> float:
     if layer is None:
         raise SceneError("it is no USD file, or a damaged one: export it again")
     if others := sorted(filter(None, map(str, layer.GetCompositionAssetDependencies()))):
-        raise SceneError(f"it refers to other files, such as '{others[0]}': export it as one file")
+        is_package = path.endswith(".usdz")
+        what = "is a package of several USD files" if is_package else "refers to other files"
+        raise SceneError(f"it {what}, such as '{others[0]}': export it as one file")
     stage = Usd.Stage.Open(layer)
     if not 0 < UsdGeom.GetStageMetersPerUnit(stage) < math.inf:
         raise SceneError("its metersPerUnit must be above 0")

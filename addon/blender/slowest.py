@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from bpy.app.translations import pgettext_rpt as rpt_
+
 LONG = 0.1  # seconds: what takes less is not worth a word; a render may have finer modifiers
 
 
@@ -25,3 +27,9 @@ def slowest(layer: Any) -> str:
     seconds = {o.name: sum(m.execution_time for m in o.modifiers) for o in objects}
     name = max(seconds, key=lambda name: seconds[name], default="")
     return name if name and seconds[name] > max(LONG, sum(seconds.values()) / 2) else ""
+
+
+def announced(layer: Any, otherwise: str) -> str:
+    """Return what takes Blender long, in words: the slowest object, or what else is done."""
+    name = slowest(layer)
+    return rpt_("Blender evaluates '{}'").format(name) if name else otherwise

@@ -170,10 +170,11 @@ def is_whole(scene: Any) -> bool:
 
 
 def go_to(scene: Any, frame: float) -> None:
-    """Step a temporary scene to a frame, or between two."""
+    """Step a temporary scene to a frame, or between two, at which it is evaluated next."""
     whole = int(frame // 1)
     _spare_bodies(scene, whole)
-    scene.frame_set(whole, subframe=frame - whole)
+    scene.frame_current = whole
+    scene.frame_subframe = frame - whole
 
 
 def _spare_bodies(scene: Any, frame: int) -> None:

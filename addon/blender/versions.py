@@ -13,7 +13,7 @@ WITHOUT_ATTRIBUTE = "MATERIAL" if _FROM_5 else "OBJECT"
 OWN_BACKGROUND = bpy.app.version >= (5, 2, 0)
 # Levels of 255 that a dither of 1 adds at most: 255 * 0.005 in the source of 4.2, 0.0033 in newer.
 DITHER = 1.0 if bpy.app.version >= (4, 5, 0) else 1.275
-# Of paths: // is beside the .blend, which later versions want to be told.
+# Of paths: // is beside the .blend, which later versions must be told.
 RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
 COMPOSITOR = "compositing_node_group" if _FROM_5 else "use_nodes"  # whether a scene has one
 STRIPS = "strips_all" if _FROM_5 else "sequences_all"  # of a sequencer

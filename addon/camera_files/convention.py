@@ -1,4 +1,4 @@
-"""What a convention of camera files says of itself, what it writes, and what it reads."""
+"""The record of a convention of camera files, with its writer and its reader."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..checked_json import Content, whole
+from ..files.checked_json import Content, whole
 from ..scene import Camera, SceneError
 from .features import FEATURES, Feature
 
@@ -45,7 +45,7 @@ class Source:
 
     @cached_property
     def text(self) -> str:
-        """What the file holds; "" of a folder, and of what begins as no file of cameras does."""
+        """The file's text; "" for a folder, and for what begins as no file of cameras does."""
         if self.path.is_dir():
             return ""
         with self.path.open("rb") as file:
@@ -56,14 +56,14 @@ class Source:
 
     @cached_property
     def json(self) -> Any:
-        """What the file holds as JSON; None if it is none."""
+        """The file's JSON, or None if it is none."""
         try:
             return json.loads(self.text)
         except (ValueError, RecursionError):
             return None
 
     def whole_size(self, own: Mapping[str, Any], keys: Sequence[str], where: str = "") -> Any:
-        """Return the width and height that a file's object says, or else those that were asked for.
+        """Return the width and height of a file's object, or else those requested.
 
         Raises
         ------
@@ -77,7 +77,7 @@ class Source:
             return whole(dict(own), keys[0], where), whole(dict(own), keys[1], where)
         width, height = self.size
         if width is None or height is None:
-            raise SceneError("it says no size of the picture: add --width and --height")
+            raise SceneError("it says no size of the picture: add --set width=PIXELS height=PIXELS")
         return width, height
 
 

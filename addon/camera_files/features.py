@@ -1,4 +1,4 @@
-"""What cameras have that some conventions cannot say: it is looked for before a file is written."""
+"""Features of cameras that some conventions cannot say: checked before a file is written."""
 
 from __future__ import annotations
 

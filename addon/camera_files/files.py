@@ -3,48 +3,34 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from importlib.metadata import entry_points
 from pathlib import Path
 
 import numpy as np
 
-from ..file_kinds import check_is_file
+from ..files.file_kinds import check_is_file
 from ..scene import Camera, SceneError
 from ..wording import count_of
-from .bop import BOP
 from .colmap import COLMAP
 from .convention import HALF, Convention, Files, Source, View
 from .gltf import GLTF
-from .kubric import KUBRIC
-from .mitsuba import MITSUBA
-from .mvsnet import MVSNET
 from .nerf import NERF
-from .open3d import OPEN3D
 from .opencv import OPENCV
 from .opengl import OPENGL
-from .pytorch3d import PYTORCH3D
-from .splatting import SPLATTING
 
 _WHOLE = re.compile(r"-?\d{1,18}")  # what more digits say is a name
 
+
+def _all() -> Iterator[Convention]:
+    """Yield the conventions of the add-on, then those of packages beside it."""
+    yield from (OPENCV, OPENGL, COLMAP, NERF, GLTF)
+    for found in entry_points(group="reference_tracer.cameras"):
+        yield from found.load()
+
+
 # The first that a file is of reads it.
-CONVENTIONS: dict[str, Convention] = {
-    own.name: own
-    for own in (
-        OPENCV,
-        OPENGL,
-        COLMAP,
-        NERF,
-        GLTF,
-        MITSUBA,
-        PYTORCH3D,
-        OPEN3D,
-        BOP,
-        SPLATTING,
-        KUBRIC,
-        MVSNET,
-    )
-}
+CONVENTIONS = {own.name: own for own in _all()}
 
 WRITTEN = {name: own for name, own in CONVENTIONS.items() if own.write}
 
@@ -142,7 +128,7 @@ def chosen(views: Sequence[View], which: str | None) -> View:
         if len(views) == 1:
             return views[0]
         many = f"it has {len(views)} cameras"
-        raise SceneError(f"{many}: --camera-view names one of {_names(views)}")
+        raise SceneError(f"{many}: --set camera-view=NAME chooses one of {_names(views)}")
     named = [view for view in views if which in (view.name, Path(view.name).stem)]
     if not named and _WHOLE.fullmatch(which):
         number = int(which)

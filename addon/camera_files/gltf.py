@@ -19,7 +19,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content
+from ..files.checked_json import Content
 from ..framing import SIZE
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow
@@ -138,7 +138,7 @@ def _number(lens: Content, label: str, key: str) -> float:
 
 
 def _size(own: Content, label: str, aspect: float | None, source: Source) -> tuple[int, int]:
-    """Return the picture's size: that of the extras, or as asked for, with the aspect ratio."""
+    """Return the picture's size: of the extras, or the requested one, with the aspect ratio."""
     extras = own.get("extras")
     width, height = source.size
     ratio = aspect or SIZE[0] / SIZE[1]  # without one it is the picture's, whatever that is
@@ -150,7 +150,7 @@ def _size(own: Content, label: str, aspect: float | None, source: Source) -> tup
     if aspect is not None and abs(size[0] / size[1] / aspect - 1) > 1 / min(size):
         raise SceneError(
             f"{label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
-            "pixels: choose --width or --height alone"
+            "pixels: choose width or height alone"
         )
     return size
 

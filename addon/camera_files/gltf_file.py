@@ -16,7 +16,7 @@ from typing import NoReturn
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content, numbers
+from ..files.checked_json import Content, numbers
 from ..scene import SceneError
 
 VISIBILITY = "KHR_node_visibility"
@@ -157,7 +157,7 @@ def read_tree(content: Content) -> Tree:
         raise SceneError(f"node {circle} descends from itself: its children form a circle")
     notes: dict[str, None] = {}
     worlds, hidden = np.empty((len(nodes), 4, 4)), set()
-    with np.errstate(all="ignore"):  # what is not finite is looked for, and refused
+    with np.errstate(all="ignore"):  # what is not finite is found, and refused
         for number in order:
             parent = parents.get(number)
             local = _local(nodes[number], f"node {number} ", notes)

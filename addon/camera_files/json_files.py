@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content, numbers, part
+from ..files.checked_json import Content, numbers, part
 from ..scene import Camera, SceneError
 from .convention import CENTERS, FIRST, HALF, Files, Source, View
 
@@ -91,7 +91,7 @@ def view_of(body: Content, camera: Camera, is_clipped: bool = True) -> View:
 
 
 def flat(content: Content, key: str, where: str, count: int) -> Floats:
-    """Return so many finite numbers of a list, or of lists in it, (count,), row by row."""
+    """Return `count` finite numbers of a list, or of lists in it, (count,), row by row."""
     values = numbers(content, key, where, None).reshape(-1)
     if len(values) != count:
         raise SceneError(f"{where}{key} must be {count} finite numbers, not {len(values)}")

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..checked_json import Content, numbers
+from ..files.checked_json import Content, numbers
 from ..projections import PERSPECTIVE, PROJECTIONS
 from ..scene import SceneError
 from . import frame
@@ -122,7 +122,7 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
 
 
 def _focal_lengths(body: Content, where: str, size: tuple[int, int]) -> tuple[float, float]:
-    """Return both focal lengths in pixels; one that is not said is the other."""
+    """Return both focal lengths in pixels; a missing one is equal to the other."""
     found = []
     for axis, n in zip("xy", size, strict=True):
         if f"{axis}_fov" in body:

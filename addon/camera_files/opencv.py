@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..checked_json import Content, numbers
+from ..files.checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS
 from ..scene import Camera, SceneError
 from . import frame

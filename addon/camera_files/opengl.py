@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Floats
-from ..checked_json import Content, numbers
+from ..files.checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import Camera, SceneError, ViewWindow
 from . import frame

@@ -1,4 +1,4 @@
-"""What to do where rounding excuses too much: the least change after which it no longer does.
+"""Finds advice where rounding excuses too much: the least change after which it no longer does.
 
 Each advice is tried on the pixels themselves, with the bounds that excused them.
 """

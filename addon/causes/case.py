@@ -1,8 +1,8 @@
-"""What a comparison takes: a scene, the other side's picture of it, and what is known of both."""
+"""The input of a comparison: a scene, the other side's picture of it, and what is known of both."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -32,6 +32,7 @@ class Alternative:
     scene: Scene
 
 
+MOST_VARIANTS = 48  # of a scene: each is evaluated, and tried
 WHOLE = "whole"  # in place of a fault's name: the scene as it is, with all that no ray meets
 
 
@@ -90,8 +91,9 @@ class Case:
     next_frame: Scene | None = None  # the scene a frame later, for the self-check
     behind: Behind | None = None  # if the other side was drawn without what is seen through, too
     tracer: Tracer | None = None  # where whole pictures are traced, if not here
-    # Makes the scene with faults for which Blender is needed; asked only if pixels are unexplained.
-    variants: Callable[[], tuple[Variant, ...]] = no_variants
+    # Makes the scene with faults for which Blender is needed, one after another; called only if
+    # pixels are unexplained.
+    variants: Callable[[], Iterable[Variant]] = no_variants
     background: Colors | None = None  # (4,) the scene's own, where it was put before another one
 
     def __post_init__(self) -> None:

@@ -1,4 +1,4 @@
-"""What is said of a pixel: a cause's record, and what a comparison found out about every pixel.
+"""The record of a cause, and the causes of all pixels of a comparison.
 
 The record of a cause stands beside the check that gives it, in `checks/`; the four below have no
 check. `explain.py` lists them all. Counts, texts, JSON, the page's legend, the panel and the
@@ -47,7 +47,7 @@ class Cause(int):
     place: str = ""  # after a count of pixels: '3 px at edges'; the label, if it is empty
     # For the documents, which are made of these.
     why: str = ""  # why it happens
-    check: str = ""  # what is asked before a pixel gets the cause
+    check: str = ""  # what is checked before a pixel gets the cause
     never: str = ""  # what it cannot excuse
     advice: str = ""  # what to do
 
@@ -81,7 +81,7 @@ class Cause(int):
         return self.sentence.format(figure=figure, allowed=allowed, name=name)
 
     def count_in_words(self, pixels: int, words: Callable[[str], str] = str) -> str:
-        """Return so many pixels with the cause: '3 px at edges'; `words` translates."""
+        """Return a count of pixels with the cause: '3 px at edges'; `words` translates."""
         return f"{pixels:,} px {words(self.place or self.label)}"
 
     def to_dict(self) -> dict[str, int | str]:

@@ -1,4 +1,4 @@
-"""What share of a picture rests on rounding, whether that is too much, and what would help.
+"""Finds how much of a picture rests on rounding, whether it is too much, and what would help.
 
 An edge, a depth tie, a clip plane is a reason why float32 *may* show something else. Each pixel
 that rests on one could hide a fault. A few do in every picture; where many do, nobody knows whether

@@ -53,7 +53,7 @@ BY_NUMBER = {cause.number: cause for cause in CAUSES}
 
 Checks = list[tuple[Callable[[OpenPixels], Work[None]], float]]  # with their shares of the work
 
-# The checks in the order in which a pixel is asked: the first that accounts for it gives its cause.
+# The checks in their order: the first that accounts for a pixel gives its cause.
 # If none does, it is unexplained. With the share of each in the work, roughly. The first one looks
 # at the whole picture.
 CHECKS: Checks = [
@@ -67,9 +67,9 @@ CHECKS: Checks = [
 ]
 _OPENING = 0.1  # of the work, before the checks
 
-MANY = 1 << 16  # differing pixels: of more, some are asked first
+MANY = 1 << 16  # differing pixels: of more, a sample is checked first
 ASKED_FIRST = 1 << 14  # of these
-NEARLY_NONE = 0.01  # of the pixels asked first: where fewer have a cause, the others are not asked
+NEARLY_NONE = 0.01  # of the sample: where fewer have a cause, the others are not checked
 
 
 class Explained(NamedTuple):
@@ -173,7 +173,7 @@ def _open(pixels: OpenPixels) -> Work[None]:
     frame = pixels.frame
     seen = frame.instance_index
     moved = yield from _moved(pixels)
-    if pixels.picture.data is not None:
+    if not pixels.picture.has_colors:
         finding = by_blocks(frame.shape, lambda rows: ~pixels.picture.at(rows).shows(frame, rows))
     else:
         ramp = shading.interpolated(scene, seen)

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Bools, Bytes, Colors
+from ..arrays import Bools, Bytes, Colors, by_runs
 from ..certainty import Certainty
-from ..images import curve, curve_undone
-from ..runs import by_runs
+from ..files.images import curve, curve_undone
 from .cause import Color
 from .explain import CAUSES
 

@@ -1,4 +1,4 @@
-"""What is proven, and how it is found.
+"""The proven tracer.
 
 In reading order: `definition` (the claim), `plain` (the definition with a filter), `ladder` (error
 bound, order of depths, integers) with `bounds`, `order`, `exact` and `ties`. Then t and the

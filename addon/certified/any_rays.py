@@ -84,7 +84,7 @@ def nearest_hits(
 
 @dataclass(frozen=True, eq=False)
 class Decision:
-    """What n rays make of n triangles, pair by pair: (n,) bool each."""
+    """How n rays meet n triangles, pair by pair: (n,) bool each."""
 
     crossed: Bools  # by the ray, moved infinitesimally by the rule, in the clip range
     edge: Bools  # the ray as it is meets its edge or corner exactly

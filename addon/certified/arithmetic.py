@@ -200,7 +200,7 @@ _RUNS = _runs()
 
 
 def has_x87(machine: str, bits: int) -> bool:
-    """Return whether programs of so many bits may use x87, which rounds to 64 digits first."""
+    """Return whether programs of `bits` bits may use x87, which rounds to 64 digits first."""
     return bits == 32 and machine.lower().endswith(("86", "x86_64", "amd64"))
 
 

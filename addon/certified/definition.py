@@ -44,14 +44,15 @@ import numpy as np
 from ..arrays import Index
 from ..scene import Scene
 from ..tracer.camera import Rays, camera_rays, film_positions
-from ..tracer.hits import NOTHING, NOWHERE, Name
+from ..tracer.hits import NOTHING, NOWHERE
+from ..tracer.ties import Name
 from ..tracer.world import WorldTriangles, batches, world_triangles
 from .exact import IntegerBatch
 from .ties import seen_and_ties
 
 
 class Seen(NamedTuple):
-    """What a ray sees."""
+    """The surface that a ray sees."""
 
     name: Name  # instance and triangle; NOWHERE for nothing
     t: float  # the ray's parameter on it, of a camera's ray the depth in metres; inf for nothing

@@ -25,8 +25,9 @@ from numpy.typing import NDArray
 from ..arrays import Bools, Bytes, Floats, Index
 from ..certainty import Certainty, Reason
 from ..tracer.camera import Rays
-from ..tracer.hits import Hits, Statistics, Ties
+from ..tracer.hits import Hits, Statistics
 from ..tracer.progress import Work
+from ..tracer.ties import Ties
 from ..tracer.vector import occurring
 from ..tracer.world import Pairs, WorldTriangles
 from . import exact, order

@@ -173,7 +173,7 @@ class Known(Arrays):
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """Finds the measures of certified rays of a region when they are asked for.
+    """Finds the measures of certified rays of a region on first use.
 
     Parameters
     ----------

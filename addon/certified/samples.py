@@ -21,7 +21,7 @@ from ..tracer.progress import Work
 def traced_together(
     centre: TraceBand, find: Callable[[Scene, Region], Work[Hits]], scene: Scene, samples: int
 ) -> TraceBand:
-    """Return what traces a band's rays; the first sample that is asked for finds all of the band.
+    """Return what traces a band's rays; the first sample finds all of the band.
 
     Parameters
     ----------

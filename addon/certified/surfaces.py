@@ -56,7 +56,7 @@ class Candidates(Arrays):
 
 @dataclass(frozen=True, eq=False)
 class Surfaces:
-    """What candidates index: infinite planes, then triangles.
+    """The surfaces that candidates index: infinite planes, then triangles.
 
     The first of the planes is called by the instance `first_plane`.
     """

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from functools import cmp_to_key
 from math import gcd
 
-from ..tracer.hits import NOWHERE, Name
+from ..tracer.hits import NOWHERE
+from ..tracer.ties import Name
 from .exact import PERTURBATION, Hit, Moves, gap, intersection, sign_of_difference, turning
 from .integers import Integers
 

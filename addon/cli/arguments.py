@@ -1,4 +1,4 @@
-"""What several commands share: the settings of the tracer, and where the work is done."""
+"""Options that several commands share: the settings of the tracer, and where the work is done."""
 
 from __future__ import annotations
 
@@ -51,14 +51,14 @@ def add_settings(parser: Parser) -> None:
     group = parser.add_argument_group("how to trace (default: as the scene says)")
     group.add_argument(
         "--method",
+        metavar="METHOD",
         choices=[m.value for m in Method],
-        help="how a ray is intersected with a triangle; auto is certified wherever this machine "
-        "allows a proof",
+        help=f"{', '.join(Method)}, which is certified wherever this machine allows a proof",
     )
     group.add_argument(
         "--precision",
         choices=[p.value for p in Precision],
-        help="floating-point type of rays and vertices; certified and auto need float64",
+        help="of rays and vertices; certified and auto need float64",
     )
     group.add_argument(
         "--samples", type=INTEGER, metavar="N", help="trace N x N rays a pixel and show their mean"
@@ -95,7 +95,8 @@ def refuse(given: object, names: Iterable[str], why: str) -> None:
     for name in names:
         value = getattr(given, name, None)
         if value is not None and value is not False:  # 0 is given
-            raise SceneError(f"{typed(name)} {why}")
+            typed = f"--{name.replace('_', '-')}"
+            raise SceneError(f"{getattr(given, 'typed', {}).get(name, typed)} {why}")
 
 
 def check_frames(given: Namespace, of_one: Iterable[str]) -> None:
@@ -107,11 +108,6 @@ def check_frames(given: Namespace, of_one: Iterable[str]) -> None:
         frames_named(given.frames)
     except ValueError as error:
         raise SceneError(f"--frames {error}") from error
-
-
-def typed(name: str) -> str:
-    """Return an option as it is typed."""
-    return f"--{name.removesuffix('_name').replace('_', '-')}"
 
 
 def is_blend(path: Path) -> bool:

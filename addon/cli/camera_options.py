@@ -3,30 +3,31 @@
 from __future__ import annotations
 
 import sys
-from argparse import Namespace, _ActionsContainer
+from argparse import ArgumentTypeError, Namespace, _ArgumentGroup
+from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
 
 from ..camera_files.convention import View
 from ..camera_files.files import CONVENTIONS, is_seen_to_be, read
 from ..camera_files.files import chosen as chosen_view
-from ..file_kinds import check_is_file
+from ..files.file_kinds import check_is_file
 from ..framing import ANGLE, SIZE, Choice
 from ..opened import mesh_formats
 from ..scene import SceneError
 from ..wording import show
 from .arguments import is_blend, refuse
+from .named import Setting, add_named, one_of
 from .parser import COUNT, FINITE, POSITIVE, Parser, number
 
 _OF_BLEND = "scene_name", "view_layer", "frame"
 _OF_FILE = "camera_convention", "camera_view"
-_OF_MESH = "width", "height", "frame_all", "eye", "target", "angle", "ortho_scale", "up"
-CAMERA_OPTIONS = *_OF_MESH, *_OF_BLEND, "camera", *_OF_FILE
 # Of files that `--camera` takes for a camera's, whatever cameras a .blend has.
 _ENDINGS = ".json", ".txt", ".xml", ".glb", ".gltf"
 
-_DEGREES = number(float, lambda value: 0 < value < 180, "between 0 and 180 degrees")
+EVERYTHING = "all"  # of eye: a camera that sees all that is shown
 LAST_FRAME = 1048574  # of Blender's; the first one is as far below 0
+_DEGREES = number(float, lambda value: 0 < value < 180, "between 0 and 180 degrees")
 _FRAME = number(
     int,
     lambda value: abs(value) <= LAST_FRAME,
@@ -34,64 +35,55 @@ _FRAME = number(
 )
 
 
-def add_camera(parser: Parser, with_size: bool = True, of_meshes: bool = True) -> None:
-    """Add the options for the camera and the size of its picture."""
-    framed = ", or one that frames the mesh" if of_meshes else ""
-    group = parser.add_argument_group(
-        f"the camera and its picture (default: a scene's own{framed})"
-    )
-    if with_size:
-        for name, other, size in zip(("width", "height"), ("height", "width"), SIZE, strict=True):
-            group.add_argument(
-                f"--{name}",
-                type=COUNT,
-                metavar="PIXELS",
-                help=f"{name} of the picture (default a scene's own, or what --{other} implies"
-                + (f"; {size} for a mesh)" if of_meshes else ")"),
-            )
-    if of_meshes:
-        group.add_argument(
-            "--up",
-            choices=["y", "z"],
-            help="which axis of a mesh is up (default y of glTF and of Blender's own .obj, z of "
-            "others); it is turned to Z",
-        )
-    _add_which(group.add_mutually_exclusive_group(), parser)
-    group.add_argument(
-        "--camera-convention",
-        choices=CONVENTIONS,
-        help="how the file of --camera is read (default as its content says)",
-    )
-    group.add_argument(
-        "--camera-view",
-        metavar="NAME",
-        help="which camera of the file of --camera: the name or the number of its image",
-    )
-    group.add_argument(
-        "--target",
-        type=FINITE,
-        nargs=3,
-        metavar=("X", "Y", "Z"),
-        help="with --eye: the point it looks at (default the origin); Z is up",
-    )
-    lens = group.add_mutually_exclusive_group()
-    lens.add_argument(
-        "--angle",
-        type=_DEGREES,
-        metavar="DEGREES",
-        help=f"vertical angle of view of a new camera (default {ANGLE:g})",
-    )
-    lens.add_argument(
-        "--ortho-scale",
-        type=POSITIVE,
-        metavar="METRES",
-        help="with --eye: make the camera orthographic, with a picture of this height",
-    )
-    add_parts_of_blend(parser)
+def _point(text: str) -> list[float]:
+    """Read a point, three numbers with commas between them."""
+    words = text.split(",")
+    if len(words) != 3:
+        raise ArgumentTypeError(f"{text} is not X,Y,Z")
+    return [FINITE(word) for word in words]
 
 
-def _add_which(group: _ActionsContainer, parser: Parser) -> None:
-    """Add the three ways to choose a camera."""
+def _eye(text: str) -> str | list[float]:
+    return text if text == EVERYTHING else _point(text)
+
+
+_SIZES = (
+    Setting(
+        "width", "PIXELS", COUNT, f"of the picture (default as height implies; {SIZE[0]} of a mesh)"
+    ),
+    Setting("height", "PIXELS", COUNT, f"likewise (default as width implies; {SIZE[1]} of a mesh)"),
+)
+_EYES = (
+    Setting(
+        "eye",
+        "X,Y,Z",
+        _eye,
+        "a new camera; eye=all: one from the front, right and above that sees all",
+    ),
+    Setting("target", "X,Y,Z", _point, "the point that eye looks at (default the origin); Z is up"),
+    Setting("angle", "DEGREES", _DEGREES, f"vertical angle of view of eye (default {ANGLE:g})"),
+    Setting("ortho-scale", "METRES", POSITIVE, "eye is orthographic, its picture is so high"),
+    Setting(
+        "camera-convention",
+        "NAME",
+        one_of(*CONVENTIONS),
+        f"of --camera's file, if it does not say: {', '.join(CONVENTIONS)}",
+    ),
+    Setting("camera-view", "NAME", str, "which of its cameras: the image's name or number"),
+)
+UP = Setting("up", "y|z", one_of("y", "z"), "axis of a mesh that is up (default: its format's)")
+_PARTS = (
+    UP,
+    Setting("scene", "NAME", str, "the scene of a .blend", "scene_name"),
+    Setting("view-layer", "NAME", str, "its view layer"),
+    Setting("frame", "N", _FRAME, "its frame; simulations are stepped to it from the first one"),
+)
+CAMERA_OPTIONS = "camera", *(row.kept for row in (*_SIZES, *_EYES, *_PARTS))
+
+
+def add_camera(parser: Parser, sizes: Sequence[Setting] = _SIZES) -> None:
+    """Add the options for what is looked at, through which camera, in a picture of which size."""
+    group = _add(parser, (*sizes, *_EYES, *_PARTS))
 
     def name_or_path(text: str) -> str:
         return str(parser.path(text)) if text.startswith("//") else text  # as Blender writes it
@@ -99,36 +91,22 @@ def _add_which(group: _ActionsContainer, parser: Parser) -> None:
     group.add_argument(
         "--camera",
         type=name_or_path,
-        metavar="NAME",
-        help="use this camera of a .blend or a .glb; or a file's, as another program wrote it: "
-        "K, R and t in JSON, transforms.json, a folder of COLMAP's, and so on; of a comparison's "
-        "--frames each has the one of its number",
-    )
-    group.add_argument(
-        "--frame-all",
-        action="store_true",
-        help="use a new camera, from the front, the right and above, that frames all that is shown",
-    )
-    group.add_argument(
-        "--eye",
-        type=FINITE,
-        nargs=3,
-        metavar=("X", "Y", "Z"),
-        help="use a new camera at this position",
+        metavar="CAMERA",
+        help="one of a .blend or a .glb, by name, or of a file: K, R and t in JSON, "
+        "transforms.json, COLMAP's folder... (default the scene's; one that frames a mesh)",
     )
 
 
-def add_parts_of_blend(parser: Parser) -> None:
-    """Add the options for what is taken of a .blend, but for its camera."""
-    group = parser.add_argument_group("what to take of a .blend (default: as it was saved)")
-    group.add_argument("--scene", metavar="NAME", dest="scene_name", help="the scene")
-    group.add_argument("--view-layer", metavar="NAME", help="the view layer")
-    group.add_argument(
-        "--frame",
-        type=_FRAME,
-        metavar="N",
-        help="the frame; simulations are stepped to it from the first one",
-    )
+def add_parts(parser: Parser) -> None:
+    """Add the option for what is looked at, where no camera looks."""
+    _add(parser, _PARTS)
+
+
+def _add(parser: Parser, rows: Sequence[Setting]) -> _ArgumentGroup:
+    group = parser.add_argument_group("what is looked at (default: as it was saved)")
+    group.set_defaults(**dict.fromkeys(CAMERA_OPTIONS))
+    add_named(group, "--set", rows)
+    return group
 
 
 # What Blender imports and `reftrace` does not read.
@@ -177,6 +155,8 @@ def choice_from(given: Namespace, path: Path, of_frames: bool = False) -> Choice
             refuse(given, CAMERA_OPTIONS, why)
     known = [field.name for field in fields(Choice) if field.name in given]
     chosen = {name: getattr(given, name) for name in known}
+    if given.eye == EVERYTHING:
+        chosen |= {"eye": None, "frame_all": True}
     if views := _views(given, path if is_mesh else None, of_frames):
         for note in dict.fromkeys(note for view in views for note in view.notes):
             show(f"{given.camera}: {note}", file=sys.stderr)
@@ -197,7 +177,7 @@ def _views(given: Namespace, mesh: Path | None, of_frames: bool) -> list[View]:
         refuse(given, _OF_FILE, "is for a file of --camera")
         return []
     file, which = Path(given.camera), given.camera_view
-    size = given.width, getattr(given, "height", None)
+    size = given.width, given.height
     is_file = file.suffix.lower() in _ENDINGS or (file.is_dir() and is_seen_to_be(file))
     if not (is_file or given.camera_convention or which):
         if mesh is None:
@@ -206,7 +186,7 @@ def _views(given: Namespace, mesh: Path | None, of_frames: bool) -> list[View]:
         if mesh.suffix.lower() not in (".glb", ".gltf"):
             raise SceneError(f"--camera {which} is no file, and '{mesh}' has no cameras")
         if given.up == "z":
-            raise SceneError("--up z is for the meshes alone: a camera of glTF has Y up")
+            raise SceneError("--set up=z is for the meshes alone: a camera of glTF has Y up")
     views = read(file, given.camera_convention, size)
     if which is not None or not of_frames:
         views = [chosen_view(views, which)]
@@ -214,15 +194,19 @@ def _views(given: Namespace, mesh: Path | None, of_frames: bool) -> list[View]:
         own = view.camera.width, view.camera.height
         if any(asked not in (None, has) for asked, has in zip(size, own, strict=True)):
             raise SceneError(
-                f"--width and --height are for files that say no size: '{file}' has "
+                f"width and height are for files that say no size: '{file}' has "
                 f"{own[0]} x {own[1]}, and so has the picture: leave them out"
             )
     return views
 
 
 def _refuse_without_camera(given: Namespace, is_mesh: bool) -> None:
-    """Refuse options about a new camera where none is made."""
-    if given.eye is None:
-        refuse(given, ("target", "ortho_scale"), "is for a camera that --eye places")
-        if not is_mesh and not given.frame_all:
-            refuse(given, ("angle",), "is for a camera that --eye or --frame-all places")
+    """Refuse options of a new camera where none is made."""
+    if given.camera is not None:
+        refuse(given, ("eye",), "is for a new camera, and --camera names one")
+    if given.ortho_scale is not None:
+        refuse(given, ("angle",), "is for a camera that is not orthographic: ortho-scale")
+    if given.eye in (None, EVERYTHING):
+        refuse(given, ("target", "ortho_scale"), "is for a camera that eye=X,Y,Z places")
+    if given.eye is None and not is_mesh:
+        refuse(given, ("angle",), "is for a new camera: eye=X,Y,Z or eye=all")

@@ -1,4 +1,4 @@
-"""The options of `reftrace compare`: what it is told, and what contradicts itself."""
+"""The options of `reftrace compare`, and which of them contradict each other."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..framing import Choice
-from ..pictures.data.given import KINDS, GivenData
+from ..pictures.given import GivenPicture, Making
 from ..pictures.palette import By
-from ..pictures.renderers import RENDERERS
 from ..scene import SceneError
 from .arguments import (
     GivenSettings,
@@ -21,8 +20,8 @@ from .arguments import (
     settings_from,
 )
 from .camera_options import add_camera, choice_from
-from .data_options import add_data, data_from
-from .parser import AT_LEAST_0, Parser
+from .excuses import add_excuses, making_from
+from .parser import Parser
 
 # A frame of an animation stays the same whatever these are.
 _NOT_OF_A_FRAME = (
@@ -38,7 +37,7 @@ _NOT_OF_A_FRAME = (
 )
 
 # Options that have no effect where the colours alone are written.
-_OF_COMPARISON = "judge", "against", *KINDS, "identity", "self_check", "trade", "extremes", "junit"
+_OF_COMPARISON = "judge", "against", "identity", "self_check", "trade", "extremes", "junit"
 
 # Options for a picture of unknown origin.
 _OF_GIVEN = "filter", "renderer"
@@ -64,10 +63,8 @@ class CompareOptions:
     frames: str | None  # of an animation, as they are typed
     # Another picture, in place of Blender's.
     against: Path | None
-    data: GivenData | None  # depths and so on in place of colours
-    filter: float | None  # pixels
-    dither: float | None  # levels of 255
-    renderer: str | None  # whose rounding excuses a pixel; None for what the picture says
+    data: GivenPicture | None  # what it holds in place of colours
+    making: Making  # how it was made, which excuses a pixel
     colors_out: Path | None  # where the colours are written that it should have
     junit: Path | None  # where the verdict is written as JUnit's XML
     # What the page shows besides.
@@ -87,8 +84,8 @@ class CompareOptions:
             refuse(given, ("colors_out",), "is for one judge, not for --judge all")
         if given.as_is:
             refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
-        data = data_from(given)
-        if given.against is None and data is None:
+        held = getattr(given, "held", None)  # as `place`, of a package beside the add-on
+        if given.against is None:
             _check_judge(given.judge or "auto", given)
             refuse(given, ("dither",), "is for a picture of --against")
         else:
@@ -108,22 +105,14 @@ class CompareOptions:
             diagnosis=given.diagnosis,
             frames=given.frames,
             against=given.against,
-            data=data,
-            filter=given.filter,
-            dither=given.dither,
-            renderer=given.renderer,
+            data=held and held(given),
+            making=making_from(given),
             colors_out=given.colors_out,
             junit=given.junit,
             trade=given.trade,
             extremes=given.extremes,
             place=place_from(given),
         )
-
-    @property
-    def file(self) -> Path | None:
-        """The picture or data in place of Blender's picture."""
-        path = self.data.path if self.data else self.against
-        return path if isinstance(path, Path) else None  # an array is a script's
 
     def of_a_frame(self) -> dict[str, str]:
         """Return the options that a frame's comparison depends on, in words that can be stored."""
@@ -145,7 +134,7 @@ def _check_judge(judge: str, given: Namespace) -> None:
 def _refuse_beside_frames(given: Namespace) -> None:
     if given.frames is None:
         return
-    check_frames(given, ("against", *KINDS, "trade", "extremes", "diagnosis", "colors_out"))
+    check_frames(given, ("against", "trade", "extremes", "diagnosis", "colors_out"))
     if isinstance(given.colors, Path):
         raise SceneError(f"--colors {given.colors} is for one frame, not for --frames")
     if given.judge == "all":
@@ -160,7 +149,7 @@ def add_options(parser: Parser) -> None:
         "--junit",
         type=parser.path_ending(".xml"),
         metavar="FILE",
-        help="also write the verdict as JUnit's XML, which systems that run tests read",
+        help="write the verdict as JUnit's XML, too",
     )
     add_settings(parser)
     _add_colors(parser)
@@ -183,16 +172,14 @@ def _add_colors(parser: Parser) -> None:
         "--colors",
         type=read,
         metavar="COLORS",
-        help="automatic: the viewport's where they tell objects apart, else one for each object; "
-        "viewport; object: one for each; material: the base colours of Principled materials; or a "
-        "colors.json (default: as the scene says; with --against, viewport)",
+        help="viewport, object (one for each), material, automatic (viewport where these tell "
+        "objects apart) or a colors.json (default: the scene's)",
     )
     group.add_argument(
         "--colors-out",
         type=parser.path_ending(".json"),
-        metavar="COLORS.JSON",
-        help="also write the colours of all objects in the view, for another renderer's picture; "
-        "without --out nothing else",
+        metavar="FILE",
+        help="write a colors.json for another renderer; without --out that alone",
     )
 
 
@@ -204,81 +191,54 @@ def _add_blenders_picture(parser: Parser) -> None:
     group.add_argument(
         "--judge",
         metavar="JUDGE",
-        help=f"what draws the picture to compare with: {names}; or the name of an engine that "
-        "an add-on registers, such as MY_ENGINE; all makes a table of all these (and of the "
-        "viewport, in a window)",
+        help=f"what draws it: {names}; an add-on's engine, as MY_ENGINE; or all, in a table",
     )
     group.add_argument(
         "--as-is",
         action="store_true",
-        help="leave Blender's shading as the scene has it, not like for like",
+        help="leave Blender's shading as it is, not like for like",
     )
     group.add_argument(
         "--identity",
         action=BooleanOptionalAction,
-        help="draw once more, with one colour for each object, to know which one a pixel shows",
+        help="draw it again to know which object a pixel shows",
     )
     group.add_argument(
         "--self-check",
         action="store_true",
         default=None,
-        help="also make known faults (a pixel off, mirrored, an object left out...) and see that "
-        "each is found",
+        help="see that known faults, such as a pixel off, are found",
     )
     group.add_argument(
         "--diagnosis",
         action=BooleanOptionalAction,
-        help="where pixels are left unexplained, look for what accounts for them (default yes; not "
-        "of an animation)",
+        help="of unexplained pixels (default yes; no of --frames)",
     )
     group.add_argument(
         "--frames",
         metavar="FRAMES",
-        help="compare an animation: 1-250, 1-250:5 for every fifth, 7, or all; frames that an "
-        "earlier run with the same file and options has finished in DIR are not done again",
+        help="of an animation: 1-250, 1-250:5, 7, or all; finished ones are not done again",
     )
 
 
 def _add_page(parser: Parser) -> None:
-    group = parser.add_argument_group("the page (page.html in DIR)")
-    group.add_argument(
+    parser.add_argument(
         "--trade",
         action="store_true",
-        help="also measure what each method costs on this scene: a quarter of a minute",
+        help="also show what each method costs: 15 seconds",
     )
-    group.add_argument(
-        "--extremes", action="store_true", help="also find where every method breaks: half a minute"
+    parser.add_argument(
+        "--extremes", action="store_true", help="also show where each breaks: half a minute"
     )
 
 
 def _add_against(parser: Parser) -> None:
     group = parser.add_argument_group("another picture, in place of Blender's")
-    instead = group.add_mutually_exclusive_group()
-    instead.add_argument(
+    group.add_argument(
         "--against",
         type=parser.path,
-        metavar="PICTURE",
-        help="a .png (sRGB) or .exr (linear) of the same camera and size; a background of its own, "
-        "of one colour or transparent, is named and does not count as a difference",
+        metavar="FILE",
+        help="a .png (sRGB) or .exr (linear) of the same camera and size, on a background of one "
+        "colour or none",
     )
-    add_data(parser, instead)
-    group.add_argument(
-        "--filter",
-        type=AT_LEAST_0,
-        metavar="PIXELS",
-        help="how far its anti-aliasing reaches, or its samples lie from the pixels' centres if it "
-        "holds data (default 0: one sample in each pixel's centre)",
-    )
-    group.add_argument(
-        "--dither",
-        type=AT_LEAST_0,
-        metavar="LEVELS",
-        help="noise in a .png, in levels of 255 (default what the .blend says, else 0)",
-    )
-    group.add_argument(
-        "--renderer",
-        choices=list(RENDERERS),
-        help="whose rounding excuses a pixel: rays, of float32, or raster, with a depth buffer of "
-        "24 bits (default rays; raster for a picture that Blender wrote, but not with Cycles, if "
-        "the .blend is set to Workbench or EEVEE)",
-    )
+    add_excuses(group)

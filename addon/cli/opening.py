@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..file_kinds import check_is_file
+from ..files.file_kinds import check_is_file
 from ..framing import Choice
 from ..manifest import Manifest
 from ..opened import mesh_formats, open_scene
@@ -26,11 +26,13 @@ from .camera_options import check_kind
 
 PYTHONS = "3.11", "3.13"  # those that a bpy is made for
 _AS_SAVED = Choice()
-SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
+SOURCES = "scene.blend or scene.npz"
+if mesh_formats():
+    SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
 
 
 class OpenedFile(NamedTuple):
-    """What a file gives."""
+    """An opened file: its scene, and the account of what was exported."""
 
     scene: Scene
     manifest: Manifest
@@ -40,11 +42,11 @@ class OpenedFile(NamedTuple):
 def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     """Return the scene of a .blend, a .npz or a mesh, with the settings that it stores.
 
-    What is to be said of it is printed. Raises what :func:`open_file` raises.
+    Prints its notes. Raises what :func:`open_file` raises.
     """
     opened = open_file(path, choice)
     lines = opened.manifest.lines()
-    if not is_blend(path):  # there it is plain what is exported
+    if not is_blend(path):  # all of another file is exported: no list is needed
         lines = opened.manifest.remarks()
     show(*lines)
     return opened.scene, opened.settings
@@ -53,7 +55,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
 def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> OpenedFile:
     """Open a .blend, a .npz or a mesh. Meshes are framed where no camera is chosen.
 
-    Of a .blend, what is outside the camera's view is left out, unless the `whole` is asked for.
+    Of a .blend, what is outside the camera's view is left out, unless `whole`.
 
     Raises
     ------

@@ -7,7 +7,14 @@ from __future__ import annotations
 
 import math
 import os
-from argparse import ArgumentParser, ArgumentTypeError, Namespace, RawDescriptionHelpFormatter
+from argparse import (
+    ONE_OR_MORE,
+    Action,
+    ArgumentParser,
+    ArgumentTypeError,
+    Namespace,
+    RawDescriptionHelpFormatter,
+)
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
@@ -30,12 +37,32 @@ EXIT_CODES_HELP = f"""exit codes:
   3  the sizes of the pictures do not match{_CODES}"""
 
 
+class _Help(RawDescriptionHelpFormatter):
+    """Help whose first line has what is needed alone: the options are listed below it."""
+
+    def add_usage(self, usage: Any, actions: Any, groups: Any, prefix: Any = None) -> None:
+        """Leave out what may be left out."""
+        needed = [action for action in actions if action.required or not action.option_strings]
+        super().add_usage(usage, needed, (), prefix)
+
+    def _format_args(self, action: Action, default_metavar: str) -> str:
+        """Say but once what may be given several times."""
+        if action.nargs == ONE_OR_MORE:
+            return f"{action.metavar} ..."
+        return super()._format_args(action, default_metavar)
+
+    def _format_action(self, action: Action) -> str:
+        """Add the lines of an option that has a table of names."""
+        lines = getattr(action, "lines", ())
+        return super()._format_action(action) + "".join(f"    {line}\n" for line in lines)
+
+
 class Parser(ArgumentParser):
     """An argument parser that ends with INPUT_ERROR, since 2 means differences here."""
 
     def __init__(self, prog: str | None = None, **options: Any) -> None:
         """Keep the lines of the exit codes below the help."""
-        super().__init__(prog, formatter_class=RawDescriptionHelpFormatter, **options)
+        super().__init__(prog, formatter_class=_Help, **options)
         self.color = False  # newer Pythons steer the terminal
 
     def _print_message(self, message: str, file: Any = None) -> None:
@@ -57,6 +84,9 @@ class Parser(ArgumentParser):
             return f"'{word}' is one word too many: put a name that holds spaces in quotes"
         from difflib import get_close_matches
 
+        for action in self._actions:
+            if any(row.name == word.lstrip("-") for row in getattr(action, "rows", ())):
+                return f"there is no option {word}: {action.option_strings[0]} {word[2:]}=VALUE"
         near = get_close_matches(word, self._option_string_actions, 1)
         return f"there is no option {word}" + "".join(f"; {name} is the nearest" for name in near)
 

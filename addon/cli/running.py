@@ -1,4 +1,4 @@
-"""What every command line does around its work: hears signals, prints, and says what is wrong.
+"""Runs a command line's work: hears signals, prints, and reports errors.
 
 Little is imported here, so that a Ctrl-C is heard while the rest is.
 """
@@ -18,11 +18,10 @@ from ..tracer.signals import check, ended, heard
 from ..wording import show, shown
 
 LINE_EVERY = 10.0  # seconds between two lines that say how much is done
-LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
 
 
 def run(work: Callable[[], int], program: str) -> int:
-    """Do the work of a command line, then print what it said; return the exit code.
+    """Do the work of a command line, then print its lines; return the exit code.
 
     Results are in place before anything is said. If nobody reads it, the exit code stays that of
     the work; if it cannot be printed, as to a full disk, that is an error like any other. Where
@@ -137,9 +136,15 @@ def progress_bar(
 
     That is a bar on a terminal, if tqdm is there; else a line every LINE_EVERY seconds.
     """
-    from ..tracer.progress import doing
+    from ..tracer.progress import Left, doing
 
     check()
+    began, left = clock(), Left()
+
+    def rest(share: float) -> str:
+        seconds = left.seconds(clock() - began, share)
+        return "" if seconds is None else f", {seconds:.0f} s left"
+
     try:
         from tqdm import tqdm
     except ImportError:
@@ -147,7 +152,6 @@ def progress_bar(
     else:
         is_bar = sys.stderr.isatty()
     if not is_bar:
-        began = clock()
         lines = 1  # the number of the next one
 
         def tell(share: float) -> None:
@@ -157,18 +161,17 @@ def progress_bar(
             if past >= lines * LINE_EVERY:
                 lines = int(past / LINE_EVERY) + 1
                 said = ", ".join(filter(None, (f"{100 * share:3.0f} %", doing(share))))
-                left = f", {past * (1 - share) / share:.0f} s left" if share > LEAST_SHARE else ""
                 with suppress(OSError):  # nobody reads it
-                    show(f"{said} ({past:.0f} s{left})", file=sys.stderr)
+                    show(f"{said} ({past:.0f} s{rest(share)})", file=sys.stderr)
 
         yield tell
         return
-    layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left{postfix}"
+    layout = "{percentage:3.0f} %|{bar}| {elapsed}{postfix}"
     with tqdm(total=1.0, bar_format=layout, leave=False) as bar:
 
         def move(share: float) -> None:
             check()
-            bar.set_postfix_str(shown(doing(share)), refresh=False)
+            bar.set_postfix_str(shown(doing(share)) + rest(share), refresh=False)
             bar.update(share - bar.n)
 
         yield move

@@ -1,4 +1,4 @@
-"""What came of an animation whose frames are compared one by one."""
+"""The result of an animation whose frames are compared one by one."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from ..checked_json import Content
+from ..files.checked_json import Content
 from .verdict import Verdict
 
 _NAMED = re.compile(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?")
@@ -37,7 +37,7 @@ def frames_named(text: str) -> range | None:
 
 
 class FrameRow(NamedTuple):
-    """What came of one frame: counts of pixels, or why it was not compared."""
+    """The result of one frame: counts of pixels, or why it was not compared."""
 
     frame: int
     verdict: Verdict = Verdict.FAILED

@@ -8,20 +8,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
-from ..causes.case import Case
+from ..causes.case import Case, without_colors
 from ..causes.counts import count_pixels
 from ..causes.excused import excused
 from ..causes.explain import explain
 from ..diagnosis.fault_rows import FaultRow
-from ..mesh_diagnosis import diagnosed as with_mesh_faults
 from ..pictures.metrics import boundary, image_metrics
 from ..rendering import steps
 from ..tracer.frame import Frame
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, called, scaled
 from .comparison import Comparison
+from .mesh_diagnosis import diagnosed as with_mesh_faults
 from .methods import list_methods
 
 # Shares of the work, roughly. A self-check takes the larger part of it.
@@ -51,13 +49,13 @@ def compared(
     ----------
     case : Case
     diagnose : bool
-        Whether what accounts for unexplained pixels is looked for, if there are any.
+        Whether to diagnose unexplained pixels, if there are any.
     told : callable
-        Hears of the comparison before that.
+        Called with the comparison before the diagnosis starts.
     kept : callable
-        Returns the work of keeping a comparison: once it is there, and again with its diagnosis.
+        Makes the step that saves a comparison: run after comparing, and again after diagnosing.
     shares : (float, float)
-        Of the work that are done when the comparison is there, and when it is kept.
+        Shares of the work done when the comparison exists, and when it is saved.
     literally : bool
         Whether the literal textbook's picture is wanted, where it costs little.
 
@@ -68,7 +66,8 @@ def compared(
     """
     there, safe = shares
     manifest = yield from with_mesh_faults(case.scene, case.manifest)
-    work = trace_and_compare(replace(case, manifest=manifest), literally)
+    case = replace(case, manifest=manifest)
+    work = trace_and_compare(case if case.picture.has_colors else without_colors(case), literally)
     found = yield from scaled(work, 0.0, there)
     yield from scaled(kept(found), there, safe - there)
     if diagnose:
@@ -124,7 +123,7 @@ def diagnosed(
     told(comparison)
     case, frame, causes = comparison.case, comparison.frame, comparison.causes
     work = diagnose(case, frame, causes)
-    found = yield from called(work, "looking for what is wrong")
+    found = yield from called(work, "looking for what is wrong", over=False)
     return replace(comparison, diagnosis=found)
 
 
@@ -143,12 +142,8 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     explaining = called(explain(case, frame), "looking for causes")
     found = yield from scaled(explaining, 0.0, rest * _CAUSES)
     traced, picture = found.frame, found.case.picture  # both before the picture's own background
-    channels = slice(3 if picture.storage.opaque else 4)  # an opaque picture says nothing of alpha
-    pair = traced.color[..., channels], picture.color[..., channels]
-    if picture.data is not None:
-        made, held = picture.data.pair(traced)
-        traced = replace(traced, color=picture.data.shown(made))
-        pair = np.nan_to_num(made), np.nan_to_num(held)
+    color, *pair = picture.measured_with(traced)
+    traced = replace(traced, color=color)
     measuring = called(image_metrics(*pair), "measuring differences")
     measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
     identity = picture.identity(traced.instance_index)

@@ -53,7 +53,7 @@ class Comparison:
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
     background: Background | None = None  # where the picture's is not the scene's
-    diagnosis: Diagnosis | None = None  # what accounts for unexplained pixels, if it was looked for
+    diagnosis: Diagnosis | None = None  # None: not made
 
     @property
     def scene(self) -> Scene:
@@ -62,13 +62,13 @@ class Comparison:
 
     @property
     def manifest(self) -> Manifest:
-        """What was exported, skipped, not modelled, and what is to be said of the picture."""
+        """The manifest of the scene, with notes on the picture."""
         own = self.case.manifest
         return replace(own, notes=(*own.notes, *self.case.picture.source.remarks))
 
     @property
     def picture(self) -> Colors:
-        """What the scene is compared with, (h, w, 4) linear RGBA."""
+        """The other side's picture, (h, w, 4) linear RGBA."""
         return self.case.picture.color
 
     @property
@@ -126,7 +126,7 @@ class Comparison:
 
     @property
     def required(self) -> list[str]:
-        """What it took to certify the picture, and what was left out, in words, a fact a line."""
+        """Sentences on how the picture was certified, and on what was left out."""
         return list(dict.fromkeys(line for row in self.methods for line in row.required))
 
     def to_dict(self) -> dict[str, object]:
@@ -216,22 +216,18 @@ class Comparison:
         """Say that most surfaces differ, where no fault was found."""
         surfaces = self.causes.cause[self.frame.object_index != NOTHING]
         most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
-        of_colors = self.case.picture.data is None
+        of_colors = self.case.picture.has_colors
         if most and of_colors and not (self.diagnosis and self.diagnosis.told):
             yield "most surfaces are shown in other colours than the scene's"
             yield "           Draw each flat, in those that --colors-out writes"
 
     def _measured(self) -> str:
-        m, data = self.metrics, self.case.picture.data
-        psnr = f"{m.psnr:.1f} dB" if m.rmse else "infinite"
+        m = self.metrics
         x, y = m.largest_difference.pixel
         most = f"largest difference {m.largest_difference.value:.3g} at pixel ({x}, {y})"
         if not m.rmse:
             most = "no difference anywhere"
-        if data is not None:  # what ratios say is of colours
-            unit = data.kind.unit and f" {data.kind.unit}"
-            return f"{data.kind.words}: RMSE {m.rmse:.3g}{unit}, {most}"
-        return f"RMSE {m.rmse:.3g}, PSNR {psnr}, SSIM {m.ssim:.6f}, {most}"
+        return f"{self.case.picture.measured(m)}, {most}"
 
     def _evidence(self) -> Iterator[str]:
         """Say what else was found out about the pixels that differ."""
@@ -244,7 +240,7 @@ class Comparison:
         if self.case.picture.source.file:
             words, known = self.case.picture.sampling.renderer.words, self.case.picture.source.known
             why = f", {known}" if known else ""
-            yield f"a pixel may differ by the rounding of {words}{why} (--renderer)"
+            yield f"a pixel may differ by the rounding of {words}{why} (--excuse renderer)"
         if self.background:
             yield self.background.line()
         if self.empty:
@@ -287,7 +283,7 @@ class Comparison:
 
 
 def _share(pixels: int, total: int) -> str:
-    """Return a share in per cent. What is not all of it is never said to be 100 %, or 0 %."""
+    """Return a share in per cent: never 100 % or 0 % of a part."""
     share = 100 * pixels / total
     if 1 <= share <= 99 or pixels == total:
         return f"{share:.0f} %"

@@ -11,8 +11,8 @@ from ..causes.cause import UNEXPLAINED
 from ..causes.checks.unmodelled import drawn_over
 from ..causes.counts import EXAMPLES, PixelCounts
 from ..causes.explain import BY_NUMBER, CAUSES
-from ..checked_json import Content
 from ..diagnosis.fault_rows import FaultRow
+from ..files.checked_json import Content
 from ..pictures.identity import NOTHING, UNKNOWN
 from .comparison import Comparison
 from .verdict import Verdict
@@ -21,7 +21,7 @@ SCHEMA = "reference_tracer.engines/1"
 
 
 class EngineRow(NamedTuple):
-    """What came of one engine's picture."""
+    """The result of one engine's picture."""
 
     engine: str
     verdict: Verdict

@@ -30,7 +30,7 @@ DERIVED_TRIANGLES = 3_000_000  # in the scene: each derivation looks at all of t
 
 @dataclass(frozen=True, eq=False)
 class Extras:
-    """What a page shows beside a comparison, as far as it was found out."""
+    """Studies that a page shows beside a comparison; None where they were not made."""
 
     trade: Trade | None = None
     extremes: Sequence[extremes.ExtremesRow] | None = None

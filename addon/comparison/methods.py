@@ -44,7 +44,7 @@ class MethodRow(NamedTuple):
 
 
 class Methods(NamedTuple):
-    """What came of each, and what the textbook as printed sees."""
+    """The result of each method, and the picture of the textbook as printed."""
 
     rows: tuple[MethodRow, ...]
     literal: Colors | None  # (h, w, 4) linear RGBA; NaN where it sees nothing. None: not traced

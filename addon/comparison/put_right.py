@@ -1,4 +1,4 @@
-"""Finds what a page and an Image Editor show of a fault that is told: a picture, put right."""
+"""Makes the picture that a page and an Image Editor show of a fault: put right."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class PutRight(NamedTuple):
 
 
 def pictures_put_right(comparison: Comparison) -> Iterator[PutRight]:
-    """Yield the picture that each told fault changes, put right: none where it changes no colour.
+    """Yield the picture that each fault changes, put right: none where it changes no colour.
 
     A tolerance, as of a filter, is in how colours are compared, not in a picture.
     """

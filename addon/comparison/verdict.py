@@ -27,7 +27,7 @@ class Verdict(StrEnum):
 
     @property
     def exit_code(self) -> int:
-        """What it is to a shell."""
+        """The exit code of a command."""
         return _EXIT_CODES.get(self, 1)
 
     @property

@@ -17,10 +17,11 @@ from ..arrays import Places
 from ..methods import Method
 from ..scene import Camera, Instance, Mesh, Region, Scene
 from ..tracer.candidates import candidates
-from ..tracer.hits import NOTHING, Name
+from ..tracer.hits import NOTHING
 from ..tracer.nearest import plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import UNPROVEN_SETTINGS, Settings
+from ..tracer.ties import Name
 from ..tracer.triangle import textbook
 from ..tracer.vector import transform_points
 from ..tracer.world import Pairs, WorldTriangles, refused

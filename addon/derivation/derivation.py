@@ -18,7 +18,8 @@ from typing import Any
 import numpy as np
 
 from ..scene import Scene
-from ..tracer.hits import NOWHERE, Name
+from ..tracer.hits import NOWHERE
+from ..tracer.ties import Name
 from . import textbook
 from .candidates import LIMIT, gather_pixel
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
@@ -82,7 +83,7 @@ class Derivation:
 
     @property
     def seen(self) -> Candidate | None:
-        """What is certainly seen; None for the background."""
+        """The candidate that is certainly seen; None for the background."""
         return self.named(self.certified.seen)
 
     @property

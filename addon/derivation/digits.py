@@ -46,7 +46,7 @@ def digits_text(value: Number | float) -> str:
 
 
 def exact_text(value: Fraction, count: int = EXACT_DIGITS) -> str:
-    """Return an exact number as a decimal, correctly rounded to so many digits, "…" if inexact."""
+    """Return an exact number as a decimal, correctly rounded to `count` digits, "…" if inexact."""
     if not value:
         return "0"
     context = Context(prec=count, Emax=10**9, Emin=-(10**9))
@@ -124,7 +124,7 @@ def marked(value: np.floating, exact: Fraction | None, off: float | None) -> Par
 
 
 def off_text(off: float | None) -> str:
-    """Return an error in ulp, short: 0, 0.31, 2.5, 840, 1.2e+07; "–" where none can be told."""
+    """Return an error in ulp, short: 0, 0.31, 2.5, 840, 1.2e+07; "–" where there is none."""
     if off is None:
         return "–"
     if off == 0:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ..certainty import Certainty
-from ..images import to_display
+from ..files.images import to_display
 from . import blocks
 from .blocks import Block, Heading, Paragraph, Table, numbers
 from .derivation import Derivation, Test

@@ -28,7 +28,7 @@ OPERATIONS = {
     "/": (2, operator.truediv),
     PRODUCT: (3, operator.mul),
 }
-_SINES = {"sin": 0, "cos": 1}  # of an angle plus so many right angles
+_SINES = {"sin": 0, "cos": 1}  # of an angle plus this number of right angles
 _UNIT = 1 << 2048  # of sines in integers: the series' terms are below 2^1500 of it
 
 
@@ -39,7 +39,7 @@ class Letter(NamedTuple):
 
 
 class Negated(NamedTuple):
-    """What has the other sign."""
+    """A tree with the other sign."""
 
     of: Tree
 
@@ -107,7 +107,7 @@ def printed(tree: Tree, binding: int = 0) -> str:
         case Operation(sign, left, right):
             strength = OPERATIONS[sign][0]
             between = sign if sign == PRODUCT else f" {sign} "
-            # Factors of one strength are told apart by brackets, as printed formulas have them.
+            # Factors of one strength are separated by brackets, as printed formulas have them.
             inner = 9 if strength == 2 else strength
             first = printed(left, inner if strength == 2 else strength - 1)
             text = f"{first}{between}{printed(right, inner)}"

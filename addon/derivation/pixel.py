@@ -18,8 +18,9 @@ from ..methods import Method
 from ..rendering import trace
 from ..scene import Camera, Instance, Mesh, Plane, Scene, SceneError
 from ..tracer.camera import Rays, camera_rays
-from ..tracer.hits import NOTHING, NOWHERE, Name
+from ..tracer.hits import NOTHING, NOWHERE
 from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
+from ..tracer.ties import Name
 from ..tracer.world import WorldTriangles
 
 
@@ -48,7 +49,7 @@ class Candidate:
 
     @property
     def title(self) -> str:
-        """What a reader calls it."""
+        """The surface's name for a reader."""
         if self.is_plane:
             return f"{self.object}, infinite plane"
         return f"{self.object}, triangle {self.triangle}"
@@ -89,7 +90,7 @@ class Pixel:
         return self.camera.region.y0 + self.y
 
     def rays(self, precision: Precision = Precision.FLOAT64) -> Rays:
-        """Return its ray as the tracer has it, one of one."""
+        """Return the pixel's ray as a batch of one."""
         film = np.array([self.column + 0.5]), np.array([self.row + 0.5])
         return camera_rays(self.camera, *film, precision.dtype)
 
@@ -135,7 +136,7 @@ def check_pixel(camera: Camera, x: int, y: int) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What one method in one precision sees; `seen` is NOWHERE, and `t` inf, for nothing."""
+    """The answer of one method in one precision; `seen` is NOWHERE, and `t` inf, for nothing."""
 
     method: Method
     precision: Precision

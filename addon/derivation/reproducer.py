@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Colors, Floats
-from ..checked_json import ENDLESS, Content, camera_of, numbers, part, whole
-from ..file_kinds import check_is_file
+from ..files.checked_json import ENDLESS, Content, camera_of, numbers, part, whole
+from ..files.file_kinds import check_is_file
 from ..scene import SceneError
 from ..tracer.hits import NOTHING
 from .pixel import Candidate, Pixel

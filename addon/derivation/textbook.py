@@ -28,7 +28,7 @@ Labelled = dict[str, Value]  # by their keys or labels
 
 
 class Arithmetic(StrEnum):
-    """What the numbers of a column are."""
+    """The arithmetic of a column."""
 
     FLOAT32 = "float32"
     FLOAT64 = "float64"

@@ -1,1 +1,1 @@
-"""What is wrong with a picture: faults, each made, fitted and named."""
+"""Diagnoses what is wrong with a picture: faults, each made, fitted and named."""

@@ -18,7 +18,7 @@ from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..wording import count_of
 from .evidence import Evidence
-from .faults import FAULTS, OF_COLORS
+from .faults import FAULTS
 from .faults.fault import AnyFault, Guess
 from .faults.fitting import ENCLOSED
 from .guessing import LEAST_SETTLED, ROUGHLY, STEPS, Guessing, accounting
@@ -28,7 +28,7 @@ from .variants import carried, in_its_colors, with_variants
 
 ROUNDS = 3  # faults one after the other, at most
 FRAMED = 5  # regions that are named
-ALTERNATIVES = 3  # that are told at length
+ALTERNATIVES = 3  # that are reported in full
 NAMED = 6  # faults that are named where there is no room for more
 
 
@@ -42,15 +42,15 @@ class Told:
     settled: int  # of these, pixels that agree with this put right
     agreed: int  # pixels that agreed or had a cause
     broken: int  # of these, pixels that do not, with this put right
-    frame: Frame  # what is traced with it, and with those told before, in the picture's colours
+    frame: Frame  # traced with it, and with those before it, in the picture's colours
     picture: Colors  # what it is compared with, (h, w, 4) linear RGBA
-    alternative: bool = False  # it does as well as the one told before it
+    alternative: bool = False  # it explains as much as the one before it
     also: tuple[str, ...] = ()  # names of further faults that do as well
     colors: str = ""  # by which transform colours then agree, if they did not before
 
     @property
     def sentence(self) -> str:
-        """What is wrong, without a full stop."""
+        """The fault in words, without a full stop."""
         return self.fault.sentence_of(self.guess)
 
     def effect(self) -> str:
@@ -77,7 +77,8 @@ class Told:
             return ""
         ends = zip(self.fault.numbers, g.low, g.high, strict=False)
         wide = ((name, f"{low:.6g}", f"{high:.6g}") for name, low, high in ends)
-        return ", ".join(f"{name} from {low} to {high}" for name, low, high in wide if low != high)
+        said = [f"{name} from {low} to {high}" for name, low, high in wide if low != high]
+        return ", ".join([*said, "each by itself"] if len(said) > 1 else said)
 
     def lines(self) -> Iterator[str]:
         """Yield it as lines of text."""
@@ -118,16 +119,16 @@ class Told:
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What accounts for the unexplained pixels of a comparison."""
+    """The faults that account for the unexplained pixels of a comparison."""
 
     told: tuple[Told, ...] = ()
     guesses: int = 0  # that were tried on the sample
     steps: int = 0  # of work
     seconds: float = 0.0
-    untried: tuple[str, ...] = ()  # faults that were not looked for to the end: it took too many
+    untried: tuple[str, ...] = ()  # faults whose search was not finished: it took too many
     left: int = 0  # pixels that nothing accounts for
     regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
-    silent: str = ""  # why no fault was looked for, without a full stop
+    silent: str = ""  # why there was no search, without a full stop
 
     def lines(self) -> list[str]:
         """Return it as lines of text, the most important first."""
@@ -176,7 +177,7 @@ def diagnose(
     case: Case,
     frame: Frame,
     causes: Causes,
-    faults: Sequence[AnyFault] = FAULTS,
+    faults: Sequence[AnyFault] | None = None,
     steps: float = STEPS,
 ) -> Work[Diagnosis]:
     """Look for what accounts for the unexplained pixels; yields the share of the work done.
@@ -188,13 +189,9 @@ def diagnose(
     if not evidence.unexplained.any() or frame.cancelled:
         return Diagnosis()
     began = time.monotonic()
-    silent = ""
-    if (data := case.picture.data) is not None:
-        silent = data.silent(frame)  # many a fault can empty a picture: none would be sure
-        known = [f for f in faults if f.name not in OF_COLORS and not silent]
-        # An array is turned over more often than a camera is mirrored: of two that do as well.
-        faults = sorted(known, key=lambda fault: fault.name != "rows")
-    guessing = Guessing(faults, steps)
+    silent = case.picture.silent(frame)
+    known = case.picture.faults_of(FAULTS) if faults is None else faults
+    guessing = Guessing(() if silent else known, steps)
     evidence = yield from scaled(with_variants(evidence), 0.0, 0.0)
     at_first = evidence.unexplained
     told: list[Told] = []
@@ -209,7 +206,8 @@ def diagnose(
             evidence = carried(evidence, trials[0])
         remain = int((evidence.unexplained & at_first).sum())
         broken = int((evidence.unexplained & ~at_first).sum())
-        # What was broken is no other fault's, nor is what is beside, or what a rough fit leaves.
+        # Do not blame another fault for pixels that this one broke, for their neighbours, or for
+        # what a rough fit leaves.
         own = ROUGHLY * at_first.sum() if len(chain[0][0].guess.values) > ENCLOSED else 0
         if remain < max(LEAST_SETTLED, broken, own):
             break
@@ -247,13 +245,7 @@ def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
     """Return what is reported of a trial, counted in the evidence before it."""
     after = trial.evidence
     settled, broken, _, _ = counted(evidence, after)
-    color = after.frame.color.copy()
-    picture = after.case.picture
-    if picture.data is not None:
-        color = picture.data.shown(picture.data.of_frame(after.frame))
-    else:
-        made = picture.made_of(color)  # by a transform, if that is the fault
-        color[..., : made.shape[-1]] = made
+    color = after.case.picture.as_shown(after.frame)
     return Told(
         trial.fault,
         trial.guess,

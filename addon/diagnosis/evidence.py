@@ -135,7 +135,7 @@ class Evidence:
 
     @cached_property
     def shown(self) -> Picture:
-        """What the n sampled pixels show."""
+        """The other side's picture at the n sampled pixels."""
         return self.picture.at(self.sample)
 
     @cached_property
@@ -176,7 +176,7 @@ class Evidence:
 
     @cached_property
     def _own_hits(self) -> list[Hits]:
-        """The hits of the sampled pixels in the scene as it is, once they were asked for."""
+        """The hits of the sampled pixels in the scene as it is, found on first use."""
         return []
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
@@ -229,7 +229,7 @@ class Evidence:
         """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
         scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
-        if shown.data:
+        if not shown.has_colors:
             return np.full(len(shown.color), NOTHING, np.int32)
         if shown.owners:
             of_owner = reversed(list(enumerate(shown.owners.instances[:-1])))

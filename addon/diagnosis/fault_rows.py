@@ -1,4 +1,4 @@
-"""What the self-check made of each fault: a row, and the rows as text.
+"""The results of the self-check: a row for each fault, and the rows as text.
 
 Apart from the faults themselves, which take a twentieth of a second to import.
 """
@@ -16,7 +16,7 @@ class FaultRow(NamedTuple):
     text: str
     changed: int = 0  # pixels that the fault changes, in the traced picture or in Blender's
     differ: int = 0  # of those, pixels that differ then
-    looked_at: int = 0  # of those, pixels whose cause was looked for
+    looked_at: int = 0  # of those, pixels that were checked
     unexplained: int = 0  # of those, pixels that have none
     within_rounding: bool = False  # Blender's own float32 accounts for every changed pixel
     note: str = ""
@@ -25,7 +25,7 @@ class FaultRow(NamedTuple):
 
     @property
     def result(self) -> str:
-        """What became of it: 'caught', 'missed', or why it could not be caught."""
+        """The outcome: 'caught', 'missed', or why it could not be caught."""
         if not self.changed:
             return "cannot be seen here"
         if self.unexplained or self.named:

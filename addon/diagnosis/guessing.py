@@ -1,6 +1,6 @@
-"""Makes guesses of what is wrong, tries them, and says which may be told.
+"""Guesses what is wrong, tries the guesses, and decides which to report.
 
-A guess is told under three conditions.
+A guess is reported under three conditions.
 
 - It is right in nearly all the pixels that it changes (`PRECISE`). A wrong guess has no reason to
   be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
@@ -13,8 +13,8 @@ A guess is told under three conditions.
   is wrong in a way that is not known, a small thing that is shown elsewhere looks like a missing
   one: in the test bed it settled a tenth.
 
-Of guesses that are as good, those with the fewest fitted numbers are told, all of them. One that is
-`vague`, as it allows for more than one picture, is told if no exact one is as good.
+Among equally good guesses, all with the fewest fitted numbers are reported. A `vague` one, which
+allows for several pictures, is reported if no exact one is as good.
 """
 
 from __future__ import annotations
@@ -24,14 +24,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypeVar
 
+import numpy as np
+
 from ..causes.case import PRECISE
 from ..causes.checks.color import find_transform
 from ..pictures.metrics import boundary
 from ..scene import SceneError
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work, called, scaled
 from .evidence import FEW, Evidence, Score
 from .faults import FAULTS
-from .faults.fault import AnyFault, Effort, Guess
+from .faults.fault import TRIED, AnyFault, Effort, Guess
 from .faults.fitting import ENCLOSED
 from .faults.given import given
 from .faults.matching import is_everywhere
@@ -52,7 +54,7 @@ NEARLY = 0.5  # of the unexplained pixels: a guess that gains as much may be all
 ENOUGH = 0.995  # of the unexplained pixels: after such a gain, no more effort is made
 ROUGHLY = 0.03  # of the unexplained pixels: what numbers without a range may leave
 ALL_EDGES = 1 << 11  # the sample of a refinement: pixels of each kind
-TRIED = 6  # trials of guesses of all efforts, at most
+MOST_UNSURE = 6  # trials of guesses of all efforts, at most
 MOST_SURE = 24  # trials of guesses that gain nearly all, at most: an empty picture has many
 MAIN = 0.5  # of the unexplained pixels: a guess with such a gain may need a second one beside it
 STARTS = 2  # first guesses of two that are followed
@@ -61,8 +63,10 @@ LOST = 0.1  # of the pixels that a first guess settles: it may break no more
 # or pixels, the same on each machine.
 IN_PLACES = (  # where most of the picture agrees
     Effort.NOTHING,
+    Effort.LEFT_OUT,
     Effort.OBJECT,
     Effort.PIXELS,
+    Effort.VIEW,
     Effort.FILM,
     Effort.CAMERA,
     Effort.ANYTHING,
@@ -80,8 +84,8 @@ class Guessing:
         self.limit = limit
         self.steps = 0
         self.guesses = 0
-        self.untried: set[str] = set()  # names of faults that were not looked for to the end
-        self._done, self._of = 0, 1  # faults that were looked for, of those that are now
+        self.untried: set[str] = set()  # names of faults whose search was not finished
+        self._done, self._of = 0, 1  # faults searched so far, and the total of this round
 
     @property
     def ended(self) -> bool:
@@ -91,7 +95,7 @@ class Guessing:
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
         """Run work that looks for a fault; None if it, or all work, reaches its limit of steps.
 
-        It yields the share of the faults that were looked for before: nobody knows how long one is.
+        Yields the share of the faults searched before: nobody knows how long one takes.
         """
         last = self.steps + self.limit / PART
         while not self.ended and self.steps < last:
@@ -120,20 +124,24 @@ class Guessing:
         out: list[Trial] = []
         self._done, self._of = 0, len(faults)
         order = Effort if is_everywhere(evidence) else IN_PLACES
-        for effort in order:
+        for number, effort in enumerate(order, 1):
             some = [fault for fault in faults if fault.effort == effort]
-            scored = yield from self._scored(evidence, some)
+            words = f"trying {TRIED[effort][0]}, {number} of {len(order)}"
+            scored = yield from called(self._scored(evidence, some), words, known=False)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
             known = [one for one in scored if one[1].sampled or not one[1].vague]
             pool += [one for one in known if one[0] < NEARLY * unexplained]
             sure = [one for one in known if one[0] >= NEARLY * unexplained]
-            out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
+            trying = self._trials_of(evidence, of, sure, MOST_SURE)
+            out += yield from called(trying, words, known=False)
             if _is_enough(of, out):
                 break
         else:
-            out += yield from self._trials_of(evidence, of, pool, TRIED)
+            trying = self._trials_of(evidence, of, pool, MOST_UNSURE)
+            out += yield from called(trying, words, known=False)
             if not _is_enough(of, out):
-                out += yield from self._trials_of(evidence, of, unknown, MOST_SURE)
+                trying = self._trials_of(evidence, of, unknown, MOST_SURE)
+                out += yield from called(trying, words, known=False)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
     def _scored(
@@ -171,28 +179,32 @@ class Guessing:
     ) -> Work[list[Trial]]:
         """Try the guesses with the most gain, refining fitted ones.
 
-        Vague ones come last: their trials take long, and what is exact is told in their place.
+        Vague ones come last: their trials take long, and exact ones are reported in their place.
         """
         promising = PROMISING * max((gain for gain, _, _ in scored), default=0.0)
         scored = sorted((one for one in scored if one[0] >= promising), key=lambda one: -one[0])
-        # Of guesses that are as good, one of each fault comes first: one has dozens of ways.
+        # Among equally good guesses try one of each fault first: a fault may have dozens.
         tried: Counter[str] = Counter()
         ranks = [tried.update([fault.name]) or tried[fault.name] for _, fault, _ in scored]
-        order = sorted(range(len(scored)), key=lambda n: (-scored[n][0], ranks[n]))
+        best = scored[0][0] if scored else 0.0
+        cost = [len(g.low) if gain >= AS_GOOD * best else np.inf for gain, _, g in scored]
+        order = sorted(range(len(scored)), key=lambda n: (cost[n], -scored[n][0], ranks[n]))
         scored = [scored[n] for n in order]
         exact = [one for one in scored if not one[1].vague]
         vague = [one for one in scored if one[1].vague]
         out: list[Trial] = []
-        done: set[str] = set()  # faults with a guess that does it all
+        done: dict[str, int] = {}  # faults with a guess that does it all, in so many numbers
         for gain, fault, guess in (*exact[:most], *vague[:most]):
-            if fault.name in done or (done and guess.low and gain < AS_GOOD * scored[0][0]):
+            worse = bool(guess.low) and gain < AS_GOOD * best
+            longer = not guess.object and len(guess.low) > min(done.values(), default=0)
+            if fault.name in done or (done and (worse or longer)):
                 continue
             guess = yield from self._finer(evidence, fault, guess)
             trial = yield from self._limited(trial_of(evidence, fault, guess, of), fault)
             if trial and trial.gain > 0:
                 out.append(trial)
                 if trial.perfect:
-                    done.add(fault.name)
+                    done[fault.name] = trial.cost
         return out
 
 
@@ -258,7 +270,7 @@ def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
     No pixel says so then, but surfaces do, of which one transform makes the colours agree.
     """
     case, picture, out = replace(evidence.case, curves=None), evidence.picture, []
-    known = picture.transform or picture.lit or picture.data
+    known = picture.transform or picture.lit or not picture.has_colors
     if known or evidence.unexplained.mean() < MAIN:
         return []
     if case.background is not None:  # what was taken for the picture's is what lies elsewhere in it
@@ -277,7 +289,7 @@ def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
 
 
 def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
-    """Return the trials that may be told."""
+    """Return the trials that may be reported."""
     unexplained = int(evidence.unexplained.sum())
     return [
         t
@@ -291,7 +303,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 
 
 def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
-    """Return whether one that may be told settles nearly all: then no more are tried."""
+    """Return whether one that may be reported settles nearly all: then no more are tried."""
     count = evidence.unexplained.sum()
     least = {True: ENOUGH * count, False: (1 - ROUGHLY) * count}
     return any(t.gain >= least[t.cost <= ENCLOSED] for t in _good(evidence, trials))
@@ -307,7 +319,7 @@ def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     most = max((t.gain for t in good), default=0)
     alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
     fewest = min(((t.fault.vague, t.cost) for t in alike), default=None)
-    # What is done to one object may look the same in more numbers: that is told, too.
+    # A change of one object may look the same in more numbers: report that, too.
     own = {t.guess.object for t in alike if (t.fault.vague, t.cost) == fewest}
     of_one = own - {""} if len(own) == 1 else ()
     alike = [t for t in alike if (t.fault.vague, t.cost) == fewest or t.guess.object in of_one]

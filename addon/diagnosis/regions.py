@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array, Bools, Bytes, Index, Places
+from ..pictures.bounds import largest_within
 from ..pictures.identity import Identity
 from ..scene import Scene
 from ..tracer.frame import Frame
@@ -34,7 +35,7 @@ class Region:
     height: int
     pixels: int  # of the mask in it
     objects: tuple[str, ...] = ()  # that either side shows in these pixels, the largest first
-    cause: int = 0  # the number of the cause that most of its pixels have, if it was asked for
+    cause: int = 0  # the number of the cause that most of its pixels have, if requested
 
     @property
     def top(self) -> int:
@@ -94,7 +95,7 @@ def regions(
     bottom, left = int(np.min(y)), int(np.min(x))
     held = mask[bottom : int(np.max(y)) + 1, left : int(np.max(x)) + 1]
     while True:
-        label = _labels(_dilated(held, near))[y - bottom, x - left]
+        label = _labels(largest_within(held, near))[y - bottom, x - left]
         unique, number = np.unique(label, return_inverse=True)
         if len(unique) <= most:
             break
@@ -119,18 +120,6 @@ def _region(y: Places, x: Places, shown: Sequence[Side]) -> Region:
     left, bottom = int(np.min(x)), int(np.min(y))
     size = int(np.max(x)) - left + 1, int(np.max(y)) - bottom + 1
     return Region(left, bottom, *size, len(y), tuple(name for name, _ in count.most_common()))
-
-
-def _dilated(mask: Bools, by: int) -> Bools:
-    """Dilate a mask by n pixels in each direction; the shape stays."""
-    for _ in range(2):  # once along the rows, once along the columns
-        length = mask.shape[1]
-        total = np.zeros((mask.shape[0], length + 1), np.int32)
-        np.cumsum(mask, axis=1, out=total[:, 1:])
-        first = np.maximum(np.arange(length) - by, 0)
-        last = np.minimum(np.arange(length) + by + 1, length)
-        mask = (total[:, last] > total[:, first]).T
-    return mask
 
 
 def _labels(mask: Bools) -> Array:

@@ -26,7 +26,7 @@ from .faults import EXAMPLES
 from .faults.fault import AnyFault, Example
 from .trial import traced_anew
 
-# Differing pixels whose cause is looked for, as whole pictures may be wrong: more only where
+# Differing pixels that are checked, as whole pictures may be wrong: more only where
 # the fewer leave none unexplained.
 SAMPLES = 256, 4096
 

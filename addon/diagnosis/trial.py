@@ -21,7 +21,7 @@ from .evidence import Evidence
 from .faults.fault import AnyFault, Guess
 
 HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
-LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
+LOOKED_AT = 1 << 14  # differing pixels that are checked, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,8 +195,8 @@ def left_unexplained(evidence: Evidence) -> Bools:
 def _changed(before: Evidence, after: Evidence) -> Bools:
     """Return which pixels (h, w) are traced in other colours; all, if the picture changed."""
     one, other = before.case.picture, after.case.picture
-    if one.color is not other.color or one.data is not other.data:
+    if not one.holds_as(other):
         return np.ones(before.unexplained.shape, bool)
-    if one.data is not None:
+    if not one.has_colors:
         return one.sees_apart(before.frame, after.frame)
     return differing_pixels(before.frame.color, after.frame.color)

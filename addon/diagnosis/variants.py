@@ -9,15 +9,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..causes.case import WHOLE
+from ..causes.case import MOST_VARIANTS, WHOLE, Variant
 from ..causes.explain import explain
 from ..rendering import steps
 from ..scene import Scene
 from ..tracer.frame import Frame
-from ..tracer.progress import Work
+from ..tracer.progress import Share, Work
 from .evidence import Evidence
 from .faults.given import Given
 from .trial import Trial
+
+ASKING = "asking Blender for scenes with a fault"
 
 
 def with_variants(evidence: Evidence) -> Work[Evidence]:
@@ -25,9 +27,12 @@ def with_variants(evidence: Evidence) -> Work[Evidence]:
 
     What no ray hits is not exported, but a faulty camera may have seen it.
     """
-    yield 0.0  # what is done is shown before Blender exports them, in one go
     case = evidence.case
-    variants = [replace(v, scene=_as_in(case.scene, v.scene)) for v in case.variants()]
+    variants: list[Variant] = []
+    yield _asking(1)  # before Blender evaluates the first, in which it hears nothing
+    for variant in case.variants():
+        variants.append(replace(variant, scene=_as_in(case.scene, variant.scene)))
+        yield _asking(len(variants) + 1)
     others = tuple(v for v in variants if v.fault != WHOLE)
     for whole in (v.scene for v in variants if v.fault == WHOLE):
         if len(whole.instances) > len(case.scene.instances):
@@ -45,6 +50,10 @@ def with_variants(evidence: Evidence) -> Work[Evidence]:
             found = yield from explain(case, frame)
             return Evidence(found.case, found.frame, found.causes, others)
     return replace(evidence, variants=others)
+
+
+def _asking(number: int) -> Share:
+    return Share(0.0, f"{number}/{MOST_VARIANTS}: {ASKING}")
 
 
 def _look_alike(first: Frame, second: Frame) -> bool:

@@ -10,9 +10,8 @@ from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index
+from ..arrays import Bools, Floats, Index, places
 from ..certainty import Certainty
-from ..runs import places
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions, pixel_size
 from ..tracer.frame import Frame
@@ -25,7 +24,7 @@ from .bounds import DECIDABLE, SNAPPING, pixel_error, spread_error
 from .renderers import RASTER, Renderer
 
 _TOGETHER = 1 << 15  # pixels looked at in one step
-_FEW = 16  # one of so many pixels is few: they are looked at by themselves
+_FEW = 16  # fewer than one in 16 pixels are few: they are looked at by themselves
 _REACH = 1.0  # pixels: a band up to this comes from the 3 x 3 pixels around alone
 _ENDS = 4  # one of so many pixels is few enough to be asked for a bound of the others
 _SLACK = 1 + 2.0**-10  # far above what rounding adds to a bound
@@ -57,7 +56,7 @@ class SampleBand:
     Attributes
     ----------
     values : (h, w) float64
-        Pixels; NaN where it was not asked for.
+        Pixels; NaN where it was not requested.
     most : float
         None is larger than this.
     """

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array, Bools, Floats
-from ..images import encoded
-from ..runs import by_runs, run_starts
+from ..arrays import Array, Bools, Floats, by_runs, run_starts
+from ..files.images import encoded
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
 from ..tracer.hits import Hits

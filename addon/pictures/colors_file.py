@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Colors, Floats
-from ..checked_json import Content, numbers, part
-from ..file_kinds import check_is_file
+from ..files.checked_json import Content, numbers, part
+from ..files.file_kinds import check_is_file
 from ..scene import Scene, SceneError
 from .palette import By, GivenColors, Key, automatic_note, clear_palette, eight_bits, not_told_apart
 

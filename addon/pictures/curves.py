@@ -6,12 +6,11 @@ Each is a function of straight linear RGB (..., 3).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import partial
 
 import numpy as np
 
 from ..arrays import Array
-from ..images import EIGHT_BITS, curve, curve_undone
+from ..files.images import EIGHT_BITS, curve, curve_undone
 from .picture import MAJORITY, Curve, Transform
 
 FITTED_SHARE = 0.9  # the share of pixels for a curve with a number that was fitted to them
@@ -102,18 +101,18 @@ ROUNDED = (
         _of_code(lambda v: np.floor(EIGHT_BITS * v + 1e-6) / EIGHT_BITS),
         key="cut_off",
     ),
-    Curve("linear values rounded to 8 bits, before sRGB's curve", _eight, key="few_levels"),
+    Curve("linear values rounded to 8 bits, before sRGB's curve", _eight, key="rounding_level"),
     *(
         Curve(
             f"values {'cut off' if cut_off else 'rounded'} to {r}, {g} and {b} bits",
             _to_bits(cut_off, (r, g, b)),
-            key="few_levels",
+            key="rounding_level",
         )
         for r, g, b in _FEWER
         for cut_off in (False, True)
     ),
 )
-# The names of the faults of colours, in the order in which they are told, and what they are.
+# The names of the faults of colours, in the order in which they are reported, and what they are.
 KEYS = {
     "channels": "channels swapped",
     "gamma": "a power of linear values",
@@ -121,11 +120,10 @@ KEYS = {
     "srgb_left_out": "sRGB's curve left out",
     "power_for_srgb": "a power in place of sRGB's curve",
     "cut_off": "values cut off to 8 bits, not rounded",
-    "few_levels": "values rounded while they were linear, or to fewer bits",
     "coded_gamma": "a power of coded (sRGB) values",
     "exposure": "an exposure",
-    "coded_factor": "a factor on coded (sRGB) values",
     "view_transform": "a view transform",
+    "rounding_level": "values rounded to 8 bits or fewer",
 }
 
 
@@ -157,11 +155,6 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
         if abs(power - 1) > LEAST_CHANGE:
             name = f"a gamma of {1 / power:.3g}"
             yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE, "gamma")
-        times = float(np.median(curve(b[fits]) / curve(a[fits])))
-        if abs(times - 1) > LEAST_CHANGE:
-            name = f"a factor of {times:.3g} on coded (sRGB) values"
-            made = partial(_coded_times, times)
-            yield Curve(name, made, FITTED_SHARE, "coded_factor")
         coded = _fitted_power(curve(a[fits]), curve(b[fits]))
         if abs(coded - 1) > LEAST_CHANGE:
             yield _coded_power(coded, levels, FITTED_SHARE)
@@ -195,11 +188,6 @@ def _coded_power(power: float, levels: int, share: float) -> Curve:
 
     name = f"a gamma of {1 / power:.3g} applied to coded (sRGB) values"
     return Curve(name, transform, share, "coded_gamma")
-
-
-def _coded_times(factor: float, color: Array) -> Array:
-    """Return linear colours whose sRGB codes are multiplied by a factor."""
-    return curve_undone(factor * curve(np.clip(color, 0, 1)))
 
 
 def _cut_off(of: Transform, levels: int) -> Transform:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..images import PictureFile
-from ..scene import Camera
+from ..files.images import PictureFile
+from ..scene import Camera, Scene
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from .bounds import Storage
 from .picture import Picture, Source, check_size
@@ -18,7 +19,7 @@ from .sampling import Sampling
 
 @dataclass(frozen=True)
 class Making:
-    """What is known of how a picture was made.
+    """How a picture was made, as far as it is known.
 
     Raises
     ------
@@ -46,6 +47,31 @@ class Making:
         if self.renderer:
             return RENDERERS[self.renderer], self.asked
         return renderer_of(header, self.engine)
+
+
+class GivenPicture(Protocol):
+    """A file, or an array, that is the other side: read once the scene is known."""
+
+    def picture(self, scene: Scene, making: Making) -> Picture:
+        """Read it, as it was made; of a whole view, the camera's region.
+
+        Raises
+        ------
+        SizeError, SceneError, PictureTooLargeError, MissingLibraryError, OSError
+            If it shows neither the view nor the region, or cannot be read.
+        """
+        ...
+
+
+@dataclass(frozen=True)
+class GivenFile:
+    """A picture file, whose header was read."""
+
+    file: PictureFile
+
+    def picture(self, scene: Scene, making: Making) -> Picture:
+        """Read it."""
+        return picture_of_file(self.file, scene.camera, making)
 
 
 def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Picture:

@@ -15,14 +15,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Bools, Colors, Floats, Index, Integers, Where
-from ..runs import by_runs
+from ..arrays import Bools, Colors, Floats, Index, Integers, Where, by_runs
 from ..scene import Scene
 
 NOTHING, UNKNOWN = -1, -2
 
 LEVELS = 32  # of a channel: a step is 8 of 255
-MOST_OBJECTS = LEVELS**3 // 2  # that can be told apart
+MOST_OBJECTS = LEVELS**3 // 2  # that can be distinguished
 _OFF = 0.1  # how far a channel may lie from its digit, in steps (half of 1/255 is 0.06)
 
 

@@ -14,7 +14,7 @@ from itertools import permutations, product
 import numpy as np
 
 from ..arrays import Bytes, Colors, Index, Integers
-from ..images import curve, curve_undone
+from ..files.images import curve, curve_undone
 from ..scene import Scene, SceneError
 
 # Two colours of 8 bits are told apart if they are so many levels apart in a channel: rounding, a

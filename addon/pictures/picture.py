@@ -6,25 +6,25 @@ is looked at by itself: the right colour excuses no wrong object, an edge nearby
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple, TypeVar
+from typing import ClassVar, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where
-from ..runs import by_runs
+from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where, by_runs
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.hits import Hits
 from .bounds import FLOATS, Storage, difference, differing
-from .data.kind import Data
 from .identity import NOTHING, Identity, Owners
+from .metrics import Metrics
 from .sampling import AT_CENTRES, Sampling
 
 D = TypeVar("D", bound=np.generic)
+F = TypeVar("F")  # a fault
 Transform = Callable[[Floats], Floats]  # of straight linear RGB
 MAJORITY = 0.5  # the share of what a known curve changes that it must make agree
 
@@ -45,7 +45,8 @@ def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
         (height, width), (h, w) = own[:2], traced[:2]
         raise SizeError(
             f"The picture has {width} x {height} pixels, the traced one {w} x {h}. Render it at "
-            f"that size, or trace a .blend or a mesh at its own: --width {width} --height {height}"
+            "that size, or trace a .blend or a mesh at its own: "
+            f"--set width={width} height={height}"
         )
 
 
@@ -76,7 +77,7 @@ class Source:
 
 @dataclass(frozen=True, eq=False)
 class DrawnOver:
-    """What draws itself over what is traced, as hair does: where, and what lies beneath."""
+    """Features that draw themselves over surfaces, as hair does: where, and what is beneath."""
 
     feature: Integers  # (...) its index among the unmodelled features, or NOTHING
     beneath: Colors | None = None  # (..., 4) the colour without these; NaN: not known
@@ -100,7 +101,10 @@ class DrawnOver:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """The pixels (...) of the other side's picture, or some of them."""
+    """The pixels (...) of the other side's picture, or some of them.
+
+    This one has colours; `packages/data` has the other, of depths and so on.
+    """
 
     color: Colors  # (..., 4) linear RGBA, alpha premultiplied
     source: Source = Source()
@@ -114,7 +118,7 @@ class Picture:
     colorless: Bools | None = None  # the tracer does not know the instance's colours
     holes: Bools | None = None  # the instance is shown as if nothing were there
     drawn: DrawnOver | None = None  # what draws itself, if anything does
-    data: Data | None = None  # what it shows in place of colours: these are to look at then
+    has_colors: ClassVar[bool] = True  # else these are only to look at
 
     def to_dict(self) -> dict[str, object]:
         """Return who made it and how, as JSON can hold it."""
@@ -144,38 +148,58 @@ class Picture:
         check_size(self.color.shape, shape)
         self.sampling.check(self.source)
 
-    def at(self, where: Where) -> Picture:
+    def at(self, where: Where) -> Self:
         """Return some of the pixels: rows by a slice, those of a mask, or by their indices."""
         return replace(
             self,
             color=self.color[where],
             owners=self.owners and self.owners.at(where),
             drawn=self.drawn and self.drawn.at(where),
-            data=self.data and self.data.at(where),
         )
 
     def moved(self, where: Where) -> Picture:
         """Return the picture (h, w) with its pixels in other places, those of `where`."""
-        there = self.at(where)
-        if self.data is None or there.data is None:
-            return there
-        return replace(there, data=replace(there.data, film=self.data.film))
+        return self.at(where)
 
     def shows(self, frame: Frame, rows: slice = slice(None)) -> Bools:
         """Return which of these pixels, some rows, may show what a frame has there, (k, w)."""
-        seen = frame.instance_index[rows]
-        if self.data is None:
-            return self.alike(frame.scene, seen, frame.color[rows])
-        hits, data = frame.hits(rows), self.data.flat
-        return data.same(frame.scene, hits, self.sampling, hits.t).reshape(seen.shape)
+        return self.alike(frame.scene, frame.instance_index[rows], frame.color[rows])
 
     def sees_apart(self, first: Frame, second: Frame) -> Bools:
         """Return where two frames (h, w) have something else to show in such a picture."""
-        if self.data is None:
-            return np.asarray((first.color != second.color).any(axis=-1), np.bool_)
-        with np.errstate(invalid="ignore"):
-            out = (first.t != second.t) | (first.object_index != second.object_index)
-        return out | (first.triangle_index != second.triangle_index)
+        return np.asarray((first.color != second.color).any(axis=-1), np.bool_)
+
+    def holds_as(self, other: Picture) -> bool:
+        """Return whether another picture holds the same pixels."""
+        return self.color is other.color
+
+    def measured_with(self, frame: Frame) -> tuple[Colors, Array, Array]:
+        """Return a frame's colours, and those of both sides whose difference is measured.
+
+        An opaque picture says nothing of alpha.
+        """
+        channels = slice(3 if self.storage.opaque else 4)
+        return frame.color, frame.color[..., channels], self.color[..., channels]
+
+    def as_shown(self, frame: Frame) -> Colors:
+        """Return what such a picture of a frame would look like, (h, w, 4)."""
+        color = frame.color.copy()
+        made = self.made_of(color)  # by a transform, if that is the fault
+        color[..., : made.shape[-1]] = made
+        return color
+
+    def measured(self, metrics: Metrics) -> str:
+        """Say how large the error is."""
+        psnr = f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"
+        return f"RMSE {metrics.rmse:.3g}, PSNR {psnr}, SSIM {metrics.ssim:.6f}"
+
+    def silent(self, frame: Frame) -> str:
+        """Say why such a picture says nothing of what is wrong; empty if it does."""
+        return ""
+
+    def faults_of(self, known: Sequence[F]) -> Sequence[F]:
+        """Return the faults that are looked for in it, of all that are known of colours."""
+        return known
 
     def of_instances(self, some_of: Bools) -> Picture:
         """Return the picture with its owners for some of the scene's instances and planes only."""
@@ -239,8 +263,6 @@ class Picture:
 
         In a lit picture any colour may be right, and so may be that of a colourless surface.
         """
-        if self.data is not None:
-            return self.data.same(scene, hits, self.sampling)
         if self.lit:
             return self.known(hits.instance)
         return self.alike(scene, hits.instance, shading.colors(scene, hits))

@@ -1,4 +1,4 @@
-"""What the other side's own rounding may excuse: that of a rasteriser, or of a ray tracer.
+"""Bounds on the other side's own rounding: that of a rasteriser, or of a ray tracer.
 
 Both compute in float32. A rasteriser rounds corners to a fraction of a pixel besides, and keeps
 depths in a buffer of 24 bits: its steps grow with the clip range. A ray tracer has neither: its
@@ -52,13 +52,13 @@ class Renderer:
     closed: bool  # triangles that share an edge leave no gap between them
     sideways: Callable[[Scene, Hits, Floats], Floats]  # how far a surface may be moved
     along: Callable[[Scene, Hits, Floats, Rays], Floats]  # how far its depth may
-    # Metres, at depths (n,): how near two depths are taken for one, whatever made them.
+    # Metres, at depths (n,): depths nearer to each other than this are taken for one.
     step: Callable[[Camera, Floats], Floats]
-    # What no point of each instance is moved `sideways` by more than, (k,) metres, if known.
+    # Upper bound of `sideways` for each instance, (k,) metres, or None.
     most: Callable[[Scene], Floats] | None = None
 
     def resolution(self, camera: Camera, depth: Floats, along: Floats) -> Floats:
-        """Return how far apart in depth two surfaces are told apart, (n,) metres.
+        """Return the resolution of depth, (n,) metres.
 
         Both carry the error `along` (n,).
         """

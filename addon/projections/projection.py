@@ -1,4 +1,4 @@
-"""What a type of camera says of itself: a subclass each, in a file of its own, with its formulas.
+"""The base class of the types of cameras: a subclass each, in its own file, with its formulas.
 
 The defaults are those of a camera whose rays all begin in the eye, with a flat film: its picture is
 linear in the film position, and straight lines are straight in it.
@@ -73,16 +73,16 @@ class Projection(ABC):
     def box(
         self, xyz: Vectors, error: Floats, clip_start: float, edges: Edges, eps: float
     ) -> tuple[list[Floats], list[Floats], Floats, Floats]:
-        """Return what rays that hit polygons have at least and at most: their film position, and t.
+        """Return bounds of the film position and t of rays that hit polygons.
 
         Parameters
         ----------
         xyz : (3, k, m) float64
             Right, up and depth of the k corners of m convex polygons, metres.
         error : (m,) float64
-            How far they may be off.
+            Their largest error, metres.
         clip_start : float
-            What lies before it does not count.
+            Metres; nearer parts do not count.
         edges : Edges
             Rays do not pass outside.
         eps : float

@@ -12,7 +12,7 @@ _QUARTER = 1.57079632673412561417, 6.07710050630396597660e-11, 2.022266248795950
 
 
 def sine(angle: Array, quarters: int = 0) -> Array:
-    """Return the sine of angles (n,), radians, plus so many right angles: 1 for the cosine.
+    """Return the sine of angles (n,), radians, plus `quarters` right angles: 1 for the cosine.
 
     Each operation is one of IEEE 754, so that all machines find the same bits, however many angles
     are asked for together; a library's own sine may differ. The angle is at most 2^20.

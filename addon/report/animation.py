@@ -60,7 +60,7 @@ def _sizes(folder: Path) -> dict[str, int]:
 
 
 def write(directory: Path, title: str, frames: range, rows: Sequence[FrameRow]) -> None:
-    """Write the rows that are done of the frames that are asked for, as a table and as a page.
+    """Write the rows that are done of the requested frames, as a table and as a page.
 
     Raises
     ------

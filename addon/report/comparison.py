@@ -12,7 +12,6 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 
-from .. import images, png
 from ..arrays import Array, Colors
 from ..causes.case import Case
 from ..causes.cause import UNEXPLAINED
@@ -24,6 +23,7 @@ from ..comparison.extras import Extras
 from ..comparison.extras import extras as find_extras
 from ..comparison.verdict import Verdict
 from ..diagnosis.regions import Region, regions, sides
+from ..files import images, png
 from ..tracer.frame import PASSES
 from ..tracer.progress import Work, called, scaled
 from ..tracer.vector import parts
@@ -33,10 +33,9 @@ from .folders import replacing, write_json
 PICTURES = "traced", "blender", "difference"
 ARRAYS, JSON = "frame.npz", "comparison.json"
 _LEVEL = 1  # of zlib
-# Arrays of which each pixel has digits of its own: zlib looks for runs alone, as it would find
-# little more in twice to three times the time.
+# Noisy arrays: zlib's run-length strategy is enough, and two to three times as fast.
 _NOISY = "position", "barycentrics"
-_SAME = {"t": "depth"}  # arrays that are another one, which comes before
+_SAME = {"t": "depth"}  # aliases of an array written earlier
 _ROWS = 32  # of an array that are copied and deflated at a time
 NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 

@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import png
 from ..arrays import Bools
+from ..files import png
 from ..rendering import trace
 from ..scene import without
 from ..tracer.frame import Frame

@@ -9,7 +9,7 @@ INK, GREY = "#222222", "#707070"
 
 
 class Scale(NamedTuple):
-    """What a side of a plot stands for: the numbers at its ends, and those that are written.
+    """The scale of a plot's side: the numbers at its ends, and those that are written.
 
     Its `kind` is "linear", "integers" or "log", with round numbers from `least` on (None: from the
     low end); or "named", without. `named` are the numbers that have words of their own.
@@ -34,7 +34,7 @@ class Series(NamedTuple):
 
 
 class Entry(NamedTuple):
-    """What a legend explains: some words beside a mark or a line of a series."""
+    """An entry of a legend: some words beside a mark or a line of a series."""
 
     words: str
     sample: Series

@@ -26,7 +26,7 @@ JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
 
 @dataclass(frozen=True)
 class ExtremesRow:
-    """What a method in a precision makes of a scenario at a scale; the counts are of rays."""
+    """The result of a method in a precision for a scenario at a scale; the counts are of rays."""
 
     scenario: str
     scale: float
@@ -36,7 +36,7 @@ class ExtremesRow:
     missed: int  # the certified ray sees a surface, the method nothing
     doubled: int  # the method says to cross more triangles than the certified ray does
     # The method sees another surface than the certified one, or one where there is none. Where a
-    # ray meets an edge, all that the certified ray may be said to see is right.
+    # ray meets an edge, every surface that the certified ray may see is right.
     wrong: int
     refused: int  # triangles and rays that are not finite in this precision, and so are left out
     # In ulp of the certified t (float64), over rays that see the same surface; None without one.
@@ -200,7 +200,7 @@ def _row(
 def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) -> ExtremesRow:
     frame, count = truth.frame, truth.count
     sees = frame.instance_index.ravel() != NOTHING
-    # That the nearest is one of all, and that none of all is missed, holds for every ray.
+    # Check on every ray: seen implies crossed, crossed implies seen.
     missed, wrong = ~sees & (count > 0), sees & (count == 0)
     doubled = np.zeros(count.size, bool)
     if scenario.odd is not None:  # nobody can tell whether such a ray missed or doubled a surface

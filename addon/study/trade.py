@@ -14,7 +14,7 @@ NOTHING_SEEN = (
     "Nothing is seen: no ray through a pixel's centre meets a surface, so there is nothing to get "
     "wrong, and these times are those of an empty picture."
 )
-FORGIVEN = 7  # of so many rounds, one may have been disturbed
+FORGIVEN = 7  # rounds: of as many, one may have been disturbed
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,7 @@ TIMED = frozenset(c.name for c in COLUMNS if c.timed)
 
 @dataclass(frozen=True)
 class Trade:
-    """What was measured on a scene, and the advice that follows from it."""
+    """The measurements on a scene, and the advice that follows from them."""
 
     scene: str
     rows: list[TradeRow]

@@ -159,7 +159,7 @@ def choose(scene: Scene, width: int, samples: int) -> list[Choice]:
 
 
 def at_width(scene: Scene, width: int) -> Scene:
-    """Return the scene through the whole of its camera, so many pixels wide."""
+    """Return the scene through the whole of its camera, `width` pixels wide."""
     camera = scene.camera
     height = max(1, round(camera.height * width / camera.width))
     whole = Region(0, 0, width, height)

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index, Integers
+from ..arrays import Bools, Floats, Integers
+from .boxes import pairs
 from .camera import pixel_size, project
 from .progress import Work
-from .vector import Vectors, groups, spread
+from .vector import Vectors
 from .world import (
     Batch,
     Pairs,
@@ -43,7 +44,6 @@ MIN_DETERMINANT = 1 / 8  # of the camera's axes, relative to the product of thei
 LENGTHS = (0.5, 2.0)  # between which those of the camera's axes are
 _TINY = 2.0**-1000  # added to an error: far above what gradual underflow may lose
 PAIRS = 1 << 15  # pairs tested together: arrays of this length stay in a core's cache
-LARGE = 1 << 13  # pixels of a box: its triangle's pairs are tested apart, with one set of corners
 KEPT = 1 << 17  # triangles of a plan, with their boxes, that are kept from pass to pass: 12 MB
 SAMPLED = 1 << 18  # pairs of a tile that are kept for its next samples: 20 MB with the triangles
 _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
@@ -253,39 +253,3 @@ def _anew(found: tuple[float, Pairs | None]) -> tuple[float, Pairs | None]:
     """Return pairs that do not keep what is gathered of them."""
     share, some = found
     return share, some and replace(some)
-
-
-def pairs(
-    bounds: Integers, tile: Region, limit: int, before: Index | None = None
-) -> Iterator[tuple[Index, Index]]:
-    """List the pixels of boxes within a tile, about `limit` at most at a time.
-
-    Yields the numbers of pixels in the tile, and columns of `bounds`, (p,) each. `before` (n + 1,)
-    says how many wanted pixels come before each pixel, and in all: then only these are numbered.
-    """
-    x0, x1, y0, y1 = bounds
-    some = np.flatnonzero((x0 < x1) & (y0 < y1))
-    alone = np.zeros(len(some), bool)
-    if before is None:
-        alone = (x1 - x0)[some].astype(np.int64) * (y1 - y0)[some] >= LARGE
-    for together in (some[~alone], *some[alone][:, None]):
-        yield from _pairs(together, bounds, tile, limit, before)
-
-
-def _pairs(
-    some: Index, bounds: Integers, tile: Region, limit: int, before: Index | None
-) -> Iterator[tuple[Index, Index]]:
-    """List the pixels of some boxes that are not empty, as :func:`pairs` does."""
-    x0, x1, y0, y1 = bounds
-    # A run is one row of one box: first find its triangle and row, then its pixels.
-    triangle, row = spread(some, (y1 - y0)[some])
-    row += y0[triangle]
-    start = (row - tile.y0) * tile.width + (x0[triangle] - tile.x0)
-    length = (x1 - x0)[triangle]
-    if before is not None:
-        end = before[start + length]
-        start = before[start]
-        length = end - start
-    for first, last in groups(length, limit):
-        run, step = spread(np.arange(first, last), length[first:last])
-        yield start[run] + step, triangle[run]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Colors
-from ..images import curve_undone
+from ..files.images import curve_undone
 from ..scene import Scene
 from .camera import Rays
 from .hits import NOTHING, Hits

@@ -1,4 +1,4 @@
-"""What the tracer gives back: one array for each output, row 0 at the bottom.
+"""The tracer's result: one array for each output, row 0 at the bottom.
 
 Stored is what tracing finds. What follows from it is computed when it is asked for; of a certified
 picture, t and the barycentrics are, too.
@@ -18,12 +18,13 @@ from ..scene import Region, Scene
 from . import shading
 from .camera import camera_rays, film_positions
 from .frame_measures import FrameMeasures
-from .hits import NOTHING, Hits, Measures, Names, Statistics, Ties
+from .hits import NOTHING, Hits, Measures, Names, Statistics
 from .memory import TRACED, check_memory
+from .ties import Ties
 from .vector import parts
 
 _PIXELS = 1 << 15  # of which something is computed together
-FEW = 8  # one of so many pixels is few: its measures are found by themselves
+FEW = 8  # fewer than one in 8 pixels are few: their measures are found by themselves
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
 
 
@@ -162,7 +163,7 @@ class Frame:
         width = self.shape[1]
 
         def find(ray: Index, _instance: Names, _triangle: Names) -> Measures:
-            if FEW * len(ray) < (last - first) * width:  # the others may never be asked for
+            if FEW * len(ray) < (last - first) * width:  # the others may never be needed
                 return self.measures.some(ray + first * width)
             return self.measures.of(rows).reshape(4, -1)[:, ray]
 

@@ -1,4 +1,4 @@
-"""t and the barycentrics of a picture, each row found when it is first asked for."""
+"""t and the barycentrics of a picture, each row found on first use."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class FrameMeasures:
         self._triangle = triangle
         self._height, self._width = instance.shape
         self._bands: dict[int, tuple[int, FindMeasures]] = {}  # first row, what finds its rays'
-        self._band_of = np.full(self._height, _KNOWN)  # of each row that was not asked for yet
+        self._band_of = np.full(self._height, _KNOWN)  # of each row that is not found yet
 
     @cached_property
     def _values(self) -> Measures:

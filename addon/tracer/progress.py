@@ -1,13 +1,15 @@
 """Long work in small steps: generators that yield the share of the work that is done, 0 to 1.
 
 The caller decides what to show, and stops the work by not asking for the next step. A share may
-say in words what is being done.
+say in words what is being done, and that nobody knows how long it takes.
 """
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Generator, MutableMapping
+from contextlib import closing
 from functools import wraps
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
@@ -20,6 +22,8 @@ P = ParamSpec("P")
 T = TypeVar("T")
 Work = Generator[float, None, T]
 ROWS = 128  # a step, of work on the rows of a picture
+LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
+GROWN = 1.1  # times what was said before: an estimate that is more was no estimate
 Steps = Generator[str, None, T]  # each step yields the name of its stage of the work
 
 
@@ -27,12 +31,33 @@ class Share(float):
     """A share of work, with words for what is being done."""
 
     doing: str
+    known: bool  # whether it says how long the rest takes
 
-    def __new__(cls, share: float, doing: str) -> Share:
+    def __new__(cls, share: float, doing: str, known: bool = True) -> Share:
         """Make a share of a number and words."""
         self = super().__new__(cls, share)
         self.doing = doing
+        self.known = known
         return self
+
+
+class Left:
+    """How many seconds are left, as far as that is known."""
+
+    def __init__(self) -> None:
+        self._least = math.inf  # that was said
+
+    def seconds(self, past: float, share: float) -> float | None:
+        """Return the seconds, by those that are past; None if nobody knows.
+
+        What is returned never grows by more than a tenth.
+        """
+        known = not isinstance(share, Share) or share.known
+        left = past * (1 - share) / share if known and share > LEAST_SHARE else math.inf
+        if left == math.inf or left > GROWN * self._least:
+            return None
+        self._least = min(self._least, left)
+        return left
 
 
 def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
@@ -51,20 +76,29 @@ def doing(share: float) -> str:
     return share.doing if isinstance(share, Share) else ""
 
 
-def called(work: Work[T], words: str) -> Work[T]:
-    """Run work whose steps say in these words what is being done, whatever its parts say."""
-    return mapped(work, lambda share: Share(share, words))
+def called(work: Work[T], words: str, over: bool = True, known: bool = True) -> Work[T]:
+    """Run work whose steps say in these words what is being done, over what its parts say.
+
+    `known` says whether they tell how long the rest takes, as far as its parts do.
+    """
+
+    def with_words(share: float) -> Share:
+        of_part = share if isinstance(share, Share) else Share(share, "")
+        return Share(share, (not over and of_part.doing) or words, known and of_part.known)
+
+    return mapped(work, with_words)
 
 
 def result_of(work: Work[T], progress: Callable[[float], None] | None = None) -> T:
     """Run work to its end, call `progress` with every share, and return the result."""
-    while True:
-        try:
-            share = next(work)
-        except StopIteration as stop:
-            return stop.value
-        if progress:
-            progress(share)
+    with closing(work):  # it may have changed Blender's data, where progress raises
+        while True:
+            try:
+                share = next(work)
+            except StopIteration as stop:
+                return stop.value
+            if progress:
+                progress(share)
 
 
 def mapped(work: Generator[A, None, T], of: Callable[[A], B]) -> Generator[B, None, T]:
@@ -82,7 +116,7 @@ def scaled(work: Work[T], start: float, size: float) -> Work[T]:
 
     def of_whole(share: float) -> float:
         whole = start + size * share
-        return Share(whole, share.doing) if isinstance(share, Share) else whole
+        return Share(whole, share.doing, share.known) if isinstance(share, Share) else whole
 
     return mapped(work, of_whole)
 

@@ -220,7 +220,7 @@ def bands(camera: Camera, settings: Settings) -> list[Region]:
 
 
 def samples_together(camera: Camera, settings: Settings) -> bool:
-    """Return whether a pixel's samples can be traced as pixels of a picture so many times as large.
+    """Return whether a pixel's samples can be traced as pixels of a larger picture.
 
     Their number a direction is a power of two, so that no ray is rounded otherwise.
     """

@@ -1,4 +1,4 @@
-"""What the user can trade: the method, the precision, the number of samples, the memory."""
+"""The user's choices: the method, the precision, the number of samples, the memory."""
 
 from __future__ import annotations
 

@@ -10,8 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from ..arrays import Bools, Colors, Floats, Index, Places
-from ..runs import by_runs
+from ..arrays import Bools, Colors, Floats, Index, Places, by_runs
 from ..scene import Mesh, Scene
 from .camera import Rays
 from .hits import NOTHING, Hits

@@ -129,7 +129,7 @@ def render(engine: str) -> dict[str, float]:
 
 
 class Answers:
-    """What is asked, by name, and the scene that is open."""
+    """The measurements, by name, with the scene that is open."""
 
     def __init__(self) -> None:
         self._scene: Scene | None = None

@@ -28,7 +28,7 @@ RULER = "import bpy"
 _MAIN = "import sys; from reference_tracer.cli.main import main; sys.exit(main())"
 _CHILD = [sys.executable, "-m", "reference_tracer_benchmarks.commands_child"]
 _SCENES = Path(__file__).resolve().parents[2] / "sample_scenes"
-_LARGE = "--width", "1920", "--height", "1080"
+_LARGE = "--set", "width=1920", "height=1080"
 _ANSWERS = 0, 1, 2  # exit codes of a comparison that was made
 
 
@@ -115,10 +115,9 @@ def _work(name: str, files: dict[str, Path]) -> Callable[[], float]:
             of["xray.blend"],
             "--as-is",
             "--no-identity",
-            "--width",
-            "1162",
-            "--height",
-            "654",
+            "--set",
+            "width=1162",
+            "height=654",
             *into,
         ],
         "trace mesh.ply, 1.3 M triangles": [

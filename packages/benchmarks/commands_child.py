@@ -1,4 +1,4 @@
-"""What the table of commands needs of Blender: files, and the time of F12.
+"""Makes what the table of commands needs of Blender: files, and the time of F12.
 
 `make SUZANNE.blend FOLDER` writes the files; `f12 FILE all|none` renders with all passes or with
 the picture alone, and prints CPU seconds in its last line.

@@ -1,4 +1,4 @@
-"""What is measured: which scene, at which size, through which camera, beside which peers.
+"""The plan of a benchmark: which scene, at which size, through which camera, beside which peers.
 
 All is beside embreex. The others are so slow that only some pictures have them: the whole takes
 less than half an hour, the quick one less than 2 minutes.

@@ -1,4 +1,4 @@
-"""What the benchmark found: a row for each scene, size, camera and method, and the machine."""
+"""The results: a row for each scene, size, camera and method, and the machine."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Row:
 
     @property
     def key(self) -> Key:
-        """What tells a row from others."""
+        """The key of a row."""
         return self.scene, self.width, self.height, self.camera, self.method, self.precision
 
     @property
@@ -80,7 +80,7 @@ class Row:
 
 @dataclass
 class CommandRow:
-    """What a command takes in a process of its own: CPU seconds, and times `import bpy`.
+    """The cost of a command in a process of its own: CPU seconds, and times `import bpy`.
 
     Medians of the rounds, and the least and the most of the ratio of two times of one round.
     """

@@ -33,7 +33,7 @@ class View:
 
 @dataclass(frozen=True)
 class Subject:
-    """What is measured: a mesh and how it is looked at."""
+    """A scene to measure: a mesh and how it is looked at."""
 
     name: str
     triangles: int

@@ -1,4 +1,4 @@
-"""What two processes make of a long picture: seconds of waiting, times one process's.
+"""Measures two processes on a long picture: seconds of waiting, times one process's.
 
 As a user waits: `reftrace trace` with `--scheduler local:2` against the same without, on all cores.
 """
@@ -20,7 +20,7 @@ from .rows import Bench, CommandRow
 
 _MAIN = "import sys; from reference_tracer.cli.main import main; sys.exit(main())"
 # 327,680 triangles with 26 rays a pixel: more than ten seconds of one process.
-_PICTURE = "--samples", "5", "--width", "1920", "--height", "1080"
+_PICTURE = "--samples", "5", "--set", "width=1920", "height=1080"
 _BUDGET = 120.0  # seconds, beside the first round
 
 

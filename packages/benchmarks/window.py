@@ -1,4 +1,4 @@
-"""What is measured in Blender's window: where a whole Blender is set up, with the extension in it.
+"""Measures in Blender's window, where a whole Blender is set up with the extension.
 
 `tools/whole_blender.sh` runs `window_child.py` in it; out come CPU seconds of Blender's process.
 """

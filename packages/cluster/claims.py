@@ -1,4 +1,4 @@
-"""What a worker says that rays see, as bytes; and the same read, as what it may be but need not be.
+"""Encodes and decodes a worker's untrusted answer: which surface each ray sees.
 
 A claim is of owners: whose surface each ray sees, and how that was decided. t, the barycentrics and
 the colours follow from the owners, and are found here, not believed. Only where integers decided
@@ -17,7 +17,8 @@ from numpy.typing import DTypeLike, NDArray
 from reference_tracer.certainty import Certainty, Reason
 from reference_tracer.certified.measures import Known
 from reference_tracer.scene import Scene
-from reference_tracer.tracer.hits import NOTHING, Hits, Statistics, Ties
+from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
+from reference_tracer.tracer.ties import Ties
 
 Expected = tuple[DTypeLike, tuple[int | None, ...]]  # None: any length
 
@@ -54,7 +55,7 @@ def unpacked(data: bytes, *expected: Expected) -> list[NDArray]:
 
 @dataclass(eq=False)
 class Claim:
-    """What n rays see, row by row, as a worker says."""
+    """A worker's answer for n rays, row by row."""
 
     names: NDArray[np.int32]  # (2, n): instance and triangle
     certainty: NDArray[np.uint8]  # (n,)

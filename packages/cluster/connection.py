@@ -14,7 +14,7 @@ from multiprocessing import resource_tracker
 from urllib.parse import urlsplit
 
 from reference_tracer.errors import words
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 
 try:

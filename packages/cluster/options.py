@@ -22,15 +22,14 @@ def add(parser: Parser, name: str) -> None:
     group.add_argument(
         "--scheduler",
         metavar="ADDRESS",
-        help="have the workers of a Dask scheduler do the work: tcp://HOST:PORT on this machine, "
-        "tls://HOST:PORT on any, or local:N, which starts N processes for it",
+        help="Dask's, whose workers do the work: tcp://HOST:PORT, tls:// (other machines), or "
+        "local:N (N processes)",
     )
     group.add_argument(
         "--verify",
         type=FINITE,
         metavar="SHARE",
-        help="have this share of the work (above 0, to 1) done again by another worker: both must "
-        "find the same",
+        help="of the work (above 0, to 1) that two workers do, and must find the same",
     )
     parser.set_defaults(place=lambda given: place(given, name))
 

@@ -18,14 +18,15 @@ from typing import Any, NoReturn
 import numpy as np
 from reference_tracer.certified.measures import Known, Measured
 from reference_tracer.errors import words
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
-from reference_tracer.scene_files import save_scene
-from reference_tracer.tracer.hits import Hits, Statistics, Ties
+from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.nearest import TraceBand
 from reference_tracer.tracer.progress import Work, scaled
 from reference_tracer.tracer.render import Tracer, rays_in_order, rounds
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.ties import Ties
 
 from . import tasks
 from .claims import Claim

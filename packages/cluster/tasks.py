@@ -1,4 +1,4 @@
-"""What workers do: bytes, numbers and texts come in, bytes go out. None of our objects travels."""
+"""The workers' tasks: bytes, numbers and texts come in, bytes go out; no object of ours travels."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from typing import TypeVar
 import numpy as np
 import reference_tracer
 from distributed import get_worker
-from reference_tracer.checked_json import camera_of
+from reference_tracer.files.checked_json import camera_of
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.methods import Method
 from reference_tracer.rendering import TRACERS, resolved
 from reference_tracer.scene import Region, Scene
-from reference_tracer.scene_files import load_scene
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.scenarios.sweeps import BY_NAME
 from reference_tracer.tracer.hits import Statistics

@@ -15,8 +15,9 @@ import numpy as np
 from mathutils import Matrix
 from reference_tracer.projections import PERSPECTIVE
 from reference_tracer.scene import Camera
-from reference_tracer_conformance.scenes import PALETTE, Item, KitScene, Sheared, kit_scenes
-from reference_tracer_conformance.shapes import Shape
+
+from .scenes import PALETTE, Item, KitScene, Sheared, kit_scenes
+from .shapes import Shape
 
 _SENSOR = 36.0  # mm
 

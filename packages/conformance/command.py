@@ -8,9 +8,9 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from reference_tracer.cli.arguments import refuse
-from reference_tracer.cli.parser import AGREE, AT_LEAST_0, EXIT_CODES_HELP, POSITIVE, Parser, number
+from reference_tracer.cli.excuses import FILTER, RENDERER, add_excuses
+from reference_tracer.cli.parser import AGREE, EXIT_CODES_HELP, POSITIVE, Parser, number
 from reference_tracer.cli.running import progress_bar
-from reference_tracer.pictures.renderers import RENDERERS
 from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
@@ -60,18 +60,6 @@ def add(parser: Parser) -> None:
         "traced through the scene's camera",
     )
     parser.add_argument(
-        "--renderer",
-        choices=list(RENDERERS),
-        help="whose rounding excuses a pixel: rays, of float32 (default), or raster, with a depth "
-        "buffer of 24 bits",
-    )
-    parser.add_argument(
-        "--filter",
-        type=AT_LEAST_0,
-        metavar="PIXELS",
-        help="how far the pixel filter reaches (default 0: one sample in each pixel's centre)",
-    )
-    parser.add_argument(
         "--time-limit",
         type=POSITIVE,
         metavar="S",
@@ -88,6 +76,7 @@ def add(parser: Parser) -> None:
         action="store_true",
         help="run it outside of the sandbox, as what needs a graphics card or a screen",
     )
+    add_excuses(parser, (RENDERER, FILTER))
 
 
 def run(given: Namespace) -> int:

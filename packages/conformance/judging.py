@@ -14,7 +14,8 @@ from reference_tracer.comparison.comparing import compared
 from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.errors import EXPECTED, words
-from reference_tracer.images import open_picture
+from reference_tracer.files.images import open_picture
+from reference_tracer.files.scenes import Account
 from reference_tracer.opened import file_manifest
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.given import Making, picture_of_array, picture_of_file
@@ -23,7 +24,6 @@ from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.report.junit import Judged, of_comparison
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.scene_files import Account
 from reference_tracer.tracer.progress import Share, Work, scaled
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_meshes import FORMATS
@@ -60,7 +60,7 @@ class Program:
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What came of a scene."""
+    """The result of a scene."""
 
     kit: KitScene
     judged: Judged

@@ -13,10 +13,10 @@ from typing import Any
 
 from reference_tracer.camera_files.frame import Y_UP_FROM_Z_UP
 from reference_tracer.camera_files.opencv import body_of
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.pictures import colors_file
 from reference_tracer.report.folders import write_json
 from reference_tracer.scene import Camera, SceneError
-from reference_tracer.scene_files import save_scene
 
 from .gltf_files import glb
 from .obj_files import mtl_text, obj_text

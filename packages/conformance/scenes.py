@@ -97,7 +97,7 @@ class KitScene:
 
     @cached_property
     def scene(self) -> Scene:
-        """What is traced; items of one shape share a mesh."""
+        """The traced scene; items of one shape share a mesh."""
         shapes = list(dict.fromkeys(item.shape for item in self.items))
         instances = tuple(
             Instance(shapes.index(i.shape), k, i.world_from_object, rgba(i.colors))

@@ -1,1 +1,1 @@
-"""What students wrote themselves, judged against exact arithmetic: `judging.py` begins."""
+"""Judges what students wrote against exact arithmetic: begin at `judging.py`."""

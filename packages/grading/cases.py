@@ -22,7 +22,7 @@ SHOWN = 6  # wrong cases, of as many groups
 
 @dataclass(frozen=True, eq=False)
 class TableCases:
-    """What is asked, (k, ...) each, and what is true of the n rows of its answers, (n, m).
+    """Questions, (k, ...) each, and the truth about the n rows of their answers, (n, m).
 
     Masks are (n,).
     """
@@ -103,7 +103,7 @@ class TableCases:
 
 @dataclass(frozen=True, eq=False)
 class TableAnswers:
-    """What a student's code made of cases, rows (n, m); nothing is hit where the first is inf."""
+    """A student's answers to cases, rows (n, m); nothing is hit where the first is inf."""
 
     cases: TableCases
     table: Floats

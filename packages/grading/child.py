@@ -4,8 +4,7 @@
 
 Over its standard input come requests, over what was its standard output go answers: each a line of
 JSON, then float64 numbers as they lie in memory. FORM is a `form.Form` as JSON. The student's own
-printing goes to standard error. Whatever the student's code does wrong is an answer, too. Where it
-raises it is asked case by case: the first number of a case that raises by itself is -inf.
+printing goes to standard error. Whatever the student's code does wrong is an answer, too.
 """
 
 from __future__ import annotations
@@ -13,7 +12,6 @@ from __future__ import annotations
 import importlib.util
 import json
 import linecache
-import math
 import os
 import random
 import sys
@@ -32,7 +30,7 @@ Form = dict[str, Any]
 
 
 class Refused(Exception):  # noqa: N818  # it is what the student reads, not a name that we raise by
-    """What the function returned is not what it has to return; the message says what it is."""
+    """The function returned something of the wrong form; the message says what."""
 
 
 def serve(path: Path, form: Form, requests: BinaryIO, answers: BinaryIO) -> None:
@@ -46,40 +44,11 @@ def serve(path: Path, form: Form, requests: BinaryIO, answers: BinaryIO) -> None
         limit_time(head["seconds"])
         given = _received(requests, form, head["count"])
         began = time.perf_counter()
-        raised: list[Exception] = []
         found = _guarded(
-            path, answers, lambda given=given, to=raised: _each(function, form, given, to)
+            path, answers, lambda given=given: checked(function(*given), form, len(given[0]))
         )
-        if found is None:
-            return
-        head = {"ok": True, "seconds": time.perf_counter() - began}
-        _say(answers, head | {"raised": [described(e, path) for e in raised[:1]]}, found)
-
-
-def _each(
-    function: Any, form: Form, given: tuple[np.ndarray, ...], raised: list[Exception]
-) -> np.ndarray:
-    """Return lines of answers; of what raises the halves are asked, down to single cases.
-
-    Raises
-    ------
-    Exception
-        What the function raised, if no case of these raises by itself.
-    """
-    count, before = len(given[0]), len(raised)
-    try:
-        return checked(function(*given), form, count)
-    except (Refused, MemoryError):
-        raise
-    except Exception as error:
-        if count == 1:
-            raised.append(error)
-            return np.full((1, sum(math.prod(shape) for _, shape in form["answered"])), -np.inf)
-        halves = slice(count // 2), slice(count // 2, None)
-        parts = [_each(function, form, tuple(a[h] for a in given), raised) for h in halves]
-        if len(raised) == before:
-            raise
-        return np.concatenate(parts)
+        if found is not None:
+            _say(answers, {"ok": True, "seconds": time.perf_counter() - began}, found)
 
 
 def _load(path: Path, form: Form) -> Any:

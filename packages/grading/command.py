@@ -22,10 +22,10 @@ from reference_tracer.cli.parser import (
     number,
 )
 from reference_tracer.cli.running import progress_bar
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.progress import Work, called, result_of, scaled
 from reference_tracer.wording import count_of, say, show
 from reference_tracer_processes.running import Limits

@@ -15,7 +15,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
-import numpy as np
 from reference_tracer.arrays import Floats
 from reference_tracer_processes.running import KEPT, Limits, ProgramError, filled, run, words_of
 
@@ -57,13 +56,19 @@ class Run:
 class Program(Submission):
     """A student's program, as `student.Student` is a student's file."""
 
+    raising = "ended"
+    parts = 128  # it is started for each
+
     def __init__(self, run: Run, form: Form, limits: Limits | None = None) -> None:
         super().__init__(form, limits)
         self.words = run.words
         self._exchange = EXCHANGES[run.exchange]
 
     def end(self) -> None:
-        """Nothing is left running between two calls."""
+        """Nothing is left running after a call."""
+
+    def _begin(self) -> None:
+        """Nothing runs between two calls."""
 
     def _answered(self, question: Floats) -> Floats:
         with tempfile.TemporaryDirectory(
@@ -75,7 +80,7 @@ class Program(Submission):
                 f"it answered {len(answers):,} lines of {len(question):,}: one for each is wanted"
             )
             raise StudentError("answer", text)
-        return np.where(np.isneginf(answers), np.inf, answers)  # of a miss it may write either
+        return answers
 
     def _run(self, folder: Path, rays: Floats) -> bytes:
         """Run the program, and return what it wrote as its answers.

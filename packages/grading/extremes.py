@@ -40,7 +40,7 @@ class ExtremeScene:
 
 @dataclass(frozen=True)
 class ExtremeRow:
-    """What a student's function loses there; counts are of rays."""
+    """The rays that a student's function loses there; counts are of rays."""
 
     scenario: str
     scale: float

@@ -1,4 +1,4 @@
-"""What is wrong with a student's function, by name, from what it makes of the cases.
+"""Names what is wrong with a student's function, from its answers to the cases.
 
 First it is looked for among wrong programs (`matching.py`): one that gives the same answers names
 what is wrong, in one place or in two. Of other faults, as of an epsilon or of float32, each is a
@@ -94,7 +94,10 @@ def raising(student: Submission) -> list[Fault]:
         for given, array in zip(student.form.given, case, strict=True)
     ]
     where = f" in line {error.line}" * (error.line is not None)
-    text = f"it raises {error.message}{where}, as it does with {', '.join(numbers)}"
+    what = error.message if error.kind == "ended" else f"it raises {error.message}{where}"
+    text = f"{what}, as it does with {', '.join(numbers)}"
+    if student.unasked:
+        text += f" ({student.unasked:,} of these in groups: so many are not tried one by one)"
     return [Fault("raises", text, student.raises)]
 
 

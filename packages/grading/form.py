@@ -1,4 +1,4 @@
-"""What a student's code is given and answers: arrays in Python, lines of numbers elsewhere."""
+"""The input and output of a student's code: arrays in Python, lines of numbers elsewhere."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Form:
 
     @property
     def line(self) -> str:
-        """What a line of an answer is."""
+        """The numbers in a line of an answer."""
         return ",".join(field.columns for field in self.answered)
 
     @property

@@ -1,4 +1,4 @@
-"""What other programs read of a class: a table, JUnit's XML, Gradescope's results.
+"""Formats for other programs: a table, JUnit's XML, Gradescope's results.
 
 Each takes the students with their pages' paths, and yields files: a path in the folder, its text.
 """

@@ -35,7 +35,7 @@ _ALIKE = 64 * U  # relative: planes' own depths, which the tracer computes, are 
 
 @dataclass(frozen=True, eq=False)
 class JudgedScene:
-    """What students' functions are held against.
+    """The truth about a scene, for students' functions.
 
     Arrays of pixels are those of the chosen ones, (h, w): every `stride`-th of the camera's region,
     from `first` on, or flat (n,), row by row from the lowest.

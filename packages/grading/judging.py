@@ -45,7 +45,7 @@ CHECKS = "the checks"  # where an error happened
 
 @dataclass(eq=False)
 class Judgement:
-    """What is said of one file."""
+    """The judgement of one file."""
 
     name: str  # what a reader calls it
     subject: Subject
@@ -95,7 +95,7 @@ class Judgement:
 
     @property
     def leaks(self) -> str:
-        """What is to be said of edges between two triangles, if any leaks: it does not count."""
+        """A sentence on edges between two triangles, if any leaks: it does not count."""
         return self.edges.sentence if self.edges else ""
 
     @property

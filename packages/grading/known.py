@@ -1,4 +1,4 @@
-"""What is true of pairs of a ray and a triangle, and how far a sound answer in float64 may be off.
+"""The truth about pairs of a ray and a triangle, and how far a sound float64 answer may be off.
 
 Whether a ray meets its triangle is decided by the certified tracer. How far a student's numbers may
 be off is a bound, so that nobody is blamed for rounding: with arm = p1 - o, the edges' product

@@ -1,4 +1,4 @@
-"""What was asked of `reftrace judge`: its options, checked."""
+"""The options of `reftrace judge`, checked."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from argparse import Namespace
 from dataclasses import dataclass
 from pathlib import Path
 
-from reference_tracer.cli.arguments import refuse, typed
+from reference_tracer.cli.arguments import refuse
 from reference_tracer.cli.camera_options import CAMERA_OPTIONS, choice_from
 from reference_tracer.framing import Choice
 from reference_tracer.scene import SceneError
@@ -83,15 +83,8 @@ class JudgeOptions:
 
 def _camera_options(given: Namespace) -> tuple[str, ...]:
     """Return the camera's options that were given, as they are typed."""
-    out: list[str] = []
-    for name in CAMERA_OPTIONS:
-        value = getattr(given, name)
-        if value is True:
-            out.append(typed(name))
-        elif value is not None and value is not False:
-            values = value if isinstance(value, list) else [value]
-            out += [typed(name), *map(str, values)]
-    return tuple(out)
+    named = ("--camera", given.camera) if given.camera else ()
+    return (*named, "--set", *given.set) if given.set else named
 
 
 def _runs(given: Namespace) -> list[Run]:

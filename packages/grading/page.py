@@ -12,8 +12,8 @@ from urllib.parse import quote
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer import png
-from reference_tracer.images import data_uri, to_display
+from reference_tracer.files import png
+from reference_tracer.files.images import data_uri, to_display
 from reference_tracer.wording import count_of
 
 from .examples import Example

@@ -26,7 +26,7 @@ from .tally import Tally
 
 
 class Mark(IntEnum):
-    """What is said of a pixel."""
+    """The judgement of a pixel."""
 
     RIGHT = 0
     EDGE = 1  # wrong, but the ray passes within float64's rounding of an edge: not counted

@@ -1,4 +1,4 @@
-"""What students are asked to write, as data: formulas in order, then conditions, then a choice.
+"""The programs that students write, as data: formulas in order, then conditions, then a choice.
 
 The textbook's formulas are those that the derivation shows (`derivation/formulas.toml`), in its
 notation; `subjects/` has the programs. One with a formula, a condition or the choice changed is a
@@ -37,7 +37,7 @@ CHOICES: dict[str, Callable[[Floats, Mask], Index]] = {
 
 
 class Condition(NamedTuple):
-    """What must hold of a hit."""
+    """A condition on a hit."""
 
     left: Tree
     comparison: str
@@ -79,7 +79,7 @@ class Part(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Letters:
-    """What formulas begin with, by name: numbers of a shape (n, ...), vectors (3, n, ...)."""
+    """The inputs of formulas, by name: numbers of a shape (n, ...), vectors (3, n, ...)."""
 
     values: Mapping[str, Floats]
     shape: tuple[int, ...]
@@ -92,7 +92,7 @@ class Letters:
 
 @dataclass(frozen=True)
 class Program:
-    """What gives an answer: trees of formulas by their left sides, each made of those before it.
+    """A program: trees of formulas by their left sides, each made of those before it.
 
     Where it has conditions they are of a hit, at t; else there is an answer always. With a choice,
     formulas are of k objects each, and one that is hit is taken.

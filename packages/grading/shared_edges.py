@@ -22,7 +22,7 @@ AHEAD = 4  # how many steps of a ray's direction its point is away
 
 @dataclass(frozen=True)
 class SharedEdges:
-    """What a function makes of rays through edges, of those whose two triangles it sees."""
+    """Counts of a function's answers to rays through edges whose two triangles it sees."""
 
     edges: int
     leaking: int  # neither triangle is hit
@@ -30,7 +30,7 @@ class SharedEdges:
 
     @property
     def sentence(self) -> str:
-        """What to say of them; empty where none leaks."""
+        """A sentence on them; empty where none leaks."""
         if not self.leaking:
             return ""
         return (

@@ -35,23 +35,24 @@ _CHILD = Path(__file__).with_name("child.py")
 class Student(Submission):
     """A student's file, running."""
 
+    raising = "exception"
+
     def __init__(self, path: Path, form: Form, limits: Limits | None = None) -> None:
         super().__init__(form, limits)
         self.path = Path(path).resolve()
 
     def _answered(self, question: Floats) -> Floats:
-        if self._process is None:
-            self._start()
         count = len(question)
         with self._watched() as (to, back):
             head = {"count": count, "seconds": self._left}
             to.write(json.dumps(head).encode() + b"\n")
             to.write(memoryview(np.ascontiguousarray(question)).cast("B"))
             to.flush()
-            seconds = self._answer(back)
-            numbers = self.form.numbers
-            found = np.frombuffer(_read(back, 8 * count * numbers)).reshape(count, numbers)
-        self.seconds += seconds
+            error = self._answer(back)
+            size = 0 if error else 8 * count * self.form.numbers
+            found = np.frombuffer(_read(back, size)).reshape(-1, self.form.numbers)
+        if error:
+            raise error
         return found
 
     def end(self) -> None:
@@ -66,6 +67,10 @@ class Student(Submission):
             with suppress(OSError):
                 stream.close()
         self._reader.join(1.0)
+
+    def _begin(self) -> None:
+        if self._process is None:
+            self._start()
 
     def _start(self) -> None:
         own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
@@ -88,7 +93,10 @@ class Student(Submission):
         self._reader.daemon = True
         self._reader.start()
         with self._watched() as (_, back):
-            self._answer(back)
+            error = self._answer(back)
+        if error:
+            self.end()
+            raise error
 
     def _listen(self, stream: IO[bytes]) -> None:
         """Read all that is printed, so that nobody waits for it, and keep the first of it."""
@@ -130,21 +138,27 @@ class Student(Submission):
             if not well:
                 self.end()
 
-    def _answer(self, back: IO[bytes]) -> float:
-        """Return the seconds that an answer has taken, or raise the error that it is."""
+    def _answer(self, back: IO[bytes]) -> StudentError | None:
+        """Note the seconds that an answer has taken, and return the error that it is, if any.
+
+        Raises
+        ------
+        StudentError
+            If it is another than that of what may be asked again.
+        """
         line = back.readline(_LONGEST)
         if not line.endswith(b"\n") and len(line) < _LONGEST:
             raise EOFError
         try:
-            seconds, errors = parsed(line, self.limits.memory)
+            seconds, found = parsed(line, self.limits.memory)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             text = "its process answered something that is no answer: does the file write to other"
             text += " streams than the standard ones, or change numpy or json?"
             raise StudentError("ended", text) from error
-        if seconds is None:
-            raise errors[0]
-        self._errors += errors[:1]
-        return seconds
+        if found and found.kind != self.raising:
+            raise found
+        self.seconds += seconds
+        return found
 
 
 def _read(stream: IO[bytes], size: int) -> bytes:

@@ -1,4 +1,4 @@
-"""What a student's process answers -> the seconds that it took, and what it did wrong."""
+"""Reads a student's process's answer: the seconds that it took, and what it did wrong."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ADVICE = {
 
 
 class StudentError(Exception):
-    """What a student's code did wrong.
+    """An error of a student's code.
 
     `kind` is one of KINDS ("answer": of a wrong form); `trace` has the lines of the student's own
     files, (file, line, function, text), outermost first.
@@ -51,19 +51,17 @@ class StudentError(Exception):
         }
 
 
-def parsed(line: bytes, memory: int) -> tuple[float | None, list[StudentError]]:
-    """Return the seconds that an answer has taken, None if there is none, and errors.
+def parsed(line: bytes, memory: int) -> tuple[float, StudentError | None]:
+    """Return the seconds that an answer has taken, and the error that it is, if any.
 
     The student's code shares the process that writes it, and may have written it: nothing is taken
     for granted.
     """
     answer = json.loads(line)
-    if answer["ok"]:
-        seconds = float(answer.get("seconds", 0.0))
-        if not 0 <= seconds < np.inf:
-            raise ValueError(seconds)
-        return seconds, [_error(each, memory) for each in answer.get("raised", ())]
-    return None, [_error(answer, memory)]
+    seconds = float(answer.get("seconds", 0.0))
+    if not 0 <= seconds < np.inf:
+        raise ValueError(seconds)
+    return seconds, None if answer["ok"] else _error(answer, memory)
 
 
 def _error(answer: Mapping[str, Any], memory: int) -> StudentError:

@@ -1,4 +1,4 @@
-"""What is true of cases: a bound decides, and fractions where the bound does not.
+"""Finds the truth about cases: a bound decides, and fractions where the bound does not.
 
 A right program is computed in float64, each number with a bound on how far any sound order of its
 operations may take it (`bounded.py`). Nobody chose a tolerance: an answer may be off by ROUNDINGS

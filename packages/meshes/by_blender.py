@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
-from reference_tracer.checked_json import Content
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.checked_json import Content
+from reference_tracer.files.exr import MissingLibraryError
+from reference_tracer.files.scenes import load_account, load_scene
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import load_account, load_scene
 from reference_tracer_processes.running import Limits, ProgramError, run
 
 from .contents import Contents, Placed

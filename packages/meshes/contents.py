@@ -1,4 +1,4 @@
-"""What the reader of a mesh file gives: placed meshes, and what it has to say of the file."""
+"""The contents of a mesh file: placed meshes, and notes on the file."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 from reference_tracer.arrays import Array, Bools, Floats, Index, Places
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.vector import cross, dot
 from reference_tracer.wording import count_of

@@ -21,14 +21,15 @@ from urllib.request import urlopen
 import numpy as np
 from reference_tracer.arrays import Floats, Index
 from reference_tracer.camera_files.gltf_file import Tree, as_specified, item, open_gltf, read_tree
-from reference_tracer.checked_json import Content
 from reference_tracer.cli.opening import import_trimesh
+from reference_tracer.files.checked_json import Content
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.wording import count_of
 
 from . import by_blender
 from .contents import Contents, Placed
 from .gltf_extensions import COMPRESSED, INSTANCING, unknown_extensions
+from .text import AGAIN
 
 _FLOAT, _UNSIGNED = 5126, (5121, 5123, 5125)  # componentType
 _LISTS, _STRIPS = 4, 5  # modes; below: points and lines; above: fans
@@ -100,7 +101,8 @@ class _File:
                 for key in {"byteOffset", "byteLength", "byteStride", "count"} & thing.keys():
                     size = _whole(thing, key)
                     # Only of zeros, and of compressed data, there may be more rows than bytes.
-                    if size > (held if "bufferView" in thing else 1000 * held):
+                    free = "bufferView" not in thing if kind == "accessors" else _compressed(thing)
+                    if size > (1000 * held if free else held):
                         what = f"number {number} of its {kind} has the {key} {size:,}"
                         raise SceneError(f"{what}, and the file holds {held:,} bytes")
 
@@ -122,14 +124,17 @@ class _File:
             raise SceneError("its positions are no vectors of three: export it again")
         if any(i["componentType"] not in _UNSIGNED or i["type"] != "SCALAR" for i in indices):
             raise SceneError("its indices are no unsigned integers: export it again")
+        corners, mode = [position, *indices][-1]["count"], primitive.get("mode", _LISTS)
+        if mode == _LISTS and corners % 3:
+            raise SceneError(f"it has {corners} corners, which triangles take in threes: {AGAIN}")
         for accessor in (position, *indices):
             if "sparse" in accessor or "bufferView" not in accessor:
                 return False
             view = item(self.content, "bufferViews", accessor["bufferView"])
-            if COMPRESSED & view.get("extensions", {}).keys():
+            if _compressed(view):
                 return False
             self._check_view(view, 12 if accessor is position else 1)
-        return position["componentType"] == _FLOAT and primitive.get("mode", _LISTS) <= _STRIPS
+        return position["componentType"] == _FLOAT and mode <= _STRIPS
 
     def _check_view(self, view: Content, row: int) -> None:
         """Refuse a view that is not in its buffer, or whose rows, of so many bytes, overlap."""
@@ -233,6 +238,10 @@ def _is_surface(primitive: Content) -> bool:
     if mode not in range(7):
         raise SceneError(f"a primitive has the mode {mode!r:.40}, which must be from 0 to 6")
     return mode >= _LISTS and "POSITION" in primitive["attributes"]
+
+
+def _compressed(view: Content) -> bool:
+    return not COMPRESSED.isdisjoint(view.get("extensions", {}))
 
 
 def _shapes(thing: Any) -> Any:

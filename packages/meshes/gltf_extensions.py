@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from reference_tracer.camera_files.gltf_file import VISIBILITY
-from reference_tracer.checked_json import Content
+from reference_tracer.files.checked_json import Content
 from reference_tracer.scene import SceneError
 
 INSTANCING = "EXT_mesh_gpu_instancing"

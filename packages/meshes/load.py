@@ -11,18 +11,18 @@ from typing import TypeVar
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.exr import MissingLibraryError
-from reference_tracer.file_kinds import check_is_file
+from reference_tracer.files.exr import MissingLibraryError
+from reference_tracer.files.file_kinds import check_is_file
+from reference_tracer.files.scenes import Account
 from reference_tracer.framing import ANGLE, BACKWARD, SIZE, Choice, axes_of, framing, shown_points
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.opened import Opened, file_manifest
 from reference_tracer.scene import Camera, Instance, Scene, SceneError, check_size
-from reference_tracer.scene_files import Account
 
 from . import FORMATS
 from .contents import Contents
 
-_BLENDERS_OBJ = "it is taken to have Y up, as Blender writes it unless told otherwise: then --up z"
+_BLENDERS_OBJ = "it is taken to have Y up, as Blender writes it unless told otherwise: then up=z"
 _Y_UP = frozenset((".glb", ".gltf"))  # as their specification says; the others do not say
 _SAYS_ITSELF = "usd"
 
@@ -54,7 +54,7 @@ def load_meshes(path: str | Path, up: str | None = None) -> Contents:
     if suffix not in FORMATS:
         raise SceneError(f"'{path}' is no mesh: a mesh is one of {', '.join(FORMATS)}")
     if up and FORMATS[suffix] == _SAYS_ITSELF:
-        raise SceneError(f"'{path}' says itself which axis is up: leave out --up")
+        raise SceneError(f"'{path}' says itself which axis is up: leave out up=")
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # a library's, of its own work

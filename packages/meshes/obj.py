@@ -43,7 +43,7 @@ def read(path: Path) -> Contents:
 
 
 class _Reading:
-    """What the lines of a file have said so far."""
+    """The state after the lines of a file read so far."""
 
     def __init__(self, stem: str) -> None:
         self.numbers: list[bytes] = []  # of the vertices, three each

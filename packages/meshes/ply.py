@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 from reference_tracer.arrays import Floats, Index
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 from reference_tracer.wording import count_of
 
 from .contents import Contents, of_faces
+from .text import AGAIN
 
 _CORNERS = "vertex_indices", "vertex_index"
 _HEAD = re.compile(rb"\Aply\s.*?^end_header\r?\n", re.DOTALL | re.MULTILINE)
@@ -73,27 +74,42 @@ def _elements(path: Path) -> tuple[Any, int]:
     content = path.read_bytes()
     head = _HEAD.match(content)
     if not head:
-        raise SceneError("it is no PLY file, or is cut off: its head has no beginning or no end")
-    if any(int(count) > len(content) for count in _ELEMENT.findall(head[0])):
         raise SceneError(
-            "it is cut off: it has fewer bytes than its head has rows: export it again"
+            f"it is no PLY file, or is cut off: its head has no beginning or no end: {AGAIN}"
         )
+    if any(int(count) > len(content) for count in _ELEMENT.findall(head[0])):
+        raise SceneError(f"it is cut off: it has fewer bytes than its head has rows: {AGAIN}")
+    body, behind = content[head.end() :], 0
+    is_text = b"format ascii" in head[0]
+    if is_text:
+        lines = [line for line in body.splitlines() if line.strip()]
+        rows = sum(map(int, _ELEMENT.findall(head[0])))
+        body, behind = b"\n".join((*lines[:rows], b"")), len(b"\n".join(lines[rows:]))
     with tempfile.TemporaryDirectory() as folder:
-        if (plain := _plain(head[0])) != head[0]:
+        plain = _plain(head[0])
+        if is_text or plain != head[0]:
             path = Path(folder, "plain.ply")
-            path.write_bytes(plain + content[head.end() :])
-        if b"format ascii" in head[0]:  # the library closes what it reads as text
-            rows = sum(map(int, _ELEMENT.findall(head[0])))
-            behind = b"\n".join(content[head.end() :].split(b"\n")[rows:])
-            return PlyData.read(str(path), mmap=False).elements, len(behind.strip())
-        with path.open("rb") as stream:
-            for size in (3, 4):  # faces of one size are read at once
-                stream.seek(0)
-                with suppress(PlyParseError):
-                    found = PlyData.read(stream, mmap="r", known_list_len=_all(size))
-                    return found.elements, len(stream.read())
+            path.write_bytes(plain + body)
+        try:
+            if is_text:  # the library closes what it reads as text
+                return PlyData.read(str(path), mmap=False).elements, behind
+            return _binary(path)
+        except PlyParseError as error:
+            raise SceneError(f"it is cut off or damaged, {error}: {AGAIN}") from error
+
+
+def _binary(path: Path) -> tuple[Any, int]:
+    """Return the elements of a file that is no text, and how many bytes are behind them."""
+    from plyfile import PlyData, PlyParseError
+
+    with path.open("rb") as stream:
+        for size in (3, 4):  # faces of one size are read at once
             stream.seek(0)
-            return PlyData.read(stream, mmap=False).elements, len(stream.read())
+            with suppress(PlyParseError):
+                found = PlyData.read(stream, mmap="r", known_list_len=_all(size))
+                return found.elements, len(stream.read())
+        stream.seek(0)
+        return PlyData.read(stream, mmap=False).elements, len(stream.read())
 
 
 def _all(size: int) -> dict[str, dict[str, int]]:

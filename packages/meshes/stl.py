@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from reference_tracer.cli.opening import import_trimesh
-from reference_tracer.file_kinds import binary_stl_length
+from reference_tracer.files.file_kinds import binary_stl_length
 from reference_tracer.scene import SceneError
 from reference_tracer.wording import count_of
 

@@ -24,7 +24,7 @@ KEPT = 4000  # bytes of what a program prints
 
 @dataclass(frozen=True)
 class Limits:
-    """What a program may take: seconds a scene, bytes."""
+    """The limits of a program: seconds a scene, bytes."""
 
     seconds: float = SECONDS
     memory: int = MEMORY

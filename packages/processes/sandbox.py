@@ -1,4 +1,4 @@
-"""What a program of others may see, write and take: in bubblewrap, and by the system's limits.
+"""Confines another's program: what it may see, write and take, in bubblewrap and by limits.
 
 What is kept for a later run carries a digest under a `secret`, which no program in the sandbox can
 read: its folder is empty there.

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from reference_tracer.causes.case import WHOLE, Variant
 from reference_tracer.cli.arguments import is_blend, refuse
-from reference_tracer.cli.camera_options import check_kind
+from reference_tracer.cli.camera_options import UP, check_kind
+from reference_tracer.cli.named import add_named
 from reference_tracer.cli.opening import SOURCES, open_blend, open_file
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, EXIT_CODES_HELP, Parser
 from reference_tracer.cli.running import meanwhile
@@ -49,14 +50,15 @@ def add(parser: Parser) -> None:
     """Add the command's options."""
 
     def run(given: Namespace) -> int:
-        return diff(DiffOptions(given.scene, given.other, given.up, given.json))
+        paths = given.scene, given.other
+        if not any(path.suffix.lower() in mesh_formats() for path in paths):
+            refuse(given, ("up",), "is for meshes: in a scene Z is up")
+        return diff(DiffOptions(*paths, given.up, given.json))
 
     parser.runs(run, "reftrace diff scene.blend export.glb", EXIT_CODES_HELP)
     parser.add_scene(f"what is right: {SOURCES}")
     parser.add_argument("other", type=Path, metavar="OTHER", help="what is held against it")
-    parser.add_argument(
-        "--up", choices=["y", "z"], help="which axis of the meshes is up (default as of `trace`)"
-    )
+    add_named(parser, "--set", (UP,))
     parser.add_argument(
         "--json",
         type=parser.path_ending(".json"),
@@ -70,8 +72,6 @@ def diff(options: DiffOptions) -> int:
     paths = options.first, options.second
     for path in paths:
         check_kind(path)
-    if not any(path.suffix.lower() in mesh_formats() for path in paths):
-        refuse(options, ("up",), "is for meshes: in a scene Z is up")
     first, second = (side(path, options.up) for path in paths)
     found = differences(first.scene, second.scene, first.variants)
     show(*first.remarks, *second.remarks)
@@ -100,7 +100,7 @@ def side(path: Path, up: str | None) -> Side:
             from reference_tracer.blender.jobs.variants import variants
 
             context = blender.context
-            made = variants(context.scene.name_full, context.view_layer.name, None)
+            made = tuple(variants(context.scene.name_full, context.view_layer.name, None))
             whole = next((v.scene for v in made if v.fault == WHOLE), None)
             scene = whole or export_open_file(context)[0]
         return Side(scene, tuple(v for v in made if v.fault != WHOLE))

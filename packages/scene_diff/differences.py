@@ -163,7 +163,7 @@ _UP = {"-90": "y", "90": "z"}  # by how much a file is turned about X whose othe
 def _of_all(move: Move, tolerance: float) -> Difference:
     words = Move(move.axes, move.by, np.zeros(3)).words(tolerance)
     up = next((axis for by, axis in _UP.items() if f"turned by {by} degrees about X" in words), "")
-    advice = f"if the file has {up.upper()} up, --up {up} turns it" if up else ""
+    advice = f"if the file has {up.upper()} up, --set up={up} turns it" if up else ""
     return Difference("", "scene_moved", f"all objects are {words}", advice)
 
 

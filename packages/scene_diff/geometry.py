@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.scene import Instance, Scene
+from reference_tracer.scene import Instance, Scene, SceneError
 from reference_tracer.tracer.world import world_corners
 
 from .moves import Move
@@ -15,6 +15,7 @@ from .moves import Move
 # and a parent's, and of a text with six digits after the point.
 ROUNDINGS = 16 * 2.0**-24  # of the object's largest coordinate
 DIGITS = 1e-6  # metres
+LARGEST = 1e150  # metres: the square of it is finite
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +29,13 @@ class Objects:
 
     @classmethod
     def of(cls, scene: Scene) -> Objects:
-        """Return the objects of a scene that have triangles."""
+        """Return the objects of a scene that have triangles.
+
+        Raises
+        ------
+        SceneError
+            If one is too large.
+        """
         parts: dict[str, list[Floats]] = {}
         reach: dict[str, float] = {}
         for number, instance in enumerate(scene.instances):
@@ -38,6 +45,8 @@ class Objects:
             if not count:
                 continue
             name = scene.objects[instance.object]
+            if not (np.abs(corners) <= LARGEST).all():
+                raise SceneError(f"'{name}' is too large to be compared: scale it down")
             parts.setdefault(name, []).append(corners)
             reach[name] = max(reach.get(name, 0.0), _reach(scene, instance))
         return cls({name: np.concatenate(some) for name, some in parts.items()}, reach)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer.images import curve
+from reference_tracer.files.images import curve
 from reference_tracer.pictures.identity import UNKNOWN
 
 from .subject import Attacked, Make, Subject, damaged, neighbours

@@ -283,7 +283,7 @@ CAMERA_FAULTS = (
     Fault("ortho_scale", "the height", film(_sensor_fit), only=(2,)),
     Fault("ortho_scale", "half the width", film(lambda s: magnified(s, 0.5, 0.5)), only=(2,)),
     Fault("ortho_scale", "twice the width", film(lambda s: magnified(s, 2, 2)), only=(2,)),
-    Fault("perspective_for_orthographic", "", with_camera(_perspective), only=(2,)),
+    Fault("camera_type", "", with_camera(_perspective), only=(2,)),
     Fault("clip_start", "through the second object", clip(start=0)),
     Fault("clip_start", "0.1 m", clip(start=0.1), only=(6,)),
     Fault("clip_end", "through the second object", clip(end=0)),

@@ -10,9 +10,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-import trimesh
 
-from .camera_faults import offset
 from .description import Description
 from .faults import FAULTS
 from .making import Fault, Made, right
@@ -20,7 +18,6 @@ from .renderer import Solid, Tracer
 
 # Pixels beside an edge in which Embree's float32 may tell the same picture apart.
 ROUNDED = 6
-QUARTERS = (-0.25, 0.25)  # of a pixel
 LEAST = 20  # pixels of a second colour that a picture must have to say anything
 EXACT = 1e-9  # relative: sums of some float64 products
 
@@ -56,12 +53,6 @@ def right_names(fault: Fault, scene: Description) -> dict[str, str]:
     for key, reason in (*_of_camera(scene, made), *_of_solids(scene, made)):
         out.setdefault(key, reason)
     own = picture_of(fault, scene)
-    if fault.key == "resampled" and own is not None:
-        # The nearest pixel of a larger picture is a ray beside the centre: the same everywhere.
-        for other in (offset(x, y) for x in QUARTERS for y in QUARTERS):
-            shown = picture_of(other, scene)
-            if shown is not None and same(own, shown):
-                out["pixel_offset"] = f"the same picture: {other.name}"
     if own is not None and "object_missing" not in out:
         out.update(_of_missing(scene, made, own))
     for other in FAULTS:
@@ -155,22 +146,12 @@ def _of_solids(scene: Description, made: Made) -> list[tuple[str, str]]:
         by = other.vertices - own.vertices
         if np.allclose(by, by[0], atol=1e-9):
             return [("object_moved", f"'{name}' moved by {np.round(by[0], 6).tolist()} m")]
-        displaced = tuple(_displaced(own, by) if s.name == name else s for s in made.solids)
-        if same(made.stored(), replace(made, solids=displaced).stored()):
-            return [("smooth_displaced", f"the same picture: '{name}' displaced")]
     return []
 
 
 def _corners(solid: Solid) -> set[bytes]:
     """Return each triangle by its corners, in their order, to a millionth of a metre."""
     return {p.tobytes() for p in np.round(solid.vertices[solid.triangles], 6) + 0.0}
-
-
-def _displaced(solid: Solid, by: np.ndarray) -> Solid:
-    """Return a solid displaced along its vertices' normals by what a change moves them by."""
-    normal = trimesh.Trimesh(solid.vertices, solid.triangles, process=False).vertex_normals
-    distance = (by * normal).sum(axis=1).mean()
-    return replace(solid, vertices=solid.vertices + distance * normal)
 
 
 def _of_missing(scene: Description, made: Made, own: np.ndarray) -> dict[str, str]:

@@ -119,7 +119,7 @@ def resampled(ratio: float, nearest: bool) -> Fault:
         return resized(small, own.width, own.height, nearest)
 
     label = f"from {ratio:g} times the size, {'nearest' if nearest else 'bilinear'}"
-    return Fault("resampled", label, lambda _, m: replace(m, draw=draw), {"ratio": ratio})
+    return Fault("resampled", label, lambda _, m: replace(m, draw=draw), {"n": 1 / ratio})
 
 
 def filtered(radius: float, gauss: bool = False) -> Fault:
@@ -168,7 +168,7 @@ def shrunk(n: int, nearest: bool) -> Fault:
         return sums[rows // n][:, columns // n]
 
     label = f"1/{n} of the size, {'nearest' if nearest else 'mean'}, and back"
-    return Fault("shrunk", label, afterwards(change), {"n": n})
+    return Fault("resampled", label, afterwards(change), {"n": n})
 
 
 def supersampled(n: int, coded: bool = False) -> Fault:
@@ -250,15 +250,10 @@ PICTURE_FAULTS = (
     colors("rounding_level", "once, read as floats", lambda c: eight(encoded(c), decoded)),
     in_file("dithered", "2 levels", _noisy, levels=2),
     in_file("rounding_level", "cut off", lambda p: through_file(p, np.floor)),
-    in_file(
-        "rounding_level", "one level more", lambda p: through_file(p, lambda v: np.rint(v) + 1)
-    ),
     jpeg(92),
     jpeg(75),
     resampled(0.5, nearest=True),
     resampled(0.5, nearest=False),
-    resampled(0.9, nearest=False),
-    resampled(2.0, nearest=True),
     filtered(0.5),
     filtered(1.5, gauss=True),
     shrunk(2, nearest=True),

@@ -15,7 +15,6 @@ from .setup import placed, solid_of
 # Which object a fault is made with, by the scene's number: in the foreground, then a smaller one.
 FIRST = {1: "Cube", 2: "Cube", 3: "Cube", 4: "Ball", 5: "Pebble", 6: "Thing14"}
 SECOND = {1: "Ring", 2: "Post", 3: "Ring", 4: "Roller", 5: "Leaf", 6: "Near"}
-RINGS = {1: "Ring", 2: "Ring", 3: "Ring", 4: "Roller", 5: "Leaf"}
 FLOORS = dict.fromkeys((1, 3, 4, 5, 6), "Floor")
 
 
@@ -108,16 +107,6 @@ def _no_parent_inverse(scene: Description, item: Item, own: Solid) -> Solid:
     return replace(own, vertices=placed(item.shape.vertices, at))
 
 
-def _exchanged(scene: Description, made: Made) -> Made:
-    """Return two objects at each other's places."""
-    first, second = (scene.item(of[scene.number]) for of in (FIRST, SECOND))
-    for item, other in ((first, second), (second, first)):
-        at = other.world(scene.frame)
-        own = replace(solid_of(item, scene.frame), vertices=placed(item.shape.vertices, at))
-        made = exchanged(made, item.name, own)
-    return made
-
-
 def layered(order: Callable[[Camera, Sequence[Solid]], np.ndarray]) -> Change:
     """Return the picture in which solids are drawn one over the other, the lowest number first."""
 
@@ -148,28 +137,6 @@ def _other_diagonal(scene: Description, made: Made) -> Made:
         own = replace(solid_of(item, scene.frame), triangles=item.shape.triangles(True))
         made = exchanged(made, item.name, own)
     return made
-
-
-def displaced(by: float) -> Fault:
-    """Return an object with its vertices moved along their smooth normals."""
-
-    def change(_: Description, __: Item, own: Solid) -> Solid:
-        return replace(own, vertices=own.vertices + by * smooth_normals(own))
-
-    return Fault("smooth_displaced", f"{by:+g} m", changed(RINGS, change), {"by": by}, (1, 2, 3, 4))
-
-
-def smooth_normals(solid: Solid) -> np.ndarray:
-    """Return unit normals at the vertices: those of triangles, weighted by their angle there."""
-    corners = solid.vertices[solid.triangles]
-    total = np.zeros_like(solid.vertices)
-    for k in range(3):
-        a, b = corners[:, k - 2] - corners[:, k], corners[:, k - 1] - corners[:, k]
-        normal = np.cross(a, b)
-        length = np.linalg.norm(normal, axis=1, keepdims=True)
-        angle = np.arctan2(length[:, 0], (a * b).sum(axis=1))[:, None]
-        np.add.at(total, solid.triangles[:, k], angle * normal / length)
-    return total / np.linalg.norm(total, axis=1, keepdims=True)
 
 
 def _shown(name: str) -> Change:
@@ -208,7 +175,6 @@ SCENE_FAULTS = (
     moved(FIRST, 0.03, -0.02, 0.01),
     moved(FIRST, 0.4, -0.3, 0.2),
     moved(SECOND, 0.0, 0.0, 0.15),
-    Fault("swapped_transforms", "", _exchanged),
     Fault("depth_order", "as listed", layered(lambda _, solids: np.arange(len(solids)))),
     scaled(FIRST, 1.15),
     scaled(FIRST, 0.01),
@@ -226,8 +192,6 @@ SCENE_FAULTS = (
     Fault("triangles_missing", "half of the first", without(FIRST, True)),
     Fault("triangles_missing", "one of the floor", without(FLOORS, False), only=(1, 3, 4, 5, 6)),
     Fault("other_diagonal", "", _other_diagonal, only=(5,)),
-    displaced(0.06),
-    displaced(-0.1),
     Fault("hidden_shown", "Ghost", _shown("Ghost"), only=(5,)),
     Fault("hidden_shown", "Secret", _shown("Secret"), only=(5,)),
     Fault("hidden_shown", "Thing8", _shown("Thing8"), only=(6,)),

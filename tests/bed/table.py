@@ -1,23 +1,34 @@
-"""The test bed's table: fault x scene, named rightly or not, settled share, seconds.
+"""The test bed's table: what is said of each fault in each scene, and in how many CPU seconds.
 
-    python -m tests.bed.table [--fault KEY] [--scene N] [--damage N] [--compare]
+    python -m tests.bed.table [--sample N] [--part K/N] [--beside REVISION] [--out FILE]
+                              [--fault KEY] [--scene N] [--damage N]
 
-By default all faults of all scenes, then the 200 damaged pictures. `--fault` and `--scene` choose
-some of the cells; `--damage N` diagnoses the first N damaged pictures alone, with 0 none of them;
-`--compare` stops after the comparison, and prints what it leaves unexplained.
+Cells are in a random order that is always the same, so that the first N are a sample. Each is
+appended to FILE as it is done, and is not done again: runs go on where one ended, and parts may
+share a file. The table is of all that stands in it.
 
-A line of a fault ends in the names that were told. `named`: its own name, or one that is right for
-this very picture (`names.py` says why); `+wrong`: a wrong one stands beside it; `wrong`; `nothing`.
-The last lines are the shares that the issue asks for; the exit code is 1 if they are not reached.
+`named`: the fault's own name is told, or one that is right for this very picture (`names.py` says
+why). `useful`: no name, but the largest region that is left shows the object that has the fault.
+`silent`: neither. `wrong`: a wrong name is told, alone or beside a right one. Seconds are those of
+the processor: of the comparison alone, and with the diagnosis. A revision before is checked out
+into a folder of its own, with its own test bed, and does each cell in the same minute.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
@@ -32,16 +43,12 @@ from .making import Made, right
 from .names import right_names, same, says_nothing
 from .variants import with_variants
 
-# What the diagnosis calls what the bed has other names for.
-NAMES = {
-    "pixel_offset": "principal_point",
-    "srgb_twice": "srgb_for_linear",
-    "srgb_left_out": "srgb_for_linear",
-    "straight_alpha": "premultiplied",
-    "scene_scaled": "object_scaled",
-    "cut_off": "rounding_level",
-}
-NAMED = 0.95  # of the cells, as the issue asks for
+Row: TypeAlias = dict[str, Any]
+
+PROJECT = Path(__file__).resolve().parents[2]
+SEED = 5
+ANSWERS = "named", "useful", "silent", "wrong"
+NAMED = 0.95  # of the cells, as asked for
 TRANSFORMS = {  # words in a transform's name
     "an exposure of": "exposure",
     "a gamma of": "gamma",
@@ -53,25 +60,28 @@ TRANSFORMS = {  # words in a transform's name
 }
 
 
-class Row(NamedTuple):
-    """What became of one picture."""
+def listed(fault: str | None = None, scene: int | None = None, damage: int = 0) -> list[str]:
+    """Return the cells' names, in random order; then those of damaged pictures."""
+    names = [f"{f.name} | {s.number}" for f, s in cells(fault, scene)]
+    order = np.random.default_rng(SEED).permutation(len(names))
+    return [*(names[n] for n in order), *(f"damage | {n}" for n in range(damage))]
 
-    what: str
-    scene: int
-    result: str  # 'named', 'named, +wrong', 'wrong', 'nothing'
-    unexplained: int
-    settled: float  # the largest share of these that what was told settles
-    seconds: float  # of the diagnosis alone
-    told: tuple[str, ...]
-    reason: str = ""  # why another name than its own is right
 
-    def line(self) -> str:
-        """Return the row as a line of the table."""
-        told = "; ".join(self.told) + (f" [{self.reason}]" if self.reason else "")
-        return (
-            f"{self.what:56} {self.scene}  {self.result:14} {self.unexplained:7,} "
-            f"{100 * self.settled:6.1f} % {self.seconds:6.2f} s  {told}"
-        )
+def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, dict[str, str]] | None:
+    """Return a cell's scene, picture, what made it, and right names; None if nothing shows it."""
+    name, number = cell.split(" | ")
+    if name == "damage":
+        _, scene, picture = damaged(int(number))
+        return scene, picture, None, {}
+    found = [pair for pair in cells(None, int(number)) if pair[0].name == name]
+    if not found:  # a version before may not know it
+        return None
+    [(fault, scene)] = found
+    wrong = fault.make(scene, right(scene))
+    shown = None if wrong is None else wrong.stored()
+    if shown is None or same(shown, right(scene).picture()) or says_nothing(shown):
+        return None
+    return scene, shown, wrong, right_names(fault, scene)
 
 
 def compared(scene: Description, picture: np.ndarray, made: Made | None = None) -> Comparison:
@@ -80,97 +90,191 @@ def compared(scene: Description, picture: np.ndarray, made: Made | None = None) 
     return result_of(trace_and_compare(with_variants(case_of(scene, picture, *known), scene)))
 
 
-def looked_at(
-    what: str,
-    scene: Description,
-    picture: np.ndarray,
-    made: Made | None,
-    names: dict[str, str],
-    only_compare: bool,
-) -> Row:
-    """Compare a picture, diagnose it, and judge what is told by the right names and reasons."""
-    found = compared(scene, picture, made)
-    unexplained = found.counts.unexplained
-    if only_compare:
-        transform = found.causes.transform or ""
-        return Row(what, scene.number, "compared", unexplained, 0.0, 0.0, (transform,))
-    began = time.perf_counter()
+def measured(cell: str) -> Row:
+    """Compare a cell's picture, diagnose it, and judge what is told."""
+    made = made_of(cell)
+    if made is None:
+        return {"answer": "not seen"}
+    scene, picture, wrong, names = made
+    began = time.process_time()
+    found = compared(scene, picture, wrong)
+    between = time.process_time()
     diagnosis = result_of(diagnosed(found)).diagnosis
-    seconds = time.perf_counter() - began
+    ended = time.process_time()
     told = diagnosis.told if diagnosis else ()
-    every = {t.fault.name for t in told} | named_transform(found.causes.transform or "")
-    hit, wrong = sorted(every & names.keys()), every - names.keys()
-    result = "named" if hit else "wrong" if wrong else "nothing"
-    result += ", +wrong" if hit and wrong else ""
-    settled = max((t.settled / max(t.unexplained, 1) for t in told), default=0.0)
-    if not unexplained:
-        settled = 1.0  # the comparison has a cause for all of them
-    said = tuple(f"{t.fault.name} ({t.sentence})" for t in told)
-    said += (found.causes.transform,) if found.causes.transform else ()
-    own = next(iter(names), "")
-    reason = names[hit[0]] if hit and own not in hit else ""
-    return Row(what, scene.number, result, unexplained, settled, seconds, said, reason)
+    transform = found.causes.transform or ""
+    every = {t.fault.name for t in told}
+    every |= {key for words, key in TRANSFORMS.items() if words in transform}
+    shown = diagnosis.regions[0].objects[:1] if diagnosis and diagnosis.regions else ()
+    useful = wrong is not None and set(shown) & changed(scene, wrong)
+    silent = "useful" if useful else "silent"
+    return {
+        "answer": "wrong" if every - names.keys() else "named" if every else silent,
+        "compare": between - began,
+        "both": ended - began,
+        "told": [transform] * bool(transform) + [t.sentence for t in told],
+        "names": sorted(every),
+        "ended": bool(diagnosis and diagnosis.untried),
+    }
 
 
-def named_transform(transform: str) -> set[str]:
-    """Return the fault that a transform is, which the comparison itself names."""
-    return {key for words, key in TRANSFORMS.items() if words in transform}
+def changed(scene: Description, made: Made) -> set[str]:
+    """Return the name of the object that was changed, if it is one; empty otherwise."""
+    before, after = (
+        {(s.name, s.vertices.tobytes(), s.triangles.tobytes()) for s in m.solids}
+        for m in (right(scene), made)
+    )
+    found = {name for name, *_ in before ^ after}
+    return found if len(found) == 1 else set()
 
 
-def fault_rows(key: str | None, number: int | None, only_compare: bool) -> Iterator[Row]:
-    """Yield a row for each fault and scene in which it can be seen; say which are left out."""
-    for fault, scene in cells(key, number):
-        wrong = fault.make(scene, right(scene))
-        picture = None if wrong is None else wrong.stored()
-        if picture is None or same(picture, right(scene).picture()):
-            print(f"{fault.name:56} {scene.number}  changes nothing here: left out")
-        elif says_nothing(picture):
-            print(f"{fault.name:56} {scene.number}  the picture has one colour: left out")
-        else:
-            names = right_names(fault, scene)
-            yield looked_at(fault.name, scene, picture, wrong, names, only_compare)
+# ---- processes: of this version, and of one before
 
 
-def damage_rows(count: int, only_compare: bool) -> Iterator[Row]:
-    """Yield a row for each damaged picture."""
-    for number in range(count):
-        kind, scene, picture = damaged(number)
-        yield looked_at(f"damage {number}: {kind}", scene, picture, None, {}, only_compare)
+def answer() -> None:
+    """Measure each cell that is named on standard input, a line of JSON each."""
+    for line in sys.stdin:
+        print(json.dumps(measured(line.rstrip("\n"))), flush=True)
+    own = Path(sys.modules["reference_tracer"].__file__ or "").parent
+    parts = [m for n, m in sys.modules.items() if n.startswith("reference_tracer.")]
+    if not all(Path(m.__file__ or "").is_relative_to(own) for m in parts):
+        raise SystemExit("two versions are mixed: this table needs what that revision has not")
 
 
-def _printed(rows: Iterator[Row]) -> list[Row]:
-    out = []
-    for row in rows:
-        print(row.line(), flush=True)
-        out.append(row)
-    return out
+@contextmanager
+def measuring(house: Path) -> Iterator[subprocess.Popen[str]]:
+    """Start a process that measures cells with the version of a folder."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "reference_tracer").symlink_to(house / "addon")
+        own = {"PYTHONPATH": folder, "OPENBLAS_NUM_THREADS": "1"}
+        command = [sys.executable, "-m", __spec__.name, "--answer"]
+        pipe = subprocess.PIPE
+        child = subprocess.Popen(
+            command, cwd=house, env=os.environ | own, stdin=pipe, stdout=pipe, text=True
+        )
+        try:
+            yield child
+        finally:
+            child.kill()
+            child.wait()
+
+
+@contextmanager
+def checked_out(revision: str) -> Iterator[Path]:
+    """Check out a revision into a folder of its own, with this table in its test bed."""
+    with tempfile.TemporaryDirectory() as folder:
+        house, git = Path(folder) / "before", ["git", "-C", str(PROJECT), "worktree"]
+        subprocess.run([*git, "add", "--quiet", "--detach", house, revision], check=True)
+        try:
+            shutil.copy(__file__, house / "tests" / "bed" / "table.py")
+            yield house
+        finally:
+            subprocess.run([*git, "remove", "--force", house], check=True)
+
+
+def asked(child: subprocess.Popen[str], cell: str) -> Row:
+    """Return what a process measures of a cell."""
+    assert child.stdin and child.stdout
+    print(cell, file=child.stdin, flush=True)
+    line = child.stdout.readline()
+    if not line:
+        raise SystemExit(f"the process that measures ended at {cell}")
+    row: Row = json.loads(line)
+    return row
+
+
+# ---- the table
+
+
+def kept(path: Path | None) -> dict[str, dict[str, Row]]:
+    """Return the rows of a file, by cell: `now`, and `before`."""
+    if path is None or not path.exists():
+        return {}
+    rows = map(json.loads, path.read_text(encoding="utf-8").splitlines())
+    return {row["cell"]: row for row in rows}
+
+
+def line_of(cell: str, row: dict[str, Row]) -> str:
+    """Return a cell as a line of the table."""
+    seconds = (
+        f"{r['answer']:8} {r['compare']:6.2f} {r['both']:7.2f}" if "both" in r else r["answer"]
+        for r in (row[side] for side in ("now", "before") if side in row)
+    )
+    told = "; ".join(row["now"].get("told", ()))
+    return f"{cell:60} {' | '.join(f'{s:23}' for s in seconds)}  {told}"
+
+
+def summary(rows: Sequence[dict[str, Row]], side: str) -> Iterator[str]:
+    """Yield how many have which answer, and the CPU seconds of each class."""
+    every = [r[side] for r in rows if "both" in r.get(side, {})]
+    if not every:
+        return
+    count = Counter(r["answer"] for r in every)
+    yield f"{side}: {len(every)} pictures: " + ", ".join(f"{count[a]} {a}" for a in ANSWERS)
+    yield f"  {sum(r['ended'] for r in every)} of them reached the limit of work"
+    for what in ("all", *ANSWERS):
+        some = [r for r in every if what in ("all", r["answer"])]
+        if some:
+            columns = (
+                ("compare", [r["compare"] for r in some]),
+                ("with the diagnosis", [r["both"] for r in some]),
+                ("ratio", [r["both"] / r["compare"] for r in some]),
+            )
+            said = (f"{n} {np.median(v):.2f}, {np.quantile(v, 0.9):.2f}" for n, v in columns)
+            yield f"  {what:7} median and nine of ten: {'; '.join(said)}"
+
+
+def judged(rows: dict[str, dict[str, Row]]) -> int:
+    """Print the summary; return 1 if too few faults are named, or anything wrongly."""
+    faults = [r for cell, r in rows.items() if not cell.startswith("damage")]
+    damage = [r for cell, r in rows.items() if cell.startswith("damage")]
+    for some in (faults, damage):
+        for side in ("now", "before"):
+            print(*summary(some, side), sep="\n")
+    missed = Counter(
+        cell.split(" | ")[0]
+        for cell, row in rows.items()
+        if row["now"]["answer"] in ("useful", "silent") and row in faults
+    )
+    print(*(f"  not named: {what} ({times})" for what, times in missed.most_common()), sep="\n")
+    answers = Counter(r["now"]["answer"] for r in faults)
+    answers.pop("not seen", None)
+    wrong = any(r["now"]["answer"] == "wrong" for r in rows.values())
+    return int(wrong or answers["named"] < NAMED * answers.total())
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Print the table; returns 1 if fewer faults are named than asked for, or damage is."""
+    """Print the table; returns 1 if fewer faults are named than asked for, or any wrongly."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--fault", metavar="KEY", help="only faults of this name")
     parser.add_argument("--scene", type=int, metavar="N", help="only this scene, 1 to 6")
-    parser.add_argument("--damage", type=int, metavar="N", help="how many damaged pictures")
-    parser.add_argument("--compare", action="store_true", help="compare, do not diagnose")
+    parser.add_argument("--damage", type=int, default=0, help=f"damaged pictures, up to {COUNT}")
+    parser.add_argument("--sample", type=int, metavar="N", help="only the first N cells")
+    parser.add_argument("--part", default="1/1", metavar="K/N", help="each N-th cell from the K-th")
+    parser.add_argument("--beside", metavar="REVISION", help="measure this version, too")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="where rows are kept")
+    parser.add_argument("--answer", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(argv)
-    some = options.fault is not None or options.scene is not None
-    count = (0 if some else COUNT) if options.damage is None else options.damage
-    faults: list[Row] = []
-    if some or options.damage in (None, 0):
-        faults = _printed(fault_rows(options.fault, options.scene, options.compare))
-    damage = _printed(damage_rows(count, options.compare))
-    if options.compare:
+    if options.answer:
+        answer()
         return 0
-    named = sum(row.result.startswith("named") for row in faults)
-    wrong = sum("wrong" in row.result for row in faults)
-    false = sum("wrong" in row.result for row in damage)
-    print(f"faults: {named} of {len(faults)} named, a wrong name at {wrong}")
-    print(f"damage: a wrong name at {false} of {len(damage)}")
-    missed = Counter(row.what for row in faults if not row.result.startswith("named"))
-    for what, times in missed.most_common():
-        print(f"  not named: {what} ({times} scenes)")
-    return int(named < NAMED * len(faults) or false > 0)
+    first, each = map(int, options.part.split("/"))
+    names = listed(options.fault, options.scene, options.damage)
+    rows = kept(options.out)
+    with ExitStack() as stack:
+        children = {"now": stack.enter_context(measuring(PROJECT))}
+        if options.beside:
+            house = stack.enter_context(checked_out(options.beside))
+            children["before"] = stack.enter_context(measuring(house))
+        for cell in names[: options.sample][first - 1 :: each]:
+            if cell in rows:
+                continue
+            rows[cell] = {side: asked(child, cell) for side, child in children.items()}
+            print(line_of(cell, rows[cell]), flush=True)
+            if options.out:
+                with options.out.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps({"cell": cell} | rows[cell]) + "\n")
+    return judged(kept(options.out) or rows)
 
 
 if __name__ == "__main__":

@@ -77,7 +77,7 @@ def _cameras(scene: Description) -> Iterator[Found]:
 def _lenses(lens: Lens) -> Iterator[tuple[str, str, Lens]]:
     """Yield other readings of a lens."""
     if lens.parallel:
-        yield "perspective_for_orthographic", "in perspective", replace(lens, parallel=False)
+        yield "camera_type", "in perspective", replace(lens, parallel=False)
     if lens.fit == "VERTICAL":
         wide = replace(lens, sensor_height=lens.sensor_width)
         yield "sensor_width_for_height", "with the sensor's width for its height", wide

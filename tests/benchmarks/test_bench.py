@@ -19,7 +19,7 @@ from reference_tracer_benchmarks.plan import Case, Plan
 from reference_tracer_benchmarks.rays import rays_of
 from reference_tracer_benchmarks.rounds import Runner, in_rounds, ratio
 from reference_tracer_benchmarks.rows import Bench, CommandRow, Row, machine
-from reference_tracer_benchmarks.scaling import exponent, scalings
+from reference_tracer_benchmarks.scaling import scalings
 from reference_tracer_benchmarks.window import WINDOW
 
 WIDTH, HEIGHT = 48, 27
@@ -296,19 +296,6 @@ def test_a_row_for_each_scene_size_camera_and_method(bench):
     assert not bench.notes
 
 
-def test_who_comes_late_gets_less_time(monkeypatch):
-    wanted = replace(tiny("cube", cameras=scenes.CAMERAS), budget=6.0, seconds=10.0)
-    now = [100.0]
-    monkeypatch.setattr(measure.time, "perf_counter", lambda: now[0])
-    pace = measure.Pace(wanted)
-    assert pace.budget(wanted.cases[0]) == pytest.approx(5.0)
-    now[0] += 7
-    assert pace.budget(wanted.cases[1]) == pytest.approx(3.0)
-    pace = measure.Pace(wanted)
-    now[0] += 99
-    assert pace.budget(wanted.cases[0]) == 0
-
-
 def test_stages_are_parts_of_a_frame(bench):
     for r in bench.rows:
         assert r.stages and "shade" in r.stages
@@ -343,12 +330,6 @@ def test_no_memory_is_known_where_a_child_fails(tmp_path):
 
 
 # ---- scaling
-
-
-@pytest.mark.parametrize("k", [0.0, 0.37, 1.0, 2.5])
-def test_the_exponent_of_a_power_law(k):
-    n = np.array([12.0, 5e3, 1.3e6])
-    assert exponent(n, 3e-7 * n**k) == pytest.approx(k, abs=1e-12)
 
 
 def test_scaling_over_triangles_and_pixels():

@@ -91,23 +91,6 @@ def test_the_table(bench):
     assert "Interrupted" in table(replace(bench, interrupted=True))
 
 
-def test_a_sample_of_rays_is_marked(bench):
-    row = next(r for r in bench.rows if r.method == "certified")
-    whole, sample = (
-        table(Bench({}, rows=[replace(row, embreex_rays=n)])) for n in (row.pixels, row.pixels - 1)
-    )
-    mark = "10.60 (9.50 - 12.70)~"
-    assert mark in sample and mark not in whole
-
-
-def test_a_table_of_what_little_there_is(bench):
-    bare = Row("cube", 12, 8, 8, "perspective", "certified", "float64", 0.5, 0.75)
-    assert "cube" in table(Bench({}, rows=[bare]))
-    assert "nothing was measured" in table(Bench({}, notes=["why"])) and "why" in table(
-        Bench({}, notes=["why"])
-    )
-
-
 def test_pyperf_reads_the_times(bench, tmp_path):
     """Those of each round, and the peaks of memory; a tick that no clock saw is left out."""
     slower, faster = tmp_path / "slower", tmp_path / "faster"
@@ -175,17 +158,6 @@ def test_interrupted_it_leaves_what_was_measured(tmp_path, monkeypatch, capsys):
     both = capsys.readouterr()
     assert "interrupted: 2 of 4 pictures" in both.err and "Interrupted" in both.out
     assert (tmp_path / UNFINISHED / TIMES).is_file() and not (tmp_path / JSON).exists()
-
-
-def test_interrupted_at_once(tmp_path, monkeypatch, capsys):
-    def interrupted(plan, bench, cache):
-        raise KeyboardInterrupt
-        yield 0.0
-
-    monkeypatch.setattr(bench_run, "measure", interrupted)
-    assert main(["bench", "cube", "--out", str(tmp_path)]) == INTERRUPTED
-    assert not any(tmp_path.iterdir())
-    assert "nothing was measured" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("rows", [0, 4])

@@ -49,30 +49,6 @@ def test_the_triangles_are_as_many_as_stated(name):
     assert triangles.min() == 0 and triangles.max() == len(vertices) - 1
 
 
-def test_a_sphere_has_four_times_as_many_at_every_level():
-    for level in range(4):
-        vertices, triangles = meshes.icosphere(level)
-        assert len(triangles) == 20 * 4**level and len(vertices) == 2 + len(triangles) // 2
-        assert np.allclose(np.linalg.norm(vertices, axis=1), 1, atol=1e-6)
-    assert [SUBJECTS[name].triangles for name in scenes.SCALED] == [20 * 4**k for k in (4, 6, 8, 9)]
-
-
-@pytest.mark.parametrize("level", [0, 2])
-def test_spheres_and_cube_are_closed_and_face_outward(level):
-    for vertices, triangles in (meshes.cube(), meshes.icosphere(level)):
-        edges = np.concatenate([triangles[:, k] for k in ([0, 1], [1, 2], [2, 0])])
-        directed = {tuple(e) for e in edges.tolist()}
-        assert len(directed) == len(edges) and all((b, a) in directed for a, b in directed)
-        a, b, c = vertices[triangles].astype(float).transpose(1, 0, 2)
-        assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c) > 0).all()
-
-
-@pytest.mark.parametrize("name", ["soup_10k", "slivers_20k", "heightfield", "inside_soup"])
-def test_scenes_are_the_same_every_time(name):
-    first, second = SUBJECTS[name].mesh(), SUBJECTS[name].mesh()
-    assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
-
-
 @pytest.mark.parametrize("camera", CAMERAS)
 @pytest.mark.parametrize("name", MADE_HERE)
 def test_all_scenes_trace(name, camera):

@@ -7,9 +7,9 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer import images
 from reference_tracer.blender import registration
 from reference_tracer.cli.main import main
+from reference_tracer.files import images
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def test_the_engine_that_a_blend_is_set_to_is_not_the_pictures(engine, scene, dr
     drawn(view_transform="Standard")
     _, found, text = judged("--no-diagnosis")
     assert found["blender"]["renderer"] == "rays"  # whose rounding excuses the least
-    assert f", {found['blender']['renderer_known']} (--renderer)" in text
+    assert f", {found['blender']['renderer_known']} (--excuse renderer)" in text
 
 
 @pytest.mark.parametrize("mode", ["RGB", "RGBA"])

@@ -46,16 +46,6 @@ def test_the_border_is_rounded_as_blender_rounds(width, height, shares, build, w
     np.testing.assert_array_equal(drawn, expected)
 
 
-def test_the_borders_above_tell_float32_from_float64():
-    different = 0
-    for width, height, (x0, x1, y0, y1) in borders(400, seed=12):
-        region = border_region(width, height, x0, x1, y0, y1)
-        stored = [float(np.float32(s)) for s in (x0, x1, y0, y1)]
-        double = [int(s * n) for s, n in zip(stored, (width, width, height, height), strict=True)]
-        different += [region.x0, region.x1, region.y0, region.y1] != double
-    assert different > 10
-
-
 @pytest.mark.parametrize("crop", [True, False])
 def test_the_border_cuts_out_of_the_whole_picture(crop, build, compare):
     scene = build.scene(61, 47)

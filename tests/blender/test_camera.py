@@ -15,7 +15,7 @@ from mathutils import Matrix
 from reference_tracer.blender.drawing.camera_object import add_camera
 from reference_tracer.blender.reading.camera import export_camera, window_of
 from reference_tracer.scene import Camera, ViewWindow
-from reference_tracer.tracer.camera import camera_rays, film_of
+from reference_tracer.tracer.camera import film_of
 
 from ..sampled import sampled
 
@@ -139,27 +139,6 @@ def test_projects_as_blender_does(kind, fit, place, every, settings_matrix):
         tried += 1
     whole = len(SIZES) * 2 * len(SHIFTS) * len(ASPECTS) * len(BORDERS)
     assert tried == len(range(first, whole, every))
-
-
-@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
-def test_rays_go_through_the_points_that_project_there(kind, settings_matrix):
-    rng = np.random.default_rng(3)
-    for _ in settings_matrix(kind, "AUTO", sheared):
-        camera = export_camera(bpy.context.scene)
-        world = points(camera, rng)
-        x, y, depth = film_of(camera, world)
-        rays = camera_rays(camera, x, y)
-        np.testing.assert_allclose(rays.at(depth), world, rtol=0, atol=1e-11)
-
-
-def test_the_view_direction_passes_through_the_middle(build):
-    build.scene(97, 55)
-    build.camera((3, 4, 5), (0.7, 0.2, 1.1))
-    bpy.context.view_layer.update()
-    camera = export_camera(bpy.context.scene)
-    ray = camera_rays(camera, np.array([48.5]), np.array([27.5]))
-    axis = bpy.context.scene.camera.matrix_world.to_3x3() @ Matrix.Identity(3).col[2]
-    np.testing.assert_allclose(ray.directions[:, 0], -np.array(axis), atol=1e-7)
 
 
 @pytest.mark.parametrize(("size", "percent"), [((1920, 1080), 33), ((3, 200), 50), ((7, 9), 99)])

@@ -1,14 +1,14 @@
-"""A .blend's camera in every convention, against Blender's own matrix, and the command around it.
+"""A .blend's camera in every convention: the command around it, and the button.
 
-The judge is `Object.calc_matrix_camera`, float32, read by each convention's published formula as
-`tests/camera_files/formulas.py` has it.
+That each formula has points where the tracer's rays pass is held by
+`tests/camera_files/test_conventions.py`; that these pass where Blender's matrix has them, by
+`test_camera.py` and by the certificate of each file.
 """
 
 from __future__ import annotations
 
 import json
 from dataclasses import replace
-from itertools import islice
 
 import bpy
 import numpy as np
@@ -17,7 +17,7 @@ from reference_tracer.blender.jobs.cameras import cameras
 from reference_tracer.blender.jobs.choice import chosen
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.camera_files.convention import View
-from reference_tracer.camera_files.files import WRITTEN, read, texts
+from reference_tracer.camera_files.files import WRITTEN, read
 from reference_tracer.camera_files.files import chosen as named
 from reference_tracer.comparison.comparing import compared
 from reference_tracer.framing import Choice
@@ -26,54 +26,7 @@ from reference_tracer.scene import Region, SceneError
 from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.progress import result_of
 
-from ..camera_files.formulas import FORMULAS
-from .test_camera import (
-    film_of_blender,
-    mirrored,
-    parented,
-    plain,
-    scaled,
-    settings_matrix,  # noqa: F401  # a fixture
-    sheared,
-)
-
 BLENDERS = 1e-3  # pixels: Blender's matrix is float32
-EVERY = 29  # of the combinations one is tried: no number of settings is a multiple of it
-
-
-@pytest.mark.parametrize("place", [plain, parented, scaled, mirrored, sheared])
-@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
-def test_each_formula_agrees_with_blenders_matrix(kind, place, settings_matrix):  # noqa: F811
-    written = dict.fromkeys(WRITTEN, 0)
-    for fit in ("AUTO", "HORIZONTAL", "VERTICAL"):
-        for obj in islice(settings_matrix(kind, fit, place), 0, None, EVERY):
-            (own,) = cameras()
-            camera, render = own.view.camera, bpy.context.scene.render
-            size = tuple(
-                n * render.resolution_percentage // 100
-                for n in (render.resolution_x, render.resolution_y)
-            )
-            x, y = film_of_blender(obj, *size, own.points)
-            if render.use_border and render.use_crop_to_border:
-                left, low = (
-                    int(np.float32(share) * np.float32(n))
-                    for share, n in zip(
-                        (render.border_min_x, render.border_min_y), size, strict=True
-                    )
-                )
-                high = int(np.float32(render.border_max_y) * np.float32(size[1]))
-                assert camera.height == high - low < size[1]
-                x, y = x - left, y - low
-            expected = np.stack((x, camera.height - y))
-            for name, convention in WRITTEN.items():
-                if convention.lacks(camera):
-                    continue
-                found = FORMULAS[name](texts([own.view], convention), own.points)
-                assert np.abs(found - expected).max() < BLENDERS, name
-                written[name] += 1
-    assert written["opengl"] == 3 * -(-216 // EVERY)
-    lacking = {name for name, count in written.items() if not count}
-    assert ("opencv" in lacking) == (kind == "ORTHO" or place is sheared)
 
 
 @pytest.fixture
@@ -104,7 +57,9 @@ def test_the_file_says_what_it_means_and_is_certified(scene, tmp_path, reftrace)
     assert (file["frame"], file["name"]) == (1, "0001.png")
     done = reftrace("camera", scene, "--check", tmp_path / "new" / "camera.json")
     assert done.returncode == 0 and "agree" in done.stdout
-    done = reftrace("camera", scene, "--frame", "3", "--check", tmp_path / "new" / "camera.json")
+    done = reftrace(
+        "camera", scene, "--set", "frame=3", "--check", tmp_path / "new" / "camera.json"
+    )
     assert "it is the camera of frame 1, and the scene is at 3" in done.stdout
 
 
@@ -137,9 +92,9 @@ def test_frames_are_written_and_checked(name, scene, tmp_path, reftrace):
 def test_one_view_is_checked_at_another_frame(scene, tmp_path, reftrace):
     out = tmp_path / "sparse"
     reftrace("camera", scene, "--out", out, "--convention", "colmap", "--frames", "1-5:2")
-    one = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "3")
+    one = reftrace("camera", scene, "--check", out, "--view", "3", "--set", "frame=3")
     assert one.returncode == 0 and one.stdout.count("agree") == 1
-    other = reftrace("camera", scene, "--check", out, "--view", "3", "--frame", "5")
+    other = reftrace("camera", scene, "--check", out, "--view", "3", "--set", "frame=5")
     assert other.returncode == 2 and "the camera is moved by" in other.stdout
 
 
@@ -179,7 +134,7 @@ def test_what_else_a_file_has_is_told_in_lines(scene, tmp_path, reftrace):
         (["--out", "a.json", "--view", "3"], "--view is for --check"),
         (["--check", "a.json", "--centers", "half"], "--centers is for --out"),
         (["--out", "a.json", "--frames", "5-1"], "ends before it begins"),
-        (["--out", "a.json", "--frames", "1-5", "--frame", "3"], "not for --frames"),
+        (["--out", "a.json", "--frames", "1-5", "--set", "frame=3"], "not for --frames"),
         (["--check", "missing.json"], "missing.json"),
     ],
 )
@@ -234,12 +189,12 @@ def test_a_camera_that_blender_cannot_have_is_refused(scene):
 def test_a_command_takes_the_file(scene, tmp_path, reftrace):
     """A camera is written at one frame, and the file at another is seen through it."""
     path = tmp_path / "there.json"
-    assert reftrace("camera", scene, "--frame", "5", "--out", path).returncode == 0
+    assert reftrace("camera", scene, "--set", "frame=5", "--out", path).returncode == 0
     again = tmp_path / "again.json"
     assert reftrace("camera", scene, "--camera", path, "--out", again).returncode == 0
-    done = reftrace("camera", scene, "--frame", "5", "--check", again)
+    done = reftrace("camera", scene, "--set", "frame=5", "--check", again)
     assert done.returncode == 0, done.stdout
-    assert reftrace("camera", scene, "--frame", "1", "--check", again).returncode == 2
+    assert reftrace("camera", scene, "--set", "frame=1", "--check", again).returncode == 2
 
 
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])

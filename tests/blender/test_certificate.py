@@ -10,31 +10,6 @@ from reference_tracer.blender import evaluating
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.pictures.certificate import CameraMismatchError
 
-from . import test_compare_scenes as settings
-
-SETTINGS = (
-    settings.shifted,
-    settings.portrait,
-    settings.vertical_fit,
-    settings.pixel_aspect,
-    settings.tall_pixels,
-    settings.orthographic,
-    settings.border_with_crop,
-    settings.mirrored,
-    settings.scaled,
-    settings.parented,
-    settings.sheared,
-    settings.percentage,
-)
-
-
-@pytest.mark.parametrize("setting", SETTINGS, ids=lambda s: s.__name__)
-def test_every_camera_has_one(setting, build):
-    build.scene(160, 90)
-    setting(build)
-    found = gather_case(bpy.context).certificate
-    assert found.passed and found.largest < 0.01 and found.points > 1000
-
 
 def test_another_camera_is_refused_before_any_picture(build, monkeypatch):
     build.scene()

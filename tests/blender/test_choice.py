@@ -64,7 +64,7 @@ def test_a_placed_camera_agrees_with_blender(kind, solids):
     """Held to Blender's own projection by the certificate, and to its picture."""
     found = compare(eye=(3, -4, 3), target=(0, 0, -0.2), **kind)
     assert found.verdict == "agree" and found.counts.unexplained == 0
-    assert found.case.certificate.points > 1000 and found.manifest.camera == "--eye"
+    assert found.case.certificate.points > 1000 and found.manifest.camera == "eye"
     camera = found.scene.camera
     assert camera.origin == pytest.approx((3, -4, 3))
     half = kind.get("ortho_scale", 2 * np.tan(np.radians(kind.get("angle", 50) / 2))) / 2
@@ -99,8 +99,8 @@ def two(solids, build):
 
 def test_scene_layer_frame_and_camera_are_those_that_are_named(two, tmp_path, capsys):
     """By the command, in what it writes, and in the picture."""
-    options = ["--scene", "Other", "--view-layer", "Second", "--frame", "6"]
-    options += ["--camera", "Hidden Camera", "--height", "64"]
+    options = ["--set", "scene=Other", "view-layer=Second", "frame=6"]
+    options += ["--camera", "Hidden Camera", "--set", "height=64"]
     out = tmp_path / "out"
     assert in_blender.run(["compare", "--out", str(out), *options]) == 0, capsys.readouterr().err
     found = json.loads((out / "comparison.json").read_text(encoding="utf-8"))
@@ -213,13 +213,13 @@ def test_nothing_to_frame(build):
 def test_without_a_camera_the_command_says_how_to_get_one(solids, tmp_path, capsys):
     out = str(tmp_path / "out")
     compare, explain = ["compare", "--out", out], ["explain", "--pixel", "3", "3"]
-    trade = ["trade", "--out", out, "--width", "8", "--samples", "1"]
+    trade = ["trade", "--out", out, "--set", "width=8", "--samples", "1"]
     for command in (compare, explain, trade):
         assert in_blender.run(command) == 4
         said = capsys.readouterr().err
-        assert all(option in said for option in ("--frame-all", "--eye X Y Z", "--camera NAME"))
+        assert all(option in said for option in ("eye=all", "eye=X,Y,Z", "--camera NAME"))
     for command in (compare, explain):
-        assert in_blender.run([*command, "--frame-all"]) == 0
+        assert in_blender.run([*command, "--set", "eye=all"]) == 0
 
 
 @pytest.mark.parametrize(
@@ -228,7 +228,7 @@ def test_without_a_camera_the_command_says_how_to_get_one(solids, tmp_path, caps
 )
 def test_a_picture_that_blender_cannot_draw(width, height, words, solids, tmp_path, capsys):
     """One line says it; memory is asked for before Blender takes minutes to fail."""
-    size = ["--width", str(width), "--height", str(height), "--frame-all"]
+    size = ["--set", f"width={width}", f"height={height}", "eye=all"]
     assert in_blender.run(["compare", "--out", str(tmp_path / "out"), *size]) == 4
     said = capsys.readouterr().err
     assert words in said.splitlines()[-1] and "Traceback" not in said

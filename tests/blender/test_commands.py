@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.cli import in_blender
-from reference_tracer.cli.main import main
 
 
 @pytest.fixture
@@ -205,13 +204,6 @@ def test_a_folder_beside_the_file(saved, tmp_path):
     assert in_blender.run(["compare", "--out", "//again", *traced]) == 0
 
 
-def test_another_picture_than_blenders(saved, out, capsys):
-    assert in_blender.run(["compare", "--out", str(out)]) == 0
-    picture = ["--against", str(out / "traced.png")]
-    assert in_blender.run(["compare", "--out", str(out / "again"), *picture]) == 0
-    assert "agree with the picture 'traced.png'" in capsys.readouterr().out
-
-
 def test_the_operator_and_the_command_find_the_same(saved, out, tmp_path):
     in_blender.run(["compare", "--out", str(out)])
     bpy.ops.reference_tracer.compare(directory=str(tmp_path / "operator"))
@@ -250,20 +242,3 @@ def test_explain_prints_or_writes(saved, tmp_path, capsys):
 def test_explain_says_what_is_wrong(saved, capsys, options, says):
     assert in_blender.run(["explain", *options]) == 4
     assert says in capsys.readouterr().err
-
-
-def test_trace_and_export_are_of_the_open_file(saved, tmp_path, capsys):
-    """What is exported gives the same picture."""
-    bpy.ops.wm.save_mainfile()
-    assert in_blender.run(["trace", "--out", "//traced.png"]) == 0
-    assert in_blender.run(["export", "--out", "//scene.npz"]) == 0
-    assert "64 x 36 pixels" in capsys.readouterr().out
-    argv = ["trace", str(tmp_path / "scene.npz"), "--out", str(tmp_path / "again.png")]
-    assert main(argv) == 0
-    first, again = (tmp_path / name for name in ("traced.png", "again.png"))
-    assert first.read_bytes() == again.read_bytes()
-
-
-def test_explain_needs_a_file(capsys):
-    assert in_blender.run(["explain", "--pixel", "0", "0"]) == 4
-    assert "no file is open" in capsys.readouterr().err

@@ -8,7 +8,6 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.images import to_display
 
 from .scenes import HALF_FLOAT
 
@@ -27,12 +26,6 @@ WIDTH = 240  # pixels: every scene is made smaller, to keep the tests quick
 # Share of pixels that may differ at all: edges of one or two pixels, by the scenes' own look.
 MAY_DIFFER = 0.01
 NOT_DECIDABLE = {"far_away"}
-
-
-def read_png(path: Path) -> np.ndarray:
-    from PIL import Image
-
-    return np.asarray(Image.open(path))[::-1]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -77,20 +70,6 @@ def test_the_edge_of_a_solid_that_stands_on_another(name, width, opened, compare
     """Within a sample's error of the edge, the solid's underside lies as near as what it is on."""
     opened(name, width)
     assert compare().verdict == "agree"
-
-
-@pytest.mark.parametrize("name", ["exercise_plane", "text_and_curves"])
-def test_files_hold_what_was_compared(name, opened, compare, tmp_path, workbench):
-    opened(name, 96)
-    comparison = compare()
-    assert bpy.ops.reference_tracer.compare(directory=str(tmp_path)) == {"FINISHED"}
-    stored = np.load(tmp_path / "frame.npz")
-    for key, values in comparison.frame.passes().items():
-        np.testing.assert_array_equal(stored[key], values)
-    np.testing.assert_array_equal(stored["blender"], comparison.picture)
-    np.testing.assert_array_equal(stored["cause"], comparison.causes.cause)
-    np.testing.assert_array_equal(read_png(tmp_path / "traced.png"), to_display(stored["color"]))
-    np.testing.assert_array_equal(read_png(tmp_path / "blender.png"), to_display(stored["blender"]))
 
 
 def test_blenders_picture_is_its_own(opened, compare, workbench):

@@ -1,8 +1,6 @@
-"""Cycles as a second judge: its depth, normals and object indices, and its picture.
+"""Cycles as a second judge: its picture agrees, and what it cannot draw is known.
 
-Cycles samples each pixel within 0.005 px of its centre (the least filter width) and traces in
-float32. Pixels are compared where the 3 x 3 pixels around show one and the same triangle: there its
-sample cannot have met another.
+Its passes are compared by test_data_blend.py.
 """
 
 from __future__ import annotations
@@ -20,118 +18,12 @@ from reference_tracer.blender.temporary import leave_out
 from reference_tracer.causes.cause import NOT_DECIDABLE
 from reference_tracer.causes.embree import LARGEST
 from reference_tracer.comparison.comparing import trace_and_compare
-from reference_tracer.rendering import render
-from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.progress import result_of
 
 from ..sampled import daily
 
 RADIUS = JUDGES["cycles"].sample_radius
-SCENES = (
-    "exercise_perspective",
-    "exercise_orthographic",
-    "exercise_triangle",
-    "suzanne",
-    "shifted_room",
-)
 WIDTH = 128
-# Depth: where on the pixel the sample lies, half a filter's width across and up, times how fast
-# the depth changes there; besides float32's own error of a ray and a triangle, a few times 2^-24
-# of the farthest coordinate.
-ROUNDING = 32 * 2.0**-24
-# Normals: Cycles keeps them as float32, from float32 edges.
-NORMAL = 1e-4
-
-
-def cycles_passes(rendered) -> dict[str, np.ndarray]:
-    scene = bpy.context.scene
-    layer = bpy.context.view_layer
-    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_object_index = True
-    scene.cycles.samples, scene.cycles.pixel_filter_type = 1, "BLACKMAN_HARRIS"
-    scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 2 * RADIUS
-    scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
-    return rendered("CYCLES")[layer.name]
-
-
-def interior(frame) -> np.ndarray:
-    """Return which pixels show, with the eight around them, one triangle of one instance."""
-    inside = frame.instance_index >= 0
-    for array in (frame.instance_index, frame.triangle_index):
-        padded = np.pad(array, 1, constant_values=-2)
-        height, width = array.shape
-        for y in range(3):
-            for x in range(3):
-                inside = inside & (padded[y : y + height, x : x + width] == array)
-    return inside
-
-
-def depth_slope(scene, frame) -> np.ndarray:
-    """Return how much the depth of each pixel's surface changes a pixel across and up, metres."""
-    camera = scene.camera
-    dx, dy = pixel_size(camera)
-    towards = frame.normal @ camera.forward
-    scale = 1.0 if camera.projection.shares_direction else frame.t
-    with np.errstate(divide="ignore", invalid="ignore"):
-        if camera.projection.shares_direction:
-            return np.abs(frame.normal @ camera.right * dx) / np.abs(towards) + np.abs(
-                frame.normal @ camera.up * dy
-            ) / np.abs(towards)
-        rays = frame.position - camera.origin
-        along = np.abs((frame.normal * rays).sum(axis=-1)) / frame.t
-        return (
-            scale
-            * (np.abs(frame.normal @ camera.right) * dx + np.abs(frame.normal @ camera.up) * dy)
-            / along
-        )
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_depth_normal_and_object_index(name, opened, rendered, export):
-    opened(name, WIDTH)
-    scene = export.render()[0]
-    frame = render(scene)
-    for number, obj in enumerate(scene.objects):
-        bpy.data.objects[obj].pass_index = number + 1
-    passes = cycles_passes(rendered)
-    inside = interior(frame)
-    assert inside.sum() > 500
-    index = passes["Object Index" if "Object Index" in passes else "IndexOB"]
-    np.testing.assert_array_equal(index[inside][:, 0], frame.object_index[inside] + 1)
-
-    depth = passes["Depth"][inside][:, 0].astype(float)
-    farthest = np.abs(frame.position[inside]).max() + np.abs(scene.camera.origin).max()
-    allowed = RADIUS * depth_slope(scene, frame)[inside] + ROUNDING * farthest
-    assert (np.abs(depth - frame.t[inside]) <= allowed).all()
-    assert np.median(allowed / frame.t[inside]) < 1e-4  # or it would hold nothing
-
-    # Cycles turns the normal to the viewer, and interpolates it on smooth faces.
-    flat = inside & flat_faces(scene, frame)
-    assert flat.sum() > 300
-    normal, ours = passes["Normal"][flat].astype(float), frame.normal[flat]
-    viewer = (
-        -scene.camera.forward
-        if scene.camera.projection.shares_direction
-        else scene.camera.origin - frame.position[flat]
-    )
-    ours = ours * np.sign((ours * viewer).sum(axis=-1))[:, None]
-    np.testing.assert_allclose(normal, ours, rtol=0, atol=NORMAL)
-
-    differing = (index[..., 0] != frame.object_index + 1) & ~inside
-    assert differing.mean() < 0.005  # at edges only
-
-
-def flat_faces(scene, frame) -> np.ndarray:
-    """Return which pixels show a face that is shaded flat."""
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    flat = np.zeros(len(scene.objects), bool)
-    for item in depsgraph.object_instances:
-        name = item.object.original.name
-        if name in scene.objects and item.object.type == "MESH":
-            polygons = item.object.data.polygons
-            smooth = np.zeros(len(polygons), bool)
-            polygons.foreach_get("use_smooth", smooth)
-            flat[scene.objects.index(name)] = not smooth.any()
-    return np.append(flat, False)[frame.object_index]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""`reftrace compare scene.blend --depth` and so on: the passes of Cycles are right."""
+"""`--against FILE --holds depth` and so on for a .blend: the passes of Cycles are right."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer import exr
 from reference_tracer.blender import registration
 from reference_tracer.cli.main import main
+from reference_tracer.files import exr
 
 
 @pytest.fixture
@@ -48,7 +48,21 @@ def test_the_passes_of_cycles_agree(passes, addon, capsys):
         assert main(["trace", paths[0], "--out", str(passes / "traced.exr")]) == 0
         _same_cryptomatte(passes / "passes.exr", passes / "traced.exr")
         paths[2] = str(passes / "distance")
-        assert main(["compare", paths[0], "--distance", paths[1], "--out", paths[2]]) == 2
+        assert (
+            main(
+                [
+                    "compare",
+                    paths[0],
+                    "--against",
+                    paths[1],
+                    "--holds",
+                    "distance",
+                    "--out",
+                    paths[2],
+                ]
+            )
+            == 2
+        )
         assert "not distances along the ray" in capsys.readouterr().out
     finally:
         registration.register()

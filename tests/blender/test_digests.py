@@ -21,10 +21,10 @@ import pytest
 from check_rounding import check_rounding
 from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.certainty import Certainty
-from reference_tracer.certificate_file import save_certificate
+from reference_tracer.files.certificates import save_certificate
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
 from reference_tracer.scene import Scene
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_verify.verify import verified
 

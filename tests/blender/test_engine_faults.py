@@ -9,7 +9,6 @@ import bpy
 import pytest
 from reference_tracer import rendering
 from reference_tracer.blender import engine
-from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.scene import SceneError
 
 
@@ -77,14 +76,6 @@ def scene(build, tmp_path):
 def no_file(tmp_path):
     yield
     assert list((tmp_path / "out").glob("*")) == []
-
-
-@WITH_NAME
-def test_a_scene_that_cannot_be_traced_is_refused_by_name(fault, scene):
-    fault(scene)
-    bpy.context.view_layer.update()
-    with pytest.raises(SceneError, match=REFUSED[fault]):
-        export_camera(scene)
 
 
 @WITH_NAME

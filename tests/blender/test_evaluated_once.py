@@ -8,10 +8,15 @@ import sys
 import time
 
 import bpy
+import numpy as np
 import pytest
 from reference_tracer.blender import slowest
+from reference_tracer.blender.jobs.animation import compare_frames
+from reference_tracer.blender.jobs.variants import variants
+from reference_tracer.blender.reading import opened
 from reference_tracer.pictures.palette import By
 from reference_tracer.scene import SceneError
+from reference_tracer.tracer.progress import doing
 
 from ..evaluations import DONE, counted
 
@@ -37,10 +42,53 @@ def test_all_pictures_come_of_one_evaluation(colors, heavy, compare):
     assert found == [1]
 
 
-def test_each_picture_of_a_ray_tracer_is_one_evaluation(heavy, compare):
+def test_a_ray_tracer_draws_all_pictures_of_one_evaluation(heavy, compare):
     with counted() as found:
-        assert compare(judge="CYCLES").verdict == "agree"
-    assert found == [2]
+        comparison = compare(judge="CYCLES")
+    assert comparison.verdict == "agree"
+    assert comparison.identity.shows().not_known == 0
+    assert found == [1]
+
+
+def test_a_file_is_not_evaluated_as_it_is_opened(heavy, compare, tmp_path):
+    """Not in another scene, in which Blender would not leave objects in Edit Mode."""
+    path = tmp_path / "heavy.blend"
+    other = heavy.view_layers.new("Other").name
+    bpy.context.window.view_layer = heavy.view_layers[other]
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    with counted() as found:
+        opened.open_file(path)
+        assert bpy.context.view_layer.name == other
+        assert list(bpy.data.scenes) == [bpy.context.scene]
+        compare(judge="WORKBENCH")
+    assert found == [1]
+    bpy.context.view_layer.objects.active = bpy.data.objects["Heavy"]
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    opened.open_file(path)
+    assert bpy.data.objects["Heavy"].mode == "EDIT"
+
+
+def test_a_diagnosis_is_the_same_of_a_file_that_is_not_evaluated(heavy, tmp_path):
+    above = bpy.data.objects.new("Above", None)
+    bpy.context.collection.objects.link(above)
+    above.location = 0.3, 0.2, 0.1
+    above.scale = 1.0, 1.5, 2.0
+    bpy.data.objects["Light"].parent = above
+    heavy.camera.parent = above
+    path = tmp_path / "heavy.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+
+    def matrices():
+        made = variants(bpy.context.scene.name_full, bpy.context.view_layer.name, None)
+        assert len({v.fault for v in made}) > 5
+        placed = [[i.world_from_object for i in v.scene.instances] for v in made]
+        return [[v.scene.camera.world_from_camera, *m] for v, m in zip(made, placed, strict=True)]
+
+    opened.open_file(path)
+    unevaluated = matrices()
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    np.testing.assert_equal(unevaluated, matrices())
 
 
 def test_what_takes_long_is_known_before(heavy, monkeypatch):
@@ -61,34 +109,51 @@ def test_what_takes_long_is_known_before(heavy, monkeypatch):
     assert slowest.slowest(layer) == ""  # none of the three is the one
 
 
+def test_what_takes_long_is_said_before_each_frame(heavy, monkeypatch, tmp_path):
+    """By its name from when Blender has evaluated it once on."""
+    heavy.frame_end = 2
+    wave = bpy.data.objects["Heavy"].modifiers["Subdivision"]
+    wave.levels = 5
+    wave.keyframe_insert("show_on_cage", frame=1)  # so that each frame evaluates it anew
+    monkeypatch.setattr(slowest, "LONG", 0.01)
+    told = [doing(share) for share in compare_frames(str(tmp_path), range(1, 3), lambda rows: None)]
+    said = [words for words in told if "Blender" in words]
+    assert said[1:] == [
+        "frame 1: Blender evaluates 'Heavy'",
+        *2 * ["frame 2: Blender evaluates 'Heavy'"],
+    ]
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_a_signal_is_heard_once_blender_lets_go(number, heavy, tmp_path):
     """It is sent while the first of two pictures is evaluated: nothing is evaluated any more."""
     subdivision = bpy.data.objects["Heavy"].modifiers["Subdivision"]
-    subdivision.levels = 5
     subdivision.render_levels = 7
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "heavy.blend"))
     code = (
         "import bpy, sys\n"
-        "from reference_tracer.blender import slowest\n"
         "from reference_tracer.cli.main import main\n"
-        "slowest.LONG = 0.01\n"
+        "@bpy.app.handlers.persistent\n"
+        "def begins(scene, *_):\n"
+        "    if scene.objects:\n"
+        "        print('evaluating', file=sys.stderr)\n"
+        "bpy.app.handlers.frame_change_pre.append(begins)\n"
         "bpy.app.debug_depsgraph_eval = True\n"
         "sys.exit(main())\n"
     )
     out = tmp_path / "new" / "out"
-    argv = ["compare", tmp_path / "heavy.blend", "--judge", "cycles", "--out", out]
+    argv = ["compare", tmp_path / "heavy.blend", "--self-check", "--out", out]
     command = [sys.executable, "-c", code, *argv]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     lines = []
     for line in process.stderr:
         lines.append(line)
-        if "having Blender evaluate 'Heavy'" in line:
+        if line.startswith("evaluating"):
             time.sleep(0.3)
             process.send_signal(number)
     assert process.wait() == 128 + number
     said = "".join(lines)
-    assert said.count(DONE) <= 2, said  # as it is opened, and once more; not interrupted: 3
+    assert said.count(DONE) <= 1, said  # not interrupted: 2
     assert "Traceback" not in said and "KeyboardInterrupt" not in said, said
     assert not (tmp_path / "new").exists()
 

@@ -7,7 +7,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.mesh_diagnosis import diagnosed
+from reference_tracer.comparison.mesh_diagnosis import diagnosed
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import transform_points
 

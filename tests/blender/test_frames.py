@@ -372,7 +372,7 @@ def test_frames_are_seen_by_their_own_cameras(moving, tmp_path, seen_by):
     ("options", "said"),
     [
         (("--out", "picture.png"), "needs a number, as in ####.png"),
-        (("--out", "####.png", "--frame", "2"), "--frame is for one frame"),
+        (("--out", "####.png", "--set", "frame=2"), "--set frame is for one frame"),
         (("--out", "####.png", "--frames", "4-1"), "ends before it begins"),
     ],
 )

@@ -149,11 +149,11 @@ def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
     toy.is_opaque = True
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     compare = "compare", "--out", str(tmp_path / "out"), "--judge"
-    code = in_blender.run([*compare, "Toy_Tracer", "--renderer", "raster"])
+    code = in_blender.run([*compare, "Toy_Tracer", "--excuse", "renderer=raster"])
     said = capsys.readouterr().out
     assert code == 1 and "Toy Tracer's render" in said
     assert "the picture's background is" in said and "as was asked for" in said
-    assert in_blender.run([*compare, "cycles", "--filter", "1"]) == 4
+    assert in_blender.run([*compare, "cycles", "--excuse", "filter=1"]) == 4
     assert in_blender.run([*compare, "storm"]) == 4
 
 
@@ -161,8 +161,12 @@ def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
     ("stored", "options", "said"),
     [
         ("ENGINE", [], ""),
-        ("AUTO", ["--judge", "Toy_tracer", "--filter", "1.5"], ""),
-        ("ENGINE", ["--judge", "Cycles", "--renderer", "raster"], "--renderer is for a picture of"),
+        ("AUTO", ["--judge", "Toy_tracer", "--excuse", "filter=1.5"], ""),
+        (
+            "ENGINE",
+            ["--judge", "Cycles", "--excuse", "renderer=raster"],
+            "--excuse renderer is for a picture of",
+        ),
         ("AUTO", ["--judge", "image"], "--judge image names no engine"),
         ("AUTO", ["--judge", "Render_Result"], "--judge Render_Result names no engine"),
         ("AUTO", ["--judge", "engine"], "--judge engine names no engine"),

@@ -301,13 +301,6 @@ def test_a_file_saved_in_edit_mode(make, judge, build, compare, tmp_path):
     assert found.verdict == AGREE
 
 
-@pytest.mark.parametrize("make", hard.SWITCHED_OFF, ids=name_of)
-def test_what_is_switched_off_is_named(make, build, export):
-    make(build)
-    _, manifest = export.render()
-    assert make.__name__.replace("_", " ") in " ".join(u.feature for u in manifest.unmodelled)
-
-
 def mirrored(case):
     """The picture from right to left."""
     shown = case.picture

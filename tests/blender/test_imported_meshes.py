@@ -16,7 +16,7 @@ import trimesh
 from reference_tracer import load_scene
 from reference_tracer.blender.importing import bundled
 from reference_tracer.cli.opening import SOURCES
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer_meshes import FORMATS, by_blender
@@ -182,6 +182,16 @@ def test_a_usd_file_that_refers_to_others_is_refused(tmp_path):
     made.Save()
     with pytest.raises(SceneError, match=r"refers to other files, such as '\./other\.usda'"):
         load_meshes(tmp_path / "a.usda")
+
+
+def test_a_package_of_several_layers_is_refused_as_one(tmp_path):
+    stage(tmp_path / "other.usda").Save()
+    made = stage(tmp_path / "in.usda")
+    made.OverridePrim("/More").GetReferences().AddReference("./other.usda")
+    made.Save()
+    UsdUtils.CreateNewUsdzPackage(str(tmp_path / "in.usda"), str(tmp_path / "a.usdz"))
+    with pytest.raises(SceneError, match=r"package of several USD files, such as '.*other\.usda'"):
+        load_meshes(tmp_path / "a.usdz")
 
 
 @pytest.mark.parametrize("content", [b"#usda 1.0\nover", b"PXR-USDC" + bytes(99), b"x" * 99])

@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 import pytest
 from PIL import ImageFont
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.opened import open_scene
-from reference_tracer.scene_files import save_scene
 
 from .missing import found
 

@@ -8,7 +8,6 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.jobs.compare import gather_case
-from reference_tracer.blender.reading.camera import window_of
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.tracer.progress import result_of
@@ -187,14 +186,3 @@ def test_every_fault_is_found_and_only_a_fault(name, opened):
             found[mutate.__name__] = original.compared(*mutated).verdict
     assert found == dict.fromkeys(found, "differences")
     assert len(found) >= len(MUTATIONS) - 1
-
-
-def test_the_sensor_fit_swaps_as_blender_would(opened):
-    """The mutation above is what `window_of` gives for the other fit."""
-    opened("suzanne", 120)
-    original = Original(bpy.context)
-    data = bpy.context.scene.camera.data
-    data.sensor_fit, data.sensor_height = "VERTICAL", data.sensor_width
-    other = window_of(bpy.context.scene)
-    swapped = swapped_sensor_fit(original)[0].camera.window
-    assert vars(swapped) == pytest.approx(vars(other))

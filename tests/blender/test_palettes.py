@@ -7,12 +7,12 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer import images
 from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.jobs.against import gather_against
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.cli import in_blender
 from reference_tracer.comparison.comparing import compared
+from reference_tracer.files import images
 from reference_tracer.pictures import colors_file
 from reference_tracer.pictures.palette import By
 from reference_tracer.pictures.picture import Picture

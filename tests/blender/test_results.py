@@ -132,6 +132,18 @@ def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, co
     assert results.latest(Kind.COMPARISON, bpy.context.scene) is None
 
 
+def test_the_result_follows_its_scene_and_not_a_name(build, compare):
+    scene = build.scene()
+    build.solids()
+    build.corner_camera()
+    name = scene.name
+    result_of(results.keep_comparison(compare()))
+    scene.name = "Renamed"
+    other = bpy.data.scenes.new(name)
+    assert results.latest(Kind.COMPARISON, scene)
+    assert results.latest(Kind.COMPARISON, other) is None
+
+
 def test_a_file_that_is_saved_has_none_of_it(tmp_path):
     """Nor grows, whatever uses them; a picture that an older add-on's user packed stays his."""
     path = tmp_path / "saved.blend"

@@ -185,51 +185,6 @@ def test_it_opens_where_the_button_is_and_looks_through_its_camera(name):
     assert spaces["VIEW_3D"].region_3d.view_perspective == "CAMERA"
 
 
-def test_forest_has_ten_thousand_instances():
-    opened("forest")
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    kinds = [
-        instance.object.name for instance in depsgraph.object_instances if instance.is_instance
-    ]
-    assert len(kinds) >= 10_000
-    assert len(set(kinds)) == 3
-
-
-def test_the_plane_keeps_its_mark():
-    scene = opened("exercise_plane")
-    assert [obj.name for obj in scene.objects if obj.reference_tracer.infinite_plane] == [
-        "Infinite Plane"
-    ]
-
-
-def test_orthographic_and_perspective_show_the_same_objects():
-    first, second = (shape(opened(f"exercise_{kind}")) for kind in ("orthographic", "perspective"))
-    assert [kind["settings"][2] for kind in (first, second)] == ["ORTHO", "PERSP"]
-    assert first["objects"] == second["objects"]
-    assert np.array_equal(first["places"], second["places"])  # the camera's too
-    for obj, triangles in first["triangles"].items():
-        assert np.array_equal(triangles, second["triangles"][obj])
-
-
-def test_the_scenes_use_every_colour_type():
-    used = {opened(name).display.shading.color_type for name in NAMES}
-    assert used == {"MATERIAL", "OBJECT", "SINGLE", "VERTEX", "RANDOM"}
-
-
-def test_technical_view_lies_on_pixel_boundaries_and_centres():
-    scene = opened("technical_view")
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    pixel = scene.camera.data.ortho_scale / scene.render.resolution_x
-    odd = {}
-    for name in ("Sheet", "Front: Fins", "Side: Fins"):
-        obj = scene.objects[name].evaluated_get(depsgraph)
-        corners = [tuple(obj.matrix_world @ vertex.co)[:2] for vertex in obj.data.vertices]
-        halves = np.array(corners) / pixel * 2
-        assert np.array_equal(halves, np.round(halves)), name
-        odd[name] = set((halves % 2).ravel())
-    assert odd == {"Sheet": {0.0, 1.0}, "Front: Fins": {0.0, 1.0}, "Side: Fins": {1.0}}
-
-
 def test_an_unknown_scene_is_refused(capsys):
     with pytest.raises(SystemExit):
         make_scenes.main(["no_such_scene"])

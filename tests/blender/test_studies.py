@@ -106,7 +106,7 @@ def test_results_go_with_their_file(solids):
 
 def test_the_commands(solids, tmp_path, capsys):
     out = tmp_path / "out"
-    trade = ["trade", "--out", str(out), "--width", "16", "--samples", "1"]
+    trade = ["trade", "--out", str(out), "--set", "width=16", "--samples", "1"]
     assert in_blender.run(trade) == 0
     assert {p.name for p in out.iterdir()} == TRADE_FILES
     assert "float32" in capsys.readouterr().out
@@ -117,12 +117,6 @@ def test_the_commands(solids, tmp_path, capsys):
     solids.camera = None
     assert in_blender.run(trade) == 4
     assert "has no camera" in capsys.readouterr().err
-
-
-def test_the_command_for_the_trade_needs_a_file(build, tmp_path, capsys):
-    build.camera()
-    assert in_blender.run(["trade", "--out", str(tmp_path / "out")]) == 4
-    assert "no file is open" in capsys.readouterr().err
 
 
 def test_the_command_for_the_extremes_runs_all(tmp_path, monkeypatch, capsys):

@@ -83,8 +83,6 @@ OF_OBJECTS = {
     point_cloud: "point cloud",
     volume: "volume",
 }
-# Those that change Workbench's picture of these scenes.
-DRAWN = (transparent_material, transparent_object, in_front, hair, grease_pencil)
 
 
 @pytest.mark.parametrize("make", OF_OBJECTS, ids=lambda make: make.__name__)
@@ -107,20 +105,6 @@ def test_is_named_with_object_and_bounds(mode, make, build, export):
     )
     entry = manifest.to_dict()["unmodelled"]
     assert any(u["object"] == "Thing" and len(u["bounds"]) == 2 for u in entry)
-
-
-@pytest.mark.parametrize("make", DRAWN, ids=lambda make: make.__name__)
-def test_explains_the_pixels_that_it_changes(make, build, compare):
-    build.scene()
-    build.square("Floor", 20, location=(0, 0, -3), material=build.material("Grey", 0.3, 0.3, 0.3))
-    build.camera((0, 0, 9))
-    make(build)
-    comparison = compare()
-    pixels = comparison.counts
-    assert pixels.unexplained == 0
-    assert pixels.by_cause["not_modelled"] > 5
-    assert comparison.verdict == "warnings"
-    assert any(OF_OBJECTS[make] in line for line in comparison.manifest.lines())
 
 
 def test_explains_nothing_elsewhere(build, compare, shown_otherwise):

@@ -153,7 +153,7 @@ def parallel(scene):
         ("other_camera", "Side", None, through_the_side),
         ("sensor_width_for_height", "", None, sides_swapped),
         ("sensor_fit_setting", "vertical", None, fitted_vertically),
-        ("orthographic_for_perspective", "", None, parallel),
+        ("camera_type", "orthographic", None, parallel),
     ],
 )
 def test_a_variant_is_what_blender_exports_after_the_change(
@@ -213,6 +213,15 @@ def test_the_users_scene_is_as_it_was(rich):
         )
 
     before = state()
-    found = variants(rich.name_full, rich.view_layers[0].name, ())
-    assert {WHOLE, "other_frame", "subdivision", "other_layer"} <= {v.fault for v in found}
+    making = variants(rich.name_full, rich.view_layers[0].name, ())
+    found = []
+    for variant in making:  # between two the user's own objects are as they were
+        found.append(variant.fault)
+        assert state()[:3] == before[:3]
+    assert {WHOLE, "other_frame", "subdivision", "other_layer"} <= {*found}
+    assert state() == before
+    making = variants(rich.name_full, rich.view_layers[0].name, ())
+    next(making)
+    assert state() != before
+    making.close()  # as at Esc
     assert state() == before

@@ -128,13 +128,6 @@ def test_no_setting_of_the_scene_changes_the_picture(setting, scene):
     np.testing.assert_array_equal(pictured(scene), before)
 
 
-@pytest.mark.parametrize("extra", ["compositor", "sequencer"])
-def test_compositor_and_sequencer_are_not_in_the_picture(extra, scene, build):
-    before = pictured(scene)
-    getattr(build, extra)()
-    np.testing.assert_array_equal(pictured(scene), before)
-
-
 def test_a_picture_of_another_size_is_an_error(scene):
     camera = export_camera(scene)
     with temporary_scene(scene) as copy:

@@ -150,17 +150,3 @@ def test_a_hidden_collection_is_still_seen_through_its_instances(mode, build, ex
     scene, _ = export.modes[mode]()
     assert scene.objects == ("Cube",)
     assert len(scene.instances) == 1
-
-
-@pytest.mark.parametrize("extra", ["compositor", "sequencer"])
-def test_what_else_the_scene_does_at_a_render_is_not_in_the_way(extra, build, export):
-    """A compositor that shows the user's scene, a sequencer that shows a colour."""
-    build.scene()
-    build.camera()
-    build.cube()
-    getattr(build, extra)()
-    traced, manifest = export.render()
-    assert traced.triangle_count == 12
-    assert manifest.evaluation == "RENDER"
-    assert [u.feature for u in manifest.unmodelled] == [extra]
-    assert manifest.lines()[-1].startswith("  not modelled: scene '")

@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.camera_files import frame
 from reference_tracer.camera_files.convention import View
 from reference_tracer.camera_files.files import chosen, read
 from reference_tracer.projections import ORTHOGRAPHIC
@@ -91,24 +90,6 @@ def test_mitsubas_focal_length_is_of_a_film_of_36_by_24(tmp_path):
         assert np.hypot(camera.window.right, camera.window.top) == pytest.approx(diagonal / length)
 
 
-def test_mitsubas_crop_and_offset(tmp_path):
-    values = '<float name="fov" value="90"/><float name="principal_point_offset_x" value="0.25"/>'
-    film = "".join(
-        f'<integer name="{name}" value="{value}"/>'
-        for name, value in (
-            ("crop_offset_x", 64),
-            ("crop_offset_y", 48),
-            ("crop_width", 320),
-            ("crop_height", 100),
-        )
-    )
-    camera = mitsuba(tmp_path, values, film=film)
-    assert (camera.width, camera.height) == (320, 100)
-    # The whole film is from -1 to 1, moved by a quarter of its width; a pixel is 2 / 640.
-    assert camera.window.left == pytest.approx(-1 + 0.5 + 64 / 320)
-    assert camera.window.top == pytest.approx(0.75 - 48 / 320)
-
-
 def test_mitsubas_orthographic_film_is_scaled(tmp_path):
     camera = mitsuba(tmp_path, places='<scale x="10" y="10"/>', kind="orthographic")
     assert camera.projection is ORTHOGRAPHIC
@@ -154,26 +135,6 @@ def test_pytorch3ds_ndc_is_in_halves_of_the_shorter_side(tmp_path):
     path.write_text(json.dumps({"class": "PerspectiveCameras", "arguments": arguments}))
     with pytest.raises(SceneError, match=r"arguments\.K is not read"):
         read(path)
-
-
-def test_open3ds_file_is_by_columns(tmp_path):
-    content = {
-        "class_name": "PinholeCameraParameters",
-        "extrinsic": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1],
-        "intrinsic": {
-            "height": 480,
-            "width": 640,
-            "intrinsic_matrix": [500, 0, 0, 0, 400, 0, 320, 250, 1],
-        },
-        "version_major": 1,
-        "version_minor": 0,
-    }
-    path = tmp_path / "camera.json"
-    path.write_text(json.dumps(content))
-    camera = read(path)[0].camera
-    assert np.allclose(camera.origin, (-5, -6, -7)) and np.allclose(camera.forward, (0, 0, 1))
-    assert camera.window.left == pytest.approx(-320 / 500)
-    assert camera.window.top == pytest.approx(250 / 400)
 
 
 def test_bops_size_is_in_a_folder_above_and_its_unit_millimetres(tmp_path):
@@ -275,26 +236,6 @@ def test_kubrics_k_is_of_a_camera_that_looks_along_minus_z(in_pixels, tmp_path):
     assert [view.name for view in found] == ["rgba_00000.png", "rgba_00001.png"]
     for view, own in zip(found, views, strict=True):
         assert same(view.camera, own.camera)
-
-
-@pytest.mark.parametrize("factor", [1.0, 2.5, -1.0, -3.0])
-def test_k_is_of_any_scale_and_negative_where_depths_are(factor, tmp_path):
-    """x = K (R X + t) is homogeneous: with -1 in K, R has its rows y and z turned."""
-    own = any_camera(np.random.default_rng(9), shift=(0.1, 0.2))
-    flip = np.diag((1.0, -1, -1)) if factor < 0 else np.eye(3)
-    pose = frame.camera_from_world(own)
-    k = abs(factor) * frame.k_of(own) @ flip
-    content = {
-        "width": own.width,
-        "height": own.height,
-        "K": k.tolist(),
-        "R": (flip @ pose[:3, :3]).tolist(),
-        "t": (flip @ pose[:3, 3]).tolist(),
-    }
-    path = tmp_path / "camera.json"
-    path.write_text(json.dumps(content), encoding="utf-8")
-    (view,) = read(path)
-    assert same(own, view.camera) and np.allclose(view.camera.forward, own.forward)
 
 
 @pytest.mark.parametrize("key", ["camera_angle_x", "camera_angle_y"])

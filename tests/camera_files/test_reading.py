@@ -7,9 +7,8 @@ import json
 import numpy as np
 import pytest
 from reference_tracer.camera_files.convention import View
-from reference_tracer.camera_files.files import CONVENTIONS, chosen, number_of, read, texts
+from reference_tracer.camera_files.files import CONVENTIONS, chosen, read, texts
 from reference_tracer.scene import SceneError
-from reference_tracer.tracer.camera import film_of
 
 from .cameras import camera
 
@@ -24,52 +23,6 @@ def changed(tmp_path, name, change):
     return view.camera, path
 
 
-def moved(first, second):
-    """How far apart two cameras see points at unlike depths, (2, n) pixels, rows upwards."""
-    rng = np.random.default_rng(9)
-    w = first.window
-    x, y = rng.uniform(w.left, w.right, 50), rng.uniform(w.bottom, w.top, 50)
-    depth = rng.uniform(1, 9, 50)
-    axes = (first.right, first.up, first.forward)
-    points = first.origin[:, None] + depth * sum(
-        v * axis[:, None] for v, axis in zip((x, y, 1 + 0 * x), axes, strict=True)
-    )
-    return np.array(film_of(second, points)[:2]) - np.array(film_of(first, points)[:2])
-
-
-def test_a_skew_is_applied(tmp_path):
-    """x' = fx x / z + s y / z + cx: what is lower, which has a larger y, moves to the right."""
-    own, path = changed(tmp_path, "opencv", lambda c: c["K"][0].__setitem__(1, 30.0))
-    (view,) = read(path)
-    off = moved(own, view.camera)
-    assert np.abs(off[1]).max() < 1e-9
-    rows = np.array(film_of(own, own.origin[:, None] + own.forward[:, None])[1])
-    assert rows.shape == (1,)
-    assert off[0].min() < -1 and off[0].max() > 1
-
-
-def test_a_k_of_any_scale_is_the_same_with_either_center(tmp_path):
-    """The principal point is moved by half a pixel, not by half of K's last number."""
-
-    def scaled(content):
-        content |= {"pixel_centers": "integer", "K": (3 * np.array(content["K"])).tolist()}
-
-    own, path = changed(tmp_path, "opencv", scaled)
-    (view,) = read(path)
-    assert np.allclose(moved(own, view.camera), [[0.5], [-0.5]], atol=1e-9)
-
-
-def test_a_matrix_with_a_scale_sees_the_same(tmp_path):
-    def scaled(content):
-        rows = content["frames"][0]["transform_matrix"]
-        for row in rows[:3]:
-            row[:3] = [3 * v for v in row[:3]]
-
-    own, path = changed(tmp_path, "nerf", scaled)
-    (view,) = read(path)
-    assert np.abs(moved(own, view.camera)).max() < 1e-9
-
-
 def test_nerf_of_blenders_first_exporter_has_an_angle_alone(tmp_path):
     """`transforms_train.json` of the NeRF paper: camera_angle_x, and no size."""
     matrix = np.eye(4)
@@ -82,30 +35,12 @@ def test_nerf_of_blenders_first_exporter_has_an_angle_alone(tmp_path):
     }
     path = tmp_path / "transforms_train.json"
     path.write_text(json.dumps(content), encoding="utf-8")
-    with pytest.raises(SceneError, match="no size of the picture: add --width and --height"):
+    with pytest.raises(SceneError, match="no size of the picture: add --set width="):
         read(path)
     view = chosen(read(path, size=(800, 800)), "r_1")
     assert view.camera.window.right == pytest.approx(np.tan(0.6911112070083618 / 2))
     assert view.camera.window.top == pytest.approx(view.camera.window.right)
     assert not view.is_clipped
-
-
-@pytest.mark.parametrize("key", ["k1", "p2"])
-def test_nerfs_distortion_is_refused_by_name(key, tmp_path):
-    _, path = changed(tmp_path, "nerf", lambda c: c.__setitem__(key, 0.01))
-    with pytest.raises(
-        SceneError,
-        match=rf"camera: (frames\[0\] |it )?has lens distortion .*{key} = 0.01.*undistort",
-    ):
-        read(path)
-    _, path = changed(tmp_path, "nerf", lambda c: c.__setitem__(key, 0.0))
-    assert len(read(path)) == 1
-
-
-def test_nerfs_other_projection_is_refused_by_name(tmp_path):
-    _, path = changed(tmp_path, "nerf", lambda c: c.__setitem__("camera_model", "EQUIRECTANGULAR"))
-    with pytest.raises(SceneError, match="camera_model = 'EQUIRECTANGULAR'"):
-        read(path)
 
 
 def test_what_is_not_undone_is_said(tmp_path):
@@ -219,20 +154,3 @@ def test_colmaps_images_without_their_lines_of_points_are_refused(tmp_path):
         read(tmp_path)
     path.write_text("# images\n\n" + "\n\n".join(images), encoding="utf-8")
     assert [view.name for view in read(tmp_path)] == ["1.png", "2.png", "3.png"]
-
-
-@pytest.mark.parametrize("which", ["--5", "²", "9" * 5000])
-def test_what_is_no_number_is_a_name(which):
-    own = camera(np.random.default_rng(8))
-    views = [View(own, name) for name in ("a.png", "b.png", "9" * 5000)]
-    if which == views[-1].name:
-        assert chosen(views, which) is views[-1] and number_of(views[-1]) is None
-        return
-    with pytest.raises(SceneError, match="no camera"):
-        chosen(views, which)
-
-
-def test_a_frame_before_0_keeps_its_sign():
-    own = camera(np.random.default_rng(8))
-    numbers = [number_of(View(own, name)) for name in ("-001.png", "0001.png", "view-001.png")]
-    assert numbers == [-1, 1, 1]

@@ -19,7 +19,7 @@ from reference_tracer.causes.maps import (
     ringed,
 )
 from reference_tracer.certainty import Certainty
-from reference_tracer.images import curve, curve_undone, to_display
+from reference_tracer.files.images import curve, curve_undone, to_display
 
 RED = (*WRONG, 1)
 

@@ -14,9 +14,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.rendering import render
 from reference_tracer.scene import Scene
-from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.settings import Settings
 
 OFF = "NPY_DISABLE_CPU_FEATURES"

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from check_rounding import check_rounding
 from reference_tracer.certified import arithmetic, rounding
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Scene, SceneError, ViewWindow
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.settings import Settings
 

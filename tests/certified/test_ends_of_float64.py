@@ -118,19 +118,6 @@ def test_every_pixel_is_right_or_the_scene_is_refused(make, orthographic, sign):
 
 
 @pytest.mark.parametrize("orthographic", [False, True])
-def test_a_scene_far_larger_than_its_view(make, rng, orthographic):
-    """The camera is an ordinary one; corners are not."""
-    seen = 0
-    for _ in range(12):
-        ends = rng.choice([1.0, 2.0**300, 2.0**600, 2.0**1000], (12, 1))
-        mesh = Mesh(rng.normal(size=(12, 3)) * ends - (0, 0, 3), np.arange(12).reshape(4, 3))
-        seen += check(
-            make.scene(make.camera(6, 5, orthographic=orthographic, clip_end=1e308), mesh)
-        )
-    assert seen > 60
-
-
-@pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("half", [5e-324, 2.0**-1060, 2.0**-1022])
 def test_a_window_too_small_to_divide_is_refused(make, orthographic, half):
     with pytest.raises(SceneError, match=r"Camera 'Camera' has pixels of .*: enlarge its sensor"):
@@ -141,12 +128,6 @@ def test_a_window_too_small_to_divide_is_refused(make, orthographic, half):
 def test_axes_that_have_no_inverse_are_refused(make, size, wrong):
     with pytest.raises(SceneError, match=f"The axes of camera 'Camera' {wrong}: clear its scale"):
         make.camera(axes=np.eye(3) * size)
-
-
-@pytest.mark.parametrize("size", [1e60, 1e-19, 1e20])
-def test_axes_of_any_other_length(make, size):
-    axes = np.diag((1.0, size, 1))
-    assert check(make.scene(make.camera(6, 5, axes=axes), make.quad(-9, 2, -9, size, -3)))
 
 
 @pytest.mark.parametrize("ends", [(511, 511), (-537, -537), (-700, -700), (400, 700)])

@@ -8,7 +8,7 @@ from reference_tracer.certainty import Certainty
 from reference_tracer.certified import arithmetic, measures, plain
 from reference_tracer.certified.arithmetic import AssumptionError
 from reference_tracer.certified.measures import Measured
-from reference_tracer.images import save_png, to_display
+from reference_tracer.files.images import save_png, to_display
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render, trace
 from reference_tracer.tracer.frame_measures import FrameMeasures

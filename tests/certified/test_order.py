@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty, Reason
-from reference_tracer.certified.ladder import Decisions, one_by_one
-from reference_tracer.certified.order import UNDECIDED
-from reference_tracer.certified.sweep.tournament import tournament
+from reference_tracer.certified.ladder import Decisions
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
@@ -75,39 +73,3 @@ def test_coplanar_surfaces_do_not_cost_a_ray_each(make, monkeypatch):
     assert (frame.certainty == Certainty.AMBIGUOUS).all()
     assert set(frame.statistics.reasons) == {Reason.COPLANAR}
     assert len(frame.ties) == frame.t.size
-
-
-def depths_of(rng):
-    """Return depths of candidates, several of each ray, some equal; and which ray each is of."""
-    count = rng.integers(1, 9, 20)
-    of_ray = np.repeat(np.arange(len(count)), count)
-    return rng.integers(0, 4, len(of_ray)), of_ray
-
-
-@pytest.mark.parametrize("unknown", [False, True], ids=["decided", "some are not"])
-def test_a_tournament_finds_what_one_after_the_other_does(unknown):
-    """The first of the least depth, and whatever ties with it."""
-    different = 0
-    for seed in range(200):
-        rng = np.random.default_rng(seed)
-        depth, of_ray = depths_of(rng)
-        open_pairs = rng.random((len(depth), len(depth))) < 0.05 * unknown
-
-        def compare(one, other, depth=depth, open_pairs=open_pairs, of_ray=of_ray):
-            assert (of_ray[one] == of_ray[other]).all()
-            order = np.sign(depth[one] - depth[other]).astype(np.int8)
-            return np.where(open_pairs[one, other], UNDECIDED, order)
-
-        found = {f: f(compare, of_ray) for f in (one_by_one, tournament)}
-        first, decided, tied = found[one_by_one]
-        others, also, with_it = found[tournament]
-        both = decided & also
-        assert both.all() or unknown
-        assert np.array_equal(first[both], others[both])
-        assert np.array_equal(tied[both[of_ray]], with_it[both[of_ray]])
-        for ray in np.flatnonzero(both):
-            own = np.flatnonzero(of_ray == ray)
-            least = depth[own] == depth[own].min()
-            assert first[ray] == own[least][0] and np.array_equal(tied[own], least)
-            different += least.sum() > 1
-    assert different > 500

@@ -8,7 +8,7 @@ import numpy as np
 from reference_tracer.certified.rounding import rounding
 from reference_tracer.scene import Camera, Scene
 from reference_tracer.tracer.camera import camera_rays, dual_axes, film_positions, pixel_size
-from reference_tracer.tracer.hits import Name
+from reference_tracer.tracer.ties import Name
 from reference_tracer.tracer.world import world_corners
 
 from ..tracer.hostile_scenes import hostile_scene

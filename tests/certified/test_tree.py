@@ -7,7 +7,7 @@ import pytest
 from reference_tracer.certified.any_rays import nearest_hits
 from reference_tracer.certified.definition import seen_by
 from reference_tracer.certified.tree import WIDE, Tree, _cuts
-from reference_tracer.scene import Instance, Mesh, Plane, Scene
+from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.hits import Statistics
 from reference_tracer.tracer.progress import result_of
@@ -68,38 +68,6 @@ def test_directions_with_components_of_all_sizes(exponent, make):
     check(scene_of(make, triangles), Rays(origins[:, some], directions[:, some]))
 
 
-@pytest.mark.parametrize("size", [1e-300, 1e300, 1.5e308])
-def test_coordinates_near_the_ends_of_float64(size, make):
-    rng = np.random.default_rng(7)
-    triangles = rng.uniform(-1, 1, (30, 3, 3)) * size
-    origins = rng.uniform(-1, 1, (3, 30)) * size
-    target = triangles[:, 0].T
-    check(scene_of(make, triangles), Rays(origins, target / size - origins / size))
-
-
-def test_rays_at_corners_and_along_edges_of_needles(make):
-    rng = np.random.default_rng(11)
-    middle = rng.normal(size=(40, 1, 3))
-    triangles = middle + rng.normal(size=(40, 3, 3)) * (1, 1e-12, 1e-6)
-    origins = rng.normal(size=(3, 80)) * 3
-    corner = triangles.reshape(-1, 3)[rng.integers(0, 120, 80)].T
-    directions = corner - origins
-    origins[:, 60:] = triangles[:20, 0].T
-    directions[:, 60:] = triangles[:20, 1].T - triangles[:20, 0].T  # along an edge, from its end
-    check(scene_of(make, triangles), Rays(origins, directions))
-
-
-def test_instances_planes_and_copies_in_the_same_place(make):
-    rng = np.random.default_rng(13)
-    turned = np.diag((-1.0, 2.0, 0.0, 1.0))
-    matrices = [np.eye(4), np.eye(4), turned]
-    plane = Plane(0, (0, 0, -1), (0, 0, 1))
-    scene = scene_of(make, rng.integers(-2, 3, (12, 3, 3)), matrices, (plane,))
-    rays = Rays(rng.integers(-4, 5, (3, 40)) * 1.0, rng.integers(1, 4, (3, 40)) * 1.0)
-    every = check(scene, rays)
-    assert any(s.name[0] == len(matrices) for s in every)  # the plane
-
-
 @pytest.mark.parametrize("count", [0, 1, WIDE, WIDE + 1, 200])
 def test_of_any_number_of_triangles(count, make):
     rng = np.random.default_rng(count)
@@ -107,23 +75,6 @@ def test_of_any_number_of_triangles(count, make):
     tree = Tree.of(scene)
     assert tree.is_one.sum() == count
     check(scene, Rays(rng.normal(size=(3, 20)), rng.normal(size=(3, 20))))
-
-
-def test_shared_origins_and_directions_and_no_rays(make):
-    rng = np.random.default_rng(17)
-    scene = scene_of(make, rng.normal(size=(50, 3, 3)))
-    many, one = rng.normal(size=(3, 30)), rng.normal(size=(3, 1))
-    check(scene, Rays(one, many))
-    check(scene, Rays(many, one))
-    assert len(seen(scene, Rays(np.zeros((3, 0)), np.zeros((3, 0))), (0, np.inf))) == 0
-
-
-def test_triangles_that_are_not_finite_are_left_out_and_counted(make):
-    huge = np.diag((1e308, 1.0, 1.0, 1.0))
-    scene = scene_of(make, np.random.default_rng(3).normal(size=(40, 3, 3)) * 3, [huge])
-    tree = Tree.of(scene)
-    assert 0 < tree.refused < 40 and tree.is_one.sum() == 40 - tree.refused
-    check(scene, Rays(np.zeros((3, 9)), np.random.default_rng(4).normal(size=(3, 9))))
 
 
 @pytest.mark.parametrize("count", [600, pytest.param(20_000, marks=pytest.mark.torture)])

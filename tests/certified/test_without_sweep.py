@@ -5,15 +5,15 @@ from __future__ import annotations
 import shutil
 
 import numpy as np
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
 
 from ..copied import copied, run
 
 SCRIPT = """
 import numpy as np
-from reference_tracer.scene_files import load_scene
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.rendering import render
 from reference_tracer.tracer.settings import Settings
 frame = render(load_scene("scene.npz"), Settings("certified", samples=2))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import OpenEXR
 from reference_tracer.cli.main import main
 
-SMALL = ["--width", "24", "--height", "16"]
+SMALL = ["--set", "width=24", "height=16"]
 
 
 def channels(path):

@@ -14,8 +14,8 @@ from reference_tracer.camera_files.files import WRITTEN, texts
 from reference_tracer.cli.camera_options import choice_from
 from reference_tracer.cli.main import parser
 from reference_tracer.cli.opening import open_file
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.camera import film_of
 
 from ..camera_files.cameras import camera
@@ -50,41 +50,34 @@ def test_a_mesh_is_seen_as_the_file_says(name, own, ball, tmp_path):
     path = written(own, name, tmp_path / "written")
     path = path if path.is_dir() else path.rename(path.with_suffix(Path(WRITTEN[name].file).suffix))
     # MVSNet's files say no size.
-    size = ["--width", own.width, "--height", own.height] if name == "mvsnet" else []
+    size = ["--set", f"width={own.width}", f"height={own.height}"] if name == "mvsnet" else []
     found = seen(ball, "--camera", path, *size)
     assert (found.width, found.height) == (own.width, own.height) and apart(own, found) < 1e-9
-    assert apart(own, seen(ball, "--camera", path, "--camera-convention", name, *size)) < 1e-9
-
-
-def test_a_picture_is_traced_through_it(own, ball, tmp_path, exit_code, capsys):
-    """Of a camera whose file says no clip range: nothing that is before it is left out."""
-    near = replace(
-        own, world_from_camera=np.array([*np.eye(4)[:2], [0, 0, 1, 1.001], [0, 0, 0, 1]])
+    assert (
+        apart(own, seen(ball, "--camera", path, "--set", f"camera-convention={name}", *size)) < 1e-9
     )
-    path = written(near, "nerf", tmp_path / "written").rename(tmp_path / "transforms.json")
-    out = tmp_path / "out.png"
-    assert exit_code(["trace", str(ball), "--camera", str(path), "--out", str(out)]) == 0
-    assert "640 x 360 pixels" in capsys.readouterr().out and out.is_file()
 
 
 def test_a_size_is_the_files_or_asked_for(own, ball, tmp_path):
     path = written(own, "nerf", tmp_path / "written").rename(tmp_path / "transforms.json")
-    assert apart(own, seen(ball, "--camera", path, "--width", 640)) < 1e-9
+    assert apart(own, seen(ball, "--camera", path, "--set", f"width={640}")) < 1e-9
     with pytest.raises(SceneError, match=r"for files that say no size: .* has 640 x 360"):
-        seen(ball, "--camera", path, "--width", 320)
+        seen(ball, "--camera", path, "--set", f"width={320}")
     file = json.loads(path.read_text(encoding="utf-8"))
     del file["w"], file["h"]
     path.write_text(json.dumps(file), encoding="utf-8")
-    with pytest.raises(SceneError, match="add --width and --height"):
+    with pytest.raises(SceneError, match="add --set width="):
         seen(ball, "--camera", path)
-    assert apart(own, seen(ball, "--camera", path, "--width", 640, "--height", 360)) < 1e-9
+    assert apart(own, seen(ball, "--camera", path, "--set", f"width={640}", f"height={360}")) < 1e-9
 
 
 def test_one_of_several_is_named(own, ball, tmp_path):
     path = written(own, "colmap", tmp_path / "written", count=3)
-    with pytest.raises(SceneError, match=r"3 cameras: --camera-view names one of 0001.png, 0002"):
+    with pytest.raises(
+        SceneError, match=r"3 cameras: --set camera-view=NAME chooses one of 0001.png, 0002"
+    ):
         seen(ball, "--camera", path)
-    assert seen(ball, "--camera", path, "--camera-view", "2").name == "0002.png"
+    assert seen(ball, "--camera", path, "--set", "camera-view=2").name == "0002.png"
 
 
 @pytest.fixture
@@ -107,23 +100,19 @@ def glb(own, tmp_path):
 
 
 def test_a_glbs_own_camera_is_chosen_by_name(own, glb):
-    assert apart(own, seen(glb, "--camera", "Side", "--width", 640)) < 1e-9
-    assert apart(own, seen(glb, "--camera", "Side", "--height", 360)) < 1e-9
-    assert apart(own, seen(glb, "--camera", "Free", "--width", 640, "--height", 360)) < 1e-9
+    assert apart(own, seen(glb, "--camera", "Side", "--set", f"width={640}")) < 1e-9
+    assert apart(own, seen(glb, "--camera", "Side", "--set", f"height={360}")) < 1e-9
+    assert (
+        apart(own, seen(glb, "--camera", "Free", "--set", f"width={640}", f"height={360}")) < 1e-9
+    )
     free = seen(glb, "--camera", "Free")
     assert (free.width, free.height) == (960, 540) and free.window.top == own.window.top
     with pytest.raises(SceneError, match="no camera 'Other'; there are Side, Free"):
-        seen(glb, "--camera", "Other", "--width", 640)
+        seen(glb, "--camera", "Other", "--set", f"width={640}")
     with pytest.raises(SceneError, match=r"aspect ratio 1.77778, not that of 640 x 480"):
-        seen(glb, "--camera", "Side", "--width", 640, "--height", 480)
-    with pytest.raises(SceneError, match="--up z is for the meshes alone"):
-        seen(glb, "--camera", "Side", "--width", 640, "--up", "z")
-
-
-def test_a_glbs_cameras_are_named_where_none_is_chosen(glb, exit_code, capsys, tmp_path):
-    assert exit_code(["trace", str(glb), "--width", "32", "--out", str(tmp_path / "a.png")]) == 0
-    said = capsys.readouterr().out
-    assert "has 2 cameras; --camera uses one by its node's name: Side, Free." in said
+        seen(glb, "--camera", "Side", "--set", f"width={640}", f"height={480}")
+    with pytest.raises(SceneError, match="--set up=z is for the meshes alone"):
+        seen(glb, "--camera", "Side", "--set", f"width={640}", "up=z")
 
 
 @pytest.mark.parametrize(
@@ -131,20 +120,13 @@ def test_a_glbs_cameras_are_named_where_none_is_chosen(glb, exit_code, capsys, t
     [
         (["--camera", "Side"], "--camera Side is no file, and .* has no cameras"),
         (["--camera", "missing.json"], "missing.json"),
-        (["--camera-view", "3"], "--camera-view is for a file of --camera"),
-        (["--camera-convention", "bop"], "--camera-convention is for a file of --camera"),
+        (["--set", "camera-view=3"], "--set camera-view is for a file of --camera"),
+        (["--set", "camera-convention=bop"], "--set camera-convention is for a file of --camera"),
     ],
 )
 def test_what_names_no_camera_is_refused(options, said, ball):
     with pytest.raises((SceneError, OSError), match=said):
         seen(ball, *options)
-
-
-def test_a_npz_has_its_own_camera(own, tmp_path):
-    save_scene(tmp_path / "scene.npz", Scene(own))
-    path = written(own, "nerf", tmp_path / "written").rename(tmp_path / "transforms.json")
-    with pytest.raises(SceneError, match=r"--camera is for a \.blend or a mesh"):
-        seen(tmp_path / "scene.npz", "--camera", path)
 
 
 def test_what_of_a_file_is_not_applied_is_said(own, ball, tmp_path, capsys):

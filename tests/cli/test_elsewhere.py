@@ -24,7 +24,7 @@ for name in ("SIGALRM", "SIGHUP", "SIGQUIT", "SIGUSR1", "alarm", "pthread_sigmas
     delattr(signal, name)
 """
 STORED = Path(grading.__file__).parent / "scenes" / "exercise_triangle.npz"
-SMALL = "--width", "24", "--height", "16"
+SMALL = "--set", "width=24", "height=16"
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import json
 
 import pytest
 from reference_tracer.cli.main import main
-from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.cli.parser import AGREE
 from reference_tracer.study import extremes
 
 pytestmark = pytest.mark.slow
@@ -27,11 +27,3 @@ def test_extremes(tmp_path, capsys):
     assert {"extremes.json", "extremes.txt", "extremes.html"} <= written
     held = json.loads((tmp_path / "out" / "extremes.json").read_text(encoding="utf-8"))
     assert {r["method"] for r in held["rows"]} >= {"certified", "watertight", "textbook"}
-
-
-def test_extremes_needs_rays(tmp_path, capsys, exit_code):
-    assert exit_code(["extremes", "--out", str(tmp_path / "out"), "--rays", "0"]) == INPUT_ERROR
-    assert (
-        "--rays: 0 is not an integer of at least 1" in capsys.readouterr().err
-        and not (tmp_path / "out").exists()
-    )

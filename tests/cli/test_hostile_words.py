@@ -6,12 +6,12 @@ import json
 
 import numpy as np
 import pytest
-from reference_tracer import images
-from reference_tracer.certificate_file import save_certificate
+from reference_tracer.files import images
+from reference_tracer.files.certificates import save_certificate
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.manifest import Effect, Manifest, ObjectEntry, Unmodelled
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Plane, Scene
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.wording import LONGEST
 from reference_tracer_verify import verify
@@ -58,7 +58,7 @@ COMMANDS = [
     "trace scene.npz --out a.png",
     "compare scene.npz --against scene.png --out out",
     "compare scene.npz --against scene.png --out out --colors colors.json",
-    "compare scene.npz --depth depth.npz --out out",
+    "compare scene.npz --against depth.npz --holds depth --out out",
     "compare scene.npz --out out --colors-out c.json",
     "explain scene.npz 8 4",
     "explain pixel.json",
@@ -68,7 +68,7 @@ COMMANDS = [
     "diff scene.npz scene.npz",
     "camera scene.npz --out c.json",
     "camera scene.npz --check camera.json",
-    "trade scene.npz --width 8 --samples 1",
+    "trade scene.npz --set width=8 --samples 1",
     "verify schema.npz",
     "verify camera.npz",
     "verify more.npz",

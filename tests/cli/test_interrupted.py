@@ -8,10 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 import pytest
-from reference_tracer import images
 from reference_tracer.cli.commands import trace as trace_command
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.files import images
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.tracer import signals
 from reference_tracer.tracer.progress import result_of
@@ -77,18 +77,6 @@ def test_interrupted_while_writing(number, ball, tmp_path, monkeypatch):
     monkeypatch.setattr(images, "save_png", half)
     assert trace(ball, tmp_path / "b.png", "--method", "textbook_literal") == 128 + number
     assert {p: p.read_bytes() for p in tmp_path.iterdir()} == before
-
-
-def test_what_is_held_comes_at_its_end():
-    steps = []
-    with pytest.raises(KeyboardInterrupt), signals.heard():
-        with signals.held():
-            signal.raise_signal(signal.SIGINT)
-            steps.append("inside")
-        steps.append("after")
-    assert steps == ["inside"]
-    with signals.heard():
-        signals.check()  # of an earlier one nothing is left
 
 
 def test_what_is_held_within_what_is_held_comes_at_the_outer_end():

@@ -51,21 +51,3 @@ def test_a_comparison_says_it_and_agrees_only_if_nothing_is_left_out(said, tmp_p
         words.replace("'", "&#x27;") in (out / "page.html").read_text()
         or words in (out / "page.html").read_text()
     )
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("said", ["lines", "curves"], indirect=True)  # a note, and a warning
-def test_other_commands_say_it_too(said, capfd):
-    path, words, _ = said
-    assert main(["explain", str(path), "--pixel", "8", "8", *SMALL]) == AGREE
-    told = capfd.readouterr()
-    assert words in told.err and words not in told.out
-    assert main(["trade", str(path), "--width", "8", "--samples", "1"]) == AGREE
-    assert words in capfd.readouterr().out
-
-
-def test_a_file_of_which_nothing_is_to_be_said_has_no_notes(tmp_path, capsys):
-    (tmp_path / "a.obj").write_text(f"# a square\nmtllib a.mtl\n{SQUARE}")
-    assert trace(tmp_path / "a.obj", tmp_path / "a.png") == AGREE
-    printed = capsys.readouterr().out
-    assert "note:" not in printed and "not modelled" not in printed

@@ -11,11 +11,9 @@ from reference_tracer import __version__
 from reference_tracer.cli.arguments import GivenSettings
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
-
-from .parts import SMALL
 
 BAD = {
     "no file": (["none.ply"], "none.ply"),
@@ -27,45 +25,51 @@ BAD = {
     "other suffix": (["words.txt"], "words.txt"),
     "empty mesh": (["empty.obj"], "empty.obj"),
     "no scene": (["empty.npz"], "empty.npz"),
-    "same point": (["ball.ply", "--eye", "1", "2", "3", "--target", "1", "2", "3"], "--target"),
-    "angle 180": (["ball.ply", "--eye", "0", "0", "5", "--angle", "180"], "--angle"),
-    "angle not a number": (["ball.ply", "--eye", "0", "0", "5", "--angle", "nan"], "--angle"),
-    "no eye": (["ball.ply", "--eye", "nan", "0", "5"], "--eye"),
+    "same point": (["ball.ply", "--set", "eye=1,2,3", "target=1,2,3"], "target are the same point"),
+    "angle 180": (["ball.ply", "--set", "eye=0,0,5", "angle=180"], "--set angle: 180"),
+    "angle not a number": (["ball.ply", "--set", "eye=0,0,5", "angle=nan"], "--set angle: nan"),
+    "no eye": (["ball.ply", "--set", "eye=nan,0,5"], "--set eye: nan"),
     "angle of an orthographic camera": (
-        ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "2", "--angle", "40"],
-        "--angle: not allowed with argument --ortho-scale",
+        ["ball.ply", "--set", "eye=0,0,5", "ortho-scale=2", "angle=40"],
+        "--set angle is for a camera that is not orthographic",
     ),
-    "two places": (
-        ["none.blend", "--frame-all", "--eye", "0", "0", "5"],
-        "--eye: not allowed with argument --frame-all",
-    ),
+    "no name": (["ball.ply", "--set", "wide=5"], "--set takes NAME=VALUE, not 'wide=5'; the names"),
+    "a file behind the names": (["--set", "up=y", "ball.ply"], "not 'ball.ply'; the names are wid"),
+    "two numbers": (["ball.ply", "--set", "eye=1,2"], "--set eye: 1,2 is not X,Y,Z"),
+    "no such axis": (["ball.ply", "--set", "up=x"], "--set up: x is none of y, z"),
     "two cameras": (
-        ["none.blend", "--camera", "A", "--frame-all"],
-        "--frame-all: not allowed with argument --camera",
+        ["none.blend", "--camera", "A", "--set", "eye=all"],
+        "--set eye is for a new camera, and --camera names one",
     ),
     "scale of all": (
-        ["none.blend", "--frame-all", "--ortho-scale", "2"],
-        "--ortho-scale is for a camera that --eye",
+        ["none.blend", "--set", "eye=all", "ortho-scale=2"],
+        "--set ortho-scale is for a camera that eye=X,Y,Z",
     ),
-    "target alone": (["none.blend", "--target", "0", "0", "5"], "--target is for a camera that"),
-    "angle alone": (["none.blend", "--angle", "30"], "--angle is for a camera that --eye or --fr"),
-    "axis up of a .blend": (["none.blend", "--up", "y"], "--up is for meshes"),
-    "frame of a mesh": (["ball.ply", "--frame", "0"], "--frame is for a .blend: 'ball.ply'"),
-    "scene of a mesh": (["ball.ply", "--scene", "A"], "--scene is for a .blend: 'ball.ply'"),
+    "target alone": (["none.blend", "--set", "target=0,0,5"], "--set target is for a camera that"),
+    "angle alone": (["none.blend", "--set", "angle=30"], "--set angle is for a new camera"),
+    "axis up of a .blend": (["none.blend", "--set", "up=y"], "--set up is for meshes"),
+    "frame of a mesh": (
+        ["ball.ply", "--set", "frame=0"],
+        "--set frame is for a .blend: 'ball.ply'",
+    ),
+    "scene of a mesh": (
+        ["ball.ply", "--set", "scene=A"],
+        "--set scene is for a .blend: 'ball.ply'",
+    ),
     "camera of a scene": (["empty.npz", "--camera", "A"], "'empty.npz' has its own camera"),
     "frame too far": (
-        ["none.blend", "--frame", "9999999"],
-        "--frame: 9999999 is not from -1048574",
+        ["none.blend", "--set", "frame=9999999"],
+        "--set frame: 9999999 is not from -1048574",
     ),
-    "ortho scale 0": (["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "0"], "--ortho-scale"),
+    "ortho scale 0": (["ball.ply", "--set", "eye=0,0,5", "ortho-scale=0"], "--set ortho-scale"),
     "ortho scale below 0": (
-        ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "-1"],
-        "--ortho-scale: -1 is not a finite number above 0",
+        ["ball.ply", "--set", "eye=0,0,5", "ortho-scale=-1"],
+        "--set ortho-scale: -1 is not a finite number above 0",
     ),
-    "width 0": (["ball.ply", "--width", "0"], "--width: 0 is not an integer of at least 1"),
+    "width 0": (["ball.ply", "--set", "width=0"], "--set width: 0 is not an integer of at least 1"),
     "height below 0": (
-        ["ball.ply", "--height", "-5"],
-        "--height: -5 is not an integer of at least 1",
+        ["ball.ply", "--set", "height=-5"],
+        "--set height: -5 is not an integer of at least 1",
     ),
     "samples": (["ball.ply", "--samples", "0"], "--samples is 0; it must be between 1 and 64"),
     "options before the scene": (["none.ply", "--samples", "65"], "--samples is 65"),
@@ -78,11 +82,11 @@ BAD = {
         "--precision is float32; certified is proven for float64 only",
     ),
     "unknown method": (["ball.ply", "--method", "magic"], "--method"),
-    "not a number": (["ball.ply", "--width", "many"], "--width: many is not an integer"),
+    "not a number": (["ball.ply", "--set", "width=many"], "--set width: many is not an integer"),
     "a fraction": (["ball.ply", "--samples", "1.5"], "--samples: 1.5 is not an integer"),
     "a comma": (
-        ["ball.ply", "--angle", "0,5"],
-        "--angle: 0,5 is not between 0 and 180 degrees; the decimal sign is a point",
+        ["ball.ply", "--set", "angle=0,5"],
+        "--set angle: 0,5 is not between 0 and 180 degrees; the decimal sign is a point",
     ),
     "a misspelt option": (
         ["ball.ply", "--colour=facing"],
@@ -113,7 +117,7 @@ def test_bad_input_is_named_and_nothing_is_written(
         (tmp_path / name).mkdir()
     before = sorted(tmp_path.rglob("*"))
     options, words = BAD[case]
-    assert exit_code(["trace", "--out", "x.png", *SMALL, *options]) == INPUT_ERROR
+    assert exit_code(["trace", "--out", "x.png", *options]) == INPUT_ERROR
     assert words in capsys.readouterr().err
     assert sorted(tmp_path.rglob("*")) == before
 
@@ -134,9 +138,9 @@ def test_only_a_blend_is_compared_or_exported(command, ball, tmp_path, capsys, m
 @pytest.mark.parametrize(
     "options, word",
     [
-        (["--width", "40"], "--width"),
-        (["--eye", "0", "0", "9"], "--eye"),
-        (["--angle", "9"], "--angle"),
+        (["--set", "width=40"], "--set width"),
+        (["--set", "eye=0,0,9"], "--set eye"),
+        (["--set", "angle=9"], "--set angle"),
     ],
 )
 def test_options_that_would_not_be_heard_are_refused(options, word, make, tmp_path, capsys):
@@ -163,11 +167,19 @@ def test_help_names_the_exit_codes(command, capsys):
     assert ("example:" in text) == bool(command)
 
 
-def test_the_help_of_export_says_nothing_of_meshes(capsys):
+def test_the_longest_help_fits_two_screens(capsys):
+    """Of 80 columns and 50 lines each; each name of an option that takes several is in it."""
     with pytest.raises(SystemExit):
-        main(["export", "--help"])
-    text = capsys.readouterr().out
-    assert "mesh" not in text and "--up" not in text and "--width" in text
+        main(["compare", "--help"])
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) <= 100
+    for name in ("width", "eye", "camera-view", "frame", "renderer", "filter", "scale", "layer"):
+        assert sum(line.startswith(f"    {name}=") for line in lines) == 1
+
+
+def test_who_types_a_name_as_an_option_is_told_where_it_went(capsys, exit_code):
+    assert exit_code(["trace", "ball.ply", "--out", "x.png", "--width", "40"]) == INPUT_ERROR
+    assert "there is no option --width: --set width=VALUE" in capsys.readouterr().err
 
 
 def test_version_and_no_command(capsys):

@@ -13,7 +13,9 @@ from reference_tracer.cli import running
 from reference_tracer.cli.commands import extremes as command
 from reference_tracer.cli.main import main
 from reference_tracer.cli.watch import watched
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files import exr
+from reference_tracer.files.scenes import save_scene
+from reference_tracer.rendering import render
 from reference_tracer.study import extremes
 from reference_tracer.study.scenarios.sweeps import BY_NAME
 from reference_tracer.tracer.progress import Share
@@ -28,30 +30,20 @@ class Clock:
         return self.now
 
 
-def test_a_line_every_ten_seconds(capsys):
+def test_an_estimate_never_grows_by_more_than_a_tenth(capsys):
+    """Of what slows down, or of what nobody knows, no seconds are said."""
     clock = Clock()
+    shares = (0.25, Share(0.26, "a"), 0.5, Share(0.9, "trying the lens, 3 of 8", known=False))
     with running.progress_bar(clock) as show:
-        for second in range(36):
-            clock.now = 100.0 + second
-            show(Share(second / 40, f"stage {second // 20}"))
-            show(second / 40)
+        for share in shares:
+            clock.now += 10.0
+            show(share)
     assert capsys.readouterr().err.splitlines() == [
-        " 25 %, stage 0 (10 s, 30 s left)",
-        " 50 %, stage 1 (20 s, 20 s left)",
-        " 75 %, stage 1 (30 s, 10 s left)",
+        " 25 % (10 s, 30 s left)",
+        " 26 %, a (20 s)",
+        " 50 % (30 s, 30 s left)",
+        " 90 %, trying the lens, 3 of 8 (40 s)",
     ]
-
-
-def test_after_a_long_step_one_line_is_enough(capsys):
-    clock = Clock()
-    with running.progress_bar(clock) as show:
-        show(0.0)
-        clock.now += 47.0
-        show(0.0)
-        show(0.001)
-        clock.now += 4.0
-        show(0.5)
-    assert capsys.readouterr().err.splitlines() == ["  0 % (47 s)", " 50 % (51 s, 51 s left)"]
 
 
 def test_what_has_no_steps_is_named_every_ten_seconds(capsys):
@@ -76,25 +68,31 @@ def test_what_has_no_steps_is_named_every_ten_seconds(capsys):
     assert turns == [running.LINE_EVERY] * 4 and not running.named
 
 
-def test_reading_and_explaining_are_named(make, tmp_path, monkeypatch):
-    said = []
-
-    class Named(list):
-        def append(self, words):
-            said.append(words)
-            super().append(words)
-
-    monkeypatch.setattr(running, "named", Named())
-    save_scene(tmp_path / "s.npz", make.scene(make.camera(8, 6), make.quad(-1, 1, -1, 1, -2)))
-    assert main(["explain", str(tmp_path / "s.npz"), "--pixel", "1", "1"]) == 0
-    assert said == ["reading s.npz", "finding what the ray may meet"]
-
-
 def test_tracing_is_said(make, tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(running, "LINE_EVERY", 1e-9)
     save_scene(tmp_path / "s.npz", make.scene(make.camera(8, 6), make.quad(-1, 1, -1, 1, -2)))
     assert main(["trace", str(tmp_path / "s.npz"), "--out", str(tmp_path / "s.png")]) == 0
     assert "%, tracing (" in capsys.readouterr().err
+
+
+def test_the_verdict_is_said_before_what_is_wrong_is_looked_for(
+    make, tmp_path, capsys, monkeypatch
+):
+    """And then what is tried, without seconds."""
+    monkeypatch.setattr(running, "LINE_EVERY", 1e-9)
+    save_scene(tmp_path / "s.npz", make.room())
+    picture = render(make.room()).color.copy()
+    picture[20:30, 20:30, :3] = 0.123
+    exr.save(tmp_path / "p.exr", {"color": picture})
+    arguments = [str(tmp_path / n) for n in ("s.npz", "p.exr", "out")]
+    main(["compare", arguments[0], "--against", arguments[1], "--out", arguments[2]])
+    said = capsys.readouterr().err.splitlines()
+    verdict = next(n for n, line in enumerate(said) if line.startswith("verdict: differences"))
+    before = "\n".join(said[:verdict])
+    after = [line for line in said[verdict + 1 :] if "trying" in line]
+    assert "looking for causes" in before and "trying" not in before
+    assert any("one object, 3 of 8" in line for line in after)
+    assert not [line for line in after if "left" in line]
 
 
 def test_on_a_terminal_a_bar_says_what_is_done(monkeypatch):

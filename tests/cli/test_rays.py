@@ -10,10 +10,8 @@ import pytest
 import trimesh
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
-from reference_tracer.certified.definition import seen_by
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Plane
-from reference_tracer.scene_files import save_scene
-from reference_tracer.tracer.camera import Rays
 
 PAGE = Path(__file__).parents[2] / "docs" / "rays.md"
 
@@ -49,40 +47,6 @@ def random_rays(count, seed=1):
     rng = np.random.default_rng(seed)
     origins = rng.normal(size=(count, 3)) * 3
     return {"origins": origins, "directions": rng.normal(size=(count, 3)) - origins}
-
-
-@pytest.mark.parametrize("options", [(), ("--every-pair",), ("--start", "0.4", "--end", "1.5")])
-def test_it_is_what_the_definition_says(options, scene, run):
-    given = random_rays(30)
-    given["origins"][0] = scene.meshes[0].vertices[3] * 4  # at a corner, from outside
-    given["directions"][0] = -scene.meshes[0].vertices[3]
-    clip = (0.4, 1.5) if "--start" in options else (0.0, np.inf)
-    code, found, printed = run(scene, *options, **given)
-    assert code == 0 and "30 rays, 320 triangles" in printed
-    rays = Rays(given["origins"].T, given["directions"].T)
-    for k, wanted in enumerate(seen_by(scene, rays, clip)):
-        assert (found["instance"][k], found["triangle"][k]) == wanted.name
-        assert found["t"][k] == wanted.t
-        tied = found["tie_ray"] == k
-        names = zip(found["tie_instance"][tied], found["tie_triangle"][tied], strict=True)
-        assert set(names) == wanted.ties
-    seen = found["triangle"] >= 0
-    assert np.allclose(found["barycentrics"][seen].sum(axis=1), 1)
-    assert np.isnan(found["barycentrics"][~seen]).all()
-    assert (np.isfinite(found["t"]) == (found["instance"] >= 0)).all()
-    assert (found["object"] >= 0).tolist() == (found["instance"] >= 0).tolist()
-    text = PAGE.read_text(encoding="utf-8")
-    assert not [name for name in found if f"`{name}`" not in text]
-
-
-def test_one_origin_or_one_direction_for_all(scene, run):
-    given = random_rays(10)
-    code, one, _ = run(scene, origins=[0.1, 0.2, 0.3], directions=given["directions"])
-    assert code == 0 and (one["triangle"] >= 0).all()
-    code, all_, _ = run(
-        scene, origins=np.tile((0.1, 0.2, 0.3), (10, 1)), **{"directions": given["directions"]}
-    )
-    assert (one["t"] == all_["t"]).all() and (one["triangle"] == all_["triangle"]).all()
 
 
 def test_a_row_alone_and_none(scene, run):

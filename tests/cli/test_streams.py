@@ -9,17 +9,14 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import redirect_stderr, redirect_stdout
-from io import StringIO
 from pathlib import Path
 
 import pytest
-from reference_tracer import images
-from reference_tracer.cli import running
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.files import images
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import save_scene
 
 COMMAND = [sys.executable, "-m", "reference_tracer.cli.main"]
 posix = pytest.mark.skipif(os.name != "posix", reason="signals and descriptors of POSIX")
@@ -33,13 +30,6 @@ def compared(make, tmp_path_factory):
     save_scene(folder / "scene.npz", scene)
     images.save_png(folder / "picture.png", images.to_display(render(scene).color))
     return ["compare", folder / "scene.npz", "--against", folder / "picture.png"]
-
-
-def test_a_script_may_take_what_is_printed(compared, tmp_path):
-    with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as err:
-        assert main([*map(str, compared), "--out", str(tmp_path / "out")]) == AGREE
-        assert main(["trace", "none.ply", "--out", str(tmp_path / "p.png")]) == INPUT_ERROR
-    assert "written to" in out.getvalue() and "none.ply" in err.getvalue()
 
 
 def closed_pipe() -> int:
@@ -63,7 +53,7 @@ def test_wrong_options_change_nothing(compared, tmp_path, exit_code):
     assert main([*map(str, compared), "--out", str(out)]) == AGREE
     before = {p.name: p.read_bytes() for p in out.iterdir()}
     shown, scene = out / "traced.png", str(compared[1])
-    for options in (["--judge", "cycles"], ["--frame-all", "--eye", "1", "2", "3"]):
+    for options in (["--judge", "cycles"], ["--set", "eye=all", "eye=1,2,3"]):
         assert exit_code([*map(str, compared), *options, "--out", str(out)]) == INPUT_ERROR
     shutil.copy(shown, out / "Traced.PNG")  # one file, where the case of names does not count
     for file in (shown, out / "Traced.PNG"):
@@ -91,18 +81,6 @@ def test_a_full_disk_is_said_and_the_results_stay(compared, tmp_path):
     assert done.returncode == INPUT_ERROR
     assert done.stderr.count("\n") == 1
     assert done.stderr.startswith("reftrace: standard output: No space left on device")
-
-
-def test_results_are_there_before_anything_is_said(capsys):
-    """Of every command: what is printed waits until the work has ended."""
-
-    def work() -> int:
-        print("said")
-        assert capsys.readouterr().out == ""
-        return 2
-
-    assert running.run(work, "reftrace") == 2
-    assert capsys.readouterr().out == "said\n"
 
 
 @pytest.mark.slow

@@ -9,10 +9,10 @@ from PIL import Image
 from reference_tracer.certified import arithmetic
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Region
-from reference_tracer.scene_files import save_scene
 
-from .parts import SMALL, channels, trace
+from .parts import channels, trace
 
 
 def test_mesh_to_png(ball, tmp_path, capsys):
@@ -30,75 +30,19 @@ def test_other_meshes(suffix, tmp_path):
     assert np.asarray(Image.open(tmp_path / "box.png"))[8, 12, 3] == 255
 
 
-def test_eye_target_angle(ball, tmp_path):
-    """Seen from 2 radii, a sphere fills the cone of 30 degrees around the axis."""
-    half = np.degrees(np.arctan(np.tan(np.radians(30)) * 1.25))
-    assert (
-        trace(ball, tmp_path / "b.exr", "--eye", "0", "-2", "0", "--angle", str(2 * half)) == AGREE
-    )
-    depth = channels(tmp_path / "b.exr")["Z"]
-    assert depth[7:9, 11:13].min() == pytest.approx(1, abs=0.03)
-    rows = np.flatnonzero(np.isfinite(depth).any(axis=1))
-    assert (rows.min(), rows.max()) in ((1, 14), (2, 13))  # 16 rows / 1.25, less the corners cut
-
-
 def test_target_and_up(ball, tmp_path):
     """Looking past the ball to its right and above, one sees it at the left and below."""
-    assert (
-        trace(ball, tmp_path / "b.exr", "--eye", "0", "-5", "0", "--target", "1", "0", "0.7")
-        == AGREE
-    )
+    assert trace(ball, tmp_path / "b.exr", "--set", "eye=0,-5,0", "target=1,0,0.7") == AGREE
     y, x = np.nonzero(np.isfinite(channels(tmp_path / "b.exr")["Z"]))
     assert x.mean() < 11 and y.mean() < 7
 
 
 def test_ortho_scale(ball, tmp_path):
-    assert trace(ball, tmp_path / "b.exr", "--eye", "0", "0", "5", "--ortho-scale", "4") == AGREE
+    assert trace(ball, tmp_path / "b.exr", "--set", "eye=0,0,5", "ortho-scale=4") == AGREE
     found = channels(tmp_path / "b.exr")
     seen = np.isfinite(found["Z"])
     assert seen.any(axis=0).sum() == seen.any(axis=1).sum() == 8  # the height, 4 m, is 16 pixels
     assert found["P.Z"][seen] == pytest.approx(5 - found["Z"][seen], abs=1e-5)
-
-
-def test_exr_holds_the_passes(ball, tmp_path):
-    assert (
-        trace(ball, tmp_path / "b.exr", "--method", "moller_trumbore", "--precision", "float32")
-        == 0
-    )
-    found = channels(tmp_path / "b.exr")
-    seen = found["object_index.V"] == 0
-    assert seen.any() and not seen.all()
-    assert (found["triangle_index.V"][seen] >= 0).all() and (
-        found["triangle_index.V"][~seen] == -1
-    ).all()
-    weights = sum(found[f"barycentrics.{x}"] for x in "XYZ")
-    assert weights[seen] == pytest.approx(1, abs=1e-5)
-    assert np.isinf(found["Z"][~seen]).all()
-
-
-def test_npz_keeps_its_camera(make, tmp_path):
-    scene = make.scene(make.camera(10, 6), make.quad(-9, 0, -9, 9, -2))
-    save_scene(tmp_path / "s.npz", scene)
-    assert main(["trace", str(tmp_path / "s.npz"), "--out", str(tmp_path / "s.png")]) == AGREE
-    alpha = np.asarray(Image.open(tmp_path / "s.png"))[..., 3]
-    assert alpha.shape == (6, 10)
-    assert (alpha[:, :5] == 255).all() and (alpha[:, 5:] == 0).all()
-
-
-def test_samples_are_shown(ball, tmp_path):
-    assert trace(ball, tmp_path / "b.png", "--samples", "3") == AGREE
-    alpha = np.asarray(Image.open(tmp_path / "b.png"))[..., 3]
-    assert set(np.unique(alpha)) - {0, 255}
-
-
-@pytest.mark.parametrize("method, came_to", [("auto", "certified"), ("certified", "certified")])
-def test_certified_says_what_the_scene_required(method, came_to, ball, tmp_path, capsys):
-    assert trace(ball, tmp_path / "b.exr", "--method", method) == AGREE
-    said = capsys.readouterr().out.splitlines()
-    assert f"({came_to}, float64)" in said[0]
-    assert len(said) > 1 and "pairs" in said[1]
-    found = channels(tmp_path / "b.exr")["certainty.V"]
-    assert (found > 0).all()
 
 
 def test_plain_methods_require_nothing(ball, tmp_path, capsys):
@@ -136,43 +80,6 @@ def test_auto_falls_back_and_says_so(ball, tmp_path, capsys):
     assert trace(ball, tmp_path / "b.png") == AGREE
     said = capsys.readouterr().out
     assert "(watertight, float64)" in said and "subnormal results" in said
-
-
-def test_up_turns_a_mesh_and_nothing_else(tmp_path, capsys, make):
-    shape = trimesh.creation.cone(1, 3)
-    shape.export(tmp_path / "y.ply")
-    shape.vertices = shape.vertices[:, [0, 2, 1]] * (1, -1, 1)
-    shape.export(tmp_path / "z.ply")
-    assert trace(tmp_path / "y.ply", tmp_path / "y.png", "--up", "y") == AGREE
-    assert trace(tmp_path / "z.ply", tmp_path / "z.png") == AGREE
-    assert (tmp_path / "y.png").read_bytes() == (tmp_path / "z.png").read_bytes()
-    assert trace(tmp_path / "z.ply", tmp_path / "wide.png", "--frame-all", "--angle", "90") == AGREE
-    assert (tmp_path / "wide.png").read_bytes() != (tmp_path / "z.png").read_bytes()
-    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
-    options = ["--out", str(tmp_path / "s.png"), "--up", "y"]
-    assert main(["trace", str(tmp_path / "s.npz"), *options]) == INPUT_ERROR
-    assert "--up is for meshes" in capsys.readouterr().err
-
-
-def test_color_shows_the_shape_and_a_flat_mesh_says_so(ball, tmp_path, capsys):
-    assert trace(ball, tmp_path / "a.png") == AGREE
-    assert "--color facing shows its shape" in capsys.readouterr().out
-    assert trace(ball, tmp_path / "b.png", "--color", "facing") == AGREE
-    assert "--color" not in capsys.readouterr().out
-    flat, shape = (np.asarray(Image.open(tmp_path / n)) for n in ("a.png", "b.png"))
-    hit = flat[..., 3] == 255
-    assert np.array_equal(hit, shape[..., 3] == 255)
-    assert len(np.unique(flat[hit, 0])) == 1 and len(np.unique(shape[hit, 0])) > 20
-
-
-def test_a_comparison_has_no_color_and_agrees_with_what_trace_gives(ball, tmp_path, capsys):
-    """So the default stays the object's own: it is the picture that a comparison is about."""
-    assert trace(ball, tmp_path / "a.png") == AGREE
-    options = ["--against", str(tmp_path / "a.png"), "--out", str(tmp_path / "out"), *SMALL]
-    assert main(["compare", str(ball), *options]) == AGREE
-    with pytest.raises(SystemExit) as stopped:
-        main(["compare", str(ball), *options, "--color", "facing"])
-    assert stopped.value.code == INPUT_ERROR and "--color" in capsys.readouterr().err
 
 
 def test_rows_are_those_of_the_whole_picture(make, tmp_path, capsys):

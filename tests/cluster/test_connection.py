@@ -15,9 +15,9 @@ import psutil
 import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import save_scene
 from reference_tracer_cluster import connection, pictures
 from reference_tracer_cluster.cluster import ClusterError
 from reference_tracer_cluster.connection import connected

@@ -12,8 +12,8 @@ import pytest
 from reference_tracer.certainty import Certainty
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render, steps
-from reference_tracer.scene_files import save_scene
 from reference_tracer.study import extremes
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
@@ -182,7 +182,7 @@ def test_commands(shared, scene, tmp_path, capsys, monkeypatch):
     with np.load(here) as one, np.load(there) as two:
         assert one.files == two.files
         assert all(one[name].tobytes() == two[name].tobytes() for name in one.files)
-    small = ["--width", "6", "--samples", "1"]
+    small = ["--set", "width=6", "--samples", "1"]
     found = [
         json.loads((p / "tradeoff.json").read_text()) for p in both("trade", "t", path, *small)
     ]

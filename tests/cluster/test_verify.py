@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import INPUT_ERROR
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render, steps
 from reference_tracer.scene import Mesh
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_cluster import pictures

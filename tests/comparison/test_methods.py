@@ -4,21 +4,16 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
 import trimesh
 from reference_tracer.certainty import Certainty
-from reference_tracer.comparison import methods
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.comparison.extras import extras
 from reference_tracer.comparison.methods import list_methods
 from reference_tracer.rendering import render
 from reference_tracer.scene import Plane
-from reference_tracer.tracer import nearest
-from reference_tracer.tracer import render as loop
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
@@ -70,13 +65,6 @@ def test_certified_and_the_textbook_are_always_there(scene, settings, names):
     json.dumps([r.to_dict() for r in rows.values()], allow_nan=False)
 
 
-def test_what_the_literal_test_loses_is_counted(scene):
-    rows, frame = listed(scene, "textbook_literal")
-    wrong = rows["textbook_literal", "float64"].wrong_pixels
-    assert wrong > 0.2 * frame.t.size
-    assert f"{wrong:,} wrong pixels" in rows["textbook_literal", "float64"].line()
-
-
 @pytest.mark.parametrize("background", [(0, 0, 0, 0), (1, 1, 1, 1)])
 def test_the_literal_picture_is_the_same_as_traced_alone(make, rng, background):
     """It takes the pairs of the textbook's trace, and lies on the picture's own background."""
@@ -93,45 +81,3 @@ def test_the_literal_picture_is_the_same_as_traced_alone(make, rng, background):
     assert np.array_equal(result_of(extras(found)).literal, alone)
     assert (alone != shown).any() and (shown[..., 3] == background[3]).any()
     assert result_of(trace_and_compare(case)).literal is None
-
-
-def test_the_literal_picture_is_not_in_the_textbooks_seconds(scene, monkeypatch):
-    """By a clock that only its own work moves on."""
-    clock = SimpleNamespace(now=0.0)
-
-    def slow(work):
-        def run(*args):
-            clock.now += 1
-            return work(*args)
-
-        return run
-
-    monkeypatch.setattr(nearest, "sum_is_1", slow(nearest.sum_is_1))
-    monkeypatch.setattr(methods, "_shade", slow(methods._shade))
-    for module in nearest, loop:
-        monkeypatch.setattr(module, "time", SimpleNamespace(perf_counter=lambda: clock.now))
-    frame = render(scene)
-    found = result_of(list_methods(scene, Settings(), frame, literally=True))
-    assert clock.now >= 2 and found.literal is not None
-    assert [row.seconds for row in found.rows] == [0, 0]
-
-
-def test_where_nothing_can_be_certified_no_pixel_is_called_wrong(scene, monkeypatch):
-    monkeypatch.setattr(methods, "broken_assumptions", lambda: ["rounding to nearest"])
-    rows, _ = listed(scene, "watertight")
-    assert list(rows) == [("textbook", "float64"), ("watertight", "float64")]
-    assert all(r.wrong_pixels is None and "wrong" not in r.line() for r in rows.values())
-
-
-def test_a_comparison_has_the_list_and_says_what_was_required(scene):
-    frame = render(scene, Settings("textbook"))
-    case = case_of(scene, frame.color.astype(np.float32), settings=Settings("textbook"))
-    found = result_of(trace_and_compare(case))
-    assert [(r.method, r.precision) for r in found.methods] == BOTH
-    held: Any = found.to_dict()
-    assert [r["method"] for r in held["methods"]] == ["certified", "textbook"]
-    assert held["tracer"]["method"] == "textbook"
-    lines = "\n".join(found.lines())
-    for row in found.methods:
-        assert row.line() in lines
-    assert found.required and all(line in lines for line in found.required)

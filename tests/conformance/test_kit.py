@@ -9,9 +9,9 @@ import pytest
 import trimesh
 from reference_tracer.camera_files.files import read
 from reference_tracer.camera_files.frame import Y_UP_FROM_Z_UP
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.projections import PERSPECTIVE
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer_conformance.kit import CAMERA_Y_UP, opencv, write_kit
 from reference_tracer_conformance.scenes import kit_scenes

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
-from dataclasses import replace
 
 import pytest
 import trimesh
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 from reference_tracer.derivation import reproducer, writers
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files.scenes import save_scene
 
-SMALL = ["--width", "24", "--height", "16"]
+SMALL = ["--set", "width=24", "height=16"]
 
 
 @pytest.fixture
@@ -63,53 +59,6 @@ def test_a_scene_file(ball_scene, tmp_path, capsys):
     assert "of scene.npz" in capsys.readouterr().out
 
 
-def test_a_name_that_steers_a_terminal_is_spelt_out(make, tmp_path, capsys):
-    """And one that is no Unicode can be written all the same."""
-    scene = replace(
-        make.scene(make.camera(4, 4), make.quad(-1, 1, -1.1, 1, -3)), objects=("a\x1b[2J\ud800<b>",)
-    )
-    save_scene(tmp_path / "scene.npz", scene)
-    assert explain(tmp_path / "scene.npz", "--pixel", 1, 1) == AGREE
-    assert "a\\x1b" in (text := capsys.readouterr().out) and "\x1b" not in text
-    pixel = tmp_path / "pixel.json"
-    for suffix in (".md", ".html", ".json"):
-        where = "--out", tmp_path / f"out{suffix}", "--reproducer", pixel
-        assert explain(tmp_path / "scene.npz", "--pixel", 1, 1, *where) == AGREE
-    assert json.loads(pixel.read_text())["candidates"][0]["object"] == scene.objects[0]
-    assert "<b>" not in (tmp_path / "out.html").read_text()
-    assert explain(pixel, "--out", tmp_path / "again.json") == AGREE
-    assert (tmp_path / "again.json").read_text() == (tmp_path / "out.json").read_text()
-
-
-@pytest.mark.slow
-def test_without_a_terminal(ball, tmp_path):
-    """As `reftrace ... >&-` in a shell, or a service starts it."""
-    options = "explain", ball, "--pixel", "12", "8", "--out", str(tmp_path / "a.md"), *SMALL
-    imported = "import sys; sys.stdout = None; from reference_tracer.cli.main import main"
-    call = f"{imported}; main({options})"
-    done = subprocess.run([sys.executable, "-c", call], capture_output=True, text=True)
-    assert not done.stderr and (tmp_path / "a.md").is_file()
-
-
-@pytest.mark.slow
-def test_a_terminal_without_the_letters(ball):
-    """Windows' pipes have 256 letters, and formulas more."""
-    command = [
-        sys.executable,
-        "-m",
-        "reference_tracer.cli.main",
-        "explain",
-        ball,
-        "--pixel",
-        "12",
-        "8",
-    ]
-    done = subprocess.run(
-        [*command, *SMALL], capture_output=True, env=os.environ | {"PYTHONIOENCODING": "cp1252"}
-    )
-    assert done.returncode == AGREE and b"s\\u2081" in done.stdout
-
-
 @pytest.mark.parametrize(
     ("options", "says"),
     [
@@ -128,7 +77,7 @@ def test_what_is_wrong_is_said(ball, capsys, exit_code, options, says):
     assert says in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("option", [["--pixel", "1", "1"], ["--limit", "3"], ["--width", "9"]])
+@pytest.mark.parametrize("option", [["--pixel", "1", "1"], ["--limit", "3"], ["--set", "width=9"]])
 def test_a_pixel_takes_no_option_of_a_scene(tmp_path, capsys, option):
     assert explain(tmp_path / "pixel.json", *option) == INPUT_ERROR
     assert "which is one pixel by itself" in capsys.readouterr().err

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -18,7 +17,7 @@ from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
 from reference_tracer.report import pixel
 from reference_tracer.report.shown import shown
-from reference_tracer.scene import Instance, Mesh, Region, SceneError
+from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.tracer.settings import Precision, Settings
 
 FACING = [(-1, -1, -4), (1, -1, -4), (0, 1, -4)]  # the ray (0, 0, −1) meets it at t = 4
@@ -142,14 +141,6 @@ def test_near_misses_come_first(one_triangle):
     assert [t.candidate.instance for t in found.tests] == [2, 1, 0]
 
 
-def test_of_a_border(one_triangle):
-    scene = one_triangle(FACING)
-    part = replace(scene, camera=replace(scene.camera, region=Region(1, 1, 3, 3)))
-    found = derive(part, 0, 0)
-    assert found.certified.t == 4 and (found.pixel.column, found.pixel.row) == (1, 1)
-    assert "pixel (1, 1) of the whole" in document.document_markdown(found)
-
-
 @pytest.mark.parametrize(("x", "y", "name"), [(3, 0, "x"), (-1, 0, "x"), (0, 3, "y"), (0, -1, "y")])
 def test_outside_the_picture(one_triangle, x, y, name):
     with pytest.raises(SceneError, match=f"picture of 3 x 3: {name} must be between 0 and 2"):
@@ -159,23 +150,6 @@ def test_outside_the_picture(one_triangle, x, y, name):
 def test_half_a_pixel_is_none(one_triangle):
     with pytest.raises(SceneError, match="integer"):
         derive(one_triangle(FACING), 0.5, 1)
-
-
-def test_instances(make):
-    """Instances of one mesh, turned and mirrored, each with its own colours."""
-    mesh = make.quad(-1, 1, -1, 1, 0, name="Shared")
-    turned = np.diag([-1.0, 1, 1, 1])
-    scene = make.scene(make.camera(5, 5, half=0.25), mesh, mesh)
-    places = []
-    for k, z in enumerate((-6.0, -3.0)):
-        matrix = turned.copy()
-        matrix[2, 3] = z
-        places.append(Instance(0, k, matrix, [[0, 0, 1, 1], [k, 1, 0, 0.5]]))
-    own = Mesh(mesh.vertices, mesh.triangles, [7, 7], name="Shared")  # a slot past the end
-    found = derive(replace(scene, meshes=[own], instances=places), 2, 3)
-    assert found.certified.seen[0] == 1 and found.certified.t == 3
-    assert found.seen.slot == 1 and found.color == (1, 1, 0, 1)
-    assert found.pixel.triangles == 4 and {t.candidate.instance for t in found.tests} == {0, 1}
 
 
 def test_colors_between_corners(make):
@@ -220,18 +194,6 @@ def test_at_the_ends_of_floats(one_triangle, scale):
     pixel.html(found)
 
 
-def test_triangles_that_are_not_finite_are_counted(one_triangle):
-    scene = one_triangle(FACING, shifted(z=-1))
-    huge = np.diag([1e308, 1e308, 1, 1])
-    moved = replace(scene.instances[1], world_from_object=huge)
-    mesh = Mesh(np.array(FACING, float) * 10, [[0, 1, 2]])
-    found = derive(
-        replace(scene, meshes=[scene.meshes[0], mesh], instances=[scene.instances[0], moved]), 1, 1
-    )
-    assert found.pixel.refused == 1 and found.certified.seen == (0, 0)
-    assert "not finite" in document.document_markdown(found)
-
-
 def test_a_miss_of_float32_is_said(make):
     """A thousand kilometres away float32 no longer knows where the triangles are."""
     from .conftest import ball
@@ -252,18 +214,3 @@ def test_a_miss_of_float32_is_said(make):
                 assert said == (word in wrong), (x, kind)
                 told[word] += said
     assert told["rejects"] > 0  # or the test has seen nothing
-
-
-@pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_a_color_that_is_not_finite(make, value):
-    """Blender's colour attributes may be anything; the picture has it, so the derivation does."""
-    colors = np.full((2, 3, 4), 0.5, np.float32)
-    colors[:, 1, 2] = value
-    quad = make.quad(-1, 1, -1.1, 1, -3)
-    mesh = Mesh(quad.vertices, quad.triangles, corner_colors=colors)
-    scene = make.scene(make.camera(4, 4), mesh)
-    found = derive(scene, 1, 1)
-    np.testing.assert_array_equal(np.float32(found.color), render(scene).color[1, 1])
-    assert "not finite" in document.document_markdown(found) and "not finite" in str(shown(found))
-    linear = json.loads(writers.json_text(found))["color"]["linear_rgba"]
-    assert linear == [0.5, 0.5, str(value), 1.0]

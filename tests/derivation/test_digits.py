@@ -44,24 +44,6 @@ def test_exact_numbers_are_correctly_rounded(rng):
         assert ("…" in shown) == bool(rest)
 
 
-@pytest.mark.parametrize(
-    ("value", "shown"),
-    [
-        (Fraction(0), "0"),
-        (Fraction(1, 4), "0.25"),
-        (Fraction(-100), "-100"),
-        (Fraction(10**20), "1e+20"),
-        (Fraction(1, 3), "0.333333333333333333333333…"),
-        (Fraction(2, 3), "0.666666666666666666666667…"),
-        (Fraction(-12, 10**9), "-1.2e-08"),
-        (Fraction(10) ** 400, "1e+400"),
-        (Fraction(1, 10**400), "1e-400"),
-    ],
-)
-def test_exact_text(value, shown):
-    assert exact_text(value) == shown
-
-
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
 def test_ulps_are_those_of_numpy(rng, kind):
     for _ in range(200):

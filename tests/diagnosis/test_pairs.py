@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.diagnosis.faults.fault import Numbers
-from reference_tracer.images import curve_undone
+from reference_tracer.files.images import curve_undone
 from reference_tracer.rendering import render
 
 from .diagnosing import diagnosis_of, names, pictured

@@ -20,8 +20,8 @@ from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.colors import COLOR_FAULTS
 from reference_tracer.diagnosis.faults.fault import Numbers
 from reference_tracer.diagnosis.faults.picture import PICTURE_FAULTS
-from reference_tracer.diagnosis.faults.sizes import Way, resized
-from reference_tracer.images import curve, curve_undone
+from reference_tracer.diagnosis.faults.sizes import resized
+from reference_tracer.files.images import curve, curve_undone
 from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture
@@ -186,18 +186,17 @@ MADE = {
         noisy(1.4),
         noisy(6.0),
     ],
-    "rounding_level": [coded(eight)],
+    "rounding_level": [coded(eight), in_bits(5, 6, 5), of_rgb(eight)],
     "srgb_twice": [of_rgb(lambda c: eight(curve(c)))],
     "srgb_left_out": [of_rgb(lambda c: curve_undone(eight(c)))],
     "power_for_srgb": [
         of_rgb(lambda c: curve_undone(eight(curve_undone(eight(curve(c))) ** (1 / 2.2)))),
         of_rgb(lambda c: curve_undone(eight(c ** (1 / 2.2)))),
     ],
-    "few_levels": [in_bits(5, 6, 5), of_rgb(eight)],
     "swapped_colors": [of_rgb(elsewhere)],
     "color_source": [of_rgb(recolored), of_rgb(lambda c: 0 * c + 0.8)],
     "filter_radius": [gaussian, four],
-    "shrunk": [
+    "resampled": [
         smoothly_halved,
         in_hues(lambda c: halved(mean(2)(c))),
         halved,
@@ -224,10 +223,11 @@ def test_it_gets_its_name_and_no_other(quads, name, change):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("way", [Way.NEAREST, Way.LINEAR])
-def test_a_picture_of_half_the_size_is_resampled(quads, way):
+@pytest.mark.parametrize("linearly", [True, False])
+def test_a_picture_of_half_the_size_is_resampled(quads, linearly):
     small = resolved(quads, 0.5)
-    assert set(told(quads, resized(small, (48, 72), way))) == {"resampled"}
+    large = resized(small, (48, 72)) if linearly else small.repeat(2, axis=0).repeat(2, axis=1)
+    assert set(told(quads, large)) == {"resampled"}
 
 
 @pytest.mark.slow

@@ -26,9 +26,8 @@ from reference_tracer.tracer.settings import Settings
 
 from ..cases import case_of, owners_of
 
-# Constant shading has no normals; behind a solid's triangle is another of its colour; no frame;
-# all objects have the same transform.
-INVISIBLE = {"flipped_winding", "dropped_triangle", "wrong_frame", "swapped_transforms"}
+# Constant shading has no normals; behind a solid's triangle is another of its colour; no frame.
+INVISIBLE = {"flipped_winding", "dropped_triangle", "wrong_frame"}
 
 
 def checked(case, names=None, examples=EXAMPLES):
@@ -70,8 +69,7 @@ def test_what_has_other_colors_alone_is_painted_anew(case):
             found = result_of(traced_anew(wrong, case, frame)).passes()
             for name, values in render(wrong.scene).passes().items():
                 assert np.array_equal(found[name], values), (example.name, name)
-    colors = {"swapped_colors", "one_shade", "one_channels"}
-    assert painted == colors | {"swapped_transforms"}  # which are all the same here
+    assert painted == {"swapped_colors", "one_shade", "one_channels"}
 
 
 @pytest.mark.slow

@@ -31,13 +31,13 @@ from reference_tracer.cli.opening import load  # noqa: E402
 from reference_tracer.derivation import document, reproducer  # noqa: E402
 from reference_tracer.derivation.derivation import derive_pixel  # noqa: E402
 from reference_tracer.errors import EXPECTED, words  # noqa: E402
+from reference_tracer.files.images import read_picture  # noqa: E402
 from reference_tracer.framing import Choice  # noqa: E402
-from reference_tracer.images import read_picture  # noqa: E402
-from reference_tracer.pictures.data.depth import DEPTH  # noqa: E402
-from reference_tracer.pictures.data.files import read as read_data  # noqa: E402
-from reference_tracer.ray_files import load_rays  # noqa: E402
 from reference_tracer.rendering import render  # noqa: E402
 from reference_tracer.scene import Region  # noqa: E402
+from reference_tracer_data.depth import DEPTH  # noqa: E402
+from reference_tracer_data.files import read as read_data  # noqa: E402
+from reference_tracer_rays.files import load_rays  # noqa: E402
 from reference_tracer_verify.verify import RefusedError, verified  # noqa: E402
 
 PICTURES = ".png", ".exr"

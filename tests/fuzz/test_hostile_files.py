@@ -18,13 +18,13 @@ import OpenEXR
 import pytest
 import trimesh
 from PIL import Image
-from reference_tracer import exr, images
-from reference_tracer.certificate_file import save_certificate
 from reference_tracer.derivation import reproducer
 from reference_tracer.derivation.candidates import gather_pixel
+from reference_tracer.files import exr, images
+from reference_tracer.files.certificates import save_certificate
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
 
 from ..meshes import gltf_build

@@ -14,7 +14,7 @@ from functools import partial
 import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
-from reference_tracer.scene_files import save_scene
+from reference_tracer.files.scenes import save_scene
 from reference_tracer_grading import extremes
 from reference_tracer_grading.command import built_in
 from reference_tracer_processes.sandbox import sandbox
@@ -146,7 +146,7 @@ def test_the_command_for_a_pixel_can_be_typed(template, tmp_path, capsys):
     path = tmp_path / "a folder" / "mesh.obj"
     path.parent.mkdir()
     path.write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 .5\nf 1 2 3\n")
-    camera = ["--eye", "0.1", "0", "-5", "--angle", "40", "--width", "20", "--height", "14"]
+    camera = ["--set", "eye=0.1,0,-5", "angle=40", "width=20", "height=14"]
     assert main(["judge", str(template), str(path), *camera]) == DIFFERENCES
     line = next(x for x in capsys.readouterr().out.splitlines() if "reftrace explain" in x)
     command = shlex.split(line.partition(": reftrace ")[2])
@@ -172,7 +172,7 @@ def test_extremes(solution, capsys, monkeypatch):
         (["not_there.py"], "no file 'not_there.py'"),
         (["FILE", "not_there.npz"], "no file 'not_there.npz'"),
         (["FILE", "FILE.txt"], "none of .blend"),
-        (["FILE", "--eye", "0", "0", "5"], "--eye is for scenes of your own"),
+        (["FILE", "--set", "eye=0,0,5"], "--set eye is for scenes of your own"),
         (["FILE", "--time-limit", "0"], "--time-limit: 0 is not"),
         (["FILE", "--pixels", "-3"], "--pixels: -3 is not"),
         (["FILE", "--memory-limit", "nan"], "--memory-limit: nan is not"),

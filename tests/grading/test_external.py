@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shlex
+import shutil
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -19,6 +21,7 @@ from reference_tracer_processes.running import KEPT, Limits
 from reference_tracer_processes.sandbox import sandbox
 
 RAYS = np.zeros((5, 3)), np.ones((5, 3)), np.arange(45.0).reshape(5, 3, 3)
+EXAMPLES = Path(__file__).parents[2] / "docs" / "students" / "languages"
 PYTHON = shlex.quote(sys.executable)
 
 
@@ -162,6 +165,59 @@ np.savetxt(sys.argv[2], np.column_stack((t, s)), fmt="%.17g", delimiter=",")
     other = result_of(judge(run, checks, []))
     assert [f.name for f in other.faults] == [f.name for f in file.faults] == ["t_sign"]
     assert other.score == file.score and other.checks == file.checks
+
+
+BY_LINES = """
+import sys
+with open(sys.argv[1]) as rays, open(sys.argv[2], "w") as answers:
+    for line in rays:
+        v = [float(word) for word in line.split(",")]
+        t, s = one(v[:3], v[3:6], (v[6:9], v[9:12], v[12:]))
+        print(t, *s, sep=",", file=answers)
+"""
+
+
+@pytest.mark.parametrize("language", ["C", "Python"])
+def test_a_program_that_dies_keeps_what_the_rest_of_its_answers_earns(
+    language, written, no_guard, checks, monkeypatch, tmp_path
+):
+    """It dies of a division by zero, and is started some 130 times to find of which."""
+    starts = []
+    run = Program._run
+    monkeypatch.setattr(Program, "_run", lambda *given: starts.append(1) or run(*given))
+    if language == "C":
+        if not shutil.which("cc"):
+            pytest.skip("no cc here")
+        text = (EXAMPLES / "textbook.c").read_text()
+        text = text.replace("double t =", "if (dot(d, n) == 0) raise(SIGFPE);\n        double t =")
+        path = written("#include <signal.h>\n" + text, "dies.c")
+        subprocess.run(["cc", "-o", tmp_path / "dies", path, "-lm"], check=True)
+        command, words = f"{tmp_path / 'dies'}", "SIGFPE"
+    else:
+        command, words = f"{PYTHON} {written(no_guard + BY_LINES)}", "ZeroDivisionError"
+    found = result_of(judge(Run.parsed(f"{command} {{rays}} {{answers}}"), checks))
+    [fault] = found.faults
+    assert (fault.name, found.verdict, found.errors) == ("raises", "wrong", [])
+    assert words in fault.sentence and "directions = [" in fault.sentence
+    assert found.checks.right["surface"] == 2600 and 80 < found.score < 90
+    assert 800 <= fault.pairs <= 810  # few beside them
+    assert len(starts) <= Program.parts + 30
+    # Some groups were not asked one by one: it is said how many pairs that are.
+    assert "of these in groups" in fault.sentence
+
+
+def test_one_case_of_many_is_found_in_few_starts(written, monkeypatch):
+    starts = []
+    run = Program._run
+    monkeypatch.setattr(Program, "_run", lambda *given: starts.append(1) or run(*given))
+    text = "lines = open(sys.argv[1]).read()\nassert '4321' not in lines\n"
+    text += "open(sys.argv[2], 'w').write('inf\\n' * lines.count('\\n'))"
+    rays = np.zeros((5000, 3)), np.ones((5000, 3)), np.ones((5000, 3, 3))
+    rays[0][3210] = 4321
+    own = program(written, text)
+    own.ask(*rays)
+    assert np.flatnonzero(own.raised).tolist() == [3210] and own.unasked == 0
+    assert len(starts) < 30
 
 
 def test_a_program_has_the_name_of_its_authors_folder_or_file(tmp_path):

@@ -3,8 +3,10 @@
 from contextlib import contextmanager
 
 import bpy
+from seen_stories import listened
 from story import (
     compared,
+    data_blocks,
     ended,
     invoke,
     module,
@@ -52,12 +54,27 @@ def diagnosis():
     scene.reference_tracer.identity = False
     yield
     lens = scene.camera.data.lens
+    levels = scene.objects["Suzanne"].modifiers.new("Subdivision", "SUBSURF")
+    levels.levels = 0
+    levels.render_levels = 4  # so that Blender takes its time for each variant
+    view = next(a for a in window().screen.areas if a.type == "VIEW_3D").spaces.active
+    scenes, has_sidebar = data_blocks()["scenes"], view.show_region_ui
+    heard, stop = listened()
+
+    def asked():
+        return any("2/48: asking" in said for said in heard if said)
+
     with drawn_otherwise(scene.camera.data, "lens", lens * 1.05):
         press_compare()
-        yield from until(compared, 120)
-        noted["running_after_comparison"] = bool(running())
+        yield from until(asked, 120)
+        noted["running_after_comparison"] = bool(running()) and compared()
+        press("n")  # of which nothing is heard before Esc
         press("Escape")
         yield from until(ended, 60)
+    stop()
+    yield
+    scene.objects["Suzanne"].modifiers.remove(levels)
+    noted["stopped"] = [view.show_region_ui == has_sidebar, data_blocks()["scenes"] == scenes]
     found = result().content
     noted["esc"] = {
         "verdict": found.verdict,

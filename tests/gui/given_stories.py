@@ -1,6 +1,5 @@
-"""Pictures that no judge of ours drew, judged by clicks: an image, another engine, a render."""
+"""Pictures that no judge of ours drew, judged by clicks: an image, a render."""
 
-import sys
 from contextlib import contextmanager
 
 import bpy
@@ -18,21 +17,15 @@ from story import (
     window,
 )
 
-sys.path.insert(0, "/project/tests/blender")
-
-from toy_engine import ToyEngine
-
 SELECT, APPLY = "reference_tracer.select_object(", "reference_tracer.copy_camera("
 SHOW, MAKE_ACTIVE = "reference_tracer.show_put_right(", "reference_tracer.activate_copy("
 
 
-def at_the_panel(judge, percentage=25, **chosen):
+def at_the_panel(judge, percentage=25):
     scene = window().scene
     scene.render.engine = "REFERENCE_TRACER"  # its tab is short: our panel is in sight
     scene.render.resolution_percentage = percentage
     scene.reference_tracer.judge = judge
-    for name, value in chosen.items():
-        setattr(scene.reference_tracer, name, value)
     show_panel()
     yield
 
@@ -136,26 +129,6 @@ def given_image():
     yield from judged("given_put_right")
 
 
-def given_engine():
-    """An engine that an add-on registers, which samples half a pixel beside the centres."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield
-    bpy.ops.mesh.primitive_cone_add(location=(2, 0, 1))
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=1, location=(0, -2, 1))
-    for number, obj in enumerate(o for o in window().scene.objects if o.type == "MESH"):
-        obj.color = (0.1 + 0.3 * number, 0.2, 0.9 - 0.3 * number, 1)
-    bpy.utils.register_class(ToyEngine)
-    ToyEngine.offset = (0.5, 0.0)
-    try:
-        yield from at_the_panel("ENGINE", 15, engine=ToyEngine.bl_idname)
-        yield from judged("given_offset")
-        ToyEngine.offset = (0.0, 0.0)
-        yield from judged("given_right")
-    finally:
-        ToyEngine.offset = (0.0, 0.0)
-        bpy.utils.unregister_class(ToyEngine)
-
-
 @contextmanager
 def view_of_camera():
     """Have the 3D view the context, as if the pointer were over it, flat and without overlays."""
@@ -199,4 +172,4 @@ def given_render():
 
 
 SCENE = "suzanne"
-STORIES = (given_image, given_engine, given_render)
+STORIES = (given_image, given_render)

@@ -41,24 +41,5 @@ def page():
     noted["unchanged"] = before == (settings(), data_blocks())
 
 
-def german():
-    """Blender is German for a while, and the panel with it."""
-    show_panel()
-    yield
-    yield from open_tab()
-    translations, view = bpy.app.translations, bpy.context.preferences.view
-    before, view.language = view.language, "de_DE"
-    try:
-        yield
-        noted["operator"] = translations.pgettext("Trace and Compare", "Operator")
-        texts = "Compare With", "Watertight", "{} objects removed"
-        noted["texts"] = [translations.pgettext(text) for text in texts]
-        screenshot("german")
-    finally:
-        view.language = before
-    yield
-    noted["again"] = translations.pgettext("Compare With")
-
-
 SCENE = "suzanne"
-STORIES = (page, german)
+STORIES = (page,)

@@ -283,7 +283,7 @@ def is_marked(name, area, region):
     """Whether a screenshot has the cause's colour along the left side of a region's mark."""
     split = module("blender.ui.split")
     cause = module("causes.explain").BY_NUMBER[region.cause]
-    color = module("images").curve(np.array(cause.color))
+    color = module("files.images").curve(np.array(cause.color))
     inside = next(r for r in area.regions if r.type == "WINDOW")
     at = split.place_of(inside, 0)
     width, height = area.spaces.active.image.size

@@ -25,15 +25,3 @@ def test_a_second_press_starts_no_second_and_esc_ends_the_first(noted):
     assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
     assert noted["changed"] == {} and noted["left"] == []
     assert not noted["compared"]
-
-
-@pytest.mark.story("new_file")
-def test_another_file_comes(noted):
-    assert noted["ran"] and noted["file"] == ""
-    assert noted["left"] == []
-
-
-@pytest.mark.story("unticked")
-def test_the_add_on_is_switched_off(noted):
-    assert noted["ran"] and noted["disabled"]
-    assert noted["left"] == [] and noted["verdict"] == "agree"

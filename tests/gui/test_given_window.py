@@ -1,4 +1,4 @@
-"""Any picture and any engine is judged in the window; what is wrong is put right by clicks."""
+"""Any picture is judged in the window; what is wrong is put right by clicks."""
 
 import pytest
 
@@ -18,13 +18,6 @@ def test_what_is_wrong_with_an_image_is_found_selected_and_put_right(noted):
     assert noted["copied"] == [["Camera as in the picture"], "Camera"]
     assert noted["camera"] == "Camera as in the picture"
     assert agrees(noted["given_put_right"])
-
-
-@pytest.mark.story("given_engine")
-def test_half_a_pixel_of_another_engine_is_named(noted):
-    assert noted["given_offset"]["verdict"] == "differences"
-    assert noted["given_offset"]["told"] == ["pixel_offset"]
-    assert agrees(noted["given_right"])
 
 
 @pytest.mark.story("given_render")

@@ -19,10 +19,3 @@ def test_the_button_writes_the_page_and_opens_it(noted, blender):
     assert held["comparison"]["blender"]["source"] == "viewport"
     assert held["comparison"]["verdict"] == "agree"
     assert [p["id"] for p in held["pictures"]] == ["traced", "blender", "literal"]
-
-
-@pytest.mark.story("german")
-def test_the_panel_is_german_where_blender_is(noted):
-    assert noted["operator"] == "Verfolgen und vergleichen"
-    assert noted["texts"] == ["Vergleichen mit", "Wasserdicht", "{} Objekte entfernt"]
-    assert noted["again"] == "Compare With"

@@ -114,8 +114,8 @@ def test_the_status_bar_says_what_is_done_and_is_cleared_however_it_ends(noted):
 def test_what_takes_long_is_said_before_and_done_once(noted):
     words = "Trace and Compare, Blender evaluates 'Heavy'  (Esc: cancel)"
     assert noted["said"] == [words, words]
-    of_engines = {"AUTO": [1], "WORKBENCH": [1], "CYCLES": [2], "EEVEE": [1]}
-    assert noted["evaluations"].items() <= of_engines.items() and len(noted["evaluations"]) >= 3
+    assert len(noted["evaluations"]) >= 3
+    assert all(count == [1] for count in noted["evaluations"].values())
     assert set(noted["verdicts"].values()) == {"agree"} and "beside a plane" in noted["verdicts"]
 
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli import opening
-from reference_tracer.exr import MissingLibraryError
+from reference_tracer.files.exr import MissingLibraryError
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer_meshes.load import load_meshes, scene_of_meshes
 
@@ -33,23 +33,6 @@ def test_meshes_from_files(suffix, tmp_path):
         expected = expected[..., [0, 2, 1]] * (1, -1, 1)
     assert np.allclose(corners, expected, atol=1e-5)
     assert len(mesh.triangles) == len(shape.faces)
-
-
-def test_a_file_of_several_meshes_keeps_them_apart(tmp_path):
-    several = trimesh.Scene()
-    for k in range(3):
-        several.add_geometry(
-            trimesh.creation.box(),
-            transform=trimesh.transformations.translation_matrix((10 * k, 0, 0)),
-            geom_name=f"box{k}",
-        )
-    several.export(tmp_path / "several.glb")
-    loaded = load_meshes(tmp_path / "several.glb")
-    whole = scene_of_meshes(loaded, None, 30, 20)
-    assert len(whole.instances) == len(whole.objects) == 3
-    assert len({tuple(i.colors[0]) for i in whole.instances}) == 3
-    matrices = [placed.world_from_object for placed in loaded.placed]
-    assert np.ptp([m[:3, 3] for m in matrices], axis=0).max() == pytest.approx(20)
 
 
 @pytest.mark.parametrize(
@@ -88,34 +71,6 @@ def world(contents):
         transform_points(matrix, mesh.vertices.T).T[mesh.triangles]
         for mesh, matrix, _ in contents.placed
     ]
-
-
-@pytest.mark.parametrize("suffix", ["obj", "ply", "off", "stl", "glb"])
-def test_y_up_is_the_file_turned_by_hand(suffix, tmp_path, rng):
-    shape = trimesh.creation.icosphere(1)
-    shape.vertices = (shape.vertices * rng.normal(size=3)).astype(np.float32)
-    shape.export(tmp_path / f"y.{suffix}")
-    shape.vertices = shape.vertices[:, [0, 2, 1]] * (1, -1, 1)
-    shape.export(tmp_path / f"z.{suffix}")
-    (turned,) = world(load_meshes(tmp_path / f"y.{suffix}", up="y"))
-    (by_hand,) = world(load_meshes(tmp_path / f"z.{suffix}", up="z"))
-    assert np.array_equal(turned, by_hand) and np.ptp(turned, axis=(0, 1)).all()
-    camera, other = (
-        scene_of_meshes(load_meshes(tmp_path / f"{n}.{suffix}", n), None, 8, 8).camera for n in "yz"
-    )
-    assert np.array_equal(camera.world_from_camera, other.world_from_camera)
-
-
-def test_y_up_is_exact_where_a_file_places_its_meshes(tmp_path, rng):
-    several = trimesh.Scene()
-    for k in range(3):
-        matrix = trimesh.transformations.random_rotation_matrix(rng.random(3))
-        matrix[:3, 3] = rng.normal(size=3)
-        several.add_geometry(trimesh.creation.box(), transform=matrix, geom_name=f"box{k}")
-    several.export(tmp_path / "several.glb")
-    z, y = (world(load_meshes(tmp_path / "several.glb", up)) for up in "zy")
-    for a, b in zip(z, y, strict=True):
-        assert np.array_equal(a[..., [0, 2, 1]] * (1, -1, 1), b)
 
 
 @pytest.mark.parametrize(
@@ -251,7 +206,7 @@ def test_an_obj_of_blenders_has_y_up_where_nobody_says_otherwise(up, tmp_path):
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
     assert read(text) == ((), up == "y")
     notes, turned = read(f"# Blender 5.0.0\n{text}")
-    assert ["--up z" in note for note in notes] == [True] * (up is None)
+    assert ["up=z" in note for note in notes] == [True] * (up is None)
     assert turned == (up != "z")
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer_meshes.contents import Contents, Placed
 from reference_tracer_meshes.load import load_meshes, scene_of_meshes
@@ -27,30 +26,6 @@ def test_what_cannot_be_framed_or_is_no_number_is_refused_without_a_warning(tmp_
     write_ply(tmp_path / "a.ply", bits, {"face": [(0, 1, 2)]}, "binary_little_endian")
     with pytest.raises(SceneError, match="holds no triangles"):
         load_meshes(tmp_path / "a.ply")
-
-
-@pytest.mark.parametrize("size", [(90, 50), (40, 70)])
-@pytest.mark.parametrize(
-    "shape",
-    [
-        trimesh.creation.icosphere(2),
-        trimesh.creation.box((1, 2, 30)),
-        trimesh.creation.torus(1, 0.1),
-        trimesh.creation.box((1e-4, 3e-4, 2e-5)),
-    ],
-    ids=["ball", "tower", "ring", "tiny"],
-)
-def test_the_picture_of_a_mesh_is_nine_tenths_full(shape, size, make):
-    far = shape.bounding_box.extents.max() * np.array((9, -7, 2.0))
-    matrix = trimesh.transformations.translation_matrix(far)
-    frame = render(scene_of_meshes(alone(make.mesh(shape), matrix), None, *size))
-    seen = frame.instance_index == 0
-    y, x = (np.flatnonzero(seen.any(axis=axis)) for axis in (1, 0))
-    spans = np.array([np.ptp(x) + 1, np.ptp(y) + 1])
-    assert (np.abs(spans - 0.9 * np.array(size)) <= 1).any() and (
-        spans <= 0.9 * np.array(size) + 1
-    ).all()
-    assert 0 < x[0] and x[-1] < size[0] - 1 and 0 < y[0] and y[-1] < size[1] - 1
 
 
 def test_a_mesh_that_is_placed_often_is_one_mesh_and_a_name_is_one_object():

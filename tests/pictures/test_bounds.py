@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.causes.explain import AGREE
-from reference_tracer.images import decoded, encoded
+from reference_tracer.files.images import decoded, encoded
 from reference_tracer.pictures import bounds
 from reference_tracer.pictures.bounds import (
     HALF_UNITS,

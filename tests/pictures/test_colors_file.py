@@ -9,15 +9,15 @@ from pathlib import Path
 import jsonschema
 import numpy as np
 import pytest
-from reference_tracer import images
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR
+from reference_tracer.files import images
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.pictures import colors_file
 from reference_tracer.pictures.palette import By
 from reference_tracer.rendering import render
 from reference_tracer.report import page
 from reference_tracer.scene import SceneError
-from reference_tracer.scene_files import save_scene
 
 SCHEMA = json.loads((Path(page.__file__).parent / "colors.schema.json").read_text("utf-8"))
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.images import curve_undone
+from reference_tracer.files.images import curve_undone
 from reference_tracer.pictures.palette import (
     APART,
     MOST,

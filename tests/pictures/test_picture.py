@@ -15,7 +15,7 @@ from reference_tracer.causes.explain import (
     UNEXPLAINED,
     explain,
 )
-from reference_tracer.images import decoded, to_display
+from reference_tracer.files.images import decoded, to_display
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.identity import UNKNOWN

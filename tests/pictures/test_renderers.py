@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import exr, images
 from reference_tracer.causes.explain import AGREE, CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
+from reference_tracer.files import exr, images
 from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.pictures.renderers import RASTER, RAYS, renderer_of
 from reference_tracer.pictures.sampling import Sampling

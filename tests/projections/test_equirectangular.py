@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
-import trimesh
 from check_rounding import check_rounding
 from reference_tracer.certified.rounding import rounding
-from reference_tracer.methods import Method
 from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow
-from reference_tracer.scene_files import load_scene, save_scene
 from reference_tracer.tracer.camera import (
     camera_rays,
     corner_rays,
     film_beside,
-    film_of,
     film_positions,
     pixel_size,
 )
@@ -28,12 +23,13 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.settings import Settings
 
 from ..oracle import scene_sights
-from ..tracer.test_candidates import exact_depth, hits_outside
+from ..tracer.test_candidates import check
 from .test_sine import true_sine
 
 WHOLE = ViewWindow(-np.pi, np.pi, -np.pi / 2, np.pi / 2)
 BLENDERS = ViewWindow(*(float(np.float32(v)) for v in vars(WHOLE).values()))  # beyond the poles
 EYE = (3.25, -4.5, 0.125)
+REACHES = 0, 0.25, 0.5  # pixels, of samples
 PARTS = [0, *(pytest.param(n, marks=pytest.mark.torture) for n in (1, 2, 3, 4))]
 
 
@@ -92,36 +88,6 @@ def scene_of(camera, corners, planes=()) -> Scene:
     return Scene(camera, (mesh,), (Instance(0, 0, np.eye(4)),), planes, objects=("It",))
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_its_middle_poles_and_seam(make, seed):
-    camera = panorama(make, eye=EYE, axes=turned(np.random.default_rng(seed)))
-    px, py = np.array([16, 24, 8, 0, 32, 16, 5, 16, 29.0]), np.array([8, 8, 8, 8, 8, 16, 16, 0, 0])
-    ahead, right, up = camera.forward, camera.right, camera.up
-    expected = ahead, right, -right, -ahead, -ahead, up, up, -up, -up
-    rays = camera_rays(camera, px, py)
-    assert np.array_equal(rays.origins[:, 0], camera.origin)
-    np.testing.assert_allclose(rays.directions.T, expected, rtol=0, atol=1e-15)
-
-
-def test_a_longitude_and_a_latitude_are_an_angle_each(make, rng):
-    camera = panorama(make, 90, 45, ViewWindow(-1, 2, -0.3, 1.2), axes=turned(rng))
-    px, py = rng.uniform(0, 90, 200), rng.uniform(0, 45, 200)
-    d = camera_rays(camera, px, py).directions
-    lengths = np.sqrt((d * d).sum(axis=0))
-    np.testing.assert_allclose(lengths, 1, rtol=0, atol=2e-15)
-    np.testing.assert_allclose(np.arcsin(d.T @ camera.up), -0.3 + 1.5 * py / 45, atol=1e-15)
-    across, ahead = d.T @ camera.right, d.T @ camera.forward
-    np.testing.assert_allclose(np.arctan2(across, ahead), -1 + 3 * px / 90, atol=1e-14)
-
-
-@pytest.mark.parametrize("window", [WHOLE, ViewWindow(-1, 5, -0.3, 1.2)])
-def test_film_of_inverts_its_rays(make, rng, window):
-    camera = panorama(make, 90, 45, window, eye=EYE, axes=turned(rng))
-    px, py, t = rng.uniform(0, 90, 500), rng.uniform(0, 45, 500), 10.0 ** rng.uniform(-2, 3, 500)
-    found = film_of(camera, camera_rays(camera, px, py).at(t))
-    np.testing.assert_allclose(found, (px, py, t), rtol=1e-9, atol=1e-9)
-
-
 def test_beside_a_ray_straight_lines_are_straight(make, rng):
     camera = panorama(make, 90, 45, eye=EYE, axes=turned(rng))
     px, py = rng.uniform(0, 90, 100), rng.uniform(0, 45, 100)
@@ -136,27 +102,6 @@ def test_beside_a_ray_straight_lines_are_straight(make, rng):
     assert seen.sum() > 10
     area, size = (ax * by - ay * bx)[seen], (np.abs(line).max(axis=(0, 1)) ** 2)[seen]
     assert (np.abs(area) <= 1e-12 * (1 + size)).all()
-
-
-def test_t_is_the_distance(make):
-    ball = make.mesh(trimesh.creation.icosphere(5, radius=5.0))
-    ball = replace(ball, vertices=ball.vertices + EYE)
-    scene = make.scene(panorama(make, 64, 32, eye=EYE), ball)
-    for method in ("textbook", "certified"):
-        frame = render(scene, Settings(method))
-        away = frame.position - scene.camera.origin
-        np.testing.assert_allclose(np.sqrt((away**2).sum(axis=-1)), frame.t, rtol=1e-14)
-        assert (frame.t > 4.99).all() and (frame.t <= 5).all()  # and the ball is closed
-    near = replace(scene, camera=replace(scene.camera, clip_start=5.0001))
-    assert (render(near, Settings("certified")).instance_index == NOTHING).all()
-
-
-def test_float32_is_near(make, rng):
-    camera = panorama(make, axes=turned(rng))
-    px, py = rng.uniform(0, 32, 100), rng.uniform(0, 16, 100)
-    rays, near = camera_rays(camera, px, py), camera_rays(camera, px, py, np.float32)
-    assert near.directions.dtype == np.float32
-    np.testing.assert_allclose(near.directions, rays.directions, rtol=0, atol=1e-6)
 
 
 @pytest.mark.slow
@@ -189,27 +134,19 @@ def test_enclosing_rays_enclose(make):
         assert (np.abs(rays).max(axis=1) <= most).all() and (most < 6).all()
 
 
+def hostile(make, seed):
+    rng = np.random.default_rng(seed)
+    scale, camera = hostile_panorama(make, rng)
+    corners = hostile_triangles(camera, scale, rng)
+    return camera, corners.astype(rng.choice([np.float64, np.float32])), float(rng.choice(REACHES))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("part", PARTS)
 def test_no_hit_is_culled(make, part):
     """In float64 and float32: of what floats call a hit outside of a box, none truly is one."""
-    lost, counts = [], np.zeros(3)
-    for seed in range(400 * part, 400 * (part + 1)):
-        rng = np.random.default_rng(seed)
-        scale, camera = hostile_panorama(make, rng)
-        corners = hostile_triangles(camera, scale, rng)
-        corners = corners.astype(rng.choice([np.float64, np.float32]))
-        reach = float(rng.choice([0, 0.25, 0.5]))
-        bounds = pixel_bounds(camera, corners, reach)
-        for dx, dy in {(0, 0), (reach, reach), (-reach, reach), (-reach, -reach)}:
-            for outside, count in hits_outside(camera, corners, bounds, dx, dy):
-                counts += count
-                for o, d, triangle in outside:
-                    t = exact_depth(o, d, triangle)
-                    if t is not None and camera.clip_start <= t <= camera.clip_end:
-                        lost.append((seed, reach, float(t)))
-    assert not lost
-    hits, proposed, possible = counts
+    cases = (hostile(make, seed) for seed in range(400 * part, 400 * (part + 1)))
+    hits, proposed, possible = check(cases, ((0, 0), (1, 1), (-1, 1), (-1, -1)))
     assert hits > 20_000
     assert proposed < 0.6 * possible
 
@@ -252,40 +189,6 @@ def test_certified_is_what_the_integers_say(make, part):
     assert hits > 500 and hits < rays
 
 
-def test_the_methods_agree_and_samples_are_a_mean(make, rng):
-    ball = make.mesh(trimesh.creation.icosphere(2, radius=1.0))
-    ball = replace(ball, vertices=ball.vertices + np.array((0.3, 1.4, -0.5)))
-    scene = make.scene(panorama(make, 48, 24), ball, planes=[((0, -2, 0), (0.1, 1, 0))])
-    certified = render(scene, Settings("certified", samples=3))
-    for method in (Method.TEXTBOOK, Method.MOLLER_TRUMBORE, Method.WATERTIGHT):
-        for precision in ("float32", "float64"):
-            frame = render(scene, Settings(method, precision))
-            assert frame.wrong_against(certified).mean() < 0.002
-    colors = np.unique(certified.color.reshape(-1, 4), axis=0)
-    assert len(colors) > 5  # at edges, means of what the samples see
-    part = replace(scene, camera=replace(scene.camera, region=Region(5, 3, 30, 20)))
-    cut = render(part, Settings("certified", samples=3))
-    for name, whole in certified.passes().items():
-        if whole.ndim > 1:
-            assert np.array_equal(cut.passes()[name], whole[3:20, 5:30]), name
-
-
-def test_a_file_holds_it(make, tmp_path, rng):
-    scene = make.scene(panorama(make, axes=turned(rng)), make.quad(-1, 1, -1, 1, -2))
-    save_scene(tmp_path / "it.npz", scene)
-    camera = load_scene(tmp_path / "it.npz").camera
-    assert camera.projection == EQUIRECTANGULAR and camera.window == scene.camera.window
-    found = render(load_scene(tmp_path / "it.npz")).passes()
-    for name, expected in render(scene).passes().items():
-        assert np.array_equal(found[name], expected), name
-
-
-@pytest.mark.parametrize("window", [(1, -1, -1, 1), (-1, 1, 1, -1), (-2000, 2, -1, 1)])
-def test_what_is_mirrored_or_goes_around_too_often_is_refused(make, window):
-    with pytest.raises(SceneError, match="longitudes, latitudes"):
-        panorama(make, window=ViewWindow(*window))
-
-
 def test_its_clip_range_begins_before_it(make):
     with pytest.raises(SceneError, match="equirectangular camera sees begins in front"):
         panorama(make, clip_start=0.0)
@@ -296,14 +199,3 @@ def test_its_unrounded_rays_are_refused(make):
     with pytest.raises(SceneError, match=r"equirectangular.*sines and cosines"):
         check_rounding(scene, render(scene))
     assert pixel_size(scene.camera) == pytest.approx((np.pi / 16, np.pi / 16))
-
-
-def test_the_picture_grows_and_its_progress_rises(make):
-    """Certified by `plain`, which works in tiles; a cancelled one has the rows that are done."""
-    mesh = trimesh.creation.icosphere(subdivisions=2)
-    camera = panorama(make, width=512, height=1024)
-    scene = make.scene(camera, Mesh(mesh.vertices * 3, mesh.faces))
-    shares = []
-    frame = render(scene, progress=shares.append, cancelled=lambda: shares[-1] > 0.6)
-    assert (np.diff(shares) >= 0).all() and len(shares) > 50
-    assert frame.cancelled and 0 < frame.rows_done.sum() < len(frame.rows_done)

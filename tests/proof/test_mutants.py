@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import prove
 import pytest
 
 from ..copied import copied
@@ -46,11 +45,3 @@ def test_the_code_as_it_is_passes(copy, check):
 def test_each_is_of_a_text_that_is_there(copy):
     texts = {mutant.file: (copy / mutant.file).read_text("utf-8") for mutant in MUTANTS}
     assert not [m.what for m in MUTANTS if m.old not in texts[m.file] or m.old == m.new]
-
-
-def test_the_document_has_all_of_them():
-    text = (prove.PROOFS.parent / "docs" / "proof.md").read_text(encoding="utf-8")
-    assert len({mutant.what for mutant in MUTANTS}) == len(MUTANTS)
-    for check in CHECKS:
-        [row] = [line for line in text.splitlines() if line.startswith(f"| *{check}* |")]
-        assert all(m.what in row for m in MUTANTS if m.check == check)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from reference_tracer.comparison.extras import extras
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 from reference_tracer.report import page
 from reference_tracer.report.page.content import content
 from reference_tracer.tracer.progress import result_of

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from reference_tracer.comparison.animation import FrameRow
 from reference_tracer.comparison.verdict import Verdict
-from reference_tracer.images import save_png
+from reference_tracer.files.images import save_png
 from reference_tracer.report import animation as report
 
 FRAMES = range(1, 31)

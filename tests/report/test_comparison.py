@@ -12,7 +12,7 @@ from reference_tracer.causes.case import Case
 from reference_tracer.causes.explain import AGREE, CAUSES
 from reference_tracer.comparison.comparing import compare
 from reference_tracer.comparison.comparison import SCHEMA
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render

@@ -170,7 +170,7 @@ def test_a_full_disk_ends_trace_in_one_line(suffix, tmp_path, full, capfd):
     path = tmp_path / "a.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     out = tmp_path / f"picture.{suffix}"
-    size = ["--width", "300", "--height", "300", "--samples", "2"]
+    size = ["--set", "width=300", "height=300", "--samples", "2"]
     assert main(["trace", str(path), "--out", str(out), *size]) == 4
     printed = capfd.readouterr()
     assert f"picture.{suffix}'" in printed.err and len(printed.err.splitlines()) == 1

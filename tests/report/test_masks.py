@@ -10,9 +10,9 @@ import OpenEXR
 import pytest
 from PIL import Image
 from reference_tracer.cli.main import main
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
 from reference_tracer.report import cryptomatte, masks
-from reference_tracer.scene_files import save_scene
 
 
 @pytest.fixture

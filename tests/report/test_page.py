@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer.comparison.extras import extras
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
 from reference_tracer.report import page

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from reference_tracer import translations
+from reference_tracer.causes.cause import AGREE, NOT_TRACED
 from reference_tracer.causes.explain import CAUSES
 from reference_tracer.certainty import Certainty
 from reference_tracer.derivation import formulas
@@ -60,6 +61,7 @@ def parts(text):
 def computed():
     """Return the texts of records that the page shows."""
     found = {c.sentence for c in CAUSES} | {c.label.capitalize() for c in CAUSES}
+    found |= {c.place or c.label for c in CAUSES if c not in (AGREE, NOT_TRACED)}
     found |= {c.sentence for c in Certainty} | {*formulas.ERRATA}
     found |= {name.replace("_", " ").capitalize() for name in Certainty.__members__}
     return found | {v[2] for f in (formulas.PLANE, formulas.TRIANGLE) for v in f.values()}

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 from reference_tracer.scene import Instance
 from reference_tracer.tracer.camera import camera_rays, film_positions
 

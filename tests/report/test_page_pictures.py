@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.comparison.animation import FrameRow
 from reference_tracer.comparison.verdict import Verdict
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 from reference_tracer.report import animation
 from reference_tracer.report.page.content import content
 
@@ -19,7 +19,8 @@ pytestmark = pytest.mark.browser
 
 def test_it_opens_and_says_the_verdict_at_a_glance(show, differing):
     tab = show(differing)
-    assert "Differences" in tab.locator("#verdict").inner_text()
+    said = differing.verdict.in_words(differing.counts)  # as everywhere else
+    assert tab.locator("#verdict").inner_text().split("\n")[-1].endswith(said)
     assert "1,720 of 1,728" in tab.locator("#headline").inner_text()
     assert tab.locator(".tile.bad dd").inner_text() == "2"
     assert "of 8 that differ" in tab.locator(".tile").nth(1).inner_text()

@@ -14,7 +14,7 @@ from reference_tracer.comparison.comparing import diagnosed as find_diagnosis
 from reference_tracer.diagnosis.diagnosis import Diagnosis, Told
 from reference_tracer.diagnosis.faults.fault import Fault, Numbers, of_camera
 from reference_tracer.diagnosis.regions import regions
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 from reference_tracer.report import page
 from reference_tracer.report.page.content import content
 from reference_tracer.tracer.progress import result_of

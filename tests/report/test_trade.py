@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from dataclasses import replace
 
 import pytest
@@ -15,14 +14,13 @@ from reference_tracer.report.trade import (
     SCHEMA,
     TABLE,
     page,
+    plot,
     table,
     text_cells,
     write,
 )
 from reference_tracer.study.trade import COLUMNS, Trade, TradeRow, mark
 from reference_tracer.tracer.settings import Precision
-
-from ..drawn import scale
 
 pytestmark = pytest.mark.slow
 
@@ -156,60 +154,34 @@ def test_json_is_strict_whatever_was_measured(tmp_path, trade):
     assert held["largest_t_error"] is None and held["coverage_error"] is None
 
 
-def halves(plot):
-    """Of the upper and of the lower axes: what is in them, and the two scales by their numbers."""
-    [above, below] = [t.y for t in plot.texts if t.words.startswith("Time against")]
-    for low, high in ((above, below), (below, plot.height - 60)):
-        inside = [e for e in plot.elements if low <= e.y < high and e.tag != "polyline"]
-        numbers = [e for e in inside if e.tag == "text" and re.fullmatch(r"[\d.e+-]+", e.words)]
-        up = [t for t in numbers if t.attributes["text-anchor"] == "end"]
-        along = [t for t in numbers if t.attributes["text-anchor"] == "middle"]
-        middle = 0.35 * float(up[0].attributes["font-size"])
-        x = scale([(t.x, float(t.words)) for t in along], log=True)
-        y = scale([(t.y - middle, float(t.words)) for t in up], log=True)
-        yield inside, x, y
-
-
-@pytest.mark.browser
-def test_every_row_is_a_mark_where_the_axes_say(trade, plotted):
+def test_every_row_is_a_mark_at_its_numbers(trade):
     """And none else; hollow is float32, large is what no other beats; no error is at "none"."""
-    plot = plotted(page(trade))
-    (upper, *of_upper), (lower, *of_lower) = halves(plot)
-    for inside, (x, y), rows, error, best in (
-        (upper, of_upper, trade.whole, "wrong_pixels", "best_pixels"),
-        (lower, of_lower, trade.rows, "coverage_error", "best_coverage"),
-    ):
-        marks = [e for e in inside if e.tag == "circle" and e.words]
-        assert len(marks) == len(rows)
+    sides = (
+        (trade.whole, "wrong_pixels", "best_pixels"),
+        (trade.rows, "coverage_error", "best_coverage"),
+    )
+    for panel, (rows, error, best) in zip(plot(trade).panels, sides, strict=True):
+        marks = [s for s in panel.series if any(words for *_, words in s.points)]
         least = min(getattr(r, error) for r in rows if getattr(r, error))
-        for r in rows:
-            name = f"{Method(r.method).record.words}, {r.precision}, {r.size}: "
-            [m] = [m for m in marks if m.words.startswith(name)]
-            assert all(f"{c.head} {c.show(r)}" in m.words for c in COLUMNS)
-            assert x(m.x) == pytest.approx(r.seconds, rel=1e-3)
-            if getattr(r, error):
-                assert y(m.y) == pytest.approx(getattr(r, error), rel=1e-3)
-            else:
-                assert y(m.y) < least and plot.text("none")
-            color = Method(r.method).record.color
-            assert m.attributes["stroke"] == color
-            assert m.attributes["fill"] == ("white" if r.precision == "float32" else color)
-            assert (float(m.attributes["r"]) > 10) == getattr(r, best)
+        for r, mark_of in zip(rows, marks, strict=True):
+            [(x, y, words)] = mark_of.points
+            assert words.startswith(f"{Method(r.method).record.words}, {r.precision}, {r.size}: ")
+            assert all(f"{c.head} {c.show(r)}" in words for c in COLUMNS)
+            assert x == r.seconds and y == (getattr(r, error) or panel.y.named[0][0])
+            assert getattr(r, error) or (y < least and panel.y.named[0][1] == "none")
+            assert mark_of.color == Method(r.method).record.color
+            assert mark_of.hollow == (r.precision == "float32")
+            assert (mark_of.radius > 10) == getattr(r, best)
+        line = panel.series[-1]
+        assert line.color == INK and len(line.points) == sum(getattr(r, best) for r in rows)
 
 
 @pytest.mark.browser
 def test_the_plot_says_what_it_shows(trade, plotted):
-    plot = plotted(page(trade))
-    said = plot.said()
+    said = plotted(page(trade)).said()
     for words in (trade.advice, "a scene.blend: ", "16 × 16 rays", "160 × 90 pixels, one ray each"):
         assert words in said
     assert all(m.record.words in said for m in MEASURED)
-    lines = [e for e in plot.elements if e.tag == "polyline" and e.attributes["stroke"] == INK]
-    best = [
-        sum(getattr(r, b) for r in rows)
-        for rows, b in ((trade.whole, "best_pixels"), (trade.rows, "best_coverage"))
-    ]
-    assert [len(e.attributes["points"].split()) for e in lines[:2]] == best
 
 
 @pytest.mark.browser
@@ -230,6 +202,6 @@ def test_plots_are_legible(slow, plotted):
             for k, r in enumerate(trade.rows)
         ]
         held = replace(trade, rows=mark(rows), scene=scene, advice="word " * 60)
-        plot = plotted(page(held))
-        plot.assert_legible()
-        assert len(plot.titled("circle")) == len(trade.rows) + len(trade.whole)
+        drawn = plotted(page(held))
+        drawn.assert_legible()
+        assert len(drawn.titled("circle")) == len(trade.rows) + len(trade.whole)

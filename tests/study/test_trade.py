@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 
-import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.study.trade import COLUMNS, TIMED, Column, Trade, TradeRow, advice, gain, mark
+from reference_tracer.study.trade import COLUMNS, TIMED, Column, TradeRow, advice, gain, mark
 from reference_tracer.tracer.settings import Precision
 
 
@@ -17,41 +16,6 @@ def row(method="textbook", precision="float64", seconds=1.0, wrong=0, coverage=0
     size = options.pop("width", 160), options.pop("height", 90)
     samples = options.pop("samples", 1)
     return TradeRow(method, precision, samples, *size, seconds, wrong, 0.0, 1000, coverage, rounds)
-
-
-def beats(first, second):
-    """As the definition says it: at least as good in both, better in one."""
-    return all(a <= b for a, b in zip(first, second, strict=True)) and any(
-        a < b for a, b in zip(first, second, strict=True)
-    )
-
-
-@pytest.mark.parametrize("seed", range(30))
-def test_marks_are_those_of_the_definition(seed):
-    """With few different values, so that there are ties of all kinds."""
-    rng = np.random.default_rng(seed)
-    rows = [
-        row(
-            seconds=float(rng.integers(1, 6)),
-            wrong=int(rng.integers(0, 5)),
-            coverage=float(rng.integers(0, 5)) / 8,
-            width=int(rng.choice([160, 80])),
-            samples=int(rng.choice([1, 2])),
-        )
-        for _ in range(rng.integers(1, 25))
-    ]
-    marked = mark(rows)
-    assert [replace(m, best_pixels=False, best_coverage=False) for m in marked] == rows
-    for m in marked:
-        mine = m.seconds, m.wrong_pixels
-        rivals = [(o.seconds, o.wrong_pixels) for o in rows if o.width == m.width]
-        assert m.best_pixels == (not any(beats(o, mine) for o in rivals))
-        mine = m.seconds, m.coverage_error
-        assert m.best_coverage == (
-            not any(beats((o.seconds, o.coverage_error), mine) for o in rows)
-        )
-        assert m.best == (m.best_pixels or m.best_coverage)
-    assert any(m.best_coverage for m in marked)
 
 
 def test_every_field_that_is_measured_has_a_column():
@@ -72,16 +36,6 @@ def test_equals_are_both_marked():
     assert [m.best for m in mark([row(), row(), row(seconds=2.0)])] == [True, True, False]
 
 
-def test_whole_is_the_ladder_of_the_largest_picture():
-    rows = [row(width=80), row(), row(samples=2), row("certified")]
-    assert Trade("", rows, "", 16).whole == [rows[1], rows[3]]
-
-
-def test_spread():
-    assert (row(rounds=(3.0, 1.0, 2.0)).fastest, row(rounds=(3.0, 1.0, 2.0)).slowest) == (1, 3)
-    assert row(rounds=()).fastest == row(rounds=()).slowest == 1
-
-
 def test_gain_is_that_of_the_rounds():
     """A slow moment falls on both rows of a round: only their ratio counts."""
     fast, slow = row(rounds=(0.9, 1.8, 0.9)), row(rounds=(1.0, 2.0, 1.0))
@@ -92,14 +46,6 @@ def test_gain_is_that_of_the_rounds():
     assert gain(slow, slow) == 0
     assert gain(row(rounds=()), slow) == 0
     assert gain(row(rounds=(0.5, 0.5)), row(rounds=(1.0, 1.0, 0.1))) == 0.5  # two in common
-
-
-def test_one_disturbed_round_of_seven_is_forgiven():
-    slow = row(rounds=(1.0,) * 7)
-    assert gain(row(rounds=(0.8,) * 6 + (3.0,)), slow) == pytest.approx(0.2)
-    assert gain(row(rounds=(0.8,) * 5 + (3.0,) * 2), slow) == 0
-    assert gain(slow, row(rounds=(0.8,) * 6 + (3.0,))) == pytest.approx(-0.25)
-    assert gain(row(rounds=(0.8,) * 5 + (3.0,)), slow) == 0  # one of six
 
 
 def test_no_row_is_best_by_noise():
@@ -184,16 +130,6 @@ def test_advice_where_nothing_is_seen():
     rows = [replace(r, largest_t_error=None) for r in ladder()]
     assert advice(rows).startswith("Nothing is seen: ")
     assert advice([*rows[:-1], replace(rows[-1], largest_t_error=0.0)]).startswith("With the")
-
-
-def test_the_fastest_is_not_so_by_noise():
-    rows = ladder(textbook_float32=(0.8, 9), watertight_float64=(0.81, 0))
-    noisy = [
-        replace(r, rounds=(0.7, 0.81, 0.9)) if (r.seconds, r.wrong_pixels) == (0.81, 0) else r
-        for r in rows
-    ]
-    assert "textbook in float32 (9 wrong pixels), the fastest" in advice(rows)
-    assert "watertight in float64 (no wrong pixels), the fastest" in advice(noisy)
 
 
 def test_advice_is_about_the_largest_picture():

@@ -7,13 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.projections import ORTHOGRAPHIC
-from reference_tracer.rendering import render
-from reference_tracer.scene import Region, ViewWindow
+from reference_tracer.scene import ViewWindow
 from reference_tracer.tracer.camera import (
-    Rays,
     camera_rays,
     film_of,
-    film_positions,
     pixel_size,
     project,
 )
@@ -109,30 +106,6 @@ def test_nothing_appears_behind_a_perspective_camera(make):
     assert np.isfinite(film_of(replace(camera, projection=ORTHOGRAPHIC), points)).all()
 
 
-def test_rays_of_a_region_are_those_of_the_picture(camera):
-    region, whole = Region(3, 2, 11, 9), Region(0, 0, 20, 14)
-    part = camera_rays(camera, *film_positions(region, 0.125, -0.25))
-    full = camera_rays(camera, *film_positions(whole, 0.125, -0.25))
-    for some, every in ((part.origins, full.origins), (part.directions, full.directions)):
-        if every.shape[1] > 1:
-            every = every.reshape(3, 14, 20)[:, 2:9, 3:11].reshape(3, -1)
-        assert some.tobytes() == np.ascontiguousarray(every).tobytes()
-
-
-def test_a_region_is_cut_out_of_the_picture(camera, make):
-    turned = np.eye(4)
-    turned[:3, :3], turned[:3, 3] = camera.world_from_camera[:3, :3], camera.origin
-    quad = make.quad(-1, 3, -2, 0.2, -3)
-    scene = make.scene(camera, quad, planes=[((0, 0, -400), (0.1, 0.3, 1))])
-    scene = replace(scene, instances=[replace(scene.instances[0], world_from_object=turned)])
-    whole = render(scene).passes()
-    part = render(replace(scene, camera=replace(camera, region=Region(3, 2, 11, 9)))).passes()
-    assert len(np.unique(whole["instance_index"])) > 1
-    for name, values in part.items():
-        cut = whole[name][2:9] if values.ndim == 1 else whole[name][2:9, 3:11]
-        assert np.array_equal(values, cut), name
-
-
 @pytest.mark.parametrize("degrees", [0.5, 40, 170])
 def test_the_textbooks_camera(degrees, make):
     """Pixel length tan(half the angle) / (half the resolution), samples at x - (width - 1) / 2."""
@@ -155,19 +128,3 @@ def test_directions_do_not_depend_on_the_place(camera):
     there = camera_rays(replace(camera, world_from_camera=far), px, px)
     assert np.array_equal(here.directions, there.directions)
     assert here.directions.shape[1] == (1 if camera.projection.shares_direction else 1001)
-
-
-def test_float32_is_near(camera, rng):
-    px, py = rng.uniform(0, 20, 100), rng.uniform(0, 14, 100)
-    rays, near = camera_rays(camera, px, py), camera_rays(camera, px, py, np.float32)
-    assert near.origins.dtype == near.directions.dtype == np.float32
-    assert np.allclose(near.directions, rays.directions, rtol=0, atol=1e-6)
-    assert np.allclose(near.origins, rays.origins, rtol=0, atol=1e-5)
-
-
-def test_what_all_rays_share_stays_shared(rng):
-    rays = Rays(rng.normal(size=(3, 1)), rng.normal(size=(3, 6)))
-    some = rays.take(np.array([4, 4, 0]))
-    assert some.origins.shape == (3, 1)
-    assert np.array_equal(some.directions, rays.directions[:, [4, 4, 0]])
-    assert np.array_equal(some.at(2.0), rays.origins + 2 * rays.directions[:, [4, 4, 0]])

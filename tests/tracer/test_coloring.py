@@ -8,15 +8,14 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.images import curve, to_display
+from reference_tracer.files.images import curve, to_display
 from reference_tracer.rendering import render, steps
-from reference_tracer.scene import Instance, Mesh, Region
-from reference_tracer.tracer.coloring import BACK, FARTHEST, Color
+from reference_tracer.scene import Mesh
+from reference_tracer.tracer.coloring import BACK, FARTHEST
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.settings import Settings
 
-SHAPES = [c for c in Color if c != Color.OBJECT]
 ROUNDING = 1e-6  # of float32, in which a frame has its colours
 
 
@@ -107,73 +106,8 @@ def test_depths_that_are_all_one_or_none_or_beyond_a_difference(make):
     )
 
 
-@pytest.mark.parametrize("color", Color)
-def test_all_but_the_colour_of_surfaces_is_the_same(room, color):
-    """What is seen, what is known of it, what it took; and the background."""
-    plain, frame = render(room), render(room, Settings(color=color))
-    for name, values in vars(plain).items():
-        assert (
-            name == "color"
-            or not isinstance(values, np.ndarray)
-            or np.array_equal(values, getattr(frame, name))
-        ), name
-    assert dict(plain.ties) == dict(frame.ties)
-    assert plain.statistics.pairs_tested == frame.statistics.pairs_tested
-    hit = plain.instance_index != NOTHING
-    assert 0 < hit.sum() < hit.size
-    assert np.array_equal(plain.color[~hit], frame.color[~hit])
-    assert (frame.color[hit, 3] == 1).all()
-    assert np.array_equal(plain.color, frame.color) == (color is Color.OBJECT)
-
-
-@pytest.mark.parametrize("color", Color)
-def test_samples_are_the_mean_of_a_finer_picture(room, color):
-    settings = Settings(color=color, samples=3)
-    camera = room.camera
-    fine = replace(room, camera=replace(camera, width=90, height=60, region=None))
-    found, finer = render(room, settings), render(fine, Settings(color=color))
-    each = finer.color.astype(float)
-    if color is Color.DEPTH:  # which is between the hits of the picture's own rays
-        near, far = found.depths()
-        share = (np.clip(finer.t, near, far) - near) / (far - near)
-        hit = finer.instance_index != NOTHING
-        grey = 1 - (1 - FARTHEST) * share[hit]
-        each[hit, :3] = (((grey + 0.055) / 1.055) ** 2.4)[:, None]
-    mean = each.reshape(20, 3, 30, 3, 4).mean(axis=(1, 3))
-    np.testing.assert_allclose(found.color, mean, rtol=0, atol=4 * ROUNDING)
-
-
-@pytest.mark.parametrize("color", [Color.NORMAL, Color.FACING])
-def test_a_border_is_a_part_of_the_picture(room, color):
-    whole = render(room, Settings(color=color)).color
-    part = replace(room, camera=replace(room.camera, region=Region(5, 3, 21, 17)))
-    assert np.array_equal(render(part, Settings(color=color)).color, whole[3:17, 5:21])
-
-
-@pytest.mark.parametrize("signs", [(-1, 1, 1), (1, -1, -1), (-1, -1, -1)])
-def test_a_mirrored_instance_shows_its_front(make, signs):
-    ball = make.mesh(trimesh.creation.icosphere(1))
-    scene = make.scene(make.camera(eye=(3, -4, 2), target=(0, 0, 0)), ball)
-    mirrored = [Instance(0, 0, np.diag([*signs, 1.0]))]
-    color = render(replace(scene, instances=mirrored), Settings(color="facing")).color
-    seen = color[..., 3] == 1
-    assert seen.any() and (color[seen, 0] == color[seen, 1]).all()
-
-
 @pytest.mark.parametrize("samples", [1, 2])
 def test_progress_of_depth_rises_to_1(room, samples):
     settings = Settings(color="depth", samples=samples)
     shares = list(steps(room, settings, Frame.empty(room)))
     assert shares == sorted(shares) and shares[-1] == 1 and shares[-2] < 1
-
-
-@pytest.mark.parametrize("samples", [1, 2])
-def test_what_is_done_of_a_depth_that_is_cancelled_is_of_the_whole(room, samples):
-    """Wherever it is stopped: a pixel is as in the whole picture, or empty in a row to be done."""
-    settings, part, done = Settings(color="depth", samples=samples), Frame.empty(room), []
-    whole = render(room, settings).color
-    for _ in steps(room, settings, part):
-        rows, other = part.rows_done, part.color != whole
-        assert not other[rows].any() and not part.color[other].any()
-        done.append(int(rows.sum()))
-    assert done[0] == 0 and done[-1] == len(rows) and done == sorted(done)

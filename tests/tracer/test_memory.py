@@ -11,11 +11,11 @@ import zlib
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import png
 from reference_tracer.cli.main import main
-from reference_tracer.images import save_png, to_display
+from reference_tracer.files import png
+from reference_tracer.files.images import save_png, to_display
+from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
-from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer import memory
 from reference_tracer.tracer.memory import (
     ALWAYS,
@@ -126,6 +126,6 @@ def test_the_largest_picture_that_blender_has_is_refused_at_once(tmp_path, comma
     (tmp_path / "other.png").write_bytes(png.SIGNATURE + chunk)  # no pixel is read
     own = ["--against", str(tmp_path / "other.png")] if command == "compare" else []
     out = str(tmp_path / ("out" if own else "out.png"))
-    size = ["--width", "32767", "--height", "32767"]
+    size = ["--set", "width=32767", "height=32767"]
     assert main([command, str(tmp_path / "box.ply"), *own, "--out", out, *size]) == 4
     assert re.match(REFUSED, capsys.readouterr().err.splitlines()[-1])

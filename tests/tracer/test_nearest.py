@@ -8,16 +8,14 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
+from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer import candidates, plane, world
-from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer import render as loop
-from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
+from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.vector import transform_points
-from reference_tracer.tracer.world import WorldTriangles
 
 PLAIN = [Settings(m, p) for m in Method if not m.is_proven for p in ("float64", "float32")]
 
@@ -124,51 +122,7 @@ def test_the_memory_does_not_matter(mess):
             assert values.tobytes() == whole[name].tobytes(), name
 
 
-def test_a_mesh_shared_or_copied_or_split_is_the_same(mess):
-    """Each triangle as an instance of a mesh of its own: the same picture, bit for bit."""
-    whole = traced(mess)
-    meshes, instances, origin = [], [], []
-    for i, instance in enumerate(mess.instances):
-        mesh = mess.meshes[instance.mesh]
-        for k, triangle in enumerate(mesh.triangles):
-            instances.append(replace(instance, mesh=len(meshes)))
-            meshes.append(Mesh(mesh.vertices[triangle], [[0, 1, 2]]))
-            origin.append((i, k))
-    for k in range(len(mess.planes)):
-        origin.append((len(mess.instances) + k, NOTHING))
-    origin.append((NOTHING, NOTHING))
-    split = traced(replace(mess, meshes=meshes, instances=instances))
-    for name in ("t", "position", "normal", "barycentrics", "object_index"):
-        assert getattr(split, name).tobytes() == getattr(whole, name).tobytes(), name
-    names = np.array(origin)[split.instance_index]
-    assert np.array_equal(names[..., 0], whole.instance_index)
-    assert np.array_equal(names[..., 1], whole.triangle_index)
-
-
 SEEING = pytest.mark.parametrize("method", [m for m in Method if m != Method.TEXTBOOK_LITERAL])
-
-
-@SEEING
-def test_where_instances_touch_there_is_no_gap(make, rng, method):
-    """A grid of instances of one square, each corner computed four times: no pixel is missed."""
-    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    camera = make.camera(
-        40,
-        40,
-        eye=5 * turn[:, 2],
-        axes=turn,
-        window=ViewWindow(-0.45123, 0.46317, -0.44171, 0.43713),
-    )  # no centre on an edge
-    instances = []
-    for x in range(-8, 8):
-        for y in range(-8, 8):
-            matrix = np.eye(4)
-            matrix[:3] = np.column_stack((turn, turn @ (x, y, 0)))
-            instances.append(Instance(0, 0, matrix))
-    scene = Scene(camera, (make.quad(0, 1, 0, 1, 0),), instances, objects=("Square",))
-    frame = traced(scene, Settings(method))
-    assert (frame.instance_index != NOTHING).all()
-    assert len(np.unique(frame.instance_index)) > 16
 
 
 @SEEING
@@ -188,16 +142,6 @@ def test_equal_t_goes_to_the_lower_instance_and_triangle(make, method):
         assert set(np.unique(frame.triangle_index)) == {0, 1}
 
 
-def test_planes_come_after_instances_and_the_first_of_them_wins(make):
-    planes = [((0, 0, -2), (0, 0, 1)), ((5, 0, -2), (0, 0, -3))]
-    quad = make.quad(-9, 0, -9, 9, -2)
-    frame = traced(make.scene(make.camera(), quad, planes=planes))
-    assert (frame.t == 2).all()
-    assert (frame.instance_index[:, :12] == 0).all()
-    assert (frame.instance_index[:, 12:] == 1).all()
-    assert (frame.triangle_index[:, 12:] == NOTHING).all()
-
-
 @pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("kind", ["triangle", "plane"])
 @pytest.mark.parametrize("method", ["moller_trumbore", "certified"])
@@ -215,23 +159,3 @@ def test_what_is_clipped_shows_what_is_behind(make):
     camera = make.camera(clip_start=1.5)
     scene = make.scene(camera, make.quad(-9, 9, -9, 9, -1), make.quad(-9, 9, -9, 9, -2))
     assert (traced(scene).object_index == 1).all()
-
-
-def test_nearest_to_a_ray_among_pairs_of_one_step(mess):
-    """Several hits of one ray entered at once: the first of them stays, as one by one."""
-    rays = Rays(np.zeros((3, 1)), np.array([[0.0], [0], [-1]]))
-    corners = np.stack(
-        [make_corner(x, y, np.array([5.0, 3, 4, 3])) for x, y in ((-1, -1), (1, -1), (0, 2))]
-    )
-    some = visibility.Pairs(
-        np.zeros(4, int),
-        np.arange(4),
-        WorldTriangles(corners, np.array([1, 7, 0, 2], np.int32), np.arange(4, dtype=np.int32)),
-    )
-    hits = visibility.Hits.none(1)
-    visibility.test_pairs(mess, Settings("watertight"), rays, some, hits)
-    assert (hits.t[0], hits.instance[0], hits.triangle[0]) == (3, 2, 3)
-
-
-def make_corner(x, y, depths):
-    return np.stack((np.full(len(depths), x, float), np.full(len(depths), y, float), -depths))

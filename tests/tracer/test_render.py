@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import tracemalloc
-from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.methods import Method
 from reference_tracer.rendering import render, steps
 from reference_tracer.scene import Region
 from reference_tracer.tracer import candidates
@@ -19,8 +17,7 @@ from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.render import sample_offsets, tiles
-from reference_tracer.tracer.settings import Precision, Settings
-from reference_tracer.tracer.triangle import TESTS, textbook
+from reference_tracer.tracer.settings import Settings
 from trimesh.ray.ray_triangle import RayMeshIntersector
 
 TURN = trimesh.transformations.rotation_matrix(0.7, (0.3, -0.5, 0.8), (0.1, 0, 0.2))
@@ -88,19 +85,6 @@ def test_trimesh_sees_the_same(shape, orthographic, method, make):
     ).all()  # closed: only its outside is seen
 
 
-@pytest.mark.parametrize("method", ["textbook", "moller_trumbore", "watertight"])
-def test_float32_differs_a_little_near_edges(method, make):
-    camera = make.camera(60, 45, eye=(2.3, -2.6, 1.9), target=(0, 0, 0))
-    scene = make.scene(camera, make.mesh(SHAPES["torus"]))
-    fine, coarse = (render(scene, Settings(method, p)) for p in ("float64", "float32"))
-    differ = fine.triangle_index != coarse.triangle_index
-    assert differ.mean() < 0.01
-    assert (fine.barycentrics.min(axis=-1)[differ & np.isfinite(fine.t)] < 1e-3).all()
-    same = ~differ & np.isfinite(fine.t)
-    assert same.any() and np.allclose(coarse.t[same], fine.t[same], rtol=1e-5, atol=0)
-    assert not np.array_equal(coarse.t[same], fine.t[same])
-
-
 @pytest.mark.parametrize("samples", [1, 2, 3, 5])
 def test_samples_are_spread_evenly(samples):
     offsets = np.array(sample_offsets(samples))
@@ -121,39 +105,6 @@ def test_an_edge_becomes_the_mean(make, samples, covered):
     assert np.allclose(share, covered, rtol=0, atol=1e-6 if exact else 0.5 / samples)
     assert np.allclose(frame.color[:, 5], share[:, None] * frame.color[0, 0])
     assert (frame.color[:, :5] == frame.color[0, 0]).all() and (frame.color[:, 6:] == 0).all()
-
-
-def test_passes_stay_at_the_centre(make):
-    scene = make.scene(
-        make.camera(), make.mesh(SHAPES["torus"]), planes=[((0, 0, -3), (0.1, 0, 1))]
-    )
-    scene = replace(scene, camera=make.camera(eye=(2, -2.6, 1.9), target=(0, 0, 0)))
-    one, four = (render(scene, Settings(samples=n)).passes() for n in (1, 4))
-    assert not np.array_equal(one.pop("color"), four.pop("color"))
-    for name, values in one.items():
-        assert values.tobytes() == four[name].tobytes(), name
-
-
-def test_float32_and_methods_reach_the_picture(make, monkeypatch):
-    """Each precision makes a picture of its own, and each method's own function makes it."""
-    scene = make.scene(
-        make.camera(eye=(2, -2.6, 1.9), target=(0, 0, 0)), make.mesh(SHAPES["torus"])
-    )
-    plain = [m for m in Method if not m.is_proven]
-    for method in plain:
-        frames = [render(scene, Settings(method, p)) for p in Precision]
-        assert len({f.t.tobytes() for f in (*frames, render(scene))}) == 3
-    pictures = {m: render(scene, Settings(m)).t.tobytes() for m in plain}
-    for method in plain:
-        with monkeypatch.context() as patched:
-            patched.setitem(TESTS, method, _never)
-            changed = {m for m in plain if render(scene, Settings(m)).t.tobytes() != pictures[m]}
-        assert changed == {method}
-
-
-def _never(rays, p1, p2, p3):
-    hit, t, s = textbook(rays, p1, p2, p3)
-    return np.zeros_like(hit), t, s
 
 
 @pytest.mark.slow
@@ -241,12 +192,6 @@ def test_a_cancelled_picture_has_no_half_a_band(make, color):
             values = getattr(frame, name)[undone], getattr(empty, name)[undone]
             assert np.array_equal(*values), (most, name)
     assert cancelled > 5 and len(frame.ties) > 500
-
-
-def test_cancelling_a_whole_picture_does_nothing(make):
-    scene, shares = make.scene(make.camera(4, 4)), []
-    frame = render(scene, progress=shares.append, cancelled=lambda: shares[-1] == 1)
-    assert not frame.cancelled and frame.rows_done.all()
 
 
 def test_tiles_cover_the_region_once(make, monkeypatch):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.triangle import moller_trumbore, watertight
+from reference_tracer.tracer.triangle import watertight
 
 from .rational import functions
 
@@ -54,23 +54,6 @@ def test_no_ray_leaves_a_closed_mesh_unseen(rng, dtype, place):
     assert 0 < met_twice < rays
 
 
-@TYPES
-def test_agrees_with_moller_trumbore_away_from_edges(rng, dtype):
-    count, near = 20_000, 1e-3 if dtype == np.float32 else 1e-10
-    corners = rng.normal(size=(3, 3, count)).astype(dtype)
-    rays = Rays(*(rng.normal(size=(3, count)).astype(dtype) for _ in range(2)))
-    hit, t, s = watertight(rays, *corners)
-    other_hit, other_t, other_s = moller_trumbore(rays, *corners)
-    assert t.dtype == s.dtype == dtype
-    with np.errstate(invalid="ignore"):
-        clear = (np.abs(other_s).min(axis=0) > 0.01) & (np.abs(other_s).max(axis=0) < 10)
-    assert clear.mean() > 0.5 and hit.mean() > 0.05
-    assert np.array_equal(hit[clear], other_hit[clear])
-    both = hit & other_hit & clear & (np.abs(t) < 10)
-    assert np.allclose(t[both], other_t[both], rtol=0, atol=100 * near)
-    assert np.allclose(s[:, both], other_s[:, both], rtol=0, atol=100 * near)
-
-
 @pytest.mark.slow
 @TYPES
 @pytest.mark.parametrize("axis", [0, 1, 2])
@@ -97,36 +80,3 @@ def test_along_an_axis_it_is_exact(rng, dtype, axis, way):
     extra = hit & ~closed
     assert extra[:800].any() == (dtype == np.float64) and not extra[800:].any()
     assert (s[:, hit] >= 0).all() and np.allclose(s[:, hit].sum(axis=0), 1, rtol=0, atol=1e-6)
-
-
-def test_zero_edges_in_float32_are_computed_again(rng):
-    """Without that, rays beside an edge would count as rays on it."""
-    count = 4000
-    a = rng.normal(size=(3, count)).astype(np.float32)
-    b = (-rng.random(count).astype(np.float32) * a).astype(np.float32)
-    lost = a[0] * b[1] - a[1] * b[0] == 0
-    exact = a[0].astype(np.float64) * b[1] - a[1].astype(np.float64) * b[0]
-    assert (lost & (exact != 0)).sum() > 200
-    c = np.stack((-a[1], a[0], a[2]))  # to one side of the edge
-    down = Rays(np.zeros((3, 1), np.float32), np.array([[0], [0], [-1]], np.float32))
-    hit, _, _ = watertight(down, a, b, c)
-    other, _, _ = watertight(down, a, b, -c)
-    assert (hit | other)[lost].all()
-    assert not (hit & other)[lost & (exact != 0)].any()
-
-
-@TYPES
-def test_neighbours_compute_their_edge_alike(rng, dtype):
-    """Whatever the order of corners, an edge has one sign for both triangles: one is always met."""
-    count = 20_000
-    a, b, c, d = rng.normal(size=(4, 3, count)).astype(dtype)
-    rays = Rays(np.zeros((3, 1), dtype), a + dtype(0.37) * (b - a))
-    normal = np.cross(a, b, axis=0)
-    sides = [np.einsum("kn,kn->n", normal.astype(float), v.astype(float)) for v in (c, d)]
-    apart = (sides[0] > 0.1) & (sides[1] < -0.1)  # one to each side of the plane of ray and edge
-    hits = [
-        watertight(rays, *corners)[0] for corners in ((a, b, c), (b, a, d), (c, a, b), (d, b, a))
-    ]
-    assert apart.sum() > 3000
-    assert (hits[0] | hits[1])[apart].all()
-    assert np.array_equal(hits[0], hits[2]) and np.array_equal(hits[1], hits[3])

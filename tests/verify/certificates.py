@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from reference_tracer.certificate_file import save_certificate
+from reference_tracer.files.certificates import save_certificate
 from reference_tracer.projections import EQUIRECTANGULAR, PROJECTIONS
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Region, Scene, ViewWindow

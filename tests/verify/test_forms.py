@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from reference_tracer.certificate_file import save_certificate
+from reference_tracer.files.certificates import save_certificate
 from reference_tracer.rendering import render
 from reference_tracer_verify import verify
 from reference_tracer_verify.verify import Certificate, candidates, cross, dot, forms, levels

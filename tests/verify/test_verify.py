@@ -15,15 +15,15 @@ import numpy as np
 import pytest
 import reference_tracer_verify.verify as checker
 from reference_tracer import rendering
-from reference_tracer.certificate_file import save_certificate
 from reference_tracer.certified import ties
 from reference_tracer.certified.definition import definition
 from reference_tracer.certified.plain import plain
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR
+from reference_tracer.files.certificates import save_certificate
+from reference_tracer.files.scenes import load_scene
 from reference_tracer.projections import EQUIRECTANGULAR, ORTHOGRAPHIC, PROJECTIONS
 from reference_tracer.rendering import certified_tracer, render
 from reference_tracer.scene import Camera, Mesh, Region, ViewWindow
-from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.hits import no_measures
 from reference_tracer.tracer.settings import Settings
 

@@ -185,13 +185,12 @@ def refreshed(text: str) -> str:
 
 
 def walks() -> str:
-    """Return the walks as Markdown, each with what its functions say of themselves."""
+    """Return the walks as Markdown."""
     parts = []
     for title, walk in WALKS.items():
         parts.append(f"### {title}\n")
         for depth, file, function in steps(walk):
-            _, said = _functions(file)[function]
-            parts.append(f"{'  ' * depth}- [{function}](addon/{file}) · {said}")
+            parts.append(f"{'  ' * depth}- [{function}](addon/{file})")
         parts.append("")
     return "\n".join(parts).strip()
 

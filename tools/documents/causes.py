@@ -24,7 +24,7 @@ from reference_tracer.causes.cause import Cause
 from reference_tracer.causes.checks.unmodelled import covered
 from reference_tracer.causes.explain import CAUSES
 from reference_tracer.causes.maps import cause_map
-from reference_tracer.images import curve, to_display
+from reference_tracer.files.images import curve, to_display
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render

@@ -67,12 +67,12 @@ def values() -> dict[str, str]:
         "explain_formulas": formula_table(),
         "explain_errata": "\n".join(f"{k}. {e}" for k, e in enumerate(formulas.ERRATA, 1)),
         "explain_candidates": after("", "## 2. What the ray may meet", 0, 1),
-        "explain_test": after("", test, 0, 1, 2),
-        "explain_methods": after("", "## 3. The nearest", 0, 1, 2, 3),
-        "derived_orthographic": rows(after("orthographic", ray, 1), ("X", "Y", "u", "v", "o", "d")),
-        "derived_perspective": rows(after("perspective", ray, 1), ("X", "Y", "u", "v", "d")),
-        "derived_plane": rows(after("plane", test, 0), ("(o − p) · n", "d · n", "t", "x")),
-        "derived_triangle": rows(after("triangle", test, 0), ("x", "s₁", "s₂", "s₃", _SUM)),
+        "explain_test": rows(after("", test, 0), ("t", "nₛ₂", "s₂", "s₃", _SUM))
+        + f"\n\n{after('', test, 1)}",
+        "derived_orthographic": rows(after("orthographic", ray, 1), ("v", "o", "d")),
+        "derived_perspective": rows(after("perspective", ray, 1), ("v", "d")),
+        "derived_plane": rows(after("plane", test, 0), ("d · n", "t", "x")),
+        "derived_triangle": rows(after("triangle", test, 0), ("s₁", "s₂", "s₃", _SUM)),
         "judged_triangle": after("triangle", test, 1),
     }
     return {name: f"\n\n{part}\n\n" for name, part in parts.items()}  # blocks of their own

@@ -1,11 +1,10 @@
-"""What `make docs` fills in: the parts of a Markdown file between markers.
+"""What `make docs` fills in: parts of a Markdown file.
 
-    <!-- run: reftrace trace scene.blend --out out/a.png -->      a command, and what it prints
-    <!-- run here: ... -->          the same, where what it prints depends on the machine
-    <!-- run silently: ... -->      the command alone: what it prints is of no interest
-    <!-- run folded: ... -->, <!-- run here folded: ... -->     and what it prints is folded away
-    <!-- not run: REASON -->        a block that stays as it is, and why
-    <!-- /run -->
+    ```console              a command, and what it prints; if the text has nothing of that, it is
+    $ reftrace trace …      only run
+    what it prints
+    ```
+    <!-- not run: REASON --> above a block that stays as it is
     <!-- NAME -->123<!-- / --> a figure of `figures.py`; a part of `derivations.py`, of `records.py`
 
 Seconds are left out, as they are other ones every time.
@@ -17,34 +16,28 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-MARKED = "<!-- "  # a file without this has no markers
-_RUN = re.compile(
-    r"<!-- run(?P<how>| here| silently| folded| here folded): (?P<command>[^\n]+?) -->\n"
-    r"(?P<body>.*?)<!-- /run -->",
-    re.S,
-)
+_RUN = re.compile(r"^```console\n\$ (?P<command>[^\n]+)\n(?P<body>.*?)^```$", re.M | re.S)
 _FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>.*?)<!-- / -->", re.S)
-_LEFT = re.compile(r"<!-- not run: [^\n]+? -->\n.*?<!-- /run -->", re.S)
-_UNFOLDED = ("", "</details>")
-_SUMMARY = re.compile(r"<summary>(.+?)</summary>")
+_LEFT = re.compile(r"<!-- not run: [^\n]+? -->\n(?P<in> *)```.*?^(?P=in)```$", re.M | re.S)
 _SECONDS = re.compile(r"\b\d+\.\d+ s\b")
 _BLENDERS_OWN = re.compile(r"^(\d\d:\d\d\.\d+ |Array iterator out of range).*\n", re.M)  # its log
 
 
 @dataclass(frozen=True)
 class Command:
-    """A command that a text names: how it is run, and what the text has of it."""
+    """A command of a text, and what the text has of its output."""
 
-    how: str
     text: str
-    body: str
+    printed: str
 
 
 def commands(text: str) -> list[Command]:
     """Return the commands of a text, in their order."""
-    return [
-        Command(m["how"].strip(), m["command"], m["body"].strip("\n")) for m in _RUN.finditer(text)
-    ]
+    return [_command(m) for m in _RUN.finditer(text)]
+
+
+def _command(m: re.Match) -> Command:
+    return Command(m["command"], m["body"].strip("\n"))
 
 
 def figures(text: str) -> list[str]:
@@ -60,24 +53,6 @@ def unmarked(text: str) -> str:
 def settled(output: str) -> str:
     """Return what a command prints without what is another every time."""
     return _SECONDS.sub("… s", _BLENDERS_OWN.sub("", output)).strip("\n")
-
-
-def block(command: Command, output: str) -> str:
-    """Return a command as a block, with what it prints unless that is of no interest."""
-    lines = ["```", f"$ {command.text}"]
-    if command.how.endswith("folded"):
-        own = _SUMMARY.search(command.body)  # in the document's language
-        summary = own[1] if own else "What it prints"
-        lines += ["```", "", f"<details><summary>{summary}</summary>", "", "```"]
-    if command.how != "silently" and output:
-        lines.append(output)
-    return "\n".join([*lines, "```", *_UNFOLDED * command.how.endswith("folded")])
-
-
-def printed(command: Command) -> str:
-    """Return what a block has of a command's output."""
-    blocks = re.findall(r"^```\n(.*?)\n```$", command.body, re.S | re.M)
-    return "\n".join(blocks).partition("\n")[2]
 
 
 def refreshed(text: str, run: Callable[[Command], str], values: Mapping[str, str]) -> str:
@@ -98,9 +73,10 @@ def refreshed(text: str, run: Callable[[Command], str], values: Mapping[str, str
     """
 
     def filled(m: re.Match) -> str:
-        command = Command(m["how"].strip(), m["command"], m["body"])
-        body = block(command, settled(run(command)))
-        return f"<!-- run{m['how']}: {command.text} -->\n{body}\n<!-- /run -->"
+        command = _command(m)
+        output = settled(run(command))
+        shown = [output] if command.printed else []
+        return "\n".join(["```console", f"$ {command.text}", *shown, "```"])
 
     text = _RUN.sub(filled, text)
     return _FIGURE.sub(lambda m: f"<!-- {m['name']} -->{values[m['name']]}<!-- / -->", text)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.faults import EXAMPLES
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.picture import Picture as Shown
 from reference_tracer.pictures.picture import Source

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import reference_tracer
@@ -23,7 +22,7 @@ _FIRST = (
 
 
 def page() -> str:
-    """Return the functions that a script begins with, whole, and then all else in a table."""
+    """Return the functions that a script begins with, and then all else in a table."""
     functions = [_function(name, getattr(reference_tracer, name)) for name in _FIRST]
     rest = [name for name in reference_tracer.__all__ if name not in _FIRST]
     rows = [f"| `{name}` | {_summary(getattr(reference_tracer, name))} |" for name in rest]
@@ -43,20 +42,10 @@ def _function(name: str, function: Any) -> str:
         names.append(f"{p.name}{default}")
     text, *sections = _SECTION.split((inspect.getdoc(function) or "").replace("``", "`"))
     parts = [f"### `{name}({', '.join(names)})`", text.strip()]
-    for title, body in zip(sections[::2], sections[1::2], strict=True):
-        parts += [f"**{title}**", "\n".join(_section(title, body.rstrip()))]
+    examples = dict(zip(sections[::2], sections[1::2], strict=True)).get("Examples", "")
+    told, _, code = examples.partition(">>> ")
+    if code:  # the empty line ends what is expected
+        parts += [told.strip()] * bool(told.strip())
+        block = "<!-- not run: a test runs it -->", "```pycon", f">>> {code.rstrip()}", "", "```"
+        parts.append("\n".join(block))
     return "\n\n".join(parts)
-
-
-def _section(title: str, body: str) -> Iterator[str]:
-    """Yield a section's lines: a list of what it names, or code."""
-    if title == "Examples":
-        told, _, code = body.partition(">>> ")
-        yield from ([told.strip(), ""] if told.strip() else [])
-        # The empty line ends what is expected.
-        yield from ("<!-- not run: a test runs it -->", "```pycon", f">>> {code}", "", "```")
-        yield "<!-- /run -->"
-        return
-    for line in body.splitlines():
-        named = line and not line.startswith(" ")
-        yield f"- `{line}`" if named else f"  {line.strip()}"

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import ast
 import inspect
-import sys
 from collections.abc import Iterator
 from importlib import import_module
-from pathlib import Path
 
+import reference_tracer_data.faults
 from reference_tracer.camera_files.features import FEATURES
 from reference_tracer.camera_files.files import CONVENTIONS
 from reference_tracer.causes.cause import Cause
@@ -16,11 +15,10 @@ from reference_tracer.causes.checks import unmodelled
 from reference_tracer.causes.explain import CAUSES, CHECKS
 from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.fault import AnyFault
+from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault
+from reference_tracer.diagnosis.guessing import IN_PLACES
 from reference_tracer.methods import Method
-from reference_tracer.report.page.content import hex_color
-
-PROJECT = Path(__file__).resolve().parents[2]
+from reference_tracer_data.faults import DATA_FAULTS
 
 
 class _Name(str):
@@ -37,19 +35,18 @@ def values() -> dict[str, str]:
         "causes": causes(),
         "checks": checks(),
         "faults": faults_by_family(),
+        "order": order_of_faults(),
         "methods": methods(),
     }
     return {name: f"\n\n{part}\n\n" for name, part in parts.items()}  # blocks of their own
 
 
 def camera_conventions() -> str:
-    """Return a table of the conventions of cameras, and what each can say."""
-    columns = [(f.short, f) for f in FEATURES]
-    head = ["`--convention`", "what is written", *(short for short, _ in columns)]
-    rows = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    """Return a table of the conventions of cameras, and what each cannot say."""
+    rows = ["| `--convention` | what is written | what it cannot say |", "|---|---|---|"]
     for name, own in CONVENTIONS.items():
-        says = ["yes" if f in own.says else "no" for _, f in columns]
-        rows.append(f"| `{name}` | {own.title}: {own.file} | {' | '.join(says)} |")
+        lacks = ", ".join(f.short for f in FEATURES if f not in own.says)
+        rows.append(f"| `{name}` | {own.title}: {own.file} | {lacks} |")
     return "\n".join(rows)
 
 
@@ -74,26 +71,20 @@ def checks() -> str:
 
 def causes() -> str:
     """Return a section for each cause of a pixel that differs, in the order of the legend."""
-    sys.path.insert(0, str(PROJECT))
-    attacks = import_module("tests.attacks.table").withstood()
-    sys.path.remove(str(PROJECT))
-    parts = (_cause(c, attacks.get(c, ())) for c in CAUSES if c.why)
+    parts = (_cause(c) for c in CAUSES if c.why)
     return "\n\n".join(line for part in parts for line in part)
 
 
-def _cause(cause: Cause, attacks: tuple[str, ...]) -> Iterator[str]:
-    """Yield a cause's section; `attacks` are those that it withstands."""
+def _cause(cause: Cause) -> Iterator[str]:
+    """Yield a cause's section."""
     yield f"### {cause.label.capitalize()}"
     numbers = {name: _Name(name) for name in ("figure", "allowed", "name")}
-    color = f", `{hex_color(cause.color)}` on the map" if cause.color else ""
-    known = f"`{cause.key}`, {cause.number} in `frame.npz`{color}"
-    yield f"“{cause.sentence.format(**numbers)}” ({known})"
-    yield f"![Traced, the other picture, and the causes](images/causes/{cause.key}.png)"
+    yield f"“{cause.sentence.format(**numbers)}” (`{cause.key}`, {cause.number})"
+    yield f"![Traced, shown, causes](images/causes/{cause.key}.png)"
     yield _list(
         ("Why", cause.why),
         ("The check", cause.check),
         ("Never excused", cause.never),
-        ("Withstands", "; ".join(attacks)),
         ("What to do", cause.advice),
     )
 
@@ -105,6 +96,17 @@ def _list(*lines: tuple[str, str]) -> str:
     )
 
 
+def order_of_faults() -> str:
+    """Return a table of what is tried, in which order, and at which cost."""
+    rows = [
+        f"| {words} | {cost} | {number} | {1 + IN_PLACES.index(effort)} | "
+        f"{sum(f.effort == effort for f in FAULTS)} |"
+        for number, (effort, (words, cost)) in enumerate(TRIED.items(), 1)
+    ]
+    head = "| tried | at which cost | place | where most of the picture agrees | faults |"
+    return "\n".join(("", head, "|---|---|---|---|---|", *rows, ""))
+
+
 def faults_by_family() -> str:
     """Return a section for each file's faults, in the order in which they are told."""
     families = []
@@ -112,7 +114,9 @@ def faults_by_family() -> str:
         if isinstance(node, ast.ImportFrom) and node.names[0].name.endswith("_FAULTS"):
             module = import_module(f".{node.module}", faults.__name__)
             families.append((getattr(faults, node.names[0].name), inspect.getdoc(module) or ""))
-    families.sort(key=lambda family: FAULTS.index(family[0][0]))
+    names = [fault.name for fault in FAULTS]
+    families.sort(key=lambda family: names.index(family[0][0].name))
+    families.append((DATA_FAULTS, inspect.getdoc(reference_tracer_data.faults) or ""))
     return "\n\n".join(_family(*family) for family in families)
 
 
@@ -124,13 +128,11 @@ def _family(of: tuple[AnyFault, ...], said: str) -> str:
 
 
 def _fault(fault: AnyFault) -> str:
-    """Return a fault's section."""
+    """Return a fault's section: what is said of it, and who makes it, and how."""
     given = {name: _Name(name) for name in (*fault.numbers, "object")} | {
         "words": fault.words or "…"
     }
-    told = _list(
-        ("Why", fault.why),
-        ("What to do", fault.advice.format(**given)),
-        ("The self-check makes", "; ".join(example.text for example in fault.examples)),
-    )
-    return f"### `{fault.name}`\n\n“{fault.sentence.format(**given)}”\n\n{told}"
+    repository, _, number = fault.witness.partition("#")
+    seen = f"[{fault.witness}](https://github.com/{repository}/issues/{number})"
+    said = f"“{fault.sentence.format(**given)}”"
+    return f"### `{fault.name}`\n\n{said}\n\n{fault.why} Seen in {seen}."

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from reference_tracer_grading.mutations import mutations
 from reference_tracer_grading.subjects import NAMES, subject
 
 
 def values() -> dict[str, str]:
-    """Return every part by its name: lines, groups of cases, slips, counts of wrong programs."""
-    out = {}
+    """Return every part by its name: lines, counts of wrong programs, names of slips and groups."""
+    out, named = {}, {}
     for name in NAMES:
         own = subject(name)
         given = ",".join(field.columns for field in own.form.given)
@@ -21,15 +19,9 @@ def values() -> dict[str, str]:
         out[f"weights_{name}"] = ", ".join(shares)
         count = sum(1 for program in own.programs for _ in mutations(program))
         out[f"mutations_{name}"] = str(count)
-        groups = (f"| `{group}` | {shows} |" for group, shows in own.groups.items())
-        out[f"groups_{name}"] = _table("| cases | what they show |", groups)
-        slips = {slip.name: slip.sentence for program in own.programs for slip in program.slips}
-        named = (
-            f"| `{slip}` | {sentence.replace('|', '&#124;')} |" for slip, sentence in slips.items()
-        )
-        out[f"slips_{name}"] = _table("| name | what is wrong |", named)
+        slips = (f"`{slip.name}`" for program in own.programs for slip in program.slips)
+        named[name] = ", ".join(dict.fromkeys(slips)), ", ".join(f"`{g}`" for g in own.groups)
+    for k, part in enumerate(("slips", "groups")):
+        rows = (f"| `{name}` | {texts[k]} |" for name, texts in named.items() if texts[k])
+        out[part] = "\n".join(("", "| `--subject` | names |", "|---|---|", *rows, ""))
     return out
-
-
-def _table(head: str, rows: Iterable[str]) -> str:
-    return "\n".join(("", head, "|---|---|", *rows, ""))

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageDraw
-from reference_tracer.images import to_display
+from reference_tracer.files.images import to_display
 
 from . import browser
 

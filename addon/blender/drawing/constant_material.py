@@ -22,7 +22,7 @@ from ..values import is_animated
 from ..versions import WITHOUT_ATTRIBUTE
 
 Color = tuple[float, ...]
-SLOTS = 32  # material slots that are told apart: each is some nodes
+SLOTS = 32  # material slots that are distinguished: each is some nodes
 _BORROWING = "BOOLEAN", "DATA_TRANSFER", "NODES"  # modifiers that take attributes of other meshes
 _OF_MESH = "data.materials[{}].diffuse_color"  # what geometry nodes gave to it
 _OF_OBJECT = "material_slots[{}].material.diffuse_color"
@@ -108,7 +108,7 @@ def _vertex_color(objects: Collection[Any], tree: Any, slots_of: Callable[[], _S
 
 
 class _Slots(NamedTuple):
-    """What the file has in each material slot, and where it is found."""
+    """The colours of each material slot in the file, and the data paths to them."""
 
     colors: list[set[Color | None]]  # of materials; None where there is no material
     paths: tuple[str, ...]  # of a material's viewport colour, for an object and its slot
@@ -163,7 +163,7 @@ def _material_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:
 def _color_of_slot(tree: Any, index: int, slots: _Slots) -> Any:
     """Return a socket: the viewport colour of one slot's material, grey without one.
 
-    What need not be asked is not: each question makes EEVEE's shader take seconds more to compile.
+    Asks only what is needed: each question makes EEVEE's shader take seconds more to compile.
     """
     colors = slots.colors[index]
     asked = slots.paths if len(colors) > 1 else ()

@@ -107,12 +107,12 @@ class Drawing(Plan):
 
 
 class Drawn(NamedTuple):
-    """What Blender has drawn of one evaluation."""
+    """Blender's drawing of one evaluation, with the scene exported from it."""
 
     drawing: Drawing
     scene: Scene  # what was exported, its planes in the colours drawn
     pixels: Colors
-    owners: Owners | None  # whose surface each pixel shows, if that was asked for and is known
+    owners: Owners | None  # whose surface each pixel shows, if requested and known
 
 
 # Exports an evaluated depsgraph, given the temporary scene and the settings that it is drawn with.

@@ -43,7 +43,7 @@ def _check_edited(scene: Scene) -> None:
 
 
 def _check_attributes(scene: Scene, objects: Collection[Any]) -> None:
-    """Refuse meshes that lack a colour attribute that is asked for: EEVEE shows them black.
+    """Refuse meshes that lack a colour attribute that the colours use: EEVEE shows them black.
 
     So it does what stands for infinite planes.
     """

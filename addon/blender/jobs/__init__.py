@@ -1,1 +1,1 @@
-"""What Blender is asked to do: a comparison, with one engine or all, of frames, of a picture."""
+"""Blender's jobs: a comparison with one engine or all, of frames, of a picture."""

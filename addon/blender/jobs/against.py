@@ -22,7 +22,7 @@ import numpy as np
 from ...arrays import Colors, Floats
 from ...causes.case import Alternative, Case
 from ...causes.checks.hidden import with_object
-from ...images import curve_undone
+from ...files.images import curve_undone
 from ...manifest import Manifest
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...pictures.picture import Curve, Picture

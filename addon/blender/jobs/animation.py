@@ -23,12 +23,14 @@ from ...tracer.progress import Share, Work, doing, mapped, scaled
 from ..drawing.judges import OF_ONE_FRAME, STILLS
 from ..paths import made_folder
 from ..reading.camera import export_camera
+from ..slowest import announced
 from ..values import values_restored
 from .choice import seen_by
 from .compare import compare_open_file
 from .open_file import Choices
 from .stepping import visited
 
+_DRAWS = "Blender draws the scene"
 _ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be imported here
 
 
@@ -78,12 +80,15 @@ def compare_frames(
     todo = sorted(set(frames) - {row.frame for row in rows})
     report.write(folder, title, frames, rows)
     before = scene.frame_current, scene.frame_subframe
+    takes = _DRAWS
     with values_restored():
         try:
             for frame in visited(scene, todo):
-                scene.frame_set(frame)
                 share = sum(f < frame for f in todo) / len(todo)
-                yield _of_frame(frame, Share(share, "Blender draws the scene"))
+                yield _of_frame(frame, Share(share, takes))
+                scene.frame_set(frame)
+                takes = announced(bpy.context.view_layer, _DRAWS)  # asked while all is evaluated
+                yield _of_frame(frame, Share(share, takes))
                 if frame in todo:
                     work = _compared(folder, frame, made[frame], views.get(frame), choices)
                     work = mapped(work, partial(_of_frame, frame))

@@ -101,7 +101,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
 
 
 def _planned(context: Any, chosen: Choices, judge: Judge) -> Plan:
-    """Return how the context's scene is to be drawn, which is decided before Blender is asked."""
+    """Return how the context's scene is to be drawn, which is decided before Blender draws."""
     scene = context.scene
     shading = solid_shading(context) if judge.needs_window and chosen.as_is else None
     region = export_camera(scene).region

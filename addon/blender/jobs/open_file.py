@@ -1,4 +1,4 @@
-"""What a comparison of the open file is asked for, and the file's scene as it is exported."""
+"""The options of a comparison of the open file, and the export of its scene."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Choices:
     colors: By | GivenColors  # where the colours come from; as it is, they are the viewport's
     identity: bool  # whose surface each pixel shows is found, too
     self_check: bool  # the comparison is tried on known faults, too
-    diagnose: bool  # what accounts for unexplained pixels is looked for
+    diagnose: bool  # whether to diagnose unexplained pixels
     renderer: str = ""  # what another engine, or an image, was made by: a name in RENDERERS
     filter: float = 0.0  # pixels: how far its anti-aliasing reaches
     tracer: Tracer | None = None  # what traces; by default, this process

@@ -42,7 +42,7 @@ class Picture:
     rows_done: Bools  # (h,) whether the row's colours are known
     space: int  # the address of the 3D view's space
     is_coarse: bool  # whether its pixels are larger than the view's
-    line: str = ""  # said in the view's corner
+    line: str = ""  # text in the view's corner
     waits: bool = False  # for others
 
     @classmethod

@@ -26,13 +26,13 @@ AT_ONCE = 0.012  # seconds that the interface waits for work; a step may take lo
 COARSE = 4  # the size of a coarse picture's pixels
 COARSER = 8  # if those take too long
 SLOW = 0.025  # seconds that it waits for a coarse one; of what takes longer the next one is coarser
-PAUSE = 0.1  # seconds until it is asked again for what nothing can be done for now
+PAUSE = 0.1  # seconds until a request that cannot be met now is repeated
 LINES = 2  # of what the picture lacks, in the view's corner
 SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's own part takes long
 
 
 class Wanted(NamedTuple):
-    """What a view is to show; two that are equal look the same."""
+    """The picture that a view is to show; equal ones look the same."""
 
     camera: str  # all that it has
     version: int  # of the scene
@@ -192,7 +192,7 @@ class LiveView:
         self._drawn = time.perf_counter()
 
     def _corner(self) -> str:
-        """Return what is said in the view's corner."""
+        """Return the text in the view's corner."""
         jobs = [job for job in (self._job, self.shown) if job and job.picture.line]
         own = ["coarse: " * (job.factor > 1) + job.picture.line for job in jobs]
         text = "; ".join([*own[:1], *self._scene.lines[:LINES]])

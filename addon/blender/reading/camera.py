@@ -129,7 +129,7 @@ def export_camera(scene: Any) -> Camera:
     if obj is None:
         raise SceneError(
             f"Scene '{scene.name}' has no camera: add one that frames all (the panel's button, or "
-            "--frame-all), place one (--eye X Y Z), or make one active (--camera NAME)."
+            "--set eye=all), place one (--set eye=X,Y,Z), or make one active (--camera NAME)."
         )
     if obj.original.is_missing:
         raise SceneError(

@@ -33,7 +33,7 @@ NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", 
 
 @dataclass(frozen=True)
 class Parts:
-    """What a `Scene` has besides its camera and background."""
+    """The parts of a `Scene` besides its camera and background."""
 
     meshes: tuple[Mesh, ...] = ()
     instances: tuple[Instance, ...] = ()

@@ -23,6 +23,8 @@ _reports: dict[str, tuple[str, ...]] = {}  # by the file's path: of the one that
 def open_file(path: Path) -> None:
     """Open a .blend, without its scripts and its windows.
 
+    Nothing of it is evaluated yet: the world matrix of each object is still the identity.
+
     Raises
     ------
     RuntimeError
@@ -53,22 +55,36 @@ def _reports_shown() -> Iterator[None]:
 
 @contextmanager
 def _heard() -> Iterator[list[Any]]:
-    """Give a list that is empty until Blender has opened a file."""
+    """Give a list that is empty until Blender has opened a file, and then has its scene.
+
+    Blender would evaluate the scene that the window then shows: so that is an empty one for as
+    long. Only objects in Edit Mode need their own scene, to stay in it.
+    """
     loaded: list[Any] = []
+    shown: list[Any] = []
 
     @bpy.app.handlers.persistent
     def hear(*_: Any) -> None:
-        loaded.append(True)
+        window: Any = bpy.context.window
+        loaded.append(window.scene)
+        if all(obj.mode == "OBJECT" for obj in bpy.data.objects):
+            empty: Any = bpy.data.scenes.new("Reference Tracer")
+            empty.view_layers[0].name = window.view_layer.name  # the window keeps the name
+            window.scene = empty
+            shown.append(empty)
 
     bpy.app.handlers.load_post.append(hear)
     try:
         yield loaded
     finally:
         bpy.app.handlers.load_post.remove(hear)
+        for empty in shown:
+            empty.user_remap(loaded[0])  # to set the window's scene would evaluate it
+            bpy.data.batch_remove([empty])
 
 
 def notes() -> tuple[str, ...]:
-    """Return what is to be said of how the open file was opened, a sentence each."""
+    """Return notes on how the open file was opened, a sentence each."""
     said = [f"Blender opened the file with a report: {line}" for line in _reported()]
     if bpy.app.autoexec_fail:
         scripts = [f"'{text.name}'" for text in bpy.data.texts if text.use_module]

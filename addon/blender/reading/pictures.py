@@ -13,9 +13,9 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...exr import MissingLibraryError
-from ...images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
-from ...runs import by_runs
+from ...arrays import by_runs
+from ...files.exr import MissingLibraryError
+from ...files.images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
 from ...scene import SceneError
 from ..versions import LAYERS, set_format
 from .rendered import engine_of_result, result_image

@@ -48,7 +48,7 @@ def outside(
     world_from_object : (k, 4, 4) float64
     """
     found = np.zeros(len(low), bool)
-    with np.errstate(over="ignore", invalid="ignore"):  # then nothing is said to be outside
+    with np.errstate(over="ignore", invalid="ignore"):  # then nothing is outside
         low = np.asarray(low, np.float64)
         high = np.asarray(high, np.float64)
         center = low / 2 + high / 2

@@ -25,7 +25,7 @@ from .unmodelled import HAIR, Viewing, of_object, unfilled
 
 @dataclass
 class Seen:
-    """What an object has shown so far."""
+    """The appearances of an object that were found so far."""
 
     type: str
     is_plane: bool

@@ -1,1 +1,1 @@
-"""What the user sees: panels, operators, properties, menus."""
+"""The interface: panels, operators, properties, menus."""

@@ -1,4 +1,4 @@
-"""What the diagnosis found, in the panel: a line each, and buttons that lead to it.
+"""Shows the diagnosis in the panel: a line for each fault, and buttons that lead to it.
 
 A fault of an object has a button that selects the object; one of the camera a button that adds a
 copy of the camera that sees what the picture shows, and then one that makes the copy the scene's
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class _OfFinding:
-    """Mixed into an operator that is about a fault that was told."""
+    """Mixed into an operator that is about a fault of the diagnosis."""
 
     in_object_mode: ClassVar[bool] = True  # it needs that
 
@@ -55,7 +55,7 @@ class _OfFinding:
         return True
 
     def told(self, context: Any) -> Told:
-        """Return what was told.
+        """Return the fault.
 
         Raises
         ------
@@ -146,7 +146,7 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
 
 
 def _put_right(context: Any) -> Mapping[int, Colors]:
-    """Return the pictures that are put right, by the number of what is told."""
+    """Return the pictures that are put right, by the number of their fault."""
     found = results.latest(Kind.COMPARISON, context.scene)
     return found.put_right if found else {}
 

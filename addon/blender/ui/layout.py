@@ -1,4 +1,4 @@
-"""What panels share: where they stand, what is folded, facts, and sentences in lines."""
+"""Helpers that panels share: where they stand, what is folded, facts, and sentences in lines."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def folded(layout: Any, key: str, title: str) -> Any:
 def setting(layout: Any, context: Any, owner: Any, name: str) -> None:
     """Draw a setting beside its name, or below it where either has no room there."""
     known = owner.bl_rna.properties[name]
-    is_box = known.type == "BOOLEAN"  # whose name is beside it, and there is no other
+    is_box = known.type == "BOOLEAN"  # a checkbox shows its own label
     values = [known.name] if is_box else [item.name for item in getattr(known, "enum_items", ())]
     if fit(context, values, _VALUE) and (is_box or fit(context, [known.name], _NAME, 0)):
         layout.prop(owner, name)

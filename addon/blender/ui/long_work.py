@@ -1,4 +1,4 @@
-"""What every operator shares, and what those with long work do while the interface stays alive.
+"""Operators' base classes; long work goes on in steps while the interface stays alive.
 
 An operator returns the work from `begin`: a generator that yields the share that is done. Its
 `finish` shows the result. A script's call runs through. A button's call goes on in small steps,
@@ -15,9 +15,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from ...tracer.progress import Work, doing, result_of
+from ...tracer.progress import Left, Work, doing, result_of
 from ...wording import say
-from ..slowest import slowest
+from ..slowest import announced
+from ..temporary import is_temporary
 from ..versions import RELATIVE
 from .preferences import default_folder
 from .results import Kind, drop, redraw
@@ -36,7 +37,7 @@ SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answere
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
 
-# Where it is said how far the work is: types of areas, and of regions in them.
+# Types of areas that show progress, and of regions in them.
 _SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
 
 OPERATORS: list[type] = []  # to be registered
@@ -75,7 +76,6 @@ class LongWork(Mixin):
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
     announced: ClassVar[str] = ""  # what is done in one go at the beginning, and takes long
-    doing: str = ""  # now, where the label does not say it
     pressed: bool = False  # by a user, who is to see the result
 
     directory: StringProperty(
@@ -122,14 +122,13 @@ class LongWork(Mixin):
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
         self._began = time.monotonic()
+        self._left = Left()
         self._shown = self._began
         self._words = ""
         LongWork.running = self.bl_label
         LongWork.share = 0.0
         self.pressed = True
-        name = self.announced and slowest(context.view_layer)
-        evaluates = rpt_("Blender evaluates '{}'").format(name)
-        self._say(context, evaluates if name else rpt_(self.announced))
+        self._say(context, self.announced and announced(context.view_layer, self.announced))
         return {"RUNNING_MODAL"}
 
     def _begun(self, context: Any) -> Work[Any]:
@@ -144,7 +143,8 @@ class LongWork(Mixin):
             self.report({"WARNING"}, said)
             return {"CANCELLED"}
         if event.type != "TIMER":
-            return {"RUNNING_MODAL"} if self.alone else {"PASS_THROUGH"}
+            is_alone = self.alone or any(map(is_temporary, bpy.data.scenes))
+            return {"RUNNING_MODAL"} if is_alone else {"PASS_THROUGH"}
         until = time.monotonic() + SECONDS_A_STEP
         try:
             share = next(self._work)  # at least: a busy machine may be back after the time is over
@@ -170,14 +170,15 @@ class LongWork(Mixin):
         self._words = doing(share)
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
-        left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
+        seconds = self._left.seconds(past, share)
+        left = "" if seconds is None else f"  {seconds:.0f} s"
         LongWork.share = share
-        self._say(context, rpt_(doing(share)), f": {int(100 * share)} %{left}")
+        self._say(context, doing(share), f": {int(100 * share)} %{left}")
 
     def _say(self, context: Any, what: str, rest: str = "") -> None:
         """Say where the user looks what is done, how far it is, and how to end it."""
-        said = self.doing or ", ".join(filter(None, (rpt_(self.bl_label), what)))
-        said += rest
+        what = ": ".join(map(rpt_, what.split(": ")))  # of which frame, besides
+        said = ", ".join(filter(None, (rpt_(self.bl_label), what))) + rest
         LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"
         LongWork._told.add(context.workspace.as_pointer())
         context.workspace.status_text_set(LongWork.said)

@@ -41,7 +41,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         return self._showing(context, work, told)
 
     def _showing(self, context: Any, work: Work[Any], told: list[Any]) -> Work[Any]:
-        """Show what has been told while the work goes on, and its result."""
+        """Show intermediate results while the work goes on, and then its result."""
         with closing(work):
             while True:
                 try:
@@ -54,8 +54,6 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
                     comparison = told.pop()
                     yield from self._show(context, comparison, share)
                     self.left = rpt_("the comparison stays, without a diagnosis")
-                    count = comparison.counts.unexplained
-                    self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
                     redraw(context)
 
     def _show(self, context: Any, comparison: Any, share: float) -> Work[None]:
@@ -260,8 +258,8 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
 
     def begin(self, context: Any) -> Work[Any]:
         """Export the scene as a render has it, and write it: it is whole, or not there."""
+        from ...files.scenes import save_scene
         from ...report import folders
-        from ...scene_files import save_scene
         from ..jobs.open_file import export_open_file
 
         path = with_ending(self.filepath, self.filename_ext)

@@ -1,4 +1,4 @@
-"""What came of a comparison, in the panel: the verdict, what differs, and the figures."""
+"""Shows a comparison in the panel: the verdict, what differs, and the figures."""
 
 from __future__ import annotations
 

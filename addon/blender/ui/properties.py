@@ -173,7 +173,7 @@ def _tell_the_compositor(layer: Any, _: object) -> None:
 
 
 class ReferenceTracerLayer(bpy.types.PropertyGroup):
-    """What is rendered of a view layer."""
+    """The settings of a view layer: its passes."""
 
     passes: EnumProperty(
         name="Passes",
@@ -185,7 +185,7 @@ class ReferenceTracerLayer(bpy.types.PropertyGroup):
 
 
 class ReferenceTracerObject(bpy.types.PropertyGroup):
-    """What an object is to the tracer."""
+    """The settings of an object."""
 
     infinite_plane: BoolProperty(
         name="Infinite Plane",
@@ -196,7 +196,7 @@ class ReferenceTracerObject(bpy.types.PropertyGroup):
 
 
 class ReferenceTracerWindow(bpy.types.PropertyGroup):
-    """What a click of the inspector does, and what Image Editors show; not stored."""
+    """The state of the inspector and of Image Editors; not stored."""
 
     draw_ray: BoolProperty(
         name="Draw the Ray",

@@ -38,14 +38,14 @@ _SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of a
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What a panel shows; computed once, since panels are drawn many times a second."""
+    """A result as a panel shows it; computed once, since panels are drawn many times a second."""
 
     content: Any  # what the kind says
     lines: tuple[str, ...]  # sentences; a panel shows the first
-    scene: str | None = None  # None: of no scene
+    scene: int | None = None  # its `session_uid`, as its name may change; None: of no scene
     page: str = ""  # the address of its plots
     regions: tuple[Region, ...] = ()  # where it differs, the largest first
-    # By the number of a fault that is told: the picture that it changes, put right.
+    # By the number of a fault of the diagnosis: the picture that it changes, put right.
     put_right: Mapping[int, Colors] = field(default_factory=dict)
     shown: list[int] = field(default_factory=list)  # of the fault that is shown put right
     # The numbers of the faults that a copy of the camera was added for, by its `session_uid`.
@@ -109,15 +109,17 @@ def session_folder() -> Path:
 def keep(
     kind: Kind, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
 ) -> Result:
-    """Remember a result of a kind, for :func:`latest`."""
-    _latest[kind] = Result(content, tuple(lines), scene, page)
+    """Remember a result of a kind, of the scene of a name, for :func:`latest`."""
+    uids = {s.name: s.session_uid for s in bpy.data.scenes}
+    own = None if scene is None else uids.get(scene, 0)
+    _latest[kind] = Result(content, tuple(lines), own, page)
     return _latest[kind]
 
 
 def latest(kind: Kind, scene: Any) -> Result | None:
     """Return the latest result of a kind, if it is of this scene."""
     found = _latest.get(kind)
-    return found if found and found.scene in (None, scene.name) else None
+    return found if found and found.scene in (None, scene.session_uid) else None
 
 
 def content(kind: Kind, scene: Any) -> Any:

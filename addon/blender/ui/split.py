@@ -102,7 +102,7 @@ def _draw_marks(context: Any, at: Place, scale: float) -> None:
     import numpy as np
 
     from ...causes.explain import BY_NUMBER
-    from ...images import curve
+    from ...files.images import curve
 
     found = results.latest(Kind.COMPARISON, context.scene)
     if found is None:

@@ -23,7 +23,7 @@ def swatch(cause: Cause) -> int:
     """Return the number of the icon of a cause's colour; 0 if it has none."""
     import numpy as np
 
-    from ...images import curve
+    from ...files.images import curve
 
     if cause.color is None:
         return 0

@@ -23,7 +23,8 @@ from ...tracer.progress import Work, scaled
 from .. import hull
 from ..cause import Cause
 from .coverage import coverage
-from .probe import SOUND, OpenPixels, Part, by_parts
+from .parts import Part, by_parts
+from .probe import SOUND, OpenPixels
 
 ANTI_ALIASING = Cause(
     8,
@@ -51,7 +52,7 @@ ANTI_ALIASING = Cause(
 )
 
 
-# Rings within the radius, and directions on each, where the tracer is asked. The denser ones are
+# Rings within the radius, and directions on each, where rays are traced. The denser ones are
 # for the pixels that are left: a sliver may pass between the first samples.
 DENSITIES = ((2, 8), (4, 16), (12, 32))
 # Half of the pixels around; the others lie opposite.

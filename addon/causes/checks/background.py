@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...arrays import Bools, Colors
-from ...images import encoded
+from ...files.images import encoded
 from ...pictures.metrics import boundary
 from ...pictures.picture import Curve, Picture
 from ...tracer.frame import Frame

@@ -13,8 +13,9 @@ import numpy as np
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
 from ..cause import Cause
+from .parts import Part, near_surfaces
 from .plans import widened
-from .probe import LAYERS, OpenPixels, Part, near_surfaces
+from .probe import LAYERS, OpenPixels
 
 CLIP_PLANE = Cause(
     7,

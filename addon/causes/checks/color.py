@@ -140,7 +140,9 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
     frame, picture = pixels.frame, pixels.picture
     inside = _judged(pixels) & (frame.instance_index != NOTHING)
     inside &= ~picture.other_object(frame.instance_index)
-    if picture.lit or picture.data or not (inside & (pixels.out.cause == UNEXPLAINED)).any():
+    if picture.lit or not picture.has_colors:
+        return
+    if not (inside & (pixels.out.cause == UNEXPLAINED)).any():
         return
     # Pixels that differ and have the cause to agree were passed over.
     wrong = inside & np.isin(pixels.out.cause, (UNEXPLAINED, AGREE))

@@ -33,7 +33,7 @@ LEAST_HEIGHT = 16
 
 
 class Coverage(NamedTuple):
-    """What the k triangles that may cover some of n pixels would show there."""
+    """The k triangles that may cover some of n pixels, with what they would show there."""
 
     pixel: Index  # (k,) of the n
     distance: Floats  # (k,) pixels, from the centre to the triangle's nearest point

@@ -1,4 +1,4 @@
-"""Edges and depth ties: the tracer is asked again around the centres, and behind their surface.
+"""Checks edges and depth ties: traces again around the centres, and behind their surface.
 
 A pixel gets its cause if the tracer sees what Blender shows so near to the centre, or so little
 behind, that Blender's float32 and its rasteriser may be off by as much.
@@ -11,9 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Bools, Floats
+from ...arrays import Bools, Floats, places
 from ...pictures.picture import Picture
-from ...runs import places
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
@@ -21,7 +20,8 @@ from ...tracer.progress import Work, scaled
 from ...tracer.vector import transform_points
 from ..cause import Cause
 from .coverage import coverage
-from .probe import LAYERS, OpenPixels, Part, near_surfaces
+from .parts import Part, near_surfaces
+from .probe import LAYERS, OpenPixels
 
 EDGE = Cause(
     1,
@@ -66,7 +66,7 @@ DEPTH_TIE = Cause(
 )
 
 
-# Where the tracer is asked again, in widths of the band: in eight directions on three rings, and in
+# Where rays are traced again, in widths of the band: in eight directions on three rings, and in
 # eight between them on the rim.
 _EIGHT = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
 OFFSETS = (
@@ -84,10 +84,10 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 class _Asked(NamedTuple):
-    """What the edge and tie tests have found so far for the n pixels of a part."""
+    """The results of the edge and tie tests so far, for the n pixels of a part."""
 
     centre: Hits
-    resolution: Floats  # (n,) m: how far apart in depth surfaces are told apart there
+    resolution: Floats  # (n,) m: the resolution of depth there
     lost: Bools  # the picture's own method lost what the centre sees
     found: Floats  # (2, n) px: how far away the picture's colour is seen, and its object
     behind: list[tuple[Hits, Floats]]  # what may tie with the centre, and how far behind, (n,) m
@@ -146,7 +146,7 @@ def _behind(part: Part, asked: _Asked) -> Work[None]:
     met is shown as well, its colour is another for another reason, as of a mean of several samples.
     """
     first, frame = asked.centre, part.pixels.frame
-    met = first  # where another scene is asked than the frame's
+    met = first  # where another scene is traced than the frame's
     if part.scene.instances is frame.scene.instances:
         met = frame.hits().take(np.ravel_multi_index(part.at, frame.shape))
     may = (first.instance != NOTHING) & part.picture.differ(part.scene, met)

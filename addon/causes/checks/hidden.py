@@ -1,4 +1,4 @@
-"""What only one side has: an object, or another frame of the scene.
+"""Checks for an object, or another frame of the scene, that only one side has.
 
 The manifest names objects that the tracer was told to leave out: if the picture is known to show
 one, this is the cause. An alternative scene is believed if tracing it gives what the picture shows
@@ -67,7 +67,7 @@ def _named(pixels: OpenPixels, hidden: Hidden) -> float:
 def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     """Find open pixels that show what an alternative does; yields the share that is done.
 
-    Their objects are not asked for, as the picture has them by the instances of the traced scene.
+    Their objects are not compared, as the picture has them by the instances of the traced scene.
     """
     case = replace(pixels.case, scene=other.scene)
     colorless = case.colorless
@@ -99,7 +99,7 @@ def _edges(there: OpenPixels) -> Work[None]:
 
 
 def _at_edges(there: OpenPixels, asked: Bools) -> Work[Bools]:
-    """Return which pixels asked for (h, w) rounding may have made; gives them no cause."""
+    """Return which of the given pixels (h, w) rounding may have made; gives them no cause."""
     out = Causes.none(asked.shape)
     trial = replace(there, out=out, open=asked.copy())
     yield from _edges(trial)

@@ -10,10 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Bools, Colors, Places
+from ...arrays import Bools, Colors, Places, places
 from ...pictures.identity import UNKNOWN
 from ...pictures.picture import Picture
-from ...runs import places
 from ...scene import Scene
 from ...tracer import shading
 from ...tracer.frame import Frame

@@ -7,7 +7,7 @@ picture at a time, in steps of a bounded number of pixels and pairs.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,21 +16,20 @@ from numpy.typing import ArrayLike
 from ...arrays import Array, Bools, Floats, Index, Places
 from ...pictures.bands import SampleBand
 from ...pictures.picture import Picture
-from ...runs import places
 from ...scene import Region, Scene
 from ...tracer.camera import Rays, camera_rays, film_positions
 from ...tracer.candidates import PAIRS, Plan, candidates
 from ...tracer.frame import Frame
-from ...tracer.hits import NOTHING, Hits
+from ...tracer.hits import Hits
 from ...tracer.nearest import test_pairs, test_planes
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ...tracer.settings import Precision, Settings
-from ...tracer.shading import interpolated, positions
-from ...tracer.vector import groups, parts
+from ...tracer.shading import positions
+from ...tracer.vector import groups
 from ...tracer.world import Pairs, WorldTriangles
 from ..case import Case
 from ..cause import AGREE, Cause, Causes
-from .plans import SOUND, shared_plan
+from .plans import SOUND
 
 LAYERS = 4  # surfaces behind one another that are looked at
 FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
@@ -59,7 +58,7 @@ def other_color(picture: Picture, colors: Array, ramp: Bools | bool = False) -> 
 
 
 def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bools]:
-    """Return what a function says of each pixel (h, w); it is asked about some rows at a time."""
+    """Return a function's value of each pixel (h, w); it is called for some rows at a time."""
     out = np.zeros(shape, bool)
     for rows in blocks(shape):
         out[rows] = of(rows)
@@ -69,7 +68,7 @@ def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bool
 
 @dataclass(eq=False)
 class OpenPixels:
-    """What a check takes: it gives some of the open pixels their cause."""
+    """The open pixels: a check gives some of them their cause."""
 
     case: Case
     frame: Frame  # what was traced
@@ -81,7 +80,7 @@ class OpenPixels:
     def bands(self, at: Some) -> Floats:
         """Return how far from the centres of some pixels Blender's samples may lie, in pixels.
 
-        They were asked for by `band.find`.
+        `band.find` has found them.
         """
         return self.band.values[at] + self.picture.sampling.off_center
 
@@ -187,140 +186,3 @@ def _joined(chunks: list[Pairs]) -> Pairs:
     )
     corners = np.concatenate([p.corners for p in chunks], axis=2)
     return Pairs(pixel, np.arange(len(pixel)), WorldTriangles(corners, instance, triangle))
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """The n open pixels of a part of the picture, and the probe that asks about them."""
-
-    pixels: OpenPixels
-    at: tuple[Places, ...]  # the rows and columns of the n pixels
-    scene: Scene  # the scene that is asked, with its camera's own clip range
-    picture: Picture  # what the n pixels show
-    band: Floats  # (n,) pixels: how far from the centres Blender's samples may lie
-    probe: Probe
-
-    @classmethod
-    def of(cls, pixels: OpenPixels, at: tuple[Places, ...], probe: Probe) -> Part:
-        """Return the part of the pixels in some rows and columns."""
-        return cls(pixels, at, pixels.case.scene, pixels.picture.at(at), pixels.bands(at), probe)
-
-    def take(self, wanted: Bools) -> Part:
-        """Return the part of some of the n pixels."""
-        probe = self.probe.take(np.flatnonzero(wanted))
-        return Part.of(self.pixels, tuple(axis[wanted] for axis in self.at), probe)
-
-    @property
-    def done(self) -> bool:
-        """Whether all n pixels have a cause."""
-        return not self.pixels.open[self.at].any()
-
-    def give(self, where: Bools, cause: Cause, figure: ArrayLike, allowed: ArrayLike) -> None:
-        """Give a cause to those of the n pixels that have none yet."""
-        self.pixels.give(where, cause, figure, allowed, self.at)
-
-    def resolution(self, hits: Hits) -> Floats:
-        """Return the depth difference below which surfaces tie, at n hits; 0 for no hit."""
-        seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits))
-        found, renderer = hits.take(seen), self.picture.sampling.renderer
-        rays = self.probe.rays(pixel=seen)
-        along = renderer.along(self.scene, found, self.probe.points(hits)[seen], rays)
-        out[seen] = renderer.resolution(self.scene.camera, found.t, along)
-        return out
-
-
-def by_parts(
-    pixels: OpenPixels,
-    made: Plan,
-    look: Callable[[Part], Work[None]],
-    asked: Bools | bool = True,
-) -> Work[None]:
-    """Have `look` give causes to the open pixels of a whole picture, a part of it at a time.
-
-    The plan `made` has the scene that is asked, perhaps with another clip range than the case's.
-    Only the pixels `asked` (h, w) are looked at, if given.
-    """
-    r = made.scene.camera.region
-    asked = pixels.open & asked
-    yield from scaled(pixels.band.find(asked), 0.0, 0.0)
-    height = len(asked)
-    for y0, y1 in groups(asked.sum(axis=1), FEW):
-        rows = slice(y0, y1)
-        tile = Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1)
-        if asked[rows].any():
-            finding = Probe.of(made, tile, asked[rows].ravel())
-            probe = yield from scaled(finding, y0 / height, 0.5 * (y1 - y0) / height)
-            y, x = places(asked[rows])
-            for _ in look(Part.of(pixels, (y + y0, x), probe)):
-                yield 0.5 * (y0 + y1) / height
-
-
-def near_surfaces(
-    pixels: OpenPixels, scene: Scene, reach: float, look: Callable[[Part], Work[None]]
-) -> Work[None]:
-    """Have `look` give causes to open pixels that may show what lies near, in a scene.
-
-    Rays pass at most `reach` pixels from the centres.
-    """
-
-    def look_near(part: Part) -> Work[None]:
-        near = yield from _near(part.picture, part.probe)
-        if near.any():
-            yield from look(part if near.all() else part.take(near))
-
-    # The scene may have the case's own clip range, or a wider one.
-    made = yield from shared_plan(pixels.case.scene, pixels.picture.sampling.renderer, reach)
-    made = replace(made, scene=scene)
-    asked = yield from scaled(may_be_seen(pixels, scene), 0.0, 0.1)
-    yield from scaled(by_parts(pixels, made, look_near, asked), 0.1, 0.9)
-
-
-def _near(picture: Picture, probe: Probe) -> Work[Bools]:
-    """Return which of n pixels show a colour and an object that a ray near them may meet.
-
-    No ray of the probe can explain the others.
-    """
-    scene, count = probe.scene, len(probe.px)
-    color, object_ = np.zeros((2, count), bool)
-    any_color = interpolated(scene, np.arange(len(scene.instance_objects))).any()
-    for pixel, instance, triangle in _surfaces(probe):
-        hits = Hits.none(len(pixel))
-        hits.instance[:], hits.triangle[:] = instance, triangle
-        shown = picture.at(pixel)
-        color[pixel[any_color | shown.same_color(scene, hits)]] = True
-        object_[pixel[~shown.other_object(hits.instance)]] = True
-        yield 0.0
-    return color & object_
-
-
-def _surfaces(probe: Probe) -> Iterator[tuple[Index, Index | int, Index | int]]:
-    """Yield pixels (k,), and the instance and triangle that rays near each may meet, or NOTHING."""
-    every, first = np.arange(len(probe.px)), len(probe.scene.instances)
-    for number in (NOTHING, *range(first, first + len(probe.scene.planes))):
-        yield every, number, NOTHING
-    for some in probe.chunks:
-        yield some.pixel, some.instance, some.triangle
-
-
-def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
-    """Return which open pixels, (h, w), show a colour that something in a scene may have.
-
-    No ray sees what the others show. A scene with many colours, or with a surface that may have
-    any colour, is not asked.
-    """
-    picture = pixels.picture
-    colors = np.unique(np.vstack((scene.color_table, np.zeros(4))), axis=0)  # 0: of a hole
-    any_color = interpolated(scene, np.arange(len(scene.instance_objects))).any()
-    any_color |= picture.lit or picture.data is not None or np.any(picture.colorless)
-    if any_color or len(colors) > FEW_COLORS:
-        return pixels.open
-    out = np.zeros_like(pixels.open)
-    row, column = places(pixels.open)
-    for part in parts(len(row), BLOCK // len(colors)):
-        at = row[part], column[part]
-        shape = len(colors), *pixels.picture.color[at].shape
-        shown = replace(picture, color=np.broadcast_to(picture.color[at], shape))
-        traced = np.broadcast_to(colors[:, None], shape)
-        out[at] = ~shown.other_color(traced).all(axis=0)
-        yield part.start / len(row)
-    return out

@@ -1,4 +1,4 @@
-"""What the tracer does not model: it excuses the pixels in which it is seen, and no others.
+"""Excuses the pixels in which a feature that is not modelled is seen, and no others.
 
 - Hair and the like draw themselves: the picture without them says where, and what lies beneath.
 - A surface of unknown colours, such as glass, must still be of the right object.

@@ -15,8 +15,9 @@ from ...certainty import Certainty
 from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
 from ...tracer.frame_measures import PIXELS
-from ...tracer.hits import NOTHING, Hits, Statistics, Ties
+from ...tracer.hits import NOTHING, Hits, Statistics
 from ...tracer.progress import Steps, mapped
+from ...tracer.ties import Ties
 from ...tracer.vector import gather, grouped, groups, parts
 from ...tracer.world import Pairs, WorldTriangles, world_corners
 from ..ladder import Ladder

@@ -73,7 +73,7 @@ def sweep(
 
 
 class _FullError(Exception):
-    """There is no room for so many fragments; `share` of the work was done."""
+    """There is no room for more fragments; `share` of the work was done."""
 
     def __init__(self, share: float) -> None:
         self.share = share

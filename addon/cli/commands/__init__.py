@@ -56,18 +56,6 @@ def _export() -> ModuleType:
     return export
 
 
-def _camera() -> ModuleType:
-    from . import camera
-
-    return camera
-
-
-def _rays() -> ModuleType:
-    from . import rays
-
-    return rays
-
-
 COMMANDS = {  # in the order of `--help`
     "compare": Command(
         "trace a scene and compare it with Blender's own picture, or with any other", _compare
@@ -76,7 +64,7 @@ COMMANDS = {  # in the order of `--help`
     "explain": Command(
         "show the maths of one pixel's ray: every step, in float32, float64 and exactly", _explain
     ),
-    "rays": Command("find what any rays meet in a scene, certified, in bulk", _rays),
+    "rays": Command("find what any rays meet in a scene, certified, in bulk", None),
     "judge": Command("judge students' own ray/triangle tests (this runs their code)", None),
     "conform": Command("judge a renderer or an exporter on forty small scenes", None),
     "verify": Command("check a certificate of `trace`, by a program that knows no tracer", None),
@@ -89,5 +77,5 @@ COMMANDS = {  # in the order of `--help`
     "bench": Command("measure the speed of the tracer beside embreex, Cycles and others", None),
     "diff": Command("list object by object how two files of a scene differ", None),
     "export": Command("export a .blend to a scene that needs no Blender", _export),
-    "camera": Command("write a scene's camera for other programs, or check one of theirs", _camera),
+    "camera": Command("write a scene's camera for other programs, or check one of theirs", None),
 }

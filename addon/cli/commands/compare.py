@@ -9,21 +9,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ... import images
 from ...camera_files.files import of_frames
-from ...causes.case import Case, without_colors
+from ...causes.case import Case
 from ...comparison import engines
 from ...comparison.animation import FrameRow, frames_named
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
+from ...files import images
 from ...framing import FRAMED
 from ...manifest import Effect
 from ...pictures import colors_file
 from ...pictures.colors_file import in_colors
-from ...pictures.data.given import GivenData, picture_of_data
-from ...pictures.given import Making, picture_of_file
+from ...pictures.given import GivenFile, GivenPicture
 from ...pictures.palette import By, GivenColors
-from ...pictures.picture import Picture
 from ...report import animation as frames_report
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
@@ -38,11 +36,9 @@ from ..opening import evaluating, import_trimesh, open_blend, open_file
 from ..parser import AGREE, EXIT_CODES_HELP, Parser
 from ..running import progress_bar
 
-Given = images.PictureFile | GivenData
-
 _FRAMED = (
     "the camera is none of the mesh's: it was placed to see all of it; "
-    "--eye, --target and --angle name that of the picture"
+    "--set eye=, target= and angle= say that of the picture"
 )
 
 
@@ -62,7 +58,7 @@ def compare(options: CompareOptions) -> int:
         return _only_colors(options, options.only_colors)
     results = [folders.place_of(options.out / name) for name in comparison_report.NAMES]
     colors = options.colors if isinstance(options.colors, Path) else None
-    for file in (options.scene, options.file, colors, options.colors_out, options.junit):
+    for file in (options.scene, options.against, colors, options.colors_out, options.junit):
         if file and folders.place_of(file) in results:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
@@ -76,9 +72,10 @@ def compare(options: CompareOptions) -> int:
         options.place as place,
     ):
         import_trimesh()  # which diagnoses the meshes
-        if options.file is None:
+        if options.against is None:
             return _with_blender(options, place)
-        return _with_picture(options, _opened(options), place)
+        picture = options.data or GivenFile(images.open_picture(options.against))
+        return _with_picture(options, picture, place)
 
 
 def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
@@ -101,8 +98,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "colors": _colors(options),
             "identity": options.identity,
             "self_check": options.self_check,
-            "renderer": options.renderer,
-            "filter": options.filter,
+            "renderer": options.making.renderer or None,
+            "filter": options.making.filter_radius or None,
             **place,
         }
         if options.frames:
@@ -153,12 +150,7 @@ def _frames(
     return _told(options, frames_report.verdict(rows), options.out / frames_report.PAGE)
 
 
-def _opened(options: CompareOptions) -> GivenData | images.PictureFile:
-    """Return the picture whose header was read, or the file of data that will be."""
-    return options.data or images.open_picture(options.against or "")
-
-
-def _with_picture(options: CompareOptions, picture: Given, place: dict[str, Any]) -> int:
+def _with_picture(options: CompareOptions, picture: GivenPicture, place: dict[str, Any]) -> int:
     """Compare with a picture from a file."""
     with progress_bar() as progress:
         of = _blend if is_blend(options.scene) else _file
@@ -229,30 +221,32 @@ def _told(options: CompareOptions, verdict: Verdict, *pages: Path) -> int:
     return verdict.exit_code
 
 
-def _blend(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Work[Comparison]:
+def _blend(
+    options: CompareOptions, picture: GivenPicture, place: dict[str, Any]
+) -> Work[Comparison]:
     with open_blend(options.scene, options.choice) as blender:
         from ...blender.jobs.against import gather_against
-        from ...blender.reading.camera import export_camera
         from ...blender.versions import DITHER
 
         context = blender.context
         dither = DITHER * context.scene.render.dither_intensity
-        making = replace(_making(options), default_dither=dither)
-        shown: Picture | Callable[[Any], Picture]
-        if isinstance(picture, GivenData):
-            data = picture  # which is read once the scene is there
-            shown = lambda drawing: picture_of_data(data, drawing.exported, making)  # noqa: E731
-        else:
-            shown = picture_of_file(picture, export_camera(context.scene), making)
+        making = replace(options.making, default_dither=dither)
         settings = options.settings.over(context.scene.reference_tracer.settings())
         colors = _colors(options) or By.VIEWPORT
         with evaluating(context.view_layer, "the scene"):
-            case = gather_against(context, shown, settings, bool(options.self_check), colors)
-        case = without_colors(case) if options.data else case
+            case = gather_against(
+                context,
+                lambda drawing: picture.picture(drawing.exported, making),
+                settings,
+                bool(options.self_check),
+                colors,
+            )
         return (yield from _written(options, replace(case, **place)))
 
 
-def _file(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Work[Comparison]:
+def _file(
+    options: CompareOptions, picture: GivenPicture, place: dict[str, Any]
+) -> Work[Comparison]:
     scene, manifest, stored = open_file(options.scene, options.choice)
     own = scene
     scene, notes = in_colors(own, _colors(options) or By.VIEWPORT)
@@ -262,22 +256,20 @@ def _file(options: CompareOptions, picture: Given, place: dict[str, Any]) -> Wor
     if scene.camera.name == FRAMED:
         notes = (*notes, _FRAMED)
     manifest = replace(manifest, notes=(*manifest.notes, *notes))
-    if isinstance(picture, GivenData):
-        shown = picture_of_data(picture, scene, _making(options))
-    else:
-        shown = picture_of_file(picture, scene.camera, _making(options))
+    shown = picture.picture(scene, options.making)
     settings, checked = options.settings.over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
-    case = without_colors(case) if options.data else case
     return (yield from _written(options, replace(case, **place)))
 
 
-def _making(options: CompareOptions) -> Making:
-    """Return how the picture was made, as far as the options say."""
-    known = "as --renderer says"
-    return Making(options.renderer or "", options.filter or 0.0, options.dither, asked=known)
-
-
 def _written(options: CompareOptions, case: Case) -> Work[Comparison]:
-    diagnose = options.diagnosis is not False
-    return comparison_report.written(options.out, case, diagnose, options.trade, options.extremes)
+    """Compare and write; say on standard error what is there before what is wrong is looked for."""
+    page_path = options.out / page.NAME
+
+    def told(found: Comparison) -> None:
+        show(
+            f"verdict: {found.verdict} ({page_path}); what is wrong is looked for", file=sys.stderr
+        )
+
+    diagnose, more = options.diagnosis is not False, (options.trade, options.extremes)
+    return comparison_report.written(options.out, case, diagnose, *more, told)

@@ -9,10 +9,10 @@ from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
-from ... import exr
 from ...derivation import reproducer
 from ...derivation.candidates import LIMIT, gather_pixel
 from ...derivation.pixel import Pixel
+from ...files import exr
 from ...framing import Choice
 from ...report import pixel
 from ...report.folders import place_of
@@ -106,7 +106,7 @@ def explain(options: ExplainOptions) -> int:
 def _gathered(options: ExplainOptions) -> Pixel:
     if options.pixel is None:
         return reproducer.read(options.scene)
-    # What is said meanwhile, by Blender too, is no part of the Markdown.
+    # Notes, Blender's too, are no part of the Markdown.
     with exr.redirected(1, 2), redirect_stdout(sys.stderr):
         scene, _ = load(options.scene, options.choice)
     x, y = options.pixel

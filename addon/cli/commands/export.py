@@ -6,10 +6,10 @@ from argparse import Namespace
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...files.scenes import save_scene
 from ...framing import Choice
 from ...report import folders
 from ...scene import SceneError
-from ...scene_files import save_scene
 from ...wording import count_of, show
 from ..arguments import is_blend
 from ..camera_options import add_camera, choice_from
@@ -47,7 +47,7 @@ def add(parser: Parser) -> None:
         metavar="SCENE.npz",
         help="the file to write",
     )
-    add_camera(parser, of_meshes=False)
+    add_camera(parser)
 
 
 def export(options: ExportOptions) -> int:

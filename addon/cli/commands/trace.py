@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ... import exr, images, npz
 from ...camera_files.files import of_frames
-from ...certificate_file import save_certificate
 from ...comparison.animation import frames_named
+from ...files import exr, images, npz
+from ...files.certificates import save_certificate
 from ...framing import Choice
 from ...methods import Method
 from ...opened import mesh_formats
@@ -111,25 +111,11 @@ def add(parser: Parser) -> None:
     """Add the command's options."""
     parser.runs(
         lambda given: trace(TraceOptions.parsed(given)),
-        "reftrace trace mesh.ply --out mesh.png --width 800\n"
+        "reftrace trace mesh.ply --out mesh.png --set width=800\n"
         "  reftrace trace scene.blend --frames 1-250 --out frames/####.png --out frames/####.exr",
     )
     parser.add_scene(SOURCES)
-    parser.add_argument(
-        "--out",
-        type=parser.path_ending(".png", ".exr", ".npz"),
-        action="append",
-        metavar="PICTURE",
-        help="picture.png (what a screen shows), picture.exr (every output, and Cryptomatte) or "
-        "picture.npz (every output as arrays); may be given several times",
-    )
-    parser.add_argument(
-        "--certificate",
-        type=parser.path_ending(".npz"),
-        metavar="FILE",
-        help="a file with the scene and what every pixel sees, for `reftrace verify`, which checks "
-        "it without the tracer; implies --method certified",
-    )
+    _add_files(parser)
     add_settings(parser)
     parser.add_argument(
         "--color",
@@ -149,6 +135,26 @@ def add(parser: Parser) -> None:
         metavar=("FIRST", "LAST"),
         help="trace only a part of a large picture: its rows FIRST to LAST, row 0 the lowest",
     )
+    add_camera(parser)
+
+
+def _add_files(parser: Parser) -> None:
+    """Add the options for what is written."""
+    parser.add_argument(
+        "--out",
+        type=parser.path_ending(".png", ".exr", ".npz"),
+        action="append",
+        metavar="PICTURE",
+        help="picture.png (what a screen shows), picture.exr (every output, and Cryptomatte) or "
+        "picture.npz (every output as arrays); may be given several times",
+    )
+    parser.add_argument(
+        "--certificate",
+        type=parser.path_ending(".npz"),
+        metavar="FILE",
+        help="a file with the scene and what every pixel sees, for `reftrace verify`, which checks "
+        "it without the tracer; implies --method certified",
+    )
     parser.add_argument(
         "--masks",
         type=parser.path,
@@ -161,7 +167,6 @@ def add(parser: Parser) -> None:
         action="store_true",
         help="the first row of the arrays in a .npz is the topmost (default the lowest)",
     )
-    add_camera(parser)
 
 
 def trace(options: TraceOptions) -> int:

@@ -16,6 +16,7 @@ from ...tracer.settings import Settings
 from ...wording import show
 from ..arguments import GivenSettings, Place, place_from
 from ..camera_options import add_camera, choice_from
+from ..named import Setting
 from ..opening import SOURCES, load
 from ..parser import AGREE, COUNT, INTEGER, Parser
 from ..running import progress_bar
@@ -62,15 +63,15 @@ def add(parser: Parser) -> None:
         metavar="N",
         help=f"measure up to N x N rays a pixel (default {tradeoff.SAMPLES})",
     )
-    parser.add_argument(
-        "--width",
-        dest="largest",
-        type=COUNT,
-        metavar="PIXELS",
-        help="width of the largest picture, whose height follows "
+    width = Setting(
+        "width",
+        "PIXELS",
+        COUNT,
+        "of the largest picture, whose height follows "
         f"(default {tradeoff.WIDTH}, or the scene's own width where that is less)",
+        "largest",
     )
-    add_camera(parser, with_size=False)
+    add_camera(parser, (width,))
 
 
 def trade(options: TradeOptions) -> int:

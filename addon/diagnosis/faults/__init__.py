@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import replace
+
 from .camera import CAMERA_FAULTS
 from .colors import COLOR_FAULTS
-from .data import DATA_FAULTS
-from .fault import AnyFault, Example
+from .fault import AnyFault, Effort, Example
 from .given import GIVEN_FAULTS
 from .lens import LENS_FAULTS
 from .matrices import MATRIX_FAULTS
@@ -15,20 +17,26 @@ from .picture import PICTURE_FAULTS
 from .triangles import TRIANGLE_FAULTS
 from .view import VIEW_FAULTS
 
+
+def _at(effort: Effort, faults: Iterable[AnyFault]) -> tuple[AnyFault, ...]:
+    """Return faults, those without numbers with another effort; what sums up with its reasons."""
+    own = ((f, Effort.VIEW if f.sums_up else f.effort or effort) for f in faults)
+    return tuple(replace(f, effort=e) for f, e in own)
+
+
 FAULTS: tuple[AnyFault, ...] = (
     *CAMERA_FAULTS,
-    *MATRIX_FAULTS,
-    *LENS_FAULTS,
-    *VIEW_FAULTS,
+    *_at(Effort.VIEW, MATRIX_FAULTS),
+    *_at(Effort.VIEW, LENS_FAULTS),
+    *_at(Effort.VIEW, VIEW_FAULTS),
     *GIVEN_FAULTS,
-    *OBJECT_FAULTS,
+    *_at(Effort.LEFT_OUT, OBJECT_FAULTS),
     *TRIANGLE_FAULTS,
     *COLOR_FAULTS,
     *ORDER_FAULTS,
     *PICTURE_FAULTS,
-    *DATA_FAULTS,
 )
-# Those of a picture's colours: they are not looked for in depths and other data.
+# Faults of a picture's colours: not searched in depths and other data.
 OF_COLORS = {f.name for f in (*COLOR_FAULTS, *PICTURE_FAULTS)} - {"rows", "row_off"}
 OF_COLORS |= {f.name for f in FAULTS if f.after}
 # Those that the self-check makes, and how, in the order in which it does.

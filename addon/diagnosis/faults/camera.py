@@ -61,6 +61,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
             Example("one_pixel", "the camera off by a pixel to the right", with_values(1.0, 0.0)),
         ),
         words="the camera's rays pass beside the pixels' centres",
+        witness="NVIDIA/VisRTX#327",
     ),
     Fault(
         "focal_length",
@@ -75,6 +76,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         refine=_FOCAL.refine,
         effort=Effort.FILM,
         words="the focal length, or an orthographic camera's scale, is some per cent off",
+        witness="mrdoob/three.js#9328",
     ),
     Fault(
         "focal_lengths",
@@ -88,6 +90,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         ("across", "up"),
         refine=_FOCALS.refine,
         effort=Effort.CAMERA,
+        witness="ohayoyogi/blender-exporter-colmap#6",
     ),
     Fault(
         "cropped",
@@ -101,6 +104,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         ("percent", "dx", "dy"),
         refine=_CROPPED.refine,
         effort=Effort.CAMERA,
+        witness="google-research-datasets/Objectron#36",
     ),
     Fault(
         "camera_moved",
@@ -119,6 +123,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
             Example("camera_moved", "the camera moved by a pixel to its right", _a_pixel_aside),
         ),
         words="a vector",
+        witness="GPUOpen-LibrariesAndSDKs/RadeonProRenderBlenderAddon#539",
     ),
     Fault(
         "camera_turned",
@@ -137,6 +142,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
             ),
         ),
         words="angles to the right, upwards and about its axis",
+        witness="BabylonJS/Babylon.js#147",
     ),
     Fault(
         "camera_placed",
@@ -150,6 +156,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         refine=_PLACED.refine,
         effort=Effort.CAMERA,
         words="a vector, and angles",
+        witness="gameplay3d/gameplay#1733",
     ),
     Fault(
         "roll",
@@ -162,5 +169,6 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         ("degrees",),
         refine=_ROLL.refine,
         effort=Effort.FILM,
+        witness="Unity-Technologies/com.unity.formats.alembic#317",
     ),
 )

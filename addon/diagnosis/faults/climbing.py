@@ -87,7 +87,6 @@ class Climb:
         self._known: dict[Values, Bools | None] = {}
         self._near: list[_Near] = []  # nested, the smallest last
         self._most = 0  # right pixels anywhere so far
-        self.left = np.inf  # places that may still be evaluated, where that is limited
         self._wanted = (
             np.inf
         )  # with as many, a place is as good as the best: all pixels are evaluated
@@ -110,7 +109,6 @@ class Climb:
         """Return how many pixels are right with these numbers; -1 if they are impossible."""
         if values not in self._known:
             self._known[values] = yield from self._found(values)
-            self.left -= 1
         found = self._known[values]
         count = -1 if found is None else int(np.count_nonzero(found))
         self._most = max(self._most, count)

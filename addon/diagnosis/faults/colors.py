@@ -159,8 +159,9 @@ def _shown(evidence: Evidence) -> Shown | None:
 def _looked_at(evidence: Evidence) -> Shown | None:
     picture, frame, scene = evidence.picture, evidence.frame, evidence.case.scene
     seen = (evidence.unexplained | evidence.judged) & (frame.instance_index != NOTHING)
+    unknown = picture.transform is not None or picture.lit or not picture.has_colors
     mixed = any(mesh.corner_colors is not None for mesh in scene.meshes)
-    if picture.transform is not None or picture.lit or picture.data or mixed or not seen.any():
+    if unknown or mixed or not seen.any():
         return None
     numbers = np.repeat(np.arange(len(scene.color_table))[:, None], 4, axis=1)
     numbered = _painted(evidence.case, _with_table(scene, numbers, words="")).scene
@@ -244,6 +245,7 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
             Example("swapped_colors", "two objects with one another's colours", _two_colors),
         ),
         words="which has whose",
+        witness="WolvenKit/WolvenKit#1036",
     ),
     Fault(
         "color_source",
@@ -255,6 +257,7 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
         _painted,
         _other_source,
         words="another material slot's, or those that are shown",
+        witness="CoDEmanX/blender-cod#3",
     ),
     Fault(
         "recolored",
@@ -274,5 +277,6 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
                 _recolored(lambda c: c[:, [2, 1, 0, 3]]),
             ),
         ),
+        witness="godotengine/collada-exporter#115",
     ),
 )

@@ -1,4 +1,4 @@
-"""What a fault is: how it is made, how it is fitted to a picture, and what is said of it.
+"""The record of a fault: how it is made, how it is fitted to a picture, and its texts.
 
 A fault is what a mistaken exporter, camera or reader would have made. The self-check makes it, to
 see that the comparison finds it; the diagnosis puts it into the scene that is traced, to see
@@ -63,14 +63,6 @@ class Option(Guess):
     number: int
 
 
-@dataclass(frozen=True, eq=False)
-class Pair(Guess):
-    """Two objects that are exchanged in something."""
-
-    first: str
-    second: str
-
-
 Make = Callable[[Case, G], Case | None]  # None where there is nothing to get wrong
 Find = Callable[[Evidence], Work[list[G]]]
 Refine = Callable[[Evidence, G], Work[G | None]]
@@ -107,14 +99,46 @@ ONCE: Find[Any] = always(Guess())  # of a fault that has no numbers and is of no
 
 
 class Effort(IntEnum):
-    """What it takes to find a fault: those of less effort are looked for first."""
+    """The effort of finding a fault: those of less effort are tried first."""
 
-    NOTHING = 0  # it has no numbers, or few values of them are tried
-    FILM = 1  # one or two numbers of the film are fitted
-    CAMERA = 2  # the camera's pose is fitted
-    PIXELS = 3  # pixels, or triangles, are searched
-    OBJECT = 4  # an object's place or size is fitted
-    ANYTHING = 5  # it can be made to look like much else
+    NOTHING = 0
+    VIEW = 1
+    FILM = 2
+    CAMERA = 3
+    LEFT_OUT = 4
+    PIXELS = 5
+    OBJECT = 6
+    ANYTHING = 7
+
+
+# What is tried, in words, and at which cost.
+TRIED = {
+    Effort.NOTHING: (
+        "colours, rows, and what Blender says of the scene",
+        "each is put in, and tried in a few hundred pixels; it has no numbers",
+    ),
+    Effort.VIEW: ("a camera's conventions", "likewise"),
+    Effort.FILM: (
+        "the lens",
+        "one or two numbers are fitted to edges that are found in the picture, then to a thousand "
+        "pixels",
+    ),
+    Effort.CAMERA: ("the camera's place and turn", "two to six numbers are fitted likewise"),
+    Effort.LEFT_OUT: ("an object that is missing, or as in its file", "as colours"),
+    Effort.PIXELS: (
+        "samples, sizes and triangles",
+        "a few hundred pixels say which of some dozen ways is right",
+    ),
+    Effort.OBJECT: (
+        "one object",
+        "up to three numbers of each of two objects are fitted to its edges, then to the pixels "
+        "around it; it alone is traced, over what is behind it",
+    ),
+    Effort.ANYTHING: (
+        "what can look like much else",
+        "a second copy of an object, drawing orders, any filter: on the whole picture",
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -135,13 +159,14 @@ class Fault(Generic[G]):
     sampled: bool = True  # whether a guess can be scored on single pixels
     refine: Refine[G] | None = None  # fits a guess on a finer sample
     effort: Effort = Effort.NOTHING
-    sums_up: bool = False  # it says what is visible: faults that do as well are reasons for it
-    everywhere: bool = False  # it is in all pixels: not looked for beside an object's fault
-    vague: bool = False  # it allows for more than one picture: an exact fault is told in its place
-    removes: bool = False  # it says that its object is not visible
-    turns: bool = False  # it turns the picture: looked for also where all colours are wrong
+    sums_up: bool = False  # a summary: faults that explain as much are listed as its causes
+    everywhere: bool = False  # changes all pixels: not tried beside an object's fault
+    vague: bool = False  # allows for several pictures: an exact fault is reported in its place
+    removes: bool = False  # its object is not visible
+    turns: bool = False  # turns the picture: tried also where all colours are wrong
     examples: tuple[Example, ...] = ()
-    words: str = ""  # what a guess' words say, in general: for the documents
+    words: str = ""  # the words of any guess, for the documents
+    witness: str = ""  # the public report of it, "owner/repository#number" on GitHub
 
     def sentence_of(self, guess: Guess) -> str:
         """Return the sentence with a guess' numbers and names."""

@@ -143,7 +143,7 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
         "supersampled",
         "each pixel is the mean of {n:.0f} x {n:.0f} samples within it{words}",
         "The renderer smooths edges by a grid of samples in each pixel.",
-        "render one sample in each pixel's centre, or compare with --filter 0.75",
+        "render one sample in each pixel's centre, or compare with --excuse filter=0.75",
         _supersampled,
         _find_samples,
         ("n",),
@@ -151,13 +151,14 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
         sampled=False,
         after=_mean_of_samples,
         effort=Effort.PIXELS,
+        witness="Unity-Technologies/com.unity.perception#441",
     ),
     Fault(
         "filter_radius",
         "the picture is filtered: its pixels mix what is within {radius:g} px",
         "Renderers weight samples by a filter that reaches beyond the pixel: that of Cycles "
         "is 1.5 px wide by default.",
-        "render one sample in each pixel's centre, or compare with --filter {radius:g}",
+        "render one sample in each pixel's centre, or compare with --excuse filter={radius:g}",
         _filtered,
         _find_filter,
         ("radius",),
@@ -165,5 +166,6 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
         sampled=False,
         effort=Effort.ANYTHING,
         vague=True,
+        witness="GPUOpen-LibrariesAndSDKs/RadeonProRenderBlenderAddon#17",
     ),
 )

@@ -25,8 +25,8 @@ from ...tracer.progress import Work
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
 from .climbing import Right, values_of
 from .fault import Find, Numbers, Refine, Values
-from .matching import Fitted, fitted, is_everywhere
-from .search import ENCLOSING, Search
+from .matching import Fitted, fitted, is_everywhere, matches
+from .search import Search
 
 REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
 FINE_REACH = 1.0  # the same in a refinement: fewer triangles are near
@@ -41,7 +41,7 @@ FINER = 1 / 8  # pixels: the first step of a refinement
 ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
 MOVES = 3  # with steps of one length, at most: a right start is off by a pixel or two
 BETTER = 0.03  # the least gain of a start in the share of right pixels
-ENCLOSED = 3  # numbers, at most, whose range is looked for
+ENCLOSED = 3  # numbers, at most, whose range is searched
 FITTED = 1024  # sampled pixels of each kind for more numbers
 WIDER = 2.0  # times the reach of a fit of more numbers, which pulls at several
 
@@ -118,7 +118,7 @@ class Family:
         if key not in evidence.known:
             axes, own = self.columns(evidence), evidence.case.scene.camera
             of = lambda units: self.camera(own, *axes @ units)  # noqa: E731
-            evidence.known[key] = fitted(evidence, of, axes.shape[1])
+            evidence.known[key] = fitted(matches(evidence), of, axes.shape[1])
         found: Fitted | None = evidence.known[key]
         return found
 
@@ -153,7 +153,6 @@ def fitting(family: Family, *rivals: Family) -> Fit:
             unseen=family.unseen(evidence),
             moves=np.inf if fine else MOVES,
             among=traced.among,
-            enclosing=ENCLOSING / len(evidence.sample[0]),
         )
         step = FINER if fine else 0.5
         best = yield from search.guess([guess.values], step, enclose=fine and known)
@@ -185,7 +184,7 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
     none = (0.0,) * len(axes)
     if family.camera(own, *none) is None:
         return []
-    found, still = family.matched(evidence), fitted(evidence, lambda units: own, 0)
+    found, still = family.matched(evidence), fitted(matches(evidence), lambda units: own, 0)
     others = [other.share for r in rivals if (other := r.matched(evidence))]
     if found and still and (most := max(found.share, still.share, *others)) >= FOUND:
         moves = found.share >= still.share + MORE or is_everywhere(evidence)

@@ -40,8 +40,12 @@ def _a_frame_later(case: Case, frame: Frame) -> Given | None:
     return None if case.next_frame is None else Given(case.next_frame)
 
 
-def _given(name: str, sentence: str, why: str, advice: str, *examples: Example) -> Fault[Given]:
-    return Fault(name, sentence, why, advice, in_its_scene, always(), examples=examples)
+def _given(
+    name: str, sentence: str, why: str, advice: str, *examples: Example, witness: str
+) -> Fault[Given]:
+    return Fault(
+        name, sentence, why, advice, in_its_scene, always(), examples=examples, witness=witness
+    )
 
 
 GIVEN_FAULTS = (
@@ -49,8 +53,9 @@ GIVEN_FAULTS = (
         "other_frame",
         "the picture is of another frame: {words}",
         "A script renders the frame at which the file was saved, or counts frames from 0.",
-        "render the frame that the scene is at, or compare with --frame",
+        "render the frame that the scene is at, or compare with --set frame=",
         Example("wrong_frame", "the scene a frame later", _a_frame_later),
+        witness="KhronosGroup/glTF-Blender-Exporter#322",
     ),
     _given(
         "other_camera",
@@ -58,6 +63,7 @@ GIVEN_FAULTS = (
         "An exporter takes the first camera that it finds, or a marker on the timeline has made"
         " another one active.",
         "make that camera active, or compare with --camera",
+        witness="GPUOpen-LibrariesAndSDKs/RadeonProRenderBlenderAddon#17",
     ),
     _given(
         "sensor_width_for_height",
@@ -66,12 +72,14 @@ GIVEN_FAULTS = (
         "takes the width, or takes the height for every portrait, is wrong.",
         "with sensor fit Vertical, the sensor's height spans the picture's height; else its width "
         "is what the lens is fitted to",
+        witness="isaac-sim/IsaacSim#200",
     ),
     _given(
         "sensor_fit_setting",
         "the camera's sensor fit is another: {words}",
         "An exporter follows one rule for all cameras, and does not read the setting.",
         "take the sensor fit of the camera: it says which side of the sensor and the picture fit",
+        witness="LuxCoreRender/BlendLuxCore#122",
     ),
     _given(
         "camera_scale",
@@ -79,6 +87,7 @@ GIVEN_FAULTS = (
         "`matrix_world` includes the scale of the camera and of its parents, which Blender "
         "itself ignores. An exporter that writes the matrix unchanged scales the rays.",
         "divide each axis of the camera's matrix by its length: Blender's cameras have no scale",
+        witness="JiayinCao/SORT#88",
     ),
     _given(
         "parent_left_out",
@@ -86,6 +95,7 @@ GIVEN_FAULTS = (
         "An object's `location`, `rotation_euler` and `scale` are relative to its parent, and "
         "without its constraints.",
         "use matrix_world, which has the parent's transform and its inverse",
+        witness="X-Plane/XPlane2Blender#127",
     ),
     _given(
         "parent_scale",
@@ -93,6 +103,7 @@ GIVEN_FAULTS = (
         "The chain of parents is rebuilt from locations and rotations alone, as rigid bodies "
         "and bones have them.",
         "use matrix_world: the parent's scale moves and scales what is parented to it",
+        witness="Nusiq/mcblend#62",
     ),
     _given(
         "parent_inverse",
@@ -100,24 +111,22 @@ GIVEN_FAULTS = (
         "When an object is parented, Blender keeps it in place by storing the parent's "
         "inverse of that moment (matrix_parent_inverse). Other programs have no such matrix.",
         "world = parent's world @ matrix_parent_inverse @ matrix_basis",
+        witness="NikolaiVChr/Blender-AC3D#5",
     ),
     _given(
-        "perspective_for_orthographic",
-        "a perspective camera is taken for an orthographic one",
-        "The renderer has one type of camera so far, or the type is set by hand.",
+        "camera_type",
+        "the camera is taken for one of another type: {words}",
+        "The renderer has one type of camera so far, or the exporter writes every camera as a "
+        "perspective one, as Mitsuba's does.",
         "take the camera's type from the scene",
-    ),
-    _given(
-        "orthographic_for_perspective",
-        "an orthographic camera is taken for a perspective one",
-        "The exporter writes every camera as a perspective one, as Mitsuba's does.",
-        "take the camera's type from the scene",
+        witness="lunadigital/btoa#107",
     ),
     _given(
         "rest_pose",
         "{words} at rest pose: the armature or the shape keys are left out",
         "`object.data` is the mesh before its armature and its shape keys.",
         "export the evaluated mesh",
+        witness="KhronosGroup/glTF-Blender-IO#2166",
     ),
     _given(
         "viewport_modifiers",
@@ -125,12 +134,14 @@ GIVEN_FAULTS = (
         "`context.evaluated_depsgraph_get()` evaluates for the viewport, also in the "
         "background; only a render engine gets a depsgraph for a render.",
         "evaluate the depsgraph for a render",
+        witness="xavier150/Blender-For-UnrealEngine-Addons#194",
     ),
     _given(
         "no_modifiers",
         "modifiers are left out: {words}",
         "`object.data` is the mesh before its modifiers.",
         "export the evaluated mesh, not the object's data",
+        witness="lsalzman/iqm#15",
     ),
     _given(
         "subdivision",
@@ -138,6 +149,7 @@ GIVEN_FAULTS = (
         "A subdivision has one level for the viewport and one for renders, and Simplify limits "
         "both.",
         "use the render levels of the modifier",
+        witness="Bforartists/Bforartists#3645",
     ),
     _given(
         "instance_transform",
@@ -145,6 +157,7 @@ GIVEN_FAULTS = (
         "`object.matrix_world` is the same for all instances of an object: the matrix of each "
         "is in `depsgraph.object_instances`.",
         "each instance has a world matrix of its own, beside its object's",
+        witness="KhronosGroup/glTF-Blender-IO#1981",
     ),
     _given(
         "hidden_shown",
@@ -152,11 +165,13 @@ GIVEN_FAULTS = (
         "Blender hides objects for the viewport, for renders, by the eye, and by collections. "
         "An exporter that asks for one of these shows what another one hides.",
         "leave out what is hidden in renders",
+        witness="lunadigital/btoa#9",
     ),
     _given(
         "other_layer",
         "the picture is of another view layer: {words}",
         "Blender renders all view layers that are switched on; an exporter writes the active one.",
         "render the view layer that is compared",
+        witness="aws-deadline/deadline-cloud-for-blender#92",
     ),
 )

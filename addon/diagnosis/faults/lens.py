@@ -228,6 +228,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         examples=(
             Example("sensor_fit", "the lens fitted to the picture's other side", with_option(0)),
         ),
+        witness="mitsuba-renderer/mitsuba-blender#25",
     ),
     Fault(
         "shift_left_out",
@@ -236,6 +237,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "add shift X and Y",
         *_LEFT_OUT,
         words=" across, or up, alone",
+        witness="prman-pixar/RenderManForBlender#16",
     ),
     Fault(
         "shift_sign",
@@ -244,6 +246,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "from the top.",
         "a positive shift X shows more of what is to the right, a positive shift Y more of the top",
         *_SIGN,
+        witness="vvvv/VL.OpenCV#3",
     ),
     Fault(
         "shift_unit",
@@ -252,6 +255,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "pictures only.",
         "both shifts are in lengths of the side that the sensor is fitted to",
         *_UNIT,
+        witness="mitsuba-renderer/mitsuba-blender#32",
     ),
     Fault(
         "shift_length",
@@ -262,6 +266,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "a shift is in lengths of the side that the sensor is fitted to: divide millimetres by the "
         "sensor's width, pixels by the picture's",
         *_LENGTH,
+        witness="xavier150/Blender-For-UnrealEngine-Addons#130",
     ),
     Fault(
         "last_pixel",
@@ -274,6 +279,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         examples=(
             Example("last_pixel", "width - 1 and height - 1 in place of both", with_option(0)),
         ),
+        witness="mmatl/pyrender#54",
     ),
     Fault(
         "pixel_aspect_left_out",
@@ -282,6 +288,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "resolution for the ratio of the picture's sides.",
         "a pixel is pixel aspect Y / X as high as it is wide",
         *_SQUARE,
+        witness="ImageEngine/cortex#330",
     ),
     Fault(
         "resolution_percentage",
@@ -290,6 +297,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "applied.",
         "take the width and height times the resolution's percentage, also in the principal point",
         *_PERCENTAGE,
+        witness="lunadigital/btoa#19",
     ),
     Fault(
         "sides_exchanged",
@@ -297,6 +305,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "Shapes of arrays are (height, width), sizes of pictures (width, height).",
         "K's first row is of the width, its second of the height",
         *_EXCHANGED,
+        witness="ApolloAuto/apollo#4211",
     ),
     Fault(
         "k_divided",
@@ -304,6 +313,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "Kubric and neural renderers have K of a picture of 1 x 1, OpenCV in pixels.",
         "multiply K's first row by the width, its second by the height",
         *_DIVIDED,
+        witness="donydchen/mvsplat#28",
     ),
     Fault(
         "ortho_scale",
@@ -312,6 +322,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "and half of the height.",
         "it is the whole width or height of the picture, whichever is longer (sensor fit Auto)",
         *_SCALE,
+        witness="lunadigital/btoa#175",
     ),
     Fault(
         "border",
@@ -320,5 +331,6 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "the topmost. Or the whole view is rendered at the border's size.",
         "a border's rows count from the lowest, and its pixels are those of the whole picture",
         *_BORDER,
+        witness="GPUOpen-LibrariesAndSDKs/BlenderUSDHydraAddon#74",
     ),
 )

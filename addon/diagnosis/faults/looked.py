@@ -27,7 +27,7 @@ AROUND = 6  # pixels around the object, on both sides, that are looked at, too
 
 @dataclass(frozen=True, eq=False)
 class Looked:
-    """An object in the picture: the pixels in which it is looked for, and what is behind it."""
+    """An object in the picture: the pixels in which it is searched, and what is behind it."""
 
     evidence: Evidence
     name: str

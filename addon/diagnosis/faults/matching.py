@@ -19,7 +19,7 @@ from ...scene import Camera
 from ...tracer.camera import camera_rays, film_of
 from ..evidence import BEYOND, NEAR, Evidence, spread
 
-POINTS = 384  # pixels at edges that are looked for
+POINTS = 384  # pixels at edges that are searched
 WINDOW = 4  # pixels on each side of one that are compared
 FAR = 8  # windows' pixels that one may have moved, at the coarsest
 CLOSE = 2  # the same, at finer scales
@@ -55,19 +55,28 @@ class Fitted(NamedTuple):
     axes: Floats  # (k, k) changes of the units, columns that move the points apart from each other
 
 
-def matches(evidence: Evidence) -> Matches:
-    """Return the points at edges, and where they are shown (cached)."""
-    if "matches" not in evidence.known:
-        evidence.known["matches"] = _matched(evidence)
-    found: Matches = evidence.known["matches"]
+def matches(
+    evidence: Evidence,
+    name: str = "",
+    where: Bools | None = None,
+    about: tuple[float, float] = (0, 0),
+) -> Matches:
+    """Return the points at edges, and where they are shown (cached).
+
+    Those of an object are in a mask (h, w), and moved by about so many pixels.
+    """
+    key = f"matches {name} {about}"
+    if key not in evidence.known:
+        everywhere = np.ones(evidence.unexplained.shape, bool)
+        some = everywhere if where is None else where
+        evidence.known[key] = _matched(evidence, some, np.rint(about))
+    found: Matches = evidence.known[key]
     return found
 
 
-def fitted(
-    evidence: Evidence, camera: Callable[[Floats], Camera | None], count: int
-) -> Fitted | None:
-    """Fit a camera of some units, (k,), to the points; None if too few are known."""
-    found, units, axes = matches(evidence), np.zeros(count), np.eye(count)
+def fitted(found: Matches, camera: Callable[[Floats], Camera | None], count: int) -> Fitted | None:
+    """Fit a camera of some units, (k,), to points; None if too few are known."""
+    units, axes = np.zeros(count), np.eye(count)
     if len(found.points[0]) < LEAST:
         return None
 
@@ -111,15 +120,14 @@ def _apart(off: Floats, sure: Floats) -> Floats:
     return np.sqrt(np.maximum(SNAPPED * np.einsum("in,nij,jn->n", off, sure, off), 0))
 
 
-def _matched(evidence: Evidence) -> Matches:
+def _matched(evidence: Evidence, where: Bools, about: Floats) -> Matches:
     traced = evidence.picture.made_of(evidence.frame.color)
     shown = evidence.picture.color[..., : traced.shape[-1]]
-    rows, columns = np.unravel_index(
-        spread(beside_edges(np.nan_to_num(traced), 2 * NEAR), POINTS), traced.shape[:2]
-    )
+    edges = beside_edges(np.nan_to_num(traced), 2 * NEAR) & where
+    rows, columns = np.unravel_index(spread(edges, POINTS), edges.shape)
     pair = _gray(traced), _gray(shown)
-    moved = np.zeros((2, len(rows)))
-    scale = _coarsest(traced.shape)
+    moved = np.repeat(about[:, None], len(rows), axis=1)
+    scale = _coarsest(where)
     reach = FAR
     while scale >= 1:
         wrong, steps = _compared(pair, (rows, columns), moved.astype(int), scale, reach)
@@ -146,9 +154,10 @@ def _gray(colors: Array) -> Floats:
     return np.clip(known, -4, 4) @ weights
 
 
-def _coarsest(shape: tuple[int, ...]) -> int:
-    """Return how many pixels wide those of a window are at first: it spans half a picture."""
-    wide = max(1, min(shape[:2]) // (2 * (2 * WINDOW + 1)))
+def _coarsest(where: Bools) -> int:
+    """Return how many pixels wide those of a window are at first: it spans half of a mask."""
+    size = min(int(where.any(axis=axis).sum()) for axis in (0, 1))
+    wide = max(1, size // (2 * (2 * WINDOW + 1)))
     return 1 << (wide.bit_length() - 1)
 
 

@@ -143,6 +143,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         *ways(("", _matrix(_mirrored(-1, 1, 1))), ("", lambda camera: flipped(camera, 0))),
         turns=True,
         examples=(Example("mirrored_x", "the camera mirrored left to right", with_option(0)),),
+        witness="facebookresearch/pytorch3d#78",
     ),
     Fault(
         "mirrored_y",
@@ -152,6 +153,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "check the sign of the camera's up axis, or of y on the film",
         *ways(("", _matrix(_mirrored(1, -1, 1)))),
         examples=(Example("mirrored_y", "the camera mirrored upside down", with_option(0)),),
+        witness="blitz-research/monkey2#358",
     ),
     Fault(
         "forward",
@@ -160,6 +162,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "Blender's cameras look along their own -Z, with +Y up",
         *ways(*_BACKWARDS),
         words=", with another axis turned, too",
+        witness="Siccity/GLTFUtility#92",
     ),
     Fault(
         "matrix_transposed",
@@ -171,6 +174,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "in R X + t",
         *ways(*_read_wrongly(_transposed), ("", _matrix(_all_transposed))),
         examples=(Example("camera_transposed", "the camera's rotation inverted", with_option(0)),),
+        witness="facebookresearch/pytorch3d#1183",
     ),
     Fault(
         "matrix_inverted",
@@ -180,6 +184,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "transforms.json of NeRF, camera-to-world.",
         "invert the view matrix once, not twice or never",
         *ways(*(("", _matrix(partial(_inverted, space))) for space in _SPACES)),
+        witness="isl-org/Open3D#1027",
     ),
     Fault(
         "place_for_translation",
@@ -188,6 +193,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "camera-to-world matrix, the last column is the camera's place.",
         "t = -R C for a camera at C; C = -R^T t",
         *ways(*_read_wrongly(_of_the_other)),
+        witness="facebookresearch/pytorch3d#1987",
     ),
     Fault(
         "y_up",
@@ -196,6 +202,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "camera that other code writes is not turned with the meshes.",
         "convert both, or none",
         *ways(*_turned(Y_UP_FROM_Z_UP), *_turned(Y_UP_FROM_Z_UP.T)),
+        witness="KhronosGroup/glTF-Blender-IO#2048",
     ),
     Fault(
         "quarter_turn",
@@ -205,6 +212,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "turn the camera back with its world, or the meshes with it",
         *ways(*_quarters()),
         words="a quarter, half a turn or three quarters about an axis",
+        witness="o3de/o3de-extras#742",
     ),
     Fault(
         "handedness",
@@ -214,5 +222,6 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "mirror the world's axis for the camera and the meshes, or for neither",
         *ways(*_left_handed()),
         words="X, Y or Z",
+        witness="ingowald/pbrt-parser#33",
     ),
 )

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 
@@ -18,7 +17,6 @@ from ...tracer.frame import Frame
 from ...tracer.progress import Work, at_once
 from ..evidence import LEAST_SEEN, Evidence
 from .climbing import values_of
-from .data.moving import by_points
 from .fault import (
     AnyFault,
     Effort,
@@ -29,22 +27,18 @@ from .fault import (
     Make,
     Numbers,
     Option,
-    Pair,
     always,
     instances_named,
     keys_of,
-    of_meshes,
     of_object,
     one_of,
 )
 from .pose import (
-    DISPLACED,
     MOVED,
     TWICE,
     Sized,
     about_point,
     copied,
-    displaced,
     find_sizes,
     moved,
     refine_size,
@@ -152,42 +146,6 @@ def _sheared(evidence: Evidence) -> list[Option]:
     return found
 
 
-def _exchanged(case: Case, guess: Pair) -> Case:
-    """Return the case with two objects at each other's places."""
-
-    def exchanged(scene: Scene) -> Scene:
-        own = [instances_named(scene, name) for name in (guess.first, guess.second)]
-        if any(len(some) != 1 for some in own):
-            return scene
-        instances = list(scene.instances)
-        first, second = (some[0] for some in own)
-        a, b = instances[first], instances[second]
-        instances[first] = replace(a, world_from_object=b.world_from_object)
-        instances[second] = replace(b, world_from_object=a.world_from_object)
-        return replace(scene, instances=tuple(instances))
-
-    return case.with_scenes(exchanged)
-
-
-@at_once
-def _pairs(evidence: Evidence) -> list[Pair]:
-    """Guess each pair of suspects with one instance."""
-    names = _single(evidence.case.scene, evidence.suspects)
-    return [Pair(a, b, words=f"'{a}' and '{b}'") for a, b in combinations(names, 2)]
-
-
-def _two(case: Case, frame: Frame) -> Pair | None:
-    """Pick the two objects visible in the most pixels, of those with one instance."""
-    scene = case.scene
-    seen = (scene.objects[scene.instances[n].object] for n in seen_instances(case, frame))
-    names = _single(scene, dict.fromkeys(seen))[:2]
-    return Pair(*names) if len(names) == 2 else None
-
-
-def _single(scene: Scene, names: Iterable[str]) -> list[str]:
-    return [name for name in names if len(instances_named(scene, name)) == 1]
-
-
 def _sized(case: Case, guess: Sized) -> Case | None:
     """Return the case with an object of another size."""
     if not instances_named(case.scene, guess.object):
@@ -246,12 +204,6 @@ def _in_turn(case: Case, guess: Option) -> Case | None:
     return _with_axes(lambda axes, lengths: axes * lengths @ turn)(case, guess)
 
 
-def _moved_or_by_points(evidence: Evidence) -> Work[list[Numbers]]:
-    """Search for the places of objects; depths say them."""
-    find = MOVED.find if evidence.case.picture.data is None else by_points
-    return (yield from find(evidence))
-
-
 def _whole(instance: Instance, factor: float) -> Instance:
     """Scale an instance about the world's origin."""
     matrix = instance.world_from_object.copy()
@@ -268,6 +220,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "check where the camera is and looks, and whether anything is rendered",
         lambda case, guess: case.with_scenes(lambda scene: replace(scene, instances=(), planes=())),
         sums_up=True,
+        witness="facebookresearch/pytorch3d#1308",
     ),
     Fault(
         "object_missing",
@@ -279,6 +232,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         suspects(),
         removes=True,
         examples=(Example("dropped_instance", "the largest object left out", largest),),
+        witness="KhronosGroup/glTF-Blender-IO#2726",
     ),
     Fault(
         "instances_missing",
@@ -289,6 +243,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _without,
         _not_shown,
         words="which, and how many",
+        witness="KhronosGroup/glTF-Blender-IO#1537",
     ),
     Fault(
         "transform_left_out",
@@ -298,6 +253,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "multiply its vertices by its world matrix",
         of_object(lambda instance: replace(instance, world_from_object=np.eye(4))),
         suspects(),
+        witness="OpenNaja/cobra-blender#19",
     ),
     Fault(
         "rotation_left_out",
@@ -307,6 +263,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "multiply its vertices by its whole world matrix",
         _with_axes(lambda axes, lengths: np.diag(np.where(lengths > 0, lengths, 1))),
         suspects(),
+        witness="taniwha/io_object_mu#8",
     ),
     Fault(
         "rotation_transposed",
@@ -317,6 +274,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _with_axes(lambda axes, lengths: axes.T * lengths),
         _transposed,
         words="an object, or of all",
+        witness="cedricpinson/osgexport#8",
     ),
     Fault(
         "object_turned",
@@ -326,6 +284,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         _in_turn,
         _turned,
         words="turned by a quarter or a half, or mirrored",
+        witness="rdb/blender-egg-importer#2",
     ),
     Fault(
         "scale_left_out",
@@ -335,6 +294,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "multiply its vertices by its whole world matrix",
         _with_axes(lambda axes, lengths: axes),
         suspects(),
+        witness="X-Plane/XPlane2Blender#257",
     ),
     Fault(
         "place_left_out",
@@ -343,6 +303,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "multiply its vertices by its whole world matrix",
         of_object(_at_origin),
         suspects(),
+        witness="X-Plane/XPlane2Blender#214",
     ),
     Fault(
         "shear_left_out",
@@ -355,17 +316,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
             _with_axes(lambda axes, lengths: _nearest_rotation(axes) * lengths),
         ),
         _sheared,
-    ),
-    Fault(
-        "swapped_transforms",
-        "{words} have each other's transforms",
-        "Meshes and matrices come in two lists in different orders: bpy.data is sorted by "
-        "name, the objects of a scene are not.",
-        "check by which index, or in which order, world matrices are taken",
-        _exchanged,
-        _pairs,
-        examples=(Example("swapped_transforms", "two objects at each other's places", _two),),
-        words="two objects",
+        witness="donmccurdy/glTF-Transform#1680",
     ),
     Fault(
         "object_scaled",
@@ -378,6 +329,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         refine=refine_size,
         effort=Effort.OBJECT,
         words=", about its origin, its base or its middle",
+        witness="assimp/assimp#775",
     ),
     Fault(
         "scene_scaled",
@@ -387,6 +339,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         of_object(_whole),
         always(*(Numbers((factor,)) for factor in UNITS)),
         ("factor",),
+        witness="thodan/obj_pose_eval#1",
     ),
     Fault(
         "object_moved",
@@ -395,13 +348,14 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "centred its mesh.",
         "compare its world matrix with the one that the scene has",
         of_object(moved),
-        _moved_or_by_points,
+        MOVED.find,
         ("x", "y", "z"),
         refine=MOVED.refine,
         effort=Effort.OBJECT,
         examples=(
             Example("moved_object", "the largest object moved by a pixel", _a_pixel_to_the_right),
         ),
+        witness="AsoboStudio/Microsoft-Flight-Simulator-2020-glTF-Blender-IO#98",
     ),
     Fault(
         "object_twice",
@@ -414,17 +368,6 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         ("x", "y", "z"),
         refine=TWICE.refine,
         effort=Effort.ANYTHING,
-    ),
-    Fault(
-        "smooth_displaced",
-        "the vertices of '{object}' are displaced along their normals by {distance:+.4g} m",
-        "Blender's Displace modifier has a midlevel of 0.5; other programs have none, or "
-        "another one.",
-        "check a displacement's strength and midlevel, and whether normals are smooth",
-        of_meshes(displaced),
-        DISPLACED.find,
-        ("distance",),
-        refine=DISPLACED.refine,
-        effort=Effort.OBJECT,
+        witness="LuxCoreRender/BlendLuxCore#366",
     ),
 )

@@ -38,31 +38,9 @@ def _quarter_turned(case: Case, quarters: int) -> Case | None:
 _QUARTERS = {1: "90 degrees anticlockwise", 2: "180 degrees", 3: "90 degrees clockwise"}
 
 
-def _middles(scene: Scene) -> Floats:
-    """Return the centres of the instances' bounding boxes, (k, 3)."""
-    out = []
-    for instance in scene.instances:
-        v = scene.meshes[instance.mesh].vertices
-        middle = (v.min(axis=0) + v.max(axis=0)) / 2 if len(v) else np.zeros(3)
-        out.append(instance.world_from_object[:3] @ (*middle, 1.0))
-    return np.array(out).reshape(-1, 3)
-
-
-def _nearness(scene: Scene) -> Floats:
-    """Return the nearness of the instances' origins, of their centres, and in depth, (3, k)."""
-    origins = np.array([i.world_from_object[:3, 3] for i in scene.instances]).reshape(-1, 3)
-    eye = scene.camera.origin
-    origins, middles = origins - eye, _middles(scene) - eye
-    distances = (np.linalg.norm(v, axis=1) for v in (origins, middles))
-    return -np.array([*distances, origins @ scene.camera.forward])
-
-
 # Orders of drawing (painter's algorithm), each instance over those before; the first has no ranks.
 ORDERS = (
     "the farthest surface is seen, not the nearest",
-    "objects are drawn one over the other, by the distances of their origins",
-    "objects are drawn one over the other, by the distances of their middles",
-    "objects are drawn one over the other, by the depths of their origins",
     "objects are drawn one over the other, as they are listed",
     "objects are drawn one over the other, the last that is listed first",
 )
@@ -73,7 +51,7 @@ def _ranks(scene: Scene, order: int) -> Floats | None:
     if order == 0:
         return None
     listed = np.arange(len(scene.instances), dtype=np.float64)
-    of = (*_nearness(scene), listed, -listed)[order - 1]
+    of = listed if order == 1 else -listed
     return np.concatenate((of, np.full(len(scene.planes) + 1, -np.inf)))
 
 
@@ -147,6 +125,7 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
             ),
         ),
         words="90 or 180 degrees",
+        witness="alan-turing-institute/monitoring-ecosystem-resilience#459",
     ),
     Fault(
         "depth_order",
@@ -160,5 +139,6 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
         sampled=False,
         effort=Effort.ANYTHING,
         words="the farthest surface is seen, or objects are drawn one over the other in some order",
+        witness="mrdoob/three.js#12737",
     ),
 )

@@ -13,7 +13,6 @@ from .fault import AnyFault, Example, Fault, Guess, Make, always
 from .filters import FILTER_FAULTS
 from .processed import PROCESSED
 from .recolor import alpha_divided, alpha_multiplied, recolored
-from .rounding import ROUNDING_FAULTS
 from .sizes import SIZE_FAULTS
 from .tones import CURVE_FAULTS
 
@@ -23,7 +22,7 @@ def _upside_down(case: Case, guess: Guess) -> Case:
     return replace(case, picture=case.picture.moved(np.arange(len(case.picture.color))[::-1]))
 
 
-# By how many columns and rows all are off, and what is said of it.
+# By how many columns and rows all are off, and the sentence.
 _ROLLS = (
     (0, 1, "rows are one too high, and the topmost is at the bottom"),
     (0, -1, "rows are one too low, and the lowest is at the top"),
@@ -76,6 +75,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
             ),
         ),
         words="rows or columns are one off, and those at the end are at the other end",
+        witness="steel1990/tga#1",
     ),
     Fault(
         "rows",
@@ -86,9 +86,9 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         _upside_down,
         turns=True,
         examples=(Example("rows", "the picture's rows from top to bottom"),),
+        witness="glium/glium#1526",
     ),
     *CURVE_FAULTS,
-    *ROUNDING_FAULTS,
     Fault(
         "premultiplied",
         "the picture's colours are multiplied by alpha twice",
@@ -97,6 +97,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         recolored(alpha_divided),
         _find_partly,
         sampled=False,
+        witness="Tom94/tev#87",
     ),
     Fault(
         "straight_alpha",
@@ -107,6 +108,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         recolored(alpha_multiplied),
         _find_partly,
         sampled=False,
+        witness="RxLaboratory/Bluik#32",
     ),
     *FILTER_FAULTS,
     *SIZE_FAULTS,

@@ -1,4 +1,4 @@
-"""Fits an object to a picture: where it is, how large, or how far its surface is displaced."""
+"""Fits an object to a picture: where it is, or how large."""
 
 from __future__ import annotations
 
@@ -12,20 +12,22 @@ import numpy as np
 from ...arrays import Bools, Floats, Places
 from ...causes.case import Case
 from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, Instance, Mesh, Scene
+from ...scene import Camera, Instance, Scene
 from ...tracer.progress import Work
-from ...tracer.vector import cross, transform_points
+from ...tracer.vector import transform_points
 from ..evidence import Evidence
-from .climbing import Among, Right
-from .fault import Numbers, Values, instances_named, with_instances, with_meshes
-from .fitting import FINE_REACH, FINER, Fit, Traced
+from .climbing import Among, Right, values_of
+from .fault import Numbers, Values, instances_named, with_instances
+from .fitting import FINE_REACH, FINER, FOUND, NEARLY, Fit, Traced
 from .looked import Looked
-from .search import ENCLOSING, Search
+from .matching import Fitted, fitted, matches
+from .search import Search
 
 FINEST = 1 / 128  # pixels
 FIRST = 1 / 4  # of the object's width: the first step
 SMALL = 6.0  # pixels
 TRIED = 2  # objects that are fitted
+NEAR_STEP = 0.5  # pixels: the first step from where edges are found
 
 
 def moved(instance: Instance, x: float, y: float, z: float) -> Instance:
@@ -50,16 +52,21 @@ def sized(scene: Scene, name: str, factor: float, about: int) -> Scene:
     """Scale an object's instances, each about its own point."""
 
     def scaled(instance: Instance) -> Instance:
-        matrix = instance.world_from_object.copy()
-        corners = np.array(list(product(*scene.meshes[instance.mesh].bounds.T)))
-        low, high = (f(transform_points(matrix, corners.T), axis=1) for f in (np.min, np.max))
-        middle = (low + high) / 2
-        point = (matrix[:3, 3].copy(), np.array((*middle[:2], low[2])), middle)[about]
+        matrix, point = instance.world_from_object.copy(), _staying(scene, instance, about)
         matrix[:3, :3] *= factor
         matrix[:3, 3] = point + factor * (matrix[:3, 3] - point)
         return replace(instance, world_from_object=matrix)
 
     return with_instances(scene, name, scaled)
+
+
+def _staying(scene: Scene, instance: Instance, about: int) -> Floats:
+    """Return the point of `ABOUT` of an instance, (3,) in the world."""
+    matrix = instance.world_from_object
+    corners = np.array(list(product(*scene.meshes[instance.mesh].bounds.T)))
+    low, high = (f(transform_points(matrix, corners.T), axis=1) for f in (np.min, np.max))
+    middle = (low + high) / 2
+    return (matrix[:3, 3].copy(), np.array((*middle[:2], low[2])), middle)[about]
 
 
 def copied(case: Case, guess: Numbers) -> Case:
@@ -73,17 +80,6 @@ def copied(case: Case, guess: Numbers) -> Case:
     return case.with_scenes(twice)
 
 
-def displaced(mesh: Mesh, distance: float) -> Mesh:
-    """Displace vertices along their area-weighted normals."""
-    vertices = mesh.vertices.astype(np.float64)
-    a, b, c = (vertices[mesh.triangles[:, k]].T for k in range(3))
-    normals = np.zeros_like(vertices)
-    for k in range(3):
-        np.add.at(normals, mesh.triangles[:, k], cross(b - a, c - a).T)
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    return replace(mesh, vertices=vertices + distance * normals / np.where(length > 0, length, 1))
-
-
 @dataclass(frozen=True)
 class Pose:
     """A change of an object in a few numbers, to be fitted."""
@@ -93,7 +89,8 @@ class Pose:
     starts: list[Values]
     unseen: Floats | None = None  # changes of the numbers that change nothing, (m, j) columns
     # The camera that sees the unchanged object as it looks after the change.
-    camera: Callable[..., Camera] | None = None
+    camera: Callable[..., Camera | None] | None = None
+    origin: float = 0.0  # the numbers of no change
 
 
 def _placed(looked: Looked) -> Pose:
@@ -105,12 +102,10 @@ def _placed(looked: Looked) -> Pose:
     def change(scene: Scene, values: Values) -> Scene:
         return with_instances(scene, "", lambda instance: moved(instance, *values))
 
-    beside = np.append(start[:2], 0)[: len(start)]
-    starts = [start, beside]
-    if np.abs(start).max() < SMALL:  # then its middle says little
-        starts.append(0 * start)
-    numbers = [tuple((axes @ v).tolist()) for v in starts]
-    return Pose(change, axes, numbers, unseen, _moved_against)
+    # Where its middle moved by little, its edges would have been found.
+    far = np.abs(start[:2]).max() >= SMALL or looked.kept
+    starts = [values_of(axes @ start)] if far else []
+    return Pose(change, axes, starts, unseen, _moved_against)
 
 
 def _moved_against(camera: Camera, *by: float) -> Camera:
@@ -118,6 +113,16 @@ def _moved_against(camera: Camera, *by: float) -> Camera:
     matrix = camera.world_from_camera.copy()
     matrix[:3, 3] -= by
     return replace(camera, world_from_camera=matrix)
+
+
+def _nearer(point: Floats, camera: Camera, factor: float) -> Camera | None:
+    """Return the camera that sees all as a camera sees it scaled by a factor about a point."""
+    if factor <= 0:
+        return None
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, 3] = point + (matrix[:3, 3] - point) / factor
+    near = 1 / factor if camera.projection is ORTHOGRAPHIC else 1.0
+    return replace(camera, world_from_camera=matrix, window=camera.window.scaled(near, near))
 
 
 def _sized(about: int) -> Callable[[Looked], Pose]:
@@ -129,23 +134,28 @@ def _sized(about: int) -> Callable[[Looked], Pose]:
         def change(scene: Scene, values: Values) -> Scene | None:
             return sized(scene, "", values[0], about) if values[0] > 0 else None
 
-        return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)])
+        point = _staying(looked.alone, looked.alone.instances[0], about)
+        view = partial(_nearer, point)
+        return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)], None, view, 1.0)
 
     return of
 
 
-def _inflated(looked: Looked) -> Pose:
-    """Return the displacement of an object's surface."""
-    scene = looked.evidence.case.scene
-    matrix = scene.instances[instances_named(scene, looked.name)[0]].world_from_object
-    size = float(np.cbrt(abs(np.linalg.det(matrix[:3, :3])))) or 1.0
-    unit = looked.pixel / size
-    start = (looked.growth - 1) * looked.width / 2 * unit
-
-    def change(scene: Scene, values: Values) -> Scene:
-        return with_meshes(scene, "", lambda mesh: displaced(mesh, *values))
-
-    return Pose(change, np.array([[unit]]), [(start,), (0.0,)])
+def _matched(looked: Looked, pose: Pose) -> Fitted | None:
+    """Return the change with which the object's edges are where the picture has them."""
+    if not pose.camera:
+        return None
+    evidence, view = looked.evidence, pose.camera
+    own = evidence.case.scene.camera
+    for about in (tuple(looked.start()[:2]), (0.0, 0.0)):
+        found = fitted(
+            matches(evidence, looked.name, looked.seen, about),
+            lambda units: view(own, *(pose.origin + pose.axes @ units)),
+            pose.axes.shape[1],
+        )
+        if found and found.share >= FOUND:
+            return found
+    return None
 
 
 def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
@@ -171,14 +181,21 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
         fine = bool(guess.low)
         if guess.values:
             starts, step = [guess.values], FINER if fine else 1.0
+        elif pose.camera and not kept:
+            found, moves = _matched(looked, pose), _matched(looked, _placed(looked))
+            if moves and not (found and found.share >= NEARLY * moves.share):
+                return None
+            if found:
+                starts, step = [values_of(pose.origin + pose.axes @ found.units)], NEAR_STEP
+        if not starts:
+            return None
         least = 0.0 if guess.values else looked.least_right
         known: Right = partial(right, looked)
         among: Among = right_among
-        if fine and pose.camera:  # then the triangles near its rays stay
+        if fine and not pose.origin and pose.camera:  # then the triangles near its rays stay
             traced = Traced(looked.of_it_alone, pose.camera, FINE_REACH, looked, looked.surface)
             known, among = traced.right, traced.among
-        few = ENCLOSING / max(len(looked.at[0]), 1)
-        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among, enclosing=few)
+        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
     def find(evidence: Evidence) -> Work[list[Numbers]]:
@@ -192,7 +209,7 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
     return Fit(find, refine)
 
 
-MOVED, TWICE, DISPLACED = posing(_placed), posing(_placed, kept=True), posing(_inflated)
+MOVED, TWICE = posing(_placed), posing(_placed, kept=True)
 _SCALED = [posing(_sized(about)) for about in range(len(ABOUT))]
 
 

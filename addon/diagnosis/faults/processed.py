@@ -12,7 +12,7 @@ import numpy as np
 
 from ...arrays import Array, Colors, Floats
 from ...causes.checks.color import groups
-from ...images import encoded
+from ...files.images import encoded
 from ...tracer.progress import at_once
 from ..evidence import Evidence
 from .fault import AnyFault, Effort, Fault, Numbers, unchanged
@@ -29,7 +29,7 @@ GRAIN = {0.9: 0.06, 0.98: 0.2}
 
 @dataclass(frozen=True, eq=False)
 class Processed(Numbers):
-    """What the picture shows, where a processed surface may."""
+    """A picture whose surfaces' colours were processed."""
 
     made: Colors = None  # type: ignore[assignment]
 
@@ -93,5 +93,6 @@ PROCESSED: tuple[AnyFault, ...] = (
         vague=True,
         after=lambda colors, guess, evidence: guess.made,
         effort=Effort.ANYTHING,
+        witness="tonyyxliu/CUHKSZ-CSC4005#71",
     ),
 )

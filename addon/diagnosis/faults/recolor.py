@@ -7,11 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Array
+from ...arrays import Array, by_runs
 from ...causes.case import Case
-from ...images import EIGHT_BITS
-from ...pictures.picture import Picture, Transform, straight
-from ...runs import by_runs
+from ...pictures.picture import Transform, straight
 from .fault import Guess, Make
 
 
@@ -50,11 +48,3 @@ def recolored(of_pixels: Callable[[Array], Array]) -> Make[Guess]:
 def by_curve(case: Case, of: Transform) -> Case:
     """Return the case with a transform of the traced colours."""
     return replace(case, picture=replace(case.picture, transform=of))
-
-
-def with_slack(picture: Picture, slack: float) -> Picture:
-    """Return a picture with a tolerance of some levels of 8 bits beyond its own rounding."""
-    if slack < 0:
-        return picture
-    levels, dither = picture.storage.levels or EIGHT_BITS, picture.storage.dither + slack
-    return replace(picture, storage=replace(picture.storage, levels=levels, dither=dither))

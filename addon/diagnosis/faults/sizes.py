@@ -17,27 +17,18 @@ import numpy as np
 
 from ...arrays import Array, Colors, Floats, Places
 from ...causes.case import Case
-from ...images import decoded, encoded
+from ...causes.checks.probe import SOUND
+from ...files.images import decoded, encoded
+from ...pictures.picture import Picture
+from ...rendering import steps
 from ...scene import Region, ViewWindow
-from ...tracer import shading
 from ...tracer.camera import pixel_size
+from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
 from .fault import AnyFault, Effort, Fault, Guess, Values
-from .recolor import with_slack
 
-# Of what may have been resampled, and how they are called. Larger ones are means of several
-# samples, or, by the nearest pixel, offsets of the camera.
-SIZES = {
-    1 / 2: "half",
-    0.9: "nine tenths of",
-    0.8: "four fifths of",
-    1 / 3: "a third of",
-    1 / 4: "a quarter of",
-    2 / 3: "two thirds of",
-    3 / 4: "three quarters of",
-}
-SHARES = {2: "half", 3: "a third of", 4: "a quarter of"}  # to which a picture may be shrunk
+SHARES = {2: "half", 3: "a third of", 4: "a quarter of"}  # of the size, by the factor
 RIGHT = 0.8  # of the sampled pixels that are unexplained, for a guess to be tried
 
 
@@ -83,18 +74,15 @@ CODINGS = (
 )
 
 
-def as_stored(case: Case, guess: Guess) -> Case:
-    """Return the case with a level more for what was rounded before it was mixed, in a file."""
-    levels = case.picture.storage.levels
-    return replace(case, picture=with_slack(case.picture, 1.0)) if levels else case
+def _rounded_before(picture: Picture) -> Picture:
+    """Return a picture with a level more in a file: what is mixed in it was rounded before."""
+    storage = picture.storage
+    return replace(picture, storage=replace(storage, dither=storage.dither + (storage.levels > 0)))
 
 
 def sampled_right(evidence: Evidence, colors: Array) -> bool:
     """Return whether most sampled pixels, and most unexplained ones, show colours (n, 4)."""
-    shown = evidence.shown
-    if shown.storage.levels:
-        shown = with_slack(shown, 1.0)
-    right = ~shown.other_color(colors)
+    right = ~_rounded_before(evidence.shown).other_color(colors)
     return bool(right[evidence.unexplained_sampled].mean() > RIGHT and right.mean() > RIGHT)
 
 
@@ -112,23 +100,6 @@ def at_size(case: Case, size: float) -> Case:
     return case.with_scenes(lambda scene: scene.seen_by(camera))
 
 
-# ---- rendered at another size
-
-
-@dataclass(frozen=True, eq=False)
-class Resampled(Guess):
-    """A picture rendered at another size, relative to the one compared."""
-
-    size: float
-    way: Way
-    coding: Coding
-
-    @property
-    def values(self) -> Values:
-        """The size."""
-        return (self.size,)
-
-
 Mix = list[tuple[Places, Floats]]  # for each of n places, which pixels are taken, and their weights
 
 
@@ -143,12 +114,6 @@ def _mix(have: int, size: int, way: Way) -> Mix:
     return [*zip(pixels.clip(0, have - 1), weights / weights.sum(axis=0), strict=True)]
 
 
-def _resampled(colors: Colors, guess: Resampled, evidence: Evidence) -> Colors:
-    """Resample a picture (h', w', 4) to the size of the evidence's."""
-    mixed = resized(guess.coding.into(colors), evidence.unexplained.shape, guess.way)
-    return guess.coding.back(mixed).astype(np.float32)
-
-
 At = tuple[Places, Places]  # rows and columns
 
 
@@ -157,7 +122,9 @@ def _everywhere(shape: tuple[int, ...]) -> At:
     return rows, columns
 
 
-def resized(colors: Array, shape: tuple[int, ...], way: Way, at: At | None = None) -> Array:
+def resized(
+    colors: Array, shape: tuple[int, ...], way: Way = Way.LINEAR, at: At | None = None
+) -> Array:
     """Resample a picture (h', w', 4) to another size (h, w); return all pixels, or some."""
     rows, columns = at or _everywhere(shape)
     ups, acrosses = (_mix(*sizes, way) for sizes in zip(colors.shape[:2], shape[:2], strict=True))
@@ -168,51 +135,15 @@ def resized(colors: Array, shape: tuple[int, ...], way: Way, at: At | None = Non
     return np.asarray(sum(parts))
 
 
-def _find_size(evidence: Evidence) -> Work[list[Resampled]]:
-    """Guess the sizes and ways that are right in most sampled pixels, by tracing these.
-
-    A pixel of the other size is a ray beside the centre of one of the sampled pixels.
-    """
-    evidence = evidence.few
-    scene, region = evidence.case.scene, evidence.case.scene.camera.region
-    rows, columns = evidence.sample
-    reach = _KERNELS[Way.CUBIC][0] * np.sqrt(2) / min(SIZES)
-    probe = yield from evidence.probe(scene, reach)
-    out = []
-    for size, name in SIZES.items():
-        wide, high = (max(1, round(size * n)) for n in (region.width, region.height))
-        traced: dict[tuple[bytes, bytes], Colors] = {}  # by where, as ways share their pixels
-        for way in (Way.NEAREST, Way.LINEAR, Way.CUBIC, Way.SHARP):
-            totals = [np.zeros((len(rows), 4)) for _ in CODINGS]
-            for (y, up), (x, across) in product(
-                _mix(high, region.height, way), _mix(wide, region.width, way)
-            ):
-                at = y[rows].tobytes(), x[columns].tobytes()
-                if at not in traced:
-                    dx = (x[columns] + 0.5) * region.width / wide - columns - 0.5
-                    dy = (y[rows] + 0.5) * region.height / high - rows - 0.5
-                    traced[at] = shading.colors(scene, (yield from probe.trace(dx, dy)))
-                for total, coding in zip(totals, CODINGS, strict=True):
-                    total += (up[rows] * across[columns])[:, None] * coding.into(traced[at])
-            for total, coding in zip(totals, CODINGS, strict=True):
-                if sampled_right(evidence, coding.back(total)):
-                    words = f"{name} its size, and resampled {way}{coding.words}"
-                    out.append(Resampled(size, way, coding, words=words))
-    return out
-
-
-# ---- shrunk, and enlarged again
-
-
 @dataclass(frozen=True, eq=False)
-class Shrunk(Guess):
-    """A picture shrunk by a factor of n, and enlarged again."""
+class Small(Guess):
+    """A picture smaller by a factor of n, enlarged again."""
 
     n: int
-    down: Way
+    down: Way | None  # how it was shrunk; None if it was rendered so small
     up: Way
-    corner: tuple[int, int]  # which pixel of each n x n is taken if one is: row, column
     coding: Coding
+    corner: tuple[int, int] = (0, 0)  # which pixel of each n x n is taken if one is: row, column
     hues: bool = False  # whether these alone were, and not the brightness
 
     @property
@@ -221,7 +152,7 @@ class Shrunk(Guess):
         return (float(self.n),)
 
 
-def _shrunk(colors: Array, guess: Shrunk) -> Array:
+def _shrunk(colors: Array, guess: Small) -> Array:
     """Shrink a picture (h, w, 4) by n, from its top row: one pixel of each n x n, or the mean."""
     n = guess.n
     out = np.asarray(colors, np.float64)[::-1]
@@ -239,86 +170,91 @@ def _shrunk(colors: Array, guess: Shrunk) -> Array:
     return out[::-1]
 
 
-def _grown(small: Array, guess: Shrunk, shape: tuple[int, ...], at: At) -> Array:
+def _grown(small: Array, guess: Small, shape: tuple[int, ...], at: At) -> Array:
     """Return some pixels of a picture that is enlarged again."""
-    rows, columns = at
-    if guess.up is Way.NEAREST:  # counted from above: a last block may be smaller
-        return small[(rows - shape[0]) // guess.n + len(small), columns // guess.n]
-    return resized(small, shape, guess.up, at)
+    if guess.up is not Way.NEAREST:
+        return resized(small, shape, guess.up, at)
+    blocks = (  # counted from above: a last one may be smaller
+        np.minimum(((place + 0.5) / step).astype(int), have - 1)
+        for place, size, have in zip(
+            (shape[0] - 1 - at[0], at[1]), shape, small.shape, strict=False
+        )
+        for step in [guess.n if guess.down else size / have]
+    )
+    return small[::-1][tuple(blocks)]
 
 
-def _enlarged(colors: Colors, guess: Shrunk, evidence: Evidence) -> Colors:
-    """Shrink a picture (h, w, 4) and enlarge it again."""
-    coded = guess.coding.into(colors)
-    at = _everywhere(colors.shape)
-    return _recoded(coded, _grown(_shrunk(coded, guess), guess, colors.shape, at), guess)
+def _enlarged(colors: Colors, guess: Small, evidence: Evidence) -> Colors:
+    """Enlarge a picture to the evidence's size; shrink it before, unless it was rendered small."""
+    shape, coded = evidence.unexplained.shape, guess.coding.into(colors)
+    small = _shrunk(coded, guess) if guess.down else coded
+    return _recoded(coded, _grown(small, guess, shape, _everywhere(shape)), guess)
 
 
-def _recoded(coded: Array, large: Array, guess: Shrunk) -> Colors:
+def _recoded(coded: Array, large: Array, guess: Small) -> Colors:
     """Return linear colours; with their own brightness (Rec. 601) if the hues alone were shrunk."""
     if guess.hues:
         large[..., :3] += ((coded - large)[..., :3] @ (0.299, 0.587, 0.114))[..., None]
     return guess.coding.back(large).astype(np.float32)
 
 
-def _find_shrunk(evidence: Evidence) -> Work[list[Shrunk]]:
-    """Guess by what factor the picture was shrunk, and how, by the sampled pixels."""
-    at, out = evidence.sample, []
-    for coding in CODINGS:
-        coded = coding.into(evidence.frame.color)
-        for downs in _downs(coding):
-            small = _shrunk(coded, downs[0])
-            for guess in downs:
-                large = _grown(small, guess, coded.shape, at)
-                if sampled_right(evidence, _recoded(coded[at], large, guess)):
+def _find(evidence: Evidence) -> Work[list[Small]]:
+    """Guess by what factor the picture is smaller, and how, by the sampled pixels."""
+    at, shape, out = evidence.sample, evidence.unexplained.shape, []
+    for n, name in SHARES.items():
+        rendered = Frame.empty(at_size(evidence.case, 1 / n).scene)
+        yield from steps(rendered.scene, SOUND, rendered)
+        for guesses in _downs(n, name):
+            first = guesses[0]
+            coded = first.coding.into((evidence.frame if first.down else rendered).color)
+            small = _shrunk(coded, first) if first.down else coded
+            for guess in guesses:
+                own = coded[at] if guess.hues else coded
+                large = _recoded(own, _grown(small, guess, shape, at), guess)
+                if sampled_right(evidence, large):
                     out.append(guess)
             yield 0.0
     return out
 
 
-def _downs(coding: Coding) -> Iterator[list[Shrunk]]:
-    """Yield the guesses of each way to shrink a picture."""
-    for n, name in SHARES.items():
-        places = sorted({0, n // 2, n - 1})
-        downs = [*((Way.NEAREST, corner) for corner in product(places, places)), (Way.MEAN, (0, 0))]
-        for down, corner in downs:
-            hues = [False, True] if down is Way.MEAN and coding.words else [False]
-            yield [
-                Shrunk(n, down, up, corner, coding, alone, words=words)
-                for alone, up in product(hues, (Way.NEAREST, *_KERNELS))
-                for whose in (("'s hues alone were" if alone else " was"),)
-                for words in (f"{whose} shrunk to {name} the size {down}, and enlarged again {up}",)
-            ]
+def _downs(n: int, name: str) -> Iterator[list[Small]]:
+    """Yield the guesses of each way to come to a picture smaller by n."""
+    places = sorted({0, n // 2, n - 1})
+    downs: list[tuple[Way | None, tuple[int, int]]] = [(None, (0, 0)), (Way.MEAN, (0, 0))]
+    downs += [(Way.NEAREST, corner) for corner in product(places, places)]
+    for coding, (down, corner) in product(CODINGS, downs):
+        made = f"shrunk to {name} its size {down}" if down else f"rendered at {name} its size"
+        whose = {False: f" was {made}"}
+        if down is Way.MEAN and coding.words:
+            whose[True] = f"'s hues alone were shrunk to {name} the size {down}"
+        yield [
+            Small(n, down, up, coding, corner, hues, words=f"{words}, and enlarged {up}")
+            for hues, words in whose.items()
+            for up in (Way.NEAREST, *_KERNELS)
+        ]
+
+
+def _rendered(case: Case, guess: Small) -> Case:
+    """Return the case at the size at which it was rendered, with a level more in a file."""
+    case = at_size(case, 1 / guess.n) if guess.down is None else case
+    return replace(case, picture=_rounded_before(case.picture))
 
 
 SIZE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "resampled",
-        "the picture was rendered at {words}",
-        "A screenshot, or the scaling of a screen or a program, changes the size after rendering.",
-        "render it at the size at which it is compared",
-        lambda case, guess: at_size(as_stored(case, guess), guess.size),
-        _find_size,
-        ("size",),
-        everywhere=True,
-        sampled=False,
-        after=_resampled,
-        effort=Effort.PIXELS,
-        words="another size, and resampled",
-    ),
-    Fault(
-        "shrunk",
         "the picture{words}",
-        "A preview or a thumbnail was rendered or stored small, and enlarged to be compared; a "
-        "JPEG and a video have the hues (chroma) at half the size: 4:2:0.",
-        "compare the picture as it was rendered",
-        as_stored,
-        _find_shrunk,
+        "A preview, a thumbnail or a screenshot was rendered or stored small, and enlarged; a JPEG "
+        "and a video have the hues (chroma) at half the size (4:2:0).",
+        "compare the picture as it was rendered, at the size at which it was",
+        _rendered,
+        _find,
         ("n",),
         everywhere=True,
         sampled=False,
         after=_enlarged,
         effort=Effort.PIXELS,
-        words=" was shrunk to a part of its size, and enlarged again, or its hues alone were",
+        words=" was rendered at, or shrunk to, a part of its size, and enlarged, or its hues were",
+        witness="mozilla-services/screenshots#1006",
     ),
 )

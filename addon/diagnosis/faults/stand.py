@@ -15,7 +15,7 @@ from .fault import Values
 from .film import radius
 from .fitting import Family
 
-NEGLIGIBLE = 1e-4  # of the largest number: what is less is told as 0
+NEGLIGIBLE = 1e-4  # of the largest number: smaller ones are reported as 0
 # Of the unexplained pixels: three numbers settle a part of them by chance, and the right ones most.
 WORTH = 0.4
 _SIDES = ("to the right", "to the left"), ("upwards", "downwards"), ("anticlockwise", "clockwise")

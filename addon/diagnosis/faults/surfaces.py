@@ -12,7 +12,7 @@ import numpy as np
 
 from ...arrays import Bools, Colors
 from ...causes.checks.color import groups, medians
-from ...images import EIGHT_BITS, encoded
+from ...files.images import EIGHT_BITS, encoded
 from ...pictures.metrics import boundary
 from ...pictures.picture import Picture, Transform
 from ...tracer.hits import NOTHING

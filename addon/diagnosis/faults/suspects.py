@@ -1,4 +1,4 @@
-"""Which objects a fault is looked for in, and which the self-check gives it to."""
+"""Chooses the objects in which a fault is searched, and those to which the self-check gives it."""
 
 from __future__ import annotations
 

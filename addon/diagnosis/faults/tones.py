@@ -19,24 +19,51 @@ from .recolor import by_curve, recolored
 from .surfaces import agree, inside, surfaces
 
 _BGRA = [2, 1, 0, 3]
-_WHY = {  # for each of `KEYS`, why it happens
-    "channels": "OpenCV and BMP files have blue first, most others red.",
-    "gamma": "A screen's gamma was applied to linear values, or undone.",
-    "srgb_twice": "The renderer wrote sRGB values, and the program that saved or read them took "
-    "them for linear ones.",
-    "srgb_left_out": "Linear values were written unchanged into a file of 8 bits, which is read "
-    "as sRGB.",
-    "power_for_srgb": "A power of 2.2 is close to sRGB's curve, which is linear near black and "
-    "then has an exponent of 2.4.",
-    "cut_off": "`int(255 * x)` and numpy's `astype(uint8)` cut off instead of rounding.",
-    "few_levels": "Linear values take more than 8 bits where it is dark; displays and textures of "
-    "16 bits a pixel have 5, 6 and 5 bits (RGB565).",
-    "coded_gamma": "The *Gamma* of Blender's color management, or of a viewer, is applied to the "
-    "displayed values.",
-    "exposure": "Blender's color management, cameras and tone mappers have an exposure.",
-    "coded_factor": "An editor's brightness multiplies the stored values, not the linear ones.",
-    "view_transform": "A new scene in Blender has the view transform AgX (Filmic from 2.80 to "
-    "3.6), and every PNG is saved with it.",
+_WHY = {  # for each of `KEYS`, why it happens, and who has seen it
+    "channels": (
+        "OpenCV and BMP files have blue first, most others red.",
+        "unrealcv/unrealcv#100",
+    ),
+    "gamma": (
+        "A screen's gamma was applied to linear values, or undone.",
+        "baldurk/renderdoc#2787",
+    ),
+    "srgb_twice": (
+        "The renderer wrote sRGB values, and the program that saved or read them took "
+        "them for linear ones.",
+        "gscept/nebula#228",
+    ),
+    "srgb_left_out": (
+        "Linear values were written unchanged into a file of 8 bits, which is read as sRGB.",
+        "miloyip/light2d#3",
+    ),
+    "power_for_srgb": (
+        "A power of 2.2 is close to sRGB's curve, which is linear near black and "
+        "then has an exponent of 2.4.",
+        "ppy/osu-framework#283",
+    ),
+    "cut_off": (
+        "`int(255 * x)` and numpy's `astype(uint8)` cut off instead of rounding.",
+        "marcinz606/NegPy#897",
+    ),
+    "coded_gamma": (
+        "The *Gamma* of Blender's color management, or of a viewer, is applied to the "
+        "displayed values.",
+        "ChaosGroup/blender_with_vray_additions#216",
+    ),
+    "exposure": (
+        "Blender's color management, cameras and tone mappers have an exposure.",
+        "LuxCoreRender/LuxCore#119",
+    ),
+    "view_transform": (
+        "A new scene in Blender has the view transform AgX (Filmic from 2.80 to "
+        "3.6), and every PNG is saved with it.",
+        "appleseedhq/blenderseed#486",
+    ),
+    "rounding_level": (
+        "Linear values were rounded to 8 bits of sRGB's curve, and read as floats again.",
+        "Tom94/tev#150",
+    ),
 }
 
 
@@ -59,7 +86,7 @@ def _curve_of(evidence: Evidence) -> Work[Curve | None]:
 def _rounded(evidence: Evidence) -> Sequence[Curve]:
     """Return the transforms with roundings to 8 bits that explain more than one rounding.
 
-    Where one rounding explains all, two must not be told.
+    Where one rounding explains all, two must not be reported.
     """
     found = surfaces(evidence)
     if found is None:
@@ -68,9 +95,9 @@ def _rounded(evidence: Evidence) -> Sequence[Curve]:
         once = (agree(evidence.picture, found, ROUNDED_ONCE.of) & found.wrong).sum()
         evidence.known["rounded"] = [
             c
-            for c in ROUNDED
+            for c in (ROUNDED_ONCE, *ROUNDED)
             if (same := agree(evidence.picture, found, c.of)).mean() > FITTED_SHARE
-            and (same & found.wrong).sum() > once
+            and (same & found.wrong).sum() > (once if c is not ROUNDED_ONCE else 0)
         ]
     rounded: Sequence[Curve] = evidence.known["rounded"]
     return rounded
@@ -97,15 +124,17 @@ def _find_curve(key: str) -> Find[OfCurve]:
 
 
 def _colors(key: str) -> Fault[OfCurve]:
+    why, witness = _WHY[key]
     return Fault(
         key,
         "the picture's colours: {words}",
-        _WHY[key],
+        why,
         "check the colour space of each file, and what is applied when it is saved or loaded",
         _through,
         _find_curve(key),
         examples=EXAMPLES.get(key, ()),
         words=KEYS[key],
+        witness=witness,
     )
 
 

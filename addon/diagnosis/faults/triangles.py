@@ -177,6 +177,7 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
         "Blender shows both sides of a face, unless its material says otherwise",
         _culled,
         effort=Effort.PIXELS,
+        witness="leozide/leocad#796",
     ),
     Fault(
         "flipped_winding",
@@ -186,6 +187,7 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
         "keep the order of each triangle's corners",
         of_meshes(_flipped),
         examples=(Example("flipped_winding", "all normals turned over"),),
+        witness="ComputationalBiomechanicsLab/opensim-creator#318",
     ),
     Fault(
         "other_diagonal",
@@ -194,6 +196,7 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
         "the two ways give two surfaces.",
         "cut each quad as Blender's loop triangles do",
         of_meshes(_other_diagonal),
+        witness="bonjorno7/SourceOps#43",
     ),
     Fault(
         "triangles_missing",
@@ -206,5 +209,6 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
         ("count",),
         effort=Effort.PIXELS,  # any shape that is a part of another one has triangles missing
         examples=(Example("dropped_triangle", "the largest triangle left out", _largest_triangle),),
+        witness="InteractiveComputerGraphics/SPlisHSPlasH#16",
     ),
 )

@@ -117,6 +117,7 @@ VIEW_FAULTS = (
         ("start",),
         examples=(Example("clip_start", "the clip start halfway into the scene", _halfway),),
         words="at another depth, or left out",
+        witness="appleseedhq/blenderseed#119",
     ),
     Fault(
         "clip_end",
@@ -128,5 +129,6 @@ VIEW_FAULTS = (
         _find_end,
         ("end",),
         words="at another depth, or left out",
+        witness="RenderKit/ospray#118",
     ),
 )

@@ -14,8 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array, Index, Integers
-from ...runs import run_starts
+from ...arrays import Array, Index, Integers, run_starts
 from ...scene import Scene
 from ...tracer import plane
 from ...tracer.camera import camera_rays, film_positions

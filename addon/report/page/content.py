@@ -12,7 +12,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from ... import png
 from ...causes.cause import AGREE, UNEXPLAINED
 from ...causes.explain import CAUSES
 from ...certainty import Certainty
@@ -21,7 +20,8 @@ from ...comparison.extras import Extras
 from ...comparison.put_right import pictures_put_right
 from ...derivation.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...diagnosis.regions import Region, regions, sides
-from ...images import data_uri, to_display
+from ...files import png
+from ...files.images import data_uri, to_display
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report
@@ -90,6 +90,7 @@ def _causes(comparison: Comparison) -> list[dict[str, object]]:
             "value": int(cause),
             "name": cause.key,
             "label": _words(cause.label),
+            "place": cause.place or cause.label,
             "sentence": cause.sentence,
             "unit": cause.unit,
             "pixels": count[cause.key],
@@ -134,7 +135,7 @@ def _pictures(
 
 
 def _put_right(comparison: Comparison) -> Iterator[dict[str, str]]:
-    """Yield the picture that each told fault changes, put right."""
+    """Yield the picture that each fault changes, put right."""
     told = comparison.diagnosis.told if comparison.diagnosis else ()
     for number, side, color in pictures_put_right(comparison):
         yield {

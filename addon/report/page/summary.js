@@ -34,11 +34,22 @@ function drawSummary() {
   const blind = page.comparison.background?.not_judged;
   byId("verdict").replaceChildren(
     element("span", { "aria-hidden": "true" }, sign),
-    blind ? `${word}, but for the background` : word,
+    word,
+    ...apart(verdict === "agree", blind && "the background"),
   );
   if (blind) byId("verdict").title = blind;
   byId("headline").textContent = headline(score);
   byId("score").replaceChildren(...tiles(score).map(tile));
+}
+
+/** What a verdict leaves out, in texts that are translated one by one: the most pixels first. */
+function apart(agrees, blind) {
+  const found = [...CAUSES.values()]
+    .filter((cause) => cause.pixels && !["agree", "not_traced"].includes(cause.name))
+    .sort((a, b) => b.pixels - a.pixels)
+    .map((cause) => [`${count(cause.pixels)} px `, cause.place]);
+  if (blind) found.push([blind]);
+  return found.flatMap((texts, k) => [k ? ", " : agrees ? ", but for " : ": ", ...texts]);
 }
 
 function headline(score) {

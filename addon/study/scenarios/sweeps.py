@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...checked_json import Content
+from ...files.checked_json import Content
 from ...scene import Scene
 from . import scenes
 
@@ -44,7 +44,7 @@ class Scenario:
 
     @property
     def scale_and_unit(self) -> str:
-        """What the scale means, and its unit if it has one."""
+        """The scale's name, and its unit if it has one."""
         return f"{self.scale_name}, {self.unit}" if self.unit else self.scale_name
 
 

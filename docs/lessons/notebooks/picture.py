@@ -1,7 +1,7 @@
 """Shows a picture in a notebook. Beside the notebooks, so that each can import it."""
 
-from reference_tracer import png
-from reference_tracer.images import to_display
+from reference_tracer.files import png
+from reference_tracer.files.images import to_display
 
 
 class Picture:

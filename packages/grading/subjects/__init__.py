@@ -1,4 +1,4 @@
-"""What students may be asked to write, a subject a file: its form, its formulas and its cases."""
+"""The subjects that students write, a file each: its form, its formulas and its cases."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What students get wrong with a camera, where it is more than one sign, letter or term."""
+"""Students' mistakes with a camera that are more than one sign, letter or term."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a subject is: a record that everything looks up."""
+"""The record of a subject, which everything looks up."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def side_by_side(*answers: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """What students are asked to write, and all that judging needs to know of it."""
+    """A subject: what students write, and all that judging needs to know of it."""
 
     name: str
     title: str  # what several students' are called

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.causes.explain import AGREE, COLOR, UNEXPLAINED
-from reference_tracer.images import curve, curve_undone, decoded
+from reference_tracer.files.images import curve, curve_undone, decoded
 from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.metrics import boundary
 from reference_tracer.pictures.picture import Picture

@@ -10,8 +10,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.causes.checks import parts as in_parts
 from reference_tracer.causes.checks import probe as probing
-from reference_tracer.causes.checks.probe import may_be_seen
+from reference_tracer.causes.checks.parts import may_be_seen
 from reference_tracer.causes.explain import AGREE, DEPTH_TIE, EDGE, UNEXPLAINED
 from reference_tracer.pictures.bounds import SNAPPING
 from reference_tracer.pictures.identity import Owners
@@ -145,7 +146,8 @@ def test_the_division_of_the_work_does_not_matter(room, monkeypatch):
     picture = render(replace(room, camera=shifted(room.camera, 0.3, 0.004))).color
     picture[:, ::2] = frame.color[frame.instance_index == 2][0]  # the wall's, behind the others
     for few, block in ((1 << 20, 1 << 20), (60, 1 << 20), (60, 100)):
-        monkeypatch.setattr(probing, "FEW", few)
+        monkeypatch.setattr(in_parts, "FEW", few)
+        monkeypatch.setattr(in_parts, "BLOCK", block)
         monkeypatch.setattr(probing, "BLOCK", block)
         tested[:] = [0]
         work = find_causes(room, frame, picture)
@@ -181,7 +183,7 @@ def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, rng):
     for known in (None, Owners(("a", "b", "c"), owner, owners)):
         picture, found = Picture(color, owners=known), []
         for asks in (may_be_seen, counted):
-            monkeypatch.setattr(probing, "may_be_seen", asks)
+            monkeypatch.setattr(in_parts, "may_be_seen", asks)
             found.append(result_of(find_causes(stripes, frame, picture)))
         for name in ("cause", "figure", "allowed"):
             first, second = (getattr(causes, name) for causes in found)

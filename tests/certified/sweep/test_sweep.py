@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,13 +17,9 @@ from reference_tracer.certified.sweep import (
     small_boxes,
     sweep,
 )
-from reference_tracer.certified.sweep.edge_functions import set_up
-from reference_tracer.rendering import render
-from reference_tracer.scene import Mesh, Region, Scene
-from reference_tracer.tracer import render as loop
+from reference_tracer.scene import Mesh, Region
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Settings
 
 from ...moved import may, touched
 from ...oracle import scene_sights
@@ -193,80 +188,3 @@ def test_bands_do_not_matter(undivided, rows):
         bands = [Region(r.x0, y, r.x1, min(y + rows, r.y1)) for y in range(r.y0, r.y1, rows)]
         parts = [swept(scene, band, beside) for band in bands]
         assert_same(Hits.joined(parts), expected, seed)
-
-
-def test_a_border_is_a_crop(undivided):
-    for seed, scene, beside, _ in undivided:
-        rng = np.random.default_rng(seed)
-        camera = scene.camera
-        width, height = camera.width, camera.height
-        whole = swept(bordered(scene, Region(0, 0, width, height)), beside=beside)
-        for _ in range(2):
-            x0, y0 = int(rng.integers(width)), int(rng.integers(height))
-            x1, y1 = int(rng.integers(x0, width)) + 1, int(rng.integers(y0, height)) + 1
-            found = swept(bordered(scene, Region(x0, y0, x1, y1)), beside=beside)
-            index = (np.arange(y0, y1)[:, None] * width + np.arange(x0, x1)).ravel()
-            crop = whole.take(index)
-            crop.ties = {k: whole.ties[i] for k, i in enumerate(index.tolist()) if i in whole.ties}
-            assert_same(found, crop, seed)
-
-
-@pytest.mark.parametrize("orthographic", [False, True])
-def test_a_border_changes_no_edge_function(make, rng, orthographic, monkeypatch):
-    """Not even of a triangle that passes the eye: it counts from the same pixel, as far."""
-    asked = []
-    monkeypatch.setattr(
-        sweep, "set_up", lambda *a: asked.append((*a[-2].ravel(), *a[-1])) or set_up(*a)
-    )
-    camera = make.camera(orthographic=orthographic)
-    for _ in range(20):
-        mesh = Mesh(rng.normal(size=(3, 3)) * 3, [[0, 1, 2]])
-        whole = make.scene(camera, mesh)
-        asked.clear()
-        for region in (camera.region, Region(3, 4, 20, 15), Region(9, 9, 10, 10)):
-            swept(bordered(whole, region))
-        assert len(set(asked)) <= 1
-
-
-def bordered(scene: Scene, region: Region) -> Scene:
-    return replace(scene, camera=replace(scene.camera, region=region))
-
-
-def test_the_order_of_instances_only_names(undivided):
-    """What is seen is the same; of what lies in one plane the lowest instance and triangle."""
-    renamed = 0
-    for seed, scene, beside, expected in undivided:
-        order = np.random.default_rng(seed).permutation(len(scene.instances))
-        other = replace(scene, instances=[scene.instances[k] for k in order])
-        found = swept(other, beside=beside)
-        old = np.r_[order, len(order) + np.arange(len(scene.planes)), NOTHING]
-        new = np.argsort(old[:-1])
-        assert np.array_equal(found.t, expected.t), seed
-        assert np.array_equal(found.certainty, expected.certainty), seed
-        assert found.ties.keys() == expected.ties.keys(), seed
-        same = old[found.instance] == expected.instance
-        same &= found.triangle == expected.triangle
-        for k in np.flatnonzero(~same):  # one of several, and by its own names each is the lowest
-            now, then = ((int(h.instance[k]), int(h.triangle[k])) for h in (found, expected))
-            assert now in found.ties[k] and then in expected.ties[k], seed
-            assert now < (new[then[0]], then[1]) and then < (old[now[0]], now[1]), seed
-            renamed += 1
-        assert found.s[:, same].tobytes() == expected.s[:, same].tobytes(), seed
-    assert renamed > 10
-
-
-def test_bands_of_a_frame_do_not_matter(undivided, monkeypatch):
-    """A whole frame with samples, as memory divides it."""
-    for seed, scene, *_ in undivided[:3]:
-        settings = Settings("certified", samples=2)
-        monkeypatch.setattr(loop, "BYTES_PER_PIXEL", 224)
-        whole = render(scene, settings)
-        for rows in (1, 4):
-            width = scene.camera.region.width
-            rays = settings.samples**2 * rows * width
-            monkeypatch.setattr(loop, "BYTES_PER_PIXEL", settings.memory // rays)
-            assert len(loop.bands(scene.camera, settings)) == -(-scene.camera.region.height // rows)
-            found = render(scene, settings)
-            for name, values in found.passes().items():
-                assert values.tobytes() == whole.passes()[name].tobytes(), (seed, name)
-            assert found.ties == whole.ties, seed

@@ -8,10 +8,11 @@ is.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from itertools import islice
 
 import bpy
 
-from ....causes.case import WHOLE, Variant
+from ....causes.case import MOST_VARIANTS, WHOLE, Variant
 from ....errors import EXPECTED
 from ....pictures.palette import VIEWPORT, Palette
 from ...temporary import everything, temporary_scene
@@ -25,13 +26,14 @@ KINDS = (
     layers.variants,
     frames.variants,  # last: another frame moves what the others look at
 )
-MOST = 48  # each is exported, and tried
 
 
 def variants(
     name: str, layer: str, ignored: Collection[str] | None, palette: Palette = VIEWPORT
-) -> tuple[Variant, ...]:
-    """Return a scene with all that its view leaves out, then with one fault each.
+) -> Iterator[Variant]:
+    """Yield a scene with all that its view leaves out, then with one fault each.
+
+    Until the last there is a temporary copy of the scene.
 
     Parameters
     ----------
@@ -46,14 +48,15 @@ def variants(
     """
     scene = next((s for s in bpy.data.scenes if s.name_full == name), None)
     if scene is None or layer not in scene.view_layers:
-        return ()
+        return
+    scene.view_layers[layer].update()  # the world matrices of its objects
     with temporary_scene(scene, layer, ignored, palette) as tmp, everything(tmp):
         try:
             origin = Origin.of(scene, layer, tmp, palette)
         except EXPECTED:
-            return ()
-        out = [Variant(WHOLE, origin.exported), *_made(origin)]
-    return tuple(out[:MOST])
+            return
+        yield Variant(WHOLE, origin.exported)
+        yield from islice(_made(origin), MOST_VARIANTS - 1)
 
 
 def _made(origin: Origin) -> Iterator[Variant]:

@@ -16,7 +16,7 @@ from .matrices import without_scale
 from .origin import Origin
 
 MOST = 8  # other cameras
-TYPES = {"PERSP": "perspective_for_orthographic", "ORTHO": "orthographic_for_perspective"}
+TYPES = {"PERSP": "perspective", "ORTHO": "orthographic"}
 
 
 class _Other:
@@ -62,9 +62,9 @@ def _lenses(origin: Origin) -> Iterator[tuple[str, str, Camera]]:
             fitted = _with_data(origin, camera, _Other(data, sensor_fit=fit))
             if fitted.window != camera.window:
                 yield "sensor_fit_setting", words, fitted
-    for other, fault in TYPES.items():
+    for other, words in TYPES.items():
         if data.type in TYPES and data.type != other:
-            yield fault, "", _with_data(origin, camera, _Other(data, type=other))
+            yield "camera_type", words, _with_data(origin, camera, _Other(data, type=other))
 
 
 def _with_data(origin: Origin, camera: Camera, data: Any) -> Camera:

@@ -22,10 +22,9 @@ def variants(origin: Origin) -> Iterator[Variant]:
     now = tmp.frame_current + tmp.frame_subframe
     ends = (float(tmp.frame_start), float(tmp.frame_end), 0.0, 1.0)
     frames = dict.fromkeys(f for f in (*(now + d for d in AROUND), *ends) if f != now)
-    with values_restored():
-        try:
-            for frame in frames:
-                go_to(tmp, frame)
-                yield Variant("other_frame", origin.again(), f"{frame:g} in place of {now:g}")
-        finally:
+    for frame in frames:
+        with values_restored():
+            go_to(tmp, frame)
+            scene = origin.again()
             go_to(tmp, now)
+        yield Variant("other_frame", scene, f"{frame:g} in place of {now:g}")

@@ -1,4 +1,4 @@
-"""What the scene hides: single objects that it does not render, and its other view layers."""
+"""Variants with hidden objects shown, and those of other view layers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the variants of a scene are made of: what was exported, and what it was exported from."""
+"""The source of a scene's variants: the export, and the Blender scene that it is of."""
 
 from __future__ import annotations
 

@@ -1,0 +1,1 @@
+"""Readers and writers of files: arrays, scenes, certificates, pictures, and checked JSON."""

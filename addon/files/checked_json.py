@@ -1,0 +1,85 @@
+"""Reads numbers, texts and cameras from a JSON file's content, and names what is wrong there.
+
+The caller adds the file's name to the SceneError.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..arrays import Floats
+from ..projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS, Projection
+from ..scene import Camera, Region, SceneError, ViewWindow
+
+Content = dict[str, Any]  # an object of JSON
+T = TypeVar("T")
+
+ENDLESS = "inf"  # JSON has no number for it
+
+
+def camera_of(c: Content) -> Camera:
+    """Return a camera; nothing of it may be missing."""
+    window: Content = part(c, "window", "camera.", dict)
+    region: Content = part(c, "region", "camera.", dict)
+    sides = "left", "right", "bottom", "top"
+    ends = "x0", "y0", "x1", "y1"
+    if (clip_end := c.get("clip_end")) not in (ENDLESS, np.inf):
+        clip_end = numbers(c, "clip_end", "camera.", ())
+    return Camera(
+        numbers(c, "world_from_camera", "camera.", (4, 4)),
+        ViewWindow(**{k: float(numbers(window, k, "camera.window.", ())) for k in sides}),
+        whole(c, "width", "camera."),
+        whole(c, "height", "camera."),
+        _projection(c),
+        float(numbers(c, "clip_start", "camera.", ())),
+        float(clip_end),
+        Region(**{k: whole(region, k, "camera.region.") for k in ends}),
+        part(c, "name", "camera.", str),
+    )
+
+
+def _projection(c: Content) -> Projection:
+    name = c.get("orthographic")  # of version 1: true, false, or the name of a third type
+    if isinstance(name, bool):
+        name = (ORTHOGRAPHIC if name else PERSPECTIVE).name
+    name = c.get("projection", name)
+    if not isinstance(name, str) or name not in PROJECTIONS:
+        raise SceneError(f"camera.projection must be one of: {', '.join(PROJECTIONS)}")
+    return PROJECTIONS[name]
+
+
+def part(content: Content, key: str, where: str, kind: type[T]) -> T:
+    """Return the value of a key, which must be of this type."""
+    if key not in content:
+        raise SceneError(f"{where}{key} is missing")
+    value = content[key]
+    if not isinstance(value, kind) or isinstance(value, bool):
+        names = {dict: "an object in braces", list: "a list", str: "text", int: "an integer"}
+        raise SceneError(f"{where}{key} must be {names[kind]}")
+    return value
+
+
+def whole(content: Content, key: str, where: str) -> int:
+    """Return an integer that is not negative."""
+    value = part(content, key, where, int)
+    if not 0 <= value < 2**31:
+        raise SceneError(f"{where}{key} is {value}; it must be between 0 and 2^31 - 1")
+    return value
+
+
+def numbers(content: Content, key: str, where: str, shape: tuple[int, ...] | None) -> Floats:
+    """Return finite numbers of a shape, any if None."""
+    if key not in content:
+        raise SceneError(f"{where}{key} is missing")
+    try:
+        values = np.array(content[key])
+    except ValueError:  # lists of different lengths
+        values = np.array(None)
+    is_number = values.dtype.kind in "iuf" and np.isfinite(values).all()
+    if not is_number or (shape is not None and values.shape != shape):
+        size = " x ".join(map(str, shape or ()))
+        what = "a finite number" if shape == () else f"{size} finite numbers".lstrip()
+        raise SceneError(f"{where}{key} must be {what}")
+    return values.astype(np.float64)

@@ -1,0 +1,203 @@
+"""Reads and writes picture files, and turns linear colours into what a screen shows.
+
+Pictures are (h, w, 4), row 0 at the bottom; files are written with their first row on top.
+A PNG takes zlib and numpy alone. An EXR takes OpenImageIO, the extra `images`.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import Array, Bytes, Colors, Floats, by_runs
+from . import exr, png
+from .file_kinds import mistaken
+from .png.samples import PngError
+
+EIGHT_BITS = 255  # levels above 0
+_TOGETHER = 1 << 16  # pixels
+
+
+def to_display(color: Floats) -> Bytes:
+    """Return what a screen shows of linear RGBA with premultiplied alpha, (h, w, 4) uint8.
+
+    The transfer function is sRGB's (IEC 61966-2-1), as of Blender's view transform 'Standard'.
+    Values are cut off at 1, and NaN is black.
+    """
+
+    def shown(color: Array) -> Bytes:
+        color = np.nan_to_num(color.astype(np.float64), posinf=1.0, neginf=0.0)
+        return np.rint(EIGHT_BITS * encoded(color)).astype(np.uint8)
+
+    flat = np.reshape(color, (-1, 4))
+    out = np.empty(flat.shape, np.uint8)
+    for start in range(0, len(flat), _TOGETHER):  # temporaries of whole pictures take longer
+        some = slice(start, start + _TOGETHER)
+        out[some] = by_runs(shown, flat[some])
+    return out.reshape(np.shape(color))
+
+
+def encoded(color: Floats) -> Floats:
+    """Return linear premultiplied RGBA or RGB, (..., 4 or 3), in sRGB's curve, straight, 0 to 1."""
+    color = np.asarray(color, dtype=np.float64)
+    alpha = np.clip(color[..., 3:], 0, 1)
+    straight = color[..., :3]
+    if color.shape[-1] == 4:
+        straight = straight / np.where(alpha > 0, alpha, 1)
+    return np.concatenate((curve(np.clip(straight, 0, 1)), alpha), axis=-1)
+
+
+def decoded(stored: Floats) -> Floats:
+    """Undo :func:`encoded`: return linear RGBA or RGB, alpha premultiplied."""
+    stored = np.asarray(stored, dtype=np.float64)
+    linear, alpha = curve_undone(stored[..., :3]), stored[..., 3:]
+    if stored.shape[-1] == 4:
+        linear = linear * alpha
+    return np.concatenate((linear, alpha), axis=-1)
+
+
+def curve(linear: Floats) -> Floats:
+    """Return sRGB's transfer function (IEC 61966-2-1) of linear values, 0 to 1."""
+    with np.errstate(invalid="ignore"):
+        return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+def curve_undone(stored: Floats) -> Floats:
+    """Undo :func:`curve`: return the linear values of stored ones."""
+    return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
+
+
+def save_png(path: str | Path, picture: Bytes) -> None:
+    """Write an (h, w, 4) uint8 sRGB picture, row 0 at the bottom.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    Path(path).write_bytes(png.encode(picture))
+
+
+def data_uri(content: bytes) -> str:
+    """Return the content of a PNG file as an image's address in a page."""
+    return f"data:image/png;base64,{base64.b64encode(content).decode('ascii')}"
+
+
+@dataclass(frozen=True, eq=False)
+class StoredPicture:
+    """A picture from a file."""
+
+    color: Colors  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
+    # Above 0 of sRGB's curve in which it was stored; 0 for floats. At least 255: programs store
+    # fewer bits where that loses nothing, and half a step of one bit would excuse any colour.
+    levels: int
+    opaque: bool  # the file has no alpha
+    remarks: tuple[str, ...] = ()  # what the file says of its pixels that is not applied
+    engine: str = ""  # of Blender, as the file's own header has it: 'cycles', 'other'; else ''
+
+
+@dataclass(frozen=True)
+class PictureFile:
+    """A picture file of which the header was read, but no pixel."""
+
+    path: Path
+    width: int
+    height: int
+
+    def read(self) -> StoredPicture:
+        """Read the pixels.
+
+        Raises
+        ------
+        OSError
+            If they are damaged.
+        """
+        return _FORMATS[self.path.suffix.lower()].read(self.path)
+
+
+class _Format(NamedTuple):
+    """How a format is read."""
+
+    size: Callable[[Path], tuple[int, int]]
+    read: Callable[[Path], StoredPicture]
+
+
+def open_picture(path: str | Path) -> PictureFile:
+    """Read the header of a PNG, of sRGB's curve, or of an EXR: its size is known before its pixels.
+
+    Raises
+    ------
+    MissingLibraryError
+        If it is an EXR, and OpenImageIO is not installed.
+    OSError
+        If there is no such file, or it is no such picture.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise OSError(f"there is no file '{path}', or it is a folder or a pipe")
+    of = _FORMATS.get(path.suffix.lower())
+    if of is None:
+        raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
+    if said := mistaken(path):
+        raise OSError(f"'{path}' {said}")
+    return PictureFile(path, *of.size(path))
+
+
+def read_picture(path: str | Path) -> StoredPicture:
+    """Read a PNG or an EXR whole; raises what :func:`open_picture` and its picture raise."""
+    return open_picture(path).read()
+
+
+def _png_size(path: Path) -> tuple[int, int]:
+    with path.open("rb") as file, _damage_named(path):
+        header = png.header_of(file.read(33))
+    return header.width, header.height
+
+
+def _png_of(path: Path) -> StoredPicture:
+    with _damage_named(path):
+        stored = png.decode(path.read_bytes())
+    values, has_alpha = stored.values, stored.has_alpha
+    channels = values.shape[2]
+    order = [0] * 3 if channels < 3 else [0, 1, 2]  # grey, or RGB
+    order += [channels - 1] * has_alpha
+    color = np.ones((*values.shape[:2], 4), np.float32)
+    for row, own in zip(color, values[::-1], strict=True):
+        row[:, : len(order)] = by_runs(lambda some: decoded(some / stored.levels), own[:, order])
+    levels = max(stored.levels, EIGHT_BITS)
+    engine = engine_of(stored.notes)
+    return StoredPicture(color, levels, not has_alpha, stored.remarks, engine)
+
+
+@contextmanager
+def _damage_named(path: Path) -> Iterator[None]:
+    """Say of which file a PNG's damage is."""
+    try:
+        yield
+    except PngError as error:
+        raise OSError(f"'{path}' cannot be read, save it again: {error}") from error
+
+
+def _exr_of(path: Path) -> StoredPicture:
+    color, opaque, notes = exr.read(path)
+    return StoredPicture(color, 0, opaque, engine=engine_of(notes))
+
+
+def engine_of(notes: Collection[str]) -> str:
+    """Return which of Blender's engines made a picture; '' where Blender did not write the header.
+
+    Blender notes the scene, the camera and how long it rendered; Cycles also notes its samples, for
+    each layer. No other engine notes its name.
+    """
+    if not {"Scene", "Camera", "RenderTime"} <= set(notes):
+        return ""
+    return "cycles" if any(name.startswith("cycles.") for name in notes) else "other"
+
+
+_FORMATS = {".png": _Format(_png_size, _png_of), ".exr": _Format(exr.size, _exr_of)}

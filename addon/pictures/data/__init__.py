@@ -1,1 +1,0 @@
-"""Pictures of data in place of colours: depths, normals, positions, ids; a kind a file."""

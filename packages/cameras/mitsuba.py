@@ -1,0 +1,237 @@
+"""Mitsuba 3: a sensor of each view in a scene's XML.
+
+Source: Mitsuba 3, "Sensors" and `src/sensors/perspective.cpp`: camera space has +X to the left, +Y
+up and +Z forward. With f = width / (2 tan(fov_x / 2)) pixels and the offset (px, py) of the
+principal point, which is added to a sample's place in shares of the film,
+
+    u = width (1/2 - px) - f x/z        v = height (1/2 - py) - f y/z
+
+and of `orthographic`: its film is from -1 to 1 across,
+
+    u = width (1 - x) / 2                v = (height - width y) / 2
+
+The documents say of the offset only that it is "relative to the center of the film": its sign and
+its unit are those of the code. A perspective sensor refuses scale in `to_world`, and both have
+square pixels. Of an orthographic one the shift is written as its place: the same picture.
+
+Mitsuba's world has no axis that is up: the one that is written is Blender's, in metres.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from xml.etree import ElementTree
+
+import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.features import PARALLEL, SHIFT
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
+from reference_tracer.scene import SceneError
+
+_KINDS = {"perspective": PERSPECTIVE, "orthographic": ORTHOGRAPHIC}
+_CLIP = {"near_clip": 1e-2, "far_clip": 1e4}  # with what Mitsuba takes where a file says none
+_FILM = "hdrfilm"
+
+
+def _write(views: Sequence[View], centers: str) -> Files:
+    sensors = [line for view in views for line in _sensor(view)]
+    return {"": "\n".join(['<scene version="3.0.0">', *sensors, "</scene>", ""])}
+
+
+def _sensor(view: View) -> list[str]:
+    from xml.sax.saxutils import quoteattr  # late: it imports urllib, ssl and http
+
+    camera = view.camera
+    parallel = camera.projection is ORTHOGRAPHIC
+    camera = frame.centred(camera) if parallel else camera
+    fx, _, cx, cy = frame.intrinsics(camera)
+    width, height = camera.width, camera.height
+    matrix = camera.world_from_camera @ frame.LEFT_UP
+    floats = {"near_clip": camera.clip_start, "far_clip": camera.clip_end}
+    axis = []
+    if parallel:
+        matrix[:3, :2] *= camera.window.size[0] / 2
+    else:
+        axis = ['    <string name="fov_axis" value="x"/>']
+        floats |= {
+            "fov": float(np.degrees(2 * np.arctan(width / 2 / fx))),
+            "principal_point_offset_x": 0.5 - cx / width,
+            "principal_point_offset_y": 0.5 - cy / height,
+        }
+    numbers = " ".join(repr(float(v)) for v in matrix.reshape(-1))
+    return [
+        f'  <sensor type="{camera.projection.name}" id={quoteattr(view.name)}>',
+        '    <transform name="to_world">',
+        f'      <matrix value="{numbers}"/>',
+        "    </transform>",
+        *axis,
+        *(f'    <float name="{name}" value="{value!r}"/>' for name, value in floats.items()),
+        f'    <film type="{_FILM}">',
+        f'      <integer name="width" value="{width}"/>',
+        f'      <integer name="height" value="{height}"/>',
+        "    </film>",
+        "  </sensor>",
+    ]
+
+
+def _is_of(source: Source) -> bool:
+    return "<sensor" in source.text
+
+
+def _read(source: Source) -> list[View]:
+    text = source.text
+    if "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise SceneError("its XML has a DOCTYPE, which no scene of Mitsuba's needs")
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        raise SceneError(f"its XML cannot be read ({error})") from error
+    defaults = {d.get("name", ""): d.get("value", "") for d in root.iter("default")}
+    return [_view(sensor, defaults, source) for sensor in root.iter("sensor")]
+
+
+class _Values:
+    """The values of an element's children by their names, with the file's defaults put in."""
+
+    def __init__(self, element: ElementTree.Element, defaults: dict[str, str]) -> None:
+        self.defaults = defaults
+        self._own = {child.get("name", ""): child for child in element}
+
+    def text(self, name: str, default: str) -> str:
+        """Return a text."""
+        found = self._own.get(name)
+        return default if found is None else self.filled(found.get("value", ""))
+
+    def filled(self, text: str) -> str:
+        """Return a text with `$name` as the file's defaults have it."""
+        for name, value in sorted(self.defaults.items(), reverse=True):
+            text = text.replace(f"${name}", value)
+        return text
+
+    def number(self, name: str, default: float | None = None) -> float:
+        """Return a number, which must be there if it has no default."""
+        text = self.text(name, "" if default is None else repr(default))
+        return float(_floats(text, 1, name)[0])
+
+
+def _floats(text: str, count: int, what: str) -> Floats:
+    try:
+        values = np.array([float(word) for word in re.split(r"[\s,]+", text.strip())])
+    except ValueError:
+        values = np.zeros(0)
+    if len(values) != count or not np.isfinite(values).all():
+        raise SceneError(f"its {what} is '{text}', which must be {count} finite numbers")
+    return values
+
+
+def _view(sensor: ElementTree.Element, defaults: dict[str, str], source: Source) -> View:
+    kind, name = sensor.get("type", ""), sensor.get("id", "")
+    if kind not in _KINDS:
+        raise SceneError(f"its sensor is of the type '{kind}', none of {', '.join(_KINDS)}")
+    own = _Values(sensor, defaults)
+    film = sensor.find("film")
+    pixels = _Values(film, defaults) if film is not None else _Values(sensor, {})
+    # What Mitsuba takes where the file says none.
+    whole = tuple(pixels.number(key, n) for key, n in (("width", 768), ("height", 576)))
+    left, top = (pixels.number(f"crop_offset_{axis}", 0) for axis in "xy")
+    crop = (pixels.number("crop_width", whole[0]), pixels.number("crop_height", whole[1]))
+    if not all(n == int(n) and n >= 1 for n in (*whole, *crop)):
+        raise SceneError("its film's width and height must be integers of at least 1")
+    width, height = whole
+    world: Floats = np.eye(4)
+    for child in sensor:
+        if child.tag == "animation":
+            raise SceneError("its to_world is animated, which is not read: write one frame's")
+        if child.tag == "transform" and child.get("name") == "to_world":
+            world = _to_world(child, own)
+    if kind == "orthographic":
+        f = cx = width / 2
+        cy = height / 2
+    else:
+        f = width / 2 / _half_tangent(own, width, height)
+        cx = width * (0.5 - own.number("principal_point_offset_x", 0))
+        cy = height * (0.5 - own.number("principal_point_offset_y", 0))
+    size = int(crop[0]), int(crop[1])
+    near, far = (own.number(key, default) for key, default in _CLIP.items())
+    k = frame.matrix_of(f, f, cx - left, cy - top)
+    pose = frame.inverse(world)
+    camera = frame.pinhole(k, pose, size, (near, far), name, frame.LEFT_UP, _KINDS[kind])
+    return View(camera, name)
+
+
+def _half_tangent(own: _Values, width: float, height: float) -> float:
+    """Return the tangent of half the horizontal angle of view, as `parse_fov` has it."""
+    aspect = width / height
+    if own.text("fov", ""):
+        axis = own.text("fov_axis", "x")
+        fov = own.number("fov")
+        if not 0 < fov < 180:
+            raise SceneError(f"its fov is {fov}, which must be between 0 and 180 degrees")
+        half = float(np.tan(np.radians(fov) / 2))
+    else:  # of a film of 36 x 24 mm, along its diagonal
+        axis = "diagonal"
+        length = own.text("focal_length", "50mm").removesuffix("mm")
+        half = float(np.hypot(36, 24)) / 2 / float(_floats(length, 1, "focal_length")[0])
+    if axis == "smaller":
+        axis = "y" if aspect > 1 else "x"
+    elif axis == "larger":
+        axis = "x" if aspect > 1 else "y"
+    factors = {"x": 1.0, "y": aspect, "diagonal": aspect / float(np.hypot(aspect, 1))}
+    if axis not in factors:
+        raise SceneError(f"its fov_axis is '{axis}', none of {', '.join(factors)}, smaller, larger")
+    return half * factors[axis]
+
+
+def _to_world(transform: ElementTree.Element, own: _Values) -> Floats:
+    """Return the matrix (4, 4) of a transform, whatever its parts: the first is applied first."""
+    matrix = np.eye(4)
+    for part in transform:
+        given = {key: own.filled(text) for key, text in part.attrib.items()}
+        matrix = _part(part.tag, given) @ matrix
+    return matrix
+
+
+def _part(tag: str, given: dict[str, str]) -> Floats:
+    out = np.eye(4)
+    if tag == "matrix":
+        return _floats(given.get("value", ""), 16, "matrix").reshape(4, 4)
+    if tag in ("look_at", "lookat"):
+        eye, target, up = (_floats(given.get(k, ""), 3, k) for k in ("origin", "target", "up"))
+        forward = (target - eye) / np.linalg.norm(target - eye)
+        left = np.cross(up, forward)
+        left = left / np.linalg.norm(left)
+        out[:3] = np.stack((left, np.cross(forward, left), forward, eye), axis=1)
+        return out
+    fill = 1.0 if tag == "scale" else 0.0
+    if "value" in given:
+        values = np.array(re.split(r"[\s,]+", given["value"].strip()), np.float64)
+        xyz = np.broadcast_to(values, 3)
+    else:
+        xyz = np.array([float(given.get(axis, fill)) for axis in "xyz"])
+    if tag == "scale":
+        out[:3, :3] = np.diag(xyz)
+    elif tag == "translate":
+        out[:3, 3] = xyz
+    elif tag == "rotate":
+        x, y, z = xyz / np.linalg.norm(xyz)
+        angle = np.radians(float(given.get("angle", 0)))
+        k = np.array(((0, -z, y), (z, 0, -x), (-y, x, 0)))
+        out[:3, :3] += np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+    else:
+        raise SceneError(f"its to_world has '{tag}', which is not read")
+    return out
+
+
+MITSUBA = Convention(
+    "mitsuba",
+    "Mitsuba 3",
+    "sensors.xml",
+    frozenset((SHIFT, PARALLEL)),
+    False,
+    _write,
+    _is_of,
+    _read,
+)

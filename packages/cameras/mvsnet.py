@@ -1,0 +1,79 @@
+"""MVSNet: a file `..._cam.txt` for each picture, in a folder.
+
+Source: YoYo000/MVSNet, README ("cam.txt" under "File Formats"): `extrinsic` and four rows that take
+the world to OpenCV's camera space, `intrinsic` and the three rows of K, then the least depth and
+the step, or more numbers, of the depths that are searched; these clip nothing. It says neither the
+picture's size nor where a pixel's centre is: (0.5, 0.5) is read and written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from reference_tracer.arrays import Floats
+from reference_tracer.camera_files import frame
+from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.features import ASPECT, SHIFT
+from reference_tracer.scene import Camera, SceneError
+
+ENDING = "_cam.txt"
+_EXTRINSIC, _INTRINSIC = "extrinsic", "intrinsic"  # words before 16 and 9 numbers
+_STEPS = 192  # between the least depth and the largest, as in its own examples
+
+
+def _write(views: Sequence[View], centers: str) -> Files:
+    return {f"{Path(view.name).stem}{ENDING}": _text(view.camera) for view in views}
+
+
+def _text(camera: Camera) -> str:
+    step = (min(camera.clip_end, frame.FARTHEST) - camera.clip_start) / _STEPS
+    rows = [_EXTRINSIC, *_rows(frame.camera_from_world(camera))]
+    rows += ["", _INTRINSIC, *_rows(frame.k_of(camera)), "", f"{camera.clip_start!r} {step!r}"]
+    return "\n".join(rows) + "\n"
+
+
+def _rows(matrix: Floats) -> list[str]:
+    return [" ".join(repr(float(v)) for v in row) for row in matrix]
+
+
+def _paths(source: Source) -> list[Path]:
+    path = source.path
+    return sorted(path.glob(f"*{ENDING}")) if path.is_dir() else [path]
+
+
+def _is_of(source: Source) -> bool:
+    paths = _paths(source)
+    return bool(paths) and Source(paths[0]).text.startswith(_EXTRINSIC)
+
+
+def _read(source: Source) -> list[View]:
+    return [_view(path, source) for path in _paths(source)]
+
+
+def _view(path: Path, source: Source) -> View:
+    words = Source(path).text.split()
+    try:
+        at = words.index(_INTRINSIC)
+        pose, k = np.array(words[1:at], float), np.array(words[at + 1 : at + 10], float)
+    except ValueError as error:
+        raise SceneError(f"{path.name}: {error}") from None
+    if len(pose) != 16 or len(k) != 9:
+        raise SceneError(f"{path.name}: it must have 16 numbers of a pose and 9 of K")
+    size = source.whole_size({}, ("width", "height"))
+    name = f"{path.name.removesuffix(ENDING)}.png"
+    camera = frame.pinhole(k.reshape(3, 3), pose.reshape(4, 4), size, None, name)
+    return View(camera, name, is_clipped=False)
+
+
+MVSNET = Convention(
+    "mvsnet",
+    "MVSNet",
+    f"a file {ENDING} for each picture in a folder",
+    frozenset((SHIFT, ASPECT)),
+    False,
+    _write,
+    _is_of,
+    _read,
+)

@@ -1,0 +1,80 @@
+"""Faults of how data are stored: coarser than the file is, or cut off in place of rounded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from reference_tracer.causes.case import Case
+from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.diagnosis.faults.fault import Effort, Fault, Guess
+from reference_tracer.tracer.progress import at_once
+
+from ..kind import Data
+from ..picture import DataPicture
+from ..step import Step
+from .turned import Turned, data_fault, data_of
+
+_STEPS = (
+    (Step("float16"), "half floats, of 11 bits"),
+    (Step("float16", cut=True), "half floats, of 11 bits, by cutting off the others"),
+    (Step("", 0.001), "steps of a millimetre"),
+    (Step("", 0.01), "steps of a centimetre"),
+)
+NUMBERS = "depth", "distance", "normals", "positions"
+
+
+@dataclass(frozen=True, eq=False)
+class Coarser(Guess):
+    """Values that were rounded to a step before they were stored."""
+
+    step: Step
+
+
+def _rounded(case: Case, guess: Coarser) -> Case:
+    picture = case.picture
+    assert isinstance(picture, DataPicture)
+    return replace(case, picture=replace(picture, data=replace(picture.data, step=guess.step)))
+
+
+@at_once
+def _steps(evidence: Evidence) -> list[Coarser]:
+    """Guess the steps on which all values lie, as they would if they had been rounded to them."""
+    data = data_of(evidence)
+    if data.kind.name not in NUMBERS:
+        return []
+    own = data.values[~data.blank]
+    # Floats were rounded as the file has them, before their unit was applied.
+    steps = [(replace(s, unit=data.step.unit) if s.type else s, words) for s, words in _STEPS]
+    return [Coarser(step, words=words) for step, words in steps if step.holds(own)]
+
+
+def _cut_off(evidence: Evidence, data: Data) -> Iterator[Turned]:
+    if not data.step.type:
+        half = data.step.unit / 2
+        yield Turned(turn=lambda made, seen: made - half)
+
+
+STORING_FAULTS = (
+    Fault(
+        "data_rounded",
+        "the values were rounded before they were stored: to {words}",
+        "A renderer's buffer, or a conversion on the way, has fewer digits than the file.",
+        "keep float32 from the renderer to the file",
+        _rounded,
+        _steps,
+        effort=Effort.NOTHING,
+        vague=True,
+        words="half floats, millimetres or centimetres",
+        witness="nerfstudio-project/nerfstudio#2317",
+    ),
+    data_fault(
+        "data_cut_off",
+        NUMBERS,
+        "the values are cut off, not rounded, to the file's steps",
+        "A cast to integers, such as astype(uint16), drops the fraction.",
+        "add half a step before the cast, or round",
+        _cut_off,
+        witness="instamatic-dev/instamatic#127",
+    ),
+)

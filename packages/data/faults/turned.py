@@ -1,0 +1,69 @@
+"""How a fault of data is made: the right values are turned into those that the file holds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
+from reference_tracer.causes.case import Case
+from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.diagnosis.faults.fault import Fault, Find, Numbers
+from reference_tracer.tracer.progress import at_once
+
+from ..kind import Data, Turn
+from ..picture import DataPicture
+
+Guesses = Callable[[Evidence, Data], Iterable["Turned"]]
+
+
+@dataclass(frozen=True, eq=False)
+class Turned(Numbers):
+    """Right values as a fault changes them."""
+
+    turn: Turn = lambda made, seen: made
+
+
+def turned(case: Case, guess: Turned) -> Case:
+    """Return the case whose file is taken to hold what the fault makes."""
+    picture = case.picture
+    assert isinstance(picture, DataPicture)
+    return replace(case, picture=replace(picture, data=picture.data.turned(guess.turn)))
+
+
+def data_of(evidence: Evidence) -> Data:
+    """Return the data of the evidence's picture."""
+    picture = evidence.case.picture
+    assert isinstance(picture, DataPicture)
+    return picture.data
+
+
+def of_kinds(kinds: tuple[str, ...], guesses: Guesses) -> Find[Turned]:
+    """Return a function that finds guesses in data of some kinds, and none in others."""
+
+    @at_once
+    def find(evidence: Evidence) -> list[Turned]:
+        data = data_of(evidence)
+        return list(guesses(evidence, data)) if data.kind.name in kinds else []
+
+    return find
+
+
+def data_fault(
+    name: str,
+    kinds: tuple[str, ...],
+    sentence: str,
+    why: str,
+    advice: str,
+    guesses: Guesses,
+    numbers: tuple[str, ...] = (),
+    words: str = "",
+    witness: str = "",
+) -> Fault[Turned]:
+    """Return the record of a fault of data of some kinds; its sentence begins with the values."""
+    find = of_kinds(kinds, guesses)
+    return Fault(name, sentence, why, advice, turned, find, numbers, words=words, witness=witness)
+
+
+def once(turn: Turn) -> Guesses:
+    """Return the guesses of a fault that is made in one way."""
+    return lambda evidence, data: [Turned(turn=turn)]

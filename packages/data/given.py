@@ -1,0 +1,173 @@
+"""A file of data as the other side of a comparison: which convention it follows, and what it says.
+
+What is not chosen is told from the data: the convention in which the most pixels are right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from reference_tracer.arrays import Array, Bools
+from reference_tracer.pictures.given import Making, traced
+from reference_tracer.pictures.picture import Source
+from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.rendering import trace
+from reference_tracer.scene import Scene, SceneError
+from reference_tracer.tracer.camera import film_positions
+from reference_tracer.tracer.hits import Hits
+from reference_tracer.tracer.settings import Settings
+
+from . import ids, vectors
+from .depth import DEPTH, DISTANCE
+from .files import StoredData, read
+from .kind import Data, Kind
+from .picture import DataPicture
+from .step import Step
+
+NO_HIT = 1e10  # Blender's own depth where nothing is hit; as much is no distance
+KINDS: dict[str, Callable[[str, str], Kind]] = {
+    "depth": lambda space, range_: DEPTH,
+    "distance": lambda space, range_: DISTANCE,
+    "normals": vectors.normals,
+    "positions": lambda space, range_: vectors.positions(space),
+    "ids": lambda space, range_: ids.kind_of({}),
+}
+
+
+@dataclass(frozen=True)
+class GivenData:
+    """A file of data, and what is known of it.
+
+    Raises
+    ------
+    ValueError
+        If there is no such kind, space or range, the scale is no length, or the kind has none.
+    """
+
+    kind: str  # of KINDS
+    path: Path | Array  # or an array, (h, w) or (h, w, c), row 0 at the bottom
+    layer: str = ""  # of several arrays in the file; '': as they are named
+    scale: float | None = None  # metres that 1 is; None: 1, but required of integers
+    space: str = ""  # of vectors.SPACES; '': found from the data
+    range: str = ""  # of vectors.RANGES; '': found from the data
+    top_down: bool = False  # an array's first row is the topmost
+
+    def __post_init__(self) -> None:
+        for name, value, known in (
+            ("kind", self.kind, tuple(KINDS)),
+            ("space", self.space or "world", vectors.SPACES),
+            ("range", self.range or "unit", vectors.RANGES),
+        ):
+            if value not in known:
+                raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(known)}")
+        if self.scale is not None:
+            if not KINDS[self.kind]("world", "unit").unit:
+                raise ValueError(f"scale is {self.scale!r}; {self.kind} are no lengths")
+            if not 0 < self.scale < np.inf:
+                raise ValueError(f"scale is {self.scale!r}; it must be above 0, in metres")
+
+    @property
+    def name(self) -> str:
+        """The file's name, or "array"."""
+        return self.path.name if isinstance(self.path, Path) else "array"
+
+    def conventions(self, stored: StoredData) -> Iterator[Kind]:
+        """Yield the kind in each convention that may be the file's."""
+        spaces: Sequence[str] = [self.space] if self.space else vectors.SPACES
+        ranges: Sequence[str] = [self.range] if self.range else vectors.RANGES
+        if self.kind != "normals" or not stored.step.type:  # integers hold 0 to 1
+            ranges = ranges[-1:]
+        if self.kind not in ("normals", "positions"):
+            spaces = spaces[:1]
+        for space in spaces:
+            yield from (KINDS[self.kind](space, range_) for range_ in ranges)
+
+    def picture(self, scene: Scene, making: Making) -> DataPicture:
+        """Read it as the other side; of a whole view, the camera's region.
+
+        Raises
+        ------
+        SizeError
+            If it shows neither the view nor the region.
+        SceneError
+            If integers have no scale, or the camera knows no such depth.
+        MissingLibraryError, OSError
+            If the file cannot be read.
+        """
+        return picture_of_data(self, scene, making)
+
+
+def picture_of_data(given: GivenData, scene: Scene, making: Making) -> DataPicture:
+    """Read a file of data as the other side, as :meth:`GivenData.picture` does."""
+    if given.kind == "depth" and not scene.camera.projection.is_linear:
+        raise SceneError("a panorama has no view axis: its depths are distances: --holds distance")
+    stored = read(given.path, KINDS[given.kind]("world", "unit"), given.layer, given.top_down)
+    at = traced(scene.camera, stored.values.shape[:2])
+    stored = replace(stored, values=stored.values[at])
+    renderer, known = making.renderer_of("")
+    sampling = Sampling(sample_radius=making.filter_radius, renderer=renderer)
+    hits: Hits | None = None
+    if given.kind == "ids":
+        hits = trace(scene, Settings())
+        found = [_ids(stored, scene, hits)]
+    else:
+        found = [_data(given, stored, scene, kind) for kind in given.conventions(stored)]
+    data = found[0]
+    remarks = [] if given.kind == "ids" else [f"it holds {data.step.words}"]
+    if len(found) > 1:
+        hits = trace(scene, Settings())
+        right = [int(one.flat.same(scene, hits, sampling, hits.t).sum()) for one in found]
+        data = found[int(np.argmax(right))]
+        remarks.append(f"its {data.kind.words} are taken to be {data.kind.variant}, as most agree")
+    name = given.name
+    said = tuple(f"of '{name}': {remark}" for remark in remarks)
+    source = Source(file=name, known=known, remarks=said, what=data.kind.words)
+    return DataPicture(data.color, source, sampling=sampling, data=data)
+
+
+def _film(scene: Scene) -> Array:
+    region = scene.camera.region
+    return np.stack(film_positions(region), axis=-1).reshape(region.height, region.width, 2)
+
+
+def _ids(stored: StoredData, scene: Scene, hits: Hits) -> Data:
+    numbers = ids.numbers_of(stored.values)
+    ways = (1, -1)  # the rows as they are, and turned over, which is a fault of its own
+    found = [ids.owners_of(scene, hits, numbers[::way].reshape(-1)) for way in ways]
+    way, (own, blank, _) = max(zip(ways, found, strict=True), key=lambda one: one[1][2])
+    values, empty = numbers[..., None], blank.reshape(numbers.shape)[::way]
+    return Data(ids.kind_of(own), values, empty, _film(scene), scene.camera, Step("float64"))
+
+
+def _data(given: GivenData, stored: StoredData, scene: Scene, kind: Kind) -> Data:
+    """Return what a file holds as data of a kind."""
+    raw = stored.values.astype(np.float64)
+    unit = 1.0
+    if kind.unit:
+        if not stored.step.type and given.scale is None:
+            raise SceneError(
+                f"'{given.name}' holds integers: say how many metres 1 is, as scale=0.001"
+            )
+        unit = 1.0 if given.scale is None else given.scale
+    elif not stored.step.type:
+        unit = 1 / stored.top
+    values = raw * unit
+    step = replace(stored.step, unit=unit)
+    full = 1.0 if step.type else stored.top * unit
+    blank = _blank(raw if kind.unit else values, stored, kind, step)
+    return Data(kind, values, blank, _film(scene), scene.camera, step, full)
+
+
+def _blank(values: Array, stored: StoredData, kind: Kind, step: Step) -> Bools:
+    """Return which pixels (h, w) say that nothing is there."""
+    with np.errstate(invalid="ignore"):
+        out = ~np.isfinite(values).all(axis=-1) | (np.abs(values) >= NO_HIT).all(axis=-1)
+    near = 0.0 if step.type or kind.unit else step.unit
+    for empty in kind.empty:
+        out |= (np.abs(values - empty) <= near).all(axis=-1)
+    if kind.unit and not step.type:
+        out |= (values == stored.top).all(axis=-1)
+    return np.asarray(out, np.bool_)

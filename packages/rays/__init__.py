@@ -1,0 +1,1 @@
+"""Rays in bulk: read from a file, and what they meet written to one."""
