@@ -35,8 +35,8 @@ VALUES = records.values()
 @pytest.mark.parametrize("part", PAGES)
 def test_a_page_has_what_the_records_say(part):
     text = (PROJECT / "docs" / PAGES[part]).read_text(encoding="utf-8")
-    start = text.index(f"<!-- {part} -->")
-    made = text[start : text.index("<!-- / -->", start) + len("<!-- / -->")]
+    start = text.index(f"<!--{part}-->")
+    made = text[start : text.index("<!--/-->", start) + len("<!--/-->")]
     assert refreshed(made, lambda command: "", VALUES) == made
 
 

@@ -20,7 +20,7 @@ PARTS = {
     "slides": r"^---$",
     "questions": r"^\d+\. ",
     "rows": r"^\|",
-    "figures": r"<!-- [a-z][a-z0-9_]* -->.*?<!-- / -->",
+    "figures": r"<!--[a-z][a-z0-9_]*-->.*?<!--/-->",
     "commands": r"^```console.*?^```$",
     "numbers": r"(?<![\w.])[\d]+(?:[.,]\d+)*",
     "code": r"`[^`\n]+`|^    [^\n]+$",
@@ -64,7 +64,7 @@ def test_make_docs_fills_in_what_it_does_in_the_original_and_leaves_the_language
     page = LESSONS / "de" / "triangle.md"
     text, theirs = (path.read_text("utf-8") for path in (page, original(page)))
     output = {command.text: command.printed for command in commands(theirs)}
-    figures = dict(re.findall(r"<!-- (\w+) -->(.*?)<!-- / -->", theirs, re.S))
+    figures = dict(re.findall(r"<!--(\w+)-->(.*?)<!--/-->", theirs, re.S))
     again = refreshed(text.replace(">40<", "><"), lambda command: output[command.text], figures)
     assert again == text
 
@@ -93,7 +93,7 @@ def test_its_index_names_all_that_is_translated_and_the_english_one_names_it(fol
 @pytest.mark.parametrize(
     ("name", "is_there", "is_lost"),
     [
-        ("figures", "<!-- plane_step -->", "<!-- plane_clip -->"),
+        ("figures", "<!--plane_step-->", "<!--plane_clip-->"),
         ("numbers", "9 m", "90 m"),
         ("questions", "\n6. ", "\n"),
         ("figures", ">729<", ">730<"),

@@ -136,7 +136,7 @@ def written(folder: Path) -> tuple[dict[str, dict[str, float]], list[dict[str, A
 
 
 def judged(cases: list[dict[str, Any]], names: list[str], folder: Path) -> dict[str, Any]:
-    """What the programs' own code makes of the files: by program and setting, pixels."""
+    """Return how far off the programs' own code is: by program and setting, pixels."""
     python = PLACE / ("Scripts" if sys.platform == "win32" else "bin") / "python"
     if not python.exists():
         venv.create(PLACE, with_pip=True)

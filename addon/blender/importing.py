@@ -24,7 +24,7 @@ from . import registration
 from .reading.export import export
 from .temporary import everything
 
-# What Blender's importer makes of a USD file, by the name of the prim's type.
+# Objects that Blender's importer makes of a USD file, by the name of the prim's type.
 _IMPORTED = frozenset(
     "BasisCurves Capsule Cone Cube Cylinder Mesh NurbsCurves Points Sphere Volume".split()
 )

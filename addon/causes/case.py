@@ -85,7 +85,7 @@ class Case:
     picture: Picture  # what it is compared with
     certificate: CameraCertificate | None = None
     alternatives: tuple[Alternative, ...] = ()  # the scene as the other side may have it
-    # What may have been done to the colours, besides what is always tried. None: nothing was.
+    # Transforms of the colours to try besides the usual ones. None: the colours are as drawn.
     curves: tuple[Curve, ...] | None = None
     self_check: bool = False  # whether known faults are to be made, and found
     next_frame: Scene | None = None  # the scene a frame later, for the self-check

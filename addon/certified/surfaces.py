@@ -18,7 +18,7 @@ from . import exact
 if TYPE_CHECKING:
     from ..scene import Scene
 
-# What is in doubt about a candidate: nothing; the sign of an edge function or of D; the clip range.
+# The doubt about a candidate: none; the sign of an edge function or of D; the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
 PlaneOf = tuple[Floats, Floats]  # a point and the normal, (3,) each
 

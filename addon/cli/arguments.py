@@ -38,7 +38,7 @@ class GivenSettings:
         """
         chosen = {name: value for name, value in vars(self).items() if value is not None}
         if Method(self.method or stored.method).is_proven:
-            # What is stored is that of an unproven method.
+            # The stored setting is that of an unproven method.
             chosen.setdefault("precision", Precision.FLOAT64)
         try:
             return replace(stored, **chosen)

@@ -109,7 +109,7 @@ def _add(parser: Parser, rows: Sequence[Setting]) -> _ArgumentGroup:
     return group
 
 
-# What Blender imports and `reftrace` does not read.
+# Formats that Blender imports and `reftrace` does not read.
 _OF_OTHERS = frozenset(".3ds .abc .bvh .collada .dae .dxf .fbx .svg .vrml .wrl .x3d".split())
 
 

@@ -67,7 +67,7 @@ class CompareOptions:
     making: Making  # how it was made, which excuses a pixel
     colors_out: Path | None  # where the colours are written that it should have
     junit: Path | None  # where the verdict is written as JUnit's XML
-    # What the page shows besides.
+    # Studies on the page.
     trade: bool
     extremes: bool
     place: Place
@@ -179,7 +179,7 @@ def _add_colors(parser: Parser) -> None:
         "--colors-out",
         type=parser.path_ending(".json"),
         metavar="FILE",
-        help="write a colors.json for another renderer; without --out that alone",
+        help="write a colors.json; without --out nothing else",
     )
 
 

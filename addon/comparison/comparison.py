@@ -201,6 +201,8 @@ class Comparison:
             why = dict.fromkeys(self._doubts())
         elif self.background and not self.background.transparent:
             why = (self.background.unjudged(),)
+        elif presumed := self.case.picture.presumed:
+            why = (presumed,)
         return f" ({'; '.join(why)})" if why else ""
 
     def _of_causes(self) -> Iterator[str]:

@@ -112,12 +112,12 @@ class Pixel:
 
     @cached_property
     def origin(self) -> Floats:
-        """Where the ray begins, (3,) metres."""
+        """The ray's origin, (3,) metres."""
         return self.rays().origins[:, 0]
 
     @cached_property
     def direction(self) -> Floats:
-        """Where it goes, (3,); its length is that at which the depth is 1."""
+        """The ray's direction, (3,), as long as it takes to a depth of 1."""
         return self.rays().directions[:, 0]
 
 

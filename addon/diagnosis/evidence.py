@@ -65,19 +65,18 @@ class Evidence:
     variants: tuple[Variant, ...] = ()
     size: int = SAMPLE
     fine: bool = False  # whether only pixels beside edges are sampled
-    chosen: tuple[Places, Places] | None = None  # the sample, if it is given
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # a cache that faults share
     trees: Trees = field(default_factory=Trees)
 
     @cached_property
     def unexplained(self) -> Bools:
-        """Which pixels (h, w) are unexplained."""
+        """The unexplained pixels, (h, w)."""
         return self.causes.cause == UNEXPLAINED
 
     @cached_property
     def judged(self) -> Bools:
-        """Which pixels (h, w) agree or have a cause, and can be judged."""
+        """The pixels (h, w) that agree or have a cause, and can be judged."""
         return ~self.unexplained & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
 
     @cached_property
@@ -93,13 +92,8 @@ class Evidence:
     @cached_property
     def sample(self) -> tuple[Places, Places]:
         """Rows and columns of the n sampled pixels, row by row from the lowest."""
-        rows, columns = np.nonzero(self._weights) if self.chosen is None else self.chosen
+        rows, columns = np.nonzero(self._weights)
         return rows, columns
-
-    def only(self, some: Places) -> Evidence:
-        """Return the evidence restricted to some of the sampled pixels, by index."""
-        rows, columns = self.sample
-        return replace(self, chosen=(rows[some], columns[some]))
 
     @cached_property
     def _weights(self) -> Floats:
@@ -121,7 +115,7 @@ class Evidence:
 
     @cached_property
     def beside_edges(self) -> Bools:
-        """Which pixels (h, w) lie beside an edge of the picture, where small changes show."""
+        """The pixels (h, w) beside an edge of the picture, where small changes show."""
         out = beside_edges(np.nan_to_num(self.picture.color), 2 * NEAR)
         return out if (out & self.unexplained).any() else np.ones_like(out)
 
@@ -140,7 +134,7 @@ class Evidence:
 
     @cached_property
     def unexplained_sampled(self) -> Bools:
-        """Which of the n sampled pixels are unexplained, (n,)."""
+        """The unexplained pixels among the n sampled ones, (n,)."""
         return self.unexplained[self.sample]
 
     def probe(self, scene: Scene, reach: float = 0.0) -> Work[Probe]:

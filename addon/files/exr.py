@@ -22,7 +22,7 @@ class MissingLibraryError(RuntimeError):
     """An optional library is not installed; the message says how to get it."""
 
 
-# What other programs call passes: OpenEXR reserves Z, renderers write N and P.
+# Other programs' names of passes: OpenEXR reserves Z, renderers write N and P.
 _AS_OTHERS = {"normal": "N", "position": "P"}
 _LETTERS = {1: "V", 3: "XYZ", 4: "RGBA"}
 

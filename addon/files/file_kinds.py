@@ -47,7 +47,7 @@ _KINDS = (
     _Kind("a zip archive", (b"PK\x03\x04",), (".npz", ".usdz"), "unpack it"),
     _Kind("a PDF", (b"%PDF-",), (), "name a file of another kind"),
 )
-# What files of a name begin with, in one of these ways; packed ones of Blender have zstd or gzip.
+# The first bytes of files by their suffix, one of these; packed ones of Blender have zstd or gzip.
 _MUST = {
     ".blend": (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b"),
     ".npz": (b"PK",),

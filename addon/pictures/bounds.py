@@ -46,14 +46,14 @@ HALF_UNITS = 4
 # (measured in 4.3). Eight such steps are allowed.
 LEAST_STEP = 8 * 2.0**-14
 
-# What a dark colour loses, as Workbench adds up the logarithms of 1 + a colour in half floats.
+# The error of a dark colour, as Workbench adds up the logarithms of 1 + a colour in half floats.
 LEAST_SUM = 2.0**-12
 
 # A rasteriser interpolates a colour attribute between corners that it has rounded to 1/256 pixel,
 # by an approximate 1/w: a ramp over a few pixels is off by as much as this (measured 0.0013).
 INTERPOLATED = 2.0**-9
 
-# What a writer's own rounding of sRGB's curve may add to half a level (float32, tables).
+# A writer's own rounding of sRGB's curve, on top of half a level (float32, tables).
 LEVEL_SLACK = 0.02
 
 # Pixels: where Blender's sample may lie farther than this from the centre, whatever is shown proves

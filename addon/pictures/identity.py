@@ -34,7 +34,7 @@ class Shows(NamedTuple):
 
 
 class Identity(NamedTuple):
-    """Which object each side shows."""
+    """The object that each side shows."""
 
     names: tuple[str, ...]
     traced: Integers  # (h, w) indices into `names`, or NOTHING
@@ -58,7 +58,7 @@ class Identity(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Owners:
-    """Which object a picture shows in each pixel, and whose the traced scene's instances are.
+    """The object that a picture shows in each pixel, and that of each traced instance.
 
     What is instanced belongs to the object that instances it.
     """
@@ -77,7 +77,7 @@ class Owners:
 
     @property
     def known(self) -> Bools:
-        """Where it is known which object is shown, (...)."""
+        """The pixels whose object is known, (...)."""
         return self.pixels != UNKNOWN
 
     def same(self, instance: Index) -> Bools:

@@ -21,13 +21,13 @@ from ..scene import Scene, SceneError
 # writer's own curve and dither together move each of them by less than two.
 APART = 4
 _LEVELS = 26  # of a channel of a clear colour: they lie 10 of 255 apart
-# What films and pages have behind a scene, and what Blender shows without a colour.
+# Backgrounds of films and pages, and Blender's default colour.
 _TAKEN = ((0, 0, 0), (255, 255, 255), (128, 128, 128), (231, 231, 231))
 MOST = 17_000  # clear colours: those of _LEVELS^3 that are farthest from what is behind
 
 
 class By(StrEnum):
-    """Where the colours of a comparison come from."""
+    """The source of a comparison's colours."""
 
     AUTOMATIC = auto()  # the viewport if it tells objects apart, else a colour for each object
     VIEWPORT = auto()  # as the scene's solid shading says

@@ -84,7 +84,7 @@ class DrawnOver:
 
     @property
     def known(self) -> Integers:
-        """Which feature each pixel shows over what is known to lie beneath, (...), or NOTHING."""
+        """The feature that each pixel shows over known surfaces, (...), or NOTHING."""
         known = self.beneath is not None and np.isfinite(self.beneath).all(axis=-1)
         return np.where(known, self.feature, np.int32(NOTHING))
 
@@ -192,6 +192,11 @@ class Picture:
         """Say how large the error is."""
         psnr = f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"
         return f"RMSE {metrics.rmse:.3g}, PSNR {psnr}, SSIM {metrics.ssim:.6f}"
+
+    @property
+    def presumed(self) -> str:
+        """What of it is taken to be so, as nobody says it; empty if nothing is."""
+        return ""
 
     def silent(self, frame: Frame) -> str:
         """Say why such a picture says nothing of what is wrong; empty if it does."""

@@ -195,5 +195,5 @@ def renderer_of(header: str, engine: str) -> tuple[Renderer, str]:
         return RAYS, "as nothing says that it was rasterised"
     if engine.startswith(_RASTERISERS):
         return RASTER, f"as Blender wrote it, and its engine is {engine}"
-    # What an add-on registers may trace rays, and a header does not name it.
+    # An engine of an add-on may trace rays, and a header does not name it.
     return RAYS, "as Blender wrote it, but nothing says that it was rasterised"

@@ -13,7 +13,7 @@ from .renderers import RASTER, Renderer
 
 @dataclass(frozen=True)
 class Sampling:
-    """Where a picture's samples lie, and what its renderer's rounding excuses; in pixels."""
+    """The places of a picture's samples, and its renderer's rounding; in pixels."""
 
     sample_radius: float = 0.0  # how far from a pixel's centre it is sampled on purpose
     # How far the filter reaches that mixes several samples of a pixel; 0 for one sample.

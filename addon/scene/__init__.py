@@ -85,12 +85,12 @@ class Scene:
 
     @cached_property
     def instance_meshes(self) -> Places:
-        """Which mesh each instance shows, (k,)."""
+        """The mesh of each instance, (k,)."""
         return np.array([i.mesh for i in self.instances], np.intp)
 
     @cached_property
     def instance_objects(self) -> Integers:
-        """Which object each instance and plane is, and -1 at the end, for nothing: (k + 1,)."""
+        """The object of each instance and plane, and -1 at the end, for nothing: (k + 1,)."""
         of_instances = [i.object for i in self.instances]
         return np.array([*of_instances, *(p.object for p in self.planes), -1], np.int32)
 

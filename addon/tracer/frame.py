@@ -144,7 +144,7 @@ class Frame:
 
     @property
     def position(self) -> Floats:
-        """Where each ray ends in world space, (h, w, 3) metres; zero where nothing is hit."""
+        """Each ray's hit in world space, (h, w, 3) metres; zero where nothing is hit."""
         return self._by_rows(self.positions)
 
     @property

@@ -40,7 +40,7 @@ class Settings:
     # output is that of the ray through the pixel's centre.
     samples: int = 1
     memory: int = 512 << 20  # bytes that working arrays may take, beside the scene and the picture
-    # What a pixel shows of the surface that is seen. A comparison is about the object's own.
+    # The colour of a seen surface. A comparison is about the object's own.
     color: Color = Color.OBJECT
 
     def __post_init__(self) -> None:

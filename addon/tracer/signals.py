@@ -14,7 +14,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 _NAMED = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "hung up"}
-# What ends the work, and in what word: those that this system has.
+# Signals that end the work, each with its word: those that this system has.
 SIGNALS = {getattr(signal, name): word for name, word in _NAMED.items() if hasattr(signal, name)}
 
 

@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from reference_tracer.diagnosis.faults.camera import CAMERA_FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault, Numbers, Values, Ways
-from reference_tracer.diagnosis.faults.film import FOCAL, FOCALS, OFFSET, ROLL
+from reference_tracer.diagnosis.faults.film import FOCAL, FOCALS, OFFSET
 from reference_tracer.diagnosis.faults.fitting import Family
 from reference_tracer.diagnosis.faults.lens import LENS_FAULTS
 from reference_tracer.diagnosis.faults.matrices import MATRIX_FAULTS
-from reference_tracer.diagnosis.faults.stand import MOVED, TURNED
+from reference_tracer.diagnosis.faults.stand import MOVED, ROLL, TURNED
 from reference_tracer.scene import Camera
 from reference_tracer.tracer.camera import pixel_size, project
 

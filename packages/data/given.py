@@ -54,6 +54,7 @@ class GivenData:
     space: str = ""  # of vectors.SPACES; '': found from the data
     range: str = ""  # of vectors.RANGES; '': found from the data
     top_down: bool = False  # an array's first row is the topmost
+    names: Path | None = None  # a table of ids, which says whose is whose
 
     def __post_init__(self) -> None:
         for name, value, known in (
@@ -112,7 +113,7 @@ def picture_of_data(given: GivenData, scene: Scene, making: Making) -> DataPictu
     hits: Hits | None = None
     if given.kind == "ids":
         hits = trace(scene, Settings())
-        found = [_ids(stored, scene, hits)]
+        found = [_ids(stored, scene, hits, given.names)]
     else:
         found = [_data(given, stored, scene, kind) for kind in given.conventions(stored)]
     data = found[0]
@@ -133,13 +134,21 @@ def _film(scene: Scene) -> Array:
     return np.stack(film_positions(region), axis=-1).reshape(region.height, region.width, 2)
 
 
-def _ids(stored: StoredData, scene: Scene, hits: Hits) -> Data:
+def _ids(stored: StoredData, scene: Scene, hits: Hits, names: Path | None) -> Data:
     numbers = ids.numbers_of(stored.values)
+    known = ids.named(names, stored.values, numbers, scene) if names else None
     ways = (1, -1)  # the rows as they are, and turned over, which is a fault of its own
-    found = [ids.owners_of(scene, hits, numbers[::way].reshape(-1)) for way in ways]
+    found = [ids.owners_of(scene, hits, numbers[::way].reshape(-1), known) for way in ways]
     way, (own, blank, _) = max(zip(ways, found, strict=True), key=lambda one: one[1][2])
-    values, empty = numbers[..., None], blank.reshape(numbers.shape)[::way]
-    return Data(ids.kind_of(own), values, empty, _film(scene), scene.camera, Step("float64"))
+    return Data(
+        ids.kind_of(own, "" if names else ids.PRESUMED),
+        numbers[..., None],
+        blank.reshape(numbers.shape)[::way],
+        _film(scene),
+        scene.camera,
+        Step("float64"),
+        raw=stored.values,
+    )
 
 
 def _data(given: GivenData, stored: StoredData, scene: Scene, kind: Kind) -> Data:

@@ -45,6 +45,7 @@ class Kind:
     empty: tuple[float, ...] = (0.0,)  # what all channels have where nothing is
     space: str = ""  # of vectors: 'world' or 'camera'
     encoded: bool = False  # -1 to 1 is stored as 0 to 1
+    presumed: str = ""  # what is taken to be so, as nobody says it
 
     @property
     def variant(self) -> str:
@@ -67,6 +68,7 @@ class Data:
     step: Step
     full: float = 1.0  # the largest value that the file can hold; 1 of floats
     turn: Turn | None = None
+    raw: Array | None = None  # of ids: the values or colours of the whole picture, (h, w, c)
 
     def at(self, where: Where) -> Data:
         """Return some of the pixels."""

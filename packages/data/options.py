@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from pathlib import Path
 from typing import Any
 
 from reference_tracer.cli.arguments import refuse
@@ -25,12 +26,14 @@ _ROWS = (
     Setting("scale", "METRES", POSITIVE, "what 1 is, such as 0.001 (default 1; integers need it)"),
     Setting("space", "|".join(SPACES), one_of(*SPACES), "of normals and positions"),
     Setting("range", "|".join(RANGES), one_of(*RANGES), "of normals: -1 to 1, or 0 to 1"),
+    Setting("names", "FILE", Path, 'of ids: whose is whose, as {"Cube": 1}, or a colors.json'),
     Setting("first-row", "bottom|top", one_of("bottom", "top"), "of a .npy or .npz"),
 )
 _OF = {
     "scale": ("depth", "distance", "positions"),
     "space": ("normals", "positions"),
     "range": ("normals",),
+    "names": ("ids",),
 }
 
 
@@ -73,4 +76,5 @@ def data_from(given: Namespace) -> GivenData | None:
         given.space or "",
         given.range or "",
         given.first_row == "top",
+        given.names,
     )

@@ -31,7 +31,8 @@ class DataPicture(Picture):
     def moved(self, where: Where) -> DataPicture:
         """Return the picture with its pixels in other places, and the rays of these."""
         there = self.at(where)
-        return replace(there, data=replace(there.data, film=self.data.film))
+        raw = None if self.data.raw is None else self.data.raw[where]
+        return replace(there, data=replace(there.data, film=self.data.film, raw=raw))
 
     def shows(self, frame: Frame, rows: slice = slice(None)) -> Bools:
         """Return which of these pixels, some rows, may show what a frame has there, (k, w)."""
@@ -66,6 +67,11 @@ class DataPicture(Picture):
         """Say how large the error is; what ratios say is of colours."""
         unit = self.data.kind.unit and f" {self.data.kind.unit}"
         return f"{self.data.kind.words}: RMSE {metrics.rmse:.3g}{unit}"
+
+    @property
+    def presumed(self) -> str:
+        """What of it is taken to be so, as nobody says it."""
+        return self.data.kind.presumed
 
     def silent(self, frame: Frame) -> str:
         """Say why such a picture says nothing of what is wrong; many a fault can empty one."""

@@ -19,12 +19,9 @@ from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.camera_files.convention import View
 from reference_tracer.camera_files.files import WRITTEN, read
 from reference_tracer.camera_files.files import chosen as named
-from reference_tracer.comparison.comparing import compared
 from reference_tracer.framing import Choice
-from reference_tracer.pictures.certificate import known_points
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.tracer.camera import film_of
-from reference_tracer.tracer.progress import result_of
 
 BLENDERS = 1e-3  # pixels: Blender's matrix is float32
 
@@ -147,23 +144,6 @@ def seen_by(view):
     """The camera, and its certificate, that an export has with a file's camera chosen."""
     with chosen(Choice(seen_by=view)):
         return gather_case(bpy.context)
-
-
-def test_a_blend_is_seen_as_the_file_says(scene):
-    own = next(cameras()).view.camera
-    turned = replace(
-        own,
-        world_from_camera=own.world_from_camera
-        @ [[0.8, -0.6, 0, 0.1], [0.6, 0.8, 0, 0], [0, 0, 1, 0.3], [0, 0, 0, 1]],
-    )
-    bpy.context.scene.render.use_border = True
-    case = seen_by(View(turned, "0001.png"))
-    found = case.scene.camera
-    points = known_points(turned)
-    apart = np.subtract(film_of(found, points)[:2], film_of(turned, points)[:2])
-    assert np.abs(apart).max() < BLENDERS and case.certificate.passed
-    assert (found.region.width, found.region.height) == (96, 54)
-    assert result_of(compared(case)).verdict == "agree"
 
 
 def test_a_file_without_a_clip_range_leaves_the_scenes(scene):

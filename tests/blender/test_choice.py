@@ -116,13 +116,6 @@ def test_scene_layer_frame_and_camera_are_those_that_are_named(two, tmp_path, ca
     assert scene.instances[0].world_from_object[0, 3] == pytest.approx(5)
 
 
-def test_what_is_not_named_is_as_it_was_saved(two):
-    with chosen(Choice("Other")):
-        scene, manifest, _ = export_open_file(bpy.context)
-    assert (manifest.view_layer, manifest.frame, manifest.camera) == ("ViewLayer", 1, "Near")
-    assert scene.objects == ("Moving", "Resting") and scene.camera.width == 48
-
-
 def test_a_marker_does_not_take_the_camera_away(two):
     """Blender makes a marker's camera the active one as it renders."""
     two.timeline_markers.new("Cut", frame=1).camera = two.objects["Near"]

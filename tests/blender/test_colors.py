@@ -135,17 +135,6 @@ def test_color_attributes(kind, domain, build, compare):
     assert_same_colors(compare(), distinct=100)
 
 
-def test_the_active_attribute_is_the_one_shown(build, compare):
-    build.scene(color_type="VERTEX")
-    square = build.square()
-    build.color_attribute(square, "POINT", seed=1)
-    second = square.data.color_attributes.new("Second", "BYTE_COLOR", "CORNER")
-    second.data.foreach_set("color", np.tile((0.2, 0.7, 0.4, 1), 4))
-    square.data.color_attributes.active_color = second
-    build.camera()
-    assert_same_colors(compare(), distinct=1)
-
-
 @pytest.mark.parametrize("domain", ["POINT", "CORNER"])
 def test_an_attribute_that_nodes_made(domain, build, compare):
     """It is named: 4.2 and 5.0 draw such a mesh black, as no attribute is active, 5.2 shows it."""

@@ -204,17 +204,6 @@ def test_a_folder_beside_the_file(saved, tmp_path):
     assert in_blender.run(["compare", "--out", "//again", *traced]) == 0
 
 
-def test_the_operator_and_the_command_find_the_same(saved, out, tmp_path):
-    in_blender.run(["compare", "--out", str(out)])
-    bpy.ops.reference_tracer.compare(directory=str(tmp_path / "operator"))
-    first, second = verdict(out), verdict(tmp_path / "operator")
-    for found in (first, second):
-        del found["tracer"]["seconds"]
-        for row in found["methods"]:
-            del row["seconds"]
-    assert first == second
-
-
 def test_the_operator_fails_where_it_cannot_write(saved, tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(RuntimeError, match="file"):

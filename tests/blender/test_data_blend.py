@@ -40,29 +40,15 @@ def passes(build, tmp_path):
 def test_the_passes_of_cycles_agree(passes, addon, capsys):
     registration.unregister()  # the command registers by itself, in a process of its own
     try:
+        compare = ["compare", str(passes / "scene.blend"), "--against", str(passes / "passes.exr")]
         for kind in ("depth", "positions", "normals", "ids"):
-            paths = [str(passes / name) for name in ("scene.blend", "passes.exr", kind)]
-            code = main(["compare", paths[0], f"--{kind}", paths[1], "--out", paths[2]])
+            code = main([*compare, "--holds", kind, "--out", str(passes / kind)])
             found = json.loads((passes / kind / "comparison.json").read_text(encoding="utf-8"))
             assert code == 0 and found["pixels"]["differ"] == 0, (kind, capsys.readouterr().out)
-        assert main(["trace", paths[0], "--out", str(passes / "traced.exr")]) == 0
+        traced = str(passes / "traced.exr")
+        assert main(["trace", str(passes / "scene.blend"), "--out", traced]) == 0
         _same_cryptomatte(passes / "passes.exr", passes / "traced.exr")
-        paths[2] = str(passes / "distance")
-        assert (
-            main(
-                [
-                    "compare",
-                    paths[0],
-                    "--against",
-                    paths[1],
-                    "--holds",
-                    "distance",
-                    "--out",
-                    paths[2],
-                ]
-            )
-            == 2
-        )
+        assert main([*compare, "--holds", "distance", "--out", str(passes / "distance")]) == 2
         assert "not distances along the ray" in capsys.readouterr().out
     finally:
         registration.register()

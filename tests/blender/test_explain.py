@@ -49,13 +49,6 @@ def test_explain_shows_the_derivation_of_the_export(suzanne, export):
     assert text() == document.document_markdown(found)
 
 
-def test_a_second_pixel_takes_the_place_of_the_first(suzanne):
-    ops.explain(**PIXEL)
-    ops.explain(x=0, y=0)
-    assert (latest().pixel.x, latest().pixel.y) == (0, 0)
-    assert "pixel (0, 0)" in text()
-
-
 def test_a_saved_text_is_the_users(suzanne, tmp_path):
     ops.explain(**PIXEL)
     own = next(t for t in bpy.data.texts if t.get(MARK))
@@ -114,26 +107,6 @@ def test_draw_and_remove_leave_nothing(suzanne):
     assert ops.remove_ray() == {"FINISHED"}
     assert blocks() == before
     assert not ops.remove_ray.poll()
-
-
-def test_objects_are_where_the_numbers_say(suzanne):
-    ops.explain(**PIXEL, draw_ray=True)
-    found, objects = latest(), bpy.data.collections[ray_objects.NAME].objects
-    bpy.context.view_layer.update()
-
-    def world(name):
-        obj = next(o for o in objects if o.name.startswith(name))
-        return np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
-
-    o, d, t = found.pixel.origin, found.pixel.direction, found.certified.t
-    np.testing.assert_allclose(world("Ray")[0], o, rtol=1e-6)
-    np.testing.assert_allclose(world("Ray")[1:].mean(axis=0), o + t * d, rtol=1e-5)
-    np.testing.assert_allclose(world("Hit").mean(axis=0), o + t * d, rtol=1e-5)
-    areas = []
-    for k in (1, 2, 3):
-        a, b, c = world(f"s{k} = ")
-        areas.append(np.linalg.norm(np.cross(b - a, c - a)))
-    np.testing.assert_allclose(np.array(areas) / sum(areas), found.certified.s, atol=1e-3)
 
 
 def test_what_the_user_puts_there_stays(suzanne):

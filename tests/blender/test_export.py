@@ -7,8 +7,6 @@ import math
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.comparison.mesh_diagnosis import diagnosed
-from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import transform_points
 
 MODES = ("VIEWPORT", "RENDER")
@@ -70,32 +68,6 @@ def test_modifiers_shown_in_one_mode_only(build, export):
         modifier.show_viewport, modifier.show_render = viewport, render
     assert export.viewport()[0].triangle_count == 24
     assert export.render()[0].triangle_count == 36
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_shape_keys_and_armatures_move_vertices(mode, build, export):
-    build.camera()
-    square = build.square()
-    square.shape_key_add(name="Basis")
-    key = square.shape_key_add(name="Up")
-    key.data[0].co.z = 4
-    key.value = 0.25
-    rigged = build.square("Rigged")
-    armature = bpy.data.armatures.new("Armature")
-    rig = build.link(bpy.data.objects.new("Rig", armature))
-    bpy.context.view_layer.objects.active = rig
-    bpy.ops.object.mode_set(mode="EDIT")
-    armature.edit_bones.new("Bone").tail = (0, 0, 1)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    rig.pose.bones["Bone"].location = (0, 2, 0)  # along the bone: upwards
-    rigged.vertex_groups.new(name="Bone").add(range(4), 1, "REPLACE")
-    rigged.modifiers.new("Armature", "ARMATURE").object = rig
-    scene, manifest = export.modes[mode]()
-    corners = exported_corners(scene, "Square")
-    assert corners[..., 2].max() == 1
-    np.testing.assert_allclose(exported_corners(scene, "Rigged")[..., 2], 2, atol=1e-6)
-    reasons = {e.name: e.reason for e in manifest.objects if not e.exported}
-    assert reasons == {"Camera": "has no surface", "Rig": "has no surface"}
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -170,31 +142,6 @@ def test_n_gons_are_blenders_own_loop_triangles(mode, build, export):
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_slots_empty_past_the_end_and_linked_to_the_object(mode, build, export, entries):
-    build.camera()
-    red, blue = build.material("Red", 1, 0, 0), build.material("Blue", 0, 0, 1)
-    cube = build.cube()
-    for material in (red, None):
-        cube.data.materials.append(material)
-    for polygon, index in zip(cube.data.polygons, (0, 1, 2, 5, 0, 0), strict=True):
-        polygon.material_index = index
-    square = build.square(material=red)
-    square.material_slots[0].link, square.material_slots[0].material = "OBJECT", blue
-    bare = build.square("Bare")
-    scene, manifest = export.modes[mode]()
-    colors = {scene.objects[i.object]: i.colors.round(4).tolist() for i in scene.instances}
-    grey = np.array([0.8, 0.8, 0.8, 1], np.float32).round(4).tolist()
-    assert colors == {"Cube": [[1, 0, 0, 1], grey], "Square": [[0, 0, 1, 1]], "Bare": [grey]}
-    assert sorted(scene.meshes[0].slots) == [0] * 6 + [1] * 2 + [2] * 2 + [5] * 2
-    found = entries(manifest)
-    assert (
-        found["Cube"].empty_slots,
-        found[square.name].empty_slots,
-        found[bare.name].empty_slots,
-    ) == (1, 0, 0)
-
-
-@pytest.mark.parametrize("mode", MODES)
 def test_vertices_that_are_not_finite_are_left_out_and_counted(mode, build, export, entries):
     build.camera()
     cube, square = build.cube(), build.square()
@@ -223,30 +170,6 @@ def test_a_matrix_that_is_not_finite_leaves_the_object_out(mode, build, export, 
     lost = entries(manifest)["Lost"]
     assert (lost.exported, lost.left_out) == (False, 12)
     assert "not finite" in lost.reason
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_an_empty_scene(mode, build, export):
-    build.camera()
-    scene, manifest = export.modes[mode]()
-    assert scene.instances == scene.meshes == scene.objects == ()
-    assert [(e.name, e.exported) for e in manifest.objects] == [("Camera", False)]
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_the_manifest_counts_and_diagnoses(mode, build, export, entries):
-    build.camera()
-    build.cube()
-    build.square()
-    found = entries(result_of(diagnosed(*export.modes[mode]())))
-    assert (found["Cube"].triangles, found["Cube"].vertices, found["Cube"].instances) == (12, 8, 1)
-    assert found["Cube"].diagnosis == {
-        "closed": True,
-        "consistent_winding": True,
-        "degenerate_faces": 0,
-        "duplicate_faces": 0,
-    }
-    assert found["Square"].diagnosis["closed"] is False
 
 
 @pytest.mark.parametrize("kind", ["FACE INT", "POINT FLOAT"])

@@ -61,43 +61,6 @@ def found():
     return results.content(Kind.COMPARISON, bpy.context.scene).diagnosis
 
 
-def dump(*objects):
-    """Return what a user has set on objects, and which one is seen through."""
-    return bpy.context.scene.camera.name, [
-        (o.name, *map(tuple, o.matrix_world), *_settings(o.data)) for o in objects
-    ]
-
-
-def _settings(data):
-    names = "lens", "sensor_width", "sensor_fit", "shift_x", "ortho_scale", "clip_start", "type"
-    return [getattr(data, name, None) for name in names]
-
-
-@pytest.mark.slow
-def test_the_button_without_a_folder_diagnoses(seen, monkeypatch):
-    """And the copy that it then offers sees what Blender drew: the user's camera stays."""
-    scene, camera = seen
-    with drawn_otherwise(monkeypatch, camera.data, "lens", 42.0):
-        OPS.compare()
-    [told] = found().told
-    assert told.fault.name == "focal_length"
-    assert told.guess.values[0] == pytest.approx(5, abs=0.05)
-    before = dump(camera)
-    count = len(bpy.data.objects)
-    assert OPS.copy_camera(number=0) == {"FINISHED"}
-    assert dump(camera) == before and len(bpy.data.objects) == count + 1
-    copy = bpy.context.view_layer.objects.active
-    assert copy != camera and copy.select_get() and not camera.select_get()
-    scene.camera = copy
-    low, high = (1 + end / 100 for end in (told.guess.low[0], told.guess.high[0]))
-    window = export_camera(scene).window
-    lens = 36 / (window.right - window.left)
-    assert 40 * low * (1 - 1e-6) <= lens <= 40 * high * (1 + 1e-6)
-    with drawn_otherwise(monkeypatch, scene, "camera", copy):
-        OPS.compare()
-    assert results.content(Kind.COMPARISON, scene).verdict == "agree"
-
-
 @pytest.mark.slow
 def test_an_object_that_was_found_is_selected(seen, monkeypatch):
     scene, _ = seen
@@ -245,23 +208,3 @@ def compare_with(camera, matrix):
     from dataclasses import replace
 
     return replace(camera, world_from_camera=matrix)
-
-
-def test_a_copy_is_moved_by_nothing_that_moves_the_camera(seen, compare, build):
-    scene, camera = seen
-    wanted = compare().scene.camera
-    parent = bpy.data.objects.new("Parent", None)
-    scene.collection.objects.link(parent)
-    parent.location = (3, 1, 2)
-    camera.parent = parent
-    camera.constraints.new("TRACK_TO").target = parent
-    camera.delta_location = (1, 2, 3)
-    camera.keyframe_insert("location", frame=1)
-    camera.data.keyframe_insert("lens", frame=1)
-    copy = copy_camera(scene, wanted, "Copy")
-    scene.camera = copy
-    scene.frame_set(5)
-    bpy.context.view_layer.update()
-    np.testing.assert_allclose(
-        export_camera(scene).world_from_camera, wanted.world_from_camera, atol=1e-6
-    )

@@ -21,20 +21,6 @@ __all__ = ["rendered_png", "solids", "toy"]  # fixtures
 OPS = bpy.ops.reference_tracer
 
 
-def test_an_engine_that_is_right_agrees(toy, solids):
-    solids.reference_tracer.judge = "ENGINE"
-    solids.reference_tracer.engine = "TOY_TRACER"
-    engine, names = solids.render.engine, set(bpy.data.objects.keys())
-    OPS.compare()
-    found = results.content(Kind.COMPARISON, solids)
-    assert found.verdict == "agree" and found.counts.unexplained == 0
-    assert (found.frame.instance_index >= 0).mean() > 0.3
-    assert found.case.picture.source.name == "toy_tracer"
-    assert "'Toy Tracer's render'" in found.lines()[0]
-    assert found.case.picture.sampling.renderer.name == "rays"
-    assert (solids.render.engine, set(bpy.data.objects.keys())) == (engine, names)
-
-
 def test_a_half_pixel_fault_of_an_engine_is_named(toy, solids):
     toy.offset = (0.5, 0.0)
     solids.reference_tracer.judge = "ENGINE"

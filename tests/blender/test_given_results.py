@@ -18,26 +18,6 @@ __all__ = ["rendered_png", "solids", "toy"]  # fixtures
 OPS = bpy.ops.reference_tracer
 
 
-def test_the_render_result(rendered_png, solids):
-    rendered_png()
-    solids.reference_tracer.judge = "RENDER_RESULT"
-    solids.render.engine = "CYCLES"  # since
-    settings = solids.render.image_settings
-    before = settings.file_format, settings.color_mode, settings.color_depth
-    OPS.compare()
-    found = results.content(Kind.COMPARISON, solids)
-    assert found.verdict == "agree" and found.counts.unexplained == 0
-    assert found.case.picture.storage.levels == 0  # its own floats, not what a view transform makes
-    assert (settings.file_format, settings.color_mode, settings.color_depth) == before
-    assert found.case.picture.source.file == "Render Result"
-    assert found.case.picture.sampling.renderer.name == "raster"  # as Workbench made it
-    bpy.data.objects["Green"].location.x += 0.2
-    solids.reference_tracer.diagnose = False
-    OPS.compare()
-    found = results.content(Kind.COMPARISON, solids)
-    assert found.verdict == "differences" and found.counts.unexplained > 20
-
-
 def test_a_result_of_rays_has_no_excuse_of_a_rasteriser(build):
     """Cycles' render shows the wall behind, and then the scene is set to a rasteriser."""
     scene = build.scene(96, 54)

@@ -9,8 +9,6 @@ from reference_tracer.blender.temporary import leave_out
 from reference_tracer.pictures.identity import NOTHING
 from reference_tracer.pictures.palette import By
 
-from .test_unchanged import differences, state
-
 CYCLES = ("exercise_plane", "geometry_nodes", "suzanne")
 
 
@@ -55,14 +53,6 @@ def test_corners_that_carry_children(build, compare):
     assert shown(compare()) == {"Parent"}
 
 
-@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "VERTEX", "RANDOM"])
-def test_whatever_the_colours_are(color_type, build, compare):
-    build.scene(color_type=color_type)
-    build.solids()
-    build.corner_camera(lens=40)
-    assert shown(compare()) == {"Red", "Green", "Blue", "Floor"}
-
-
 def test_planes_hidden_objects_and_excluded_collections(build, compare):
     scene = build.scene()
     plane = build.square("Ground", 2, location=(0, 0, -1))
@@ -79,34 +69,6 @@ def test_planes_hidden_objects_and_excluded_collections(build, compare):
     found = compare()
     assert shown(found) == {"Ground", "Seen", "In Inner"}
     assert "In Out" not in found.identity.names
-
-
-def test_what_is_linked_animated_and_modified_stays(build, compare):
-    build.scene()
-    cube = build.cube("Cube", 1)
-    cube.keyframe_insert("location", frame=1)
-    cube.modifiers.new("Subsurf", "SUBSURF").levels = 2
-    other = build.cube("Mirrored", 0.5, location=(1.5, 0, 0))
-    other.modifiers.new("Mirror", "MIRROR").mirror_object = cube
-    build.camera()
-    bpy.context.view_layer.update()  # or the matrices would be those of before
-    before = state()
-    assert shown(compare()) == {"Cube", "Mirrored"}
-    found = [d for d in differences(before, state()) if "/names/images" not in d[0]]
-    assert found == []
-
-
-def test_a_wrong_colour_is_no_wrong_object(build, compare, shown_otherwise):
-    """Blender's picture with two colours swapped: the same objects in other colours."""
-    build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
-    shown_otherwise(lambda pixels: np.ascontiguousarray(pixels[..., [2, 1, 0, 3]]))
-    found = compare()
-    shows = found.counts.unexplained_shows
-    assert found.verdict == "differences"
-    assert shows.same_object > 100 and shows.other_object == 0
-    assert any("show the same object in another colour" in line for line in found.lines())
 
 
 def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch):

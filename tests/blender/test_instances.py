@@ -36,20 +36,6 @@ def blenders_places() -> np.ndarray:
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_linked_objects_share_their_mesh(mode, build, export):
-    build.far_camera()
-    cube = build.cube()
-    for number in range(3):
-        copy = build.link(bpy.data.objects.new(f"Copy {number}", cube.data))
-        copy.location.x = number + 3
-    scene, _ = export.modes[mode]()
-    assert len(scene.instances) == 4
-    assert len(scene.meshes) == 1
-    assert scene.triangle_count == 48
-    np.testing.assert_array_equal(places(scene), blenders_places())
-
-
-@pytest.mark.parametrize("mode", MODES)
 def test_collection_instances(mode, build, export, entries):
     build.far_camera()
     inner = build.collection("Inner", build.cube(link=False, location=(1, 0, 0)))
@@ -99,20 +85,6 @@ def test_a_mesh_that_nothing_shows_is_not_carried(mode, build, export):
     scene, _ = export.modes[mode]()
     assert scene.objects == ("Kept",)
     assert [mesh.name for mesh in scene.meshes] == ["Kept"]
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_realised_geometry_is_one_mesh(mode, build, export):
-    build.far_camera()
-    points = build.mesh("Points", [(x, 0, 0) for x in range(5)], [])
-    build.instances_on_points(points, "GeometryNodeMeshCube")
-    tree = points.modifiers[0].node_group
-    realise = tree.nodes.new("GeometryNodeRealizeInstances")
-    last = next(link for link in tree.links if link.to_node.type == "GROUP_OUTPUT")
-    tree.links.new(last.from_socket, realise.inputs[0])
-    tree.links.new(realise.outputs[0], tree.nodes["Group Output"].inputs[0])
-    scene, _ = export.modes[mode]()
-    assert (len(scene.instances), scene.triangle_count) == (1, 60)
 
 
 @pytest.mark.parametrize("mode", MODES)

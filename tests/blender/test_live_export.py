@@ -216,21 +216,6 @@ def test_what_seems_to_be_a_move_alone(what, build, kept):
     assert_as_a_whole_export(kept)
 
 
-def test_another_view_layer_is_read_as_a_whole(build, kept):
-    build.far_camera()
-    cube = build.cube()
-    build.collection("Shelf", build.square("On Shelf", link=False), link=True)
-    other = bpy.context.scene.view_layers.new("Other")
-    other.layer_collection.children["Shelf"].exclude = True
-    assert_as_a_whole_export(kept)
-    other.update()
-    kept.update(other.depsgraph, space())
-    assert of_view(kept).objects == ("Cube",)
-    cube.location.x = 1
-    assert_as_a_whole_export(kept)
-    assert set(of_view(kept).objects) == {"Cube", "On Shelf"}
-
-
 def test_all_is_read_after_a_failure(build, kept, monkeypatch):
     build.far_camera()
     cube, square = build.cube(), build.square()
@@ -253,14 +238,3 @@ def test_what_the_picture_lacks_is_said(build, kept):
         "2 triangles of 'Square' left out",
         "not modelled: in-front drawing of 'Cube'",
     )
-
-
-def test_orbiting_keeps_what_is_known_of_the_scene(build, kept):
-    build.far_camera()
-    build.cube()
-    bpy.context.view_layer.update()
-    first = of_view(kept)
-    table = first.color_table
-    second = of_view(kept)
-    assert second.camera is not first.camera
-    assert second.color_table is table

@@ -83,17 +83,6 @@ def test_a_library_that_is_there(build, saved, export):
     assert len(scene.instances) == 3
 
 
-def test_a_library_without_what_is_linked(build, saved, export):
-    path = linked_scene(build, saved, keep=True)
-    scene = saved.folder / "scene.blend"
-    saved.begin()
-    build.collection("Kit", build.cube("Another"), link=True)
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
-    bpy.ops.wm.open_mainfile(filepath=str(scene))
-    missing = {"missing data in library": ("//library.blend", "object 'Lent'")}
-    assert found(export.render()[1]) == missing
-
-
 def test_linked_mesh_and_material(build, saved, export, entries):
     path = library(build, saved)
     bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
@@ -108,17 +97,6 @@ def test_linked_mesh_and_material(build, saved, export, entries):
     assert "its mesh 'Lent', '//library.blend' is missing" in entries(manifest)["User"].reason
     bpy.context.scene.display.shading.color_type = "OBJECT"  # then no material is shown
     assert found(export.render()[1])["missing library"][1] == "mesh 'Lent' of 'User'"
-
-
-def test_an_override_of_a_missing_library(build, saved, export):
-    path = library(build, saved)
-    bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
-    wanted = linked(path, objects=["Lent"])
-    build.link(wanted.objects[0].override_create())
-    path.unlink()
-    saved.reopen()
-    name, things = found(export.render()[1])["missing library"]
-    assert name == "//library.blend" and "object 'Lent'" in things
 
 
 def test_what_is_not_seen_is_no_warning(build, saved, export):

@@ -78,9 +78,3 @@ def test_it_waits_for_other_work(solids, compare, monkeypatch):
     assert bpy.ops.reference_tracer.open_page.poll()
     monkeypatch.setattr(LongWork, "running", "Trace and Compare")
     assert not bpy.ops.reference_tracer.open_page.poll()
-
-
-def test_a_comparison_with_a_folder_leaves_a_page(solids, tmp_path):
-    assert bpy.ops.reference_tracer.compare(directory=str(tmp_path)) == {"FINISHED"}
-    found = held(tmp_path)
-    assert found["comparison"] == json.loads((tmp_path / "comparison.json").read_text())

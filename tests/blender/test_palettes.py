@@ -88,28 +88,6 @@ def test_objects_that_are_exchanged_are_found(ordinary, compare, shown_otherwise
     assert found.verdict == "differences" and found.counts.unexplained > 100
 
 
-def test_an_object_in_another_ones_color_is_found(ordinary, compare, shown_otherwise):
-    def recolored(picture):
-        first, second = commonest(picture)
-        return np.where((picture == first).all(axis=-1, keepdims=True), second, picture)
-
-    shown_otherwise(recolored)
-    assert compare(colors=By.VIEWPORT).verdict == "agree"
-    found = compare()
-    assert found.verdict == "differences" and found.counts.unexplained > 100
-
-
-def test_colors_that_tell_objects_apart_are_drawn_as_they_are(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
-    own, found = compare(colors=By.VIEWPORT), compare()
-    np.testing.assert_array_equal(own.picture, found.picture)
-    np.testing.assert_array_equal(own.frame.color, found.frame.color)
-    assert found.manifest.notes == ()
-    assert found.to_dict()["blender"]["settings"]["colors"] == "viewport"
-
-
 def test_what_is_drawn_as_it_is_keeps_its_colors(ordinary, compare):
     found = compare(as_is=True)
     assert found.to_dict()["blender"]["settings"]["colors"] == "viewport"
@@ -154,18 +132,6 @@ def test_base_colors_of_materials(ordinary, build, compare):
     [note] = found.manifest.notes
     assert note == "materials without one base colour show that of the viewport: 'Middle'"
     assert compare(colors=By.MATERIAL, judge="CYCLES").verdict == "agree"
-
-
-def test_an_object_keeps_its_color(ordinary, build, compare):
-    before = colors_of(compare())
-    bpy.data.objects["Left"].hide_render = True
-    bpy.data.objects["Middle"].location.z -= 0.2
-    assert colors_of(compare()) == {k: v for k, v in before.items() if k != "Left"}
-    build.cube("Zuletzt", 0.3, location=(0, 1, 0))  # the last by its name
-    found = colors_of(compare())
-    assert {k: v for k, v in found.items() if k in before} == {
-        k: v for k, v in before.items() if k != "Left"
-    }
 
 
 def test_what_is_instanced_has_the_color_of_what_instances_it(build, compare):

@@ -5,9 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.drawing.stand_ins import stand_ins
 from reference_tracer.blender.reading.view_volume import polygon
-from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Plane, ViewWindow
 from reference_tracer.tracer.camera import film_of
@@ -31,30 +29,6 @@ def ground(build):
     ground.reference_tracer.infinite_plane = True
     build.cube("Cube", 1, material=build.material("Red", 0.9, 0.1, 0.1))
     return ground
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_point_normal_and_colour(mode, ground, export, entries):
-    bpy.context.view_layer.update()
-    scene, manifest = export.modes[mode]()
-    (plane,) = scene.planes
-    matrix = np.array(ground.matrix_world, float)
-    np.testing.assert_array_equal(plane.point, matrix[:3, 3])
-    normal = plane.normal / np.linalg.norm(plane.normal)
-    np.testing.assert_allclose(normal, matrix[:3, 2] / np.linalg.norm(matrix[:3, 2]), atol=1e-6)
-    np.testing.assert_allclose(plane.color, (0.5, 0.3, 0.1, 1))
-    assert scene.objects[plane.object] == "Ground"
-    assert {scene.objects[i.object] for i in scene.instances} == {"Cube"}
-    entry = entries(manifest)["Ground"]
-    assert (entry.type, entry.exported, entry.triangles) == ("INFINITE_PLANE", True, 0)
-
-
-def test_the_normal_of_a_sheared_plane_is_square_to_its_axes(ground, build, export):
-    ground.parent = build.empty("Parent", rotation=(0.4, 0.2, 0), scale=(1, 3, 0.4))
-    bpy.context.view_layer.update()
-    (plane,) = export.viewport()[0].planes
-    axes = np.array(ground.matrix_world, float)[:3, :2]
-    assert np.abs(axes.T @ plane.normal).max() < 1e-6 * np.linalg.norm(plane.normal)
 
 
 @pytest.mark.parametrize("kind", ["EMPTY", "LIGHT", "CAMERA"])
@@ -230,15 +204,3 @@ def test_the_polygon_covers_the_view_volumes_cut():
         x, y, depth = film_of(camera, np.concatenate(rim).T)
         seen = (x > 0) & (x < 64) & (y > 0) & (y < 48) & (depth > start) & (depth < 20)
         assert not seen.any()
-
-
-def test_the_stand_in_is_linked_to_the_temporary_scene_alone(ground, export):
-    scene, _ = export.viewport()
-    objects = set(bpy.context.scene.objects)
-    with temporary_scene(bpy.context.scene, bpy.context.view_layer.name) as copy:
-        stand_ins(copy, bpy.context.view_layer.name, scene, ["Ground"])
-        assert set(bpy.context.scene.objects) == objects
-        added = set(copy.objects) - objects
-        assert len(added) == 1
-        assert ground not in set(copy.objects)
-    assert set(bpy.data.objects) == objects

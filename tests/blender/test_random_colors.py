@@ -11,27 +11,6 @@ from reference_tracer.blender.reading.colors import random_color
 from .scenes import assert_same_colors
 
 
-def test_random_colors_follow_the_name(build, compare):
-    build.scene(color_type="RANDOM")
-    names = (
-        "Cube",
-        "Cube.001",
-        "a",
-        "ab",
-        "abc",
-        "abcd",
-        "Würfel",
-        "立方体",
-        "Куб 12",
-        "🎲",
-        "é" * 30,
-    )
-    for number, name in enumerate(names):
-        build.square(name, 0.8, location=(number % 4 - 1.5, number // 4 - 1, 0.01 * number))
-    build.camera(type="ORTHO", ortho_scale=7)
-    assert_same_colors(compare(), distinct=len(names))
-
-
 @pytest.mark.parametrize("relative", [False, True], ids=["absolute", "relative"])
 def test_random_colors_of_linked_objects(relative, build, compare, tmp_path):
     """Of the same name as a local object, and yet of another colour."""

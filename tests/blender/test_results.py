@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.differing import texts_of
-from reference_tracer.blender.ui.operators import REFERENCE_TRACER_OT_compare
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.causes.cause import AGREE, UNEXPLAINED
 from reference_tracer.causes.checks.edges import EDGE
@@ -215,16 +213,3 @@ def test_a_comparison_that_fails_leaves_no_other_one_on_the_screen(build):
     with pytest.raises(RuntimeError, match="fisheye"):
         bpy.ops.reference_tracer.compare()
     assert results.latest(Kind.COMPARISON, bpy.context.scene) is None and not named()
-
-
-def test_a_comparison_is_told_in_another_scene_too(build, compare, capsys):
-    """The user may have gone there, or renamed the scene, while it was at work."""
-    build.scene()
-    build.solids()
-    build.corner_camera()
-    found = compare(identity=False)
-    result_of(results.keep_comparison(found))
-    context = SimpleNamespace(scene=bpy.data.scenes.new("Other"))
-    told = REFERENCE_TRACER_OT_compare.finish(None, context, found)
-    assert told == ("INFO", found.lines()[0])
-    assert found.lines()[0] in capsys.readouterr().out

@@ -57,19 +57,6 @@ def test_a_colour_is_that_of_a_render(scene, color):
     assert np.array_equal(found.color, render(scene, Settings(color=color)).color)
 
 
-def test_the_literal_textbook_has_holes_within_a_closed_mesh(scene):
-    truth = render(scene)
-    literal = render(scene, Settings("textbook_literal", "float32"))
-    inside = truth.instance_index != NOTHING
-    holes = inside & (literal.triangle_index != truth.triangle_index)
-    assert 0.2 * inside.sum() < holes.sum() < 0.9 * inside.sum()
-    found = shown("WRONG", scene, LITERAL)
-    red = (found.color == (*WRONG, 1)).all(axis=-1)
-    assert np.array_equal(red, literal.wrong_against(truth)) and np.array_equal(red, holes)
-    assert counted(found.line) == [red.sum(), red.size]
-    assert found.line.startswith("float32 textbook, literal: ")
-
-
 def test_few_wrong_pixels_are_counted_as_they_are_not_with_their_rings(scene):
     found = shown("WRONG", scene, Settings("moller_trumbore", "float32"))
     again = render(scene, Settings("moller_trumbore", "float32"))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.reading.unmodelled import world_bounds
 
 MODES = ("VIEWPORT", "RENDER")
 
@@ -210,14 +209,6 @@ def test_several_instances_share_one_entry_around_all_of_them(build, export):
     _, manifest = export.viewport()
     (found,) = manifest.unmodelled
     np.testing.assert_allclose(found.bounds, [(-4.5, -0.5, -0.5), (4.5, 0.5, 0.5)])
-
-
-def test_bounds_are_those_of_the_box_in_world_space(build):
-    cube = build.cube(rotation=(0, 0, np.pi / 4), location=(1, 2, 3))
-    bpy.context.view_layer.update()
-    bounds = world_bounds(cube, cube.matrix_world)
-    r = np.sqrt(2)
-    np.testing.assert_allclose(bounds, [(1 - r, 2 - r, 2), (1 + r, 2 + r, 4)], atol=1e-6)
 
 
 def test_an_ordinary_scene_has_nothing_of_it(build, export):

@@ -43,31 +43,6 @@ def test_the_judge_in_background(judge, source):
     assert judge_named(judge, bpy.app.background) is JUDGES[source]
 
 
-def test_row_0_is_the_bottom_row(scene, build):
-    for obj in list(bpy.data.objects):
-        if obj.type == "MESH":
-            bpy.data.objects.remove(obj)
-    scene.camera.matrix_basis.identity()
-    scene.camera.location = (0, 0, 5)
-    build.square("Low", 1, location=(0, -0.8, 0), material=build.material("Red", 1, 0, 0))
-    build.square("Right", 0.5, location=(1.2, 0, 0), material=build.material("Green", 0, 1, 0))
-    picture = pictured(scene)
-    rows, _ = np.nonzero(picture[..., 0] > 0.5)
-    _, columns = np.nonzero(picture[..., 1] > 0.5)
-    assert rows.mean() < 20
-    assert columns.mean() > 60
-
-
-def test_the_picture_is_float32_of_the_region(scene):
-    render = scene.render
-    render.use_border, render.use_crop_to_border = True, False
-    render.border_min_x, render.border_max_x = 0.25, 0.5
-    picture = pictured(scene)
-    assert picture.dtype == np.float32
-    assert picture.shape == (54, 24, 4)
-    assert picture.flags.c_contiguous
-
-
 def test_like_for_like_has_no_anti_aliasing_and_only_the_scenes_colours(scene):
     """Each colour is that of a material, or nothing."""
     scene.display.render_aa = "32"
@@ -75,14 +50,6 @@ def test_like_for_like_has_no_anti_aliasing_and_only_the_scenes_colours(scene):
     known = np.array([(0, 0, 0), *(m.diffuse_color[:3] for m in bpy.data.materials)])
     for color in colors:
         assert np.abs(known - color).max(axis=1).min() <= HALF_FLOAT
-
-
-def test_as_it_is_keeps_the_scenes_shading(scene):
-    scene.display.shading.light, scene.display.render_aa = "STUDIO", "8"
-    scene.render.film_transparent = True
-    as_it_is, like_for_like = pictured(scene, like_for_like=False), pictured(scene)
-    assert len(np.unique(as_it_is.reshape(-1, 4), axis=0)) > 50
-    assert (as_it_is != like_for_like).any()
 
 
 @pytest.mark.parametrize(

@@ -84,21 +84,6 @@ def test_what_workbench_hides_is_hidden(hide, build, compare):
     assert comparison.picture.any() == ("RENDER" not in CASES[hide][0])
 
 
-@pytest.mark.parametrize("mode", MODES)
-def test_only_the_active_view_layer_is_traced(mode, build, export, entries):
-    scene = build.scene()
-    build.camera()
-    build.collection("First", build.cube("In First", link=False), link=True)
-    build.collection("Second", build.square("In Second", link=False), link=True)
-    first, second = scene.view_layers[0], scene.view_layers.new("Other")
-    first.layer_collection.children["Second"].exclude = True
-    second.layer_collection.children["First"].exclude = True
-    traced, manifest = export.modes[mode]()
-    assert traced.objects == ("In First",)
-    assert manifest.view_layer == first.name
-    assert "excluded" in entries(manifest)["In Second"].reason
-
-
 @pytest.mark.parametrize("use", [True, False], ids=["used", "not_used_for_rendering"])
 def test_the_compared_view_layer_is_the_active_one(use, build, compare):
     scene = build.scene()

@@ -10,6 +10,7 @@ from reference_tracer import compare
 from reference_tracer.causes.case import without_colors
 from reference_tracer.comparison.comparing import compared
 from reference_tracer.comparison.verdict import Verdict
+from reference_tracer.diagnosis.diagnosis import diagnose
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.pictures.given import Making
 from reference_tracer.projections import ORTHOGRAPHIC
@@ -112,6 +113,8 @@ WRONG = {
     "depth_normalised": [
         lambda t, near, far, length: (t - near) / (far - near),
         lambda t, near, far, length: 1 - _stretched(t),
+        lambda t, near, far, length: (t - 1.3) / 9.7,
+        lambda t, near, far, length: (8.2 - t) / 6.9,
     ],
     "inverse_depth": [lambda t, near, far, length: 1 / t],
     "data_sign": [lambda t, near, far, length: -t],
@@ -137,6 +140,32 @@ def test_among_all_faults_too(told, solids, traced, lengths, fault, of):
     assert told("depth", np.where(np.isfinite(traced.t), made, np.nan)) == [fault]
 
 
+@pytest.mark.parametrize("levels", [255, 65535])
+def test_a_range_is_found_from_integers(judged, traced, levels):
+    """Two numbers, to a small part of a step."""
+    for zero, one in ((1.3, 11.0), (9.5, 0.25)):
+        share = np.where(np.isfinite(traced.t), (traced.t - zero) / (one - zero), 0)
+        stored = np.rint(share * levels).astype(np.uint8 if levels == 255 else np.uint16)
+        found = judged("depth", stored, scale=1 / levels)
+        said = result_of(diagnose(found.case, found.frame, found.causes))
+        assert [told.fault.name for told in said.told] == ["depth_normalised"]
+        assert np.abs(np.array(said.told[0].guess.values) - (zero, one)).max() < 9 / levels
+
+
+def test_the_far_planes_value_stands_for_nothing(told, traced, lengths):
+    """But not where a wall hides a part of the background, or where some of it is empty."""
+    hit = np.isfinite(traced.t)
+    assert told("depth", np.where(hit, traced.t, 50.0), faults=SOME) == ["background_value"]
+    far = np.where(hit, traced.t * lengths, 50.0)
+    assert told("distance", far, faults=SOME) == ["background_value"]
+    both = np.where(hit, 1000 * traced.t, 50.0)
+    assert sorted(told("depth", both, faults=SOME)) == ["background_value", "data_unit"]
+    wall = np.where(~hit & (np.arange(hit.shape[1]) > 6), 50.0, np.where(hit, traced.t, np.nan))
+    assert (wall == 50).sum() > 20 and told("depth", wall, faults=SOME) == []
+    ramp = np.where(hit, traced.t, 40 + np.arange(hit.shape[1]))
+    assert told("depth", ramp, faults=SOME) == []
+
+
 def test_depths_for_distances(told, traced):
     assert told("distance", traced.t, faults=SOME) == ["depth_for_distance"]
 
@@ -146,6 +175,9 @@ def test_no_name_for_what_is_none_of_these(told, traced, rng):
     assert told("depth", values + rng.uniform(0.01, 0.1, values.shape), faults=SOME) == []
     assert told("depth", values**1.3, faults=SOME) == []
     assert told("depth", values + 0.01, faults=SOME) == []
+    assert told("depth", values / 10 + 0.02 * np.sin(9 * values), faults=SOME) == []
+    millimetres = np.rint(1000 * np.nan_to_num(values) - 500 * (values > 0)).astype(np.uint16)
+    assert told("depth", millimetres, scale=0.001, faults=SOME) == []  # an offset is no range
 
 
 @pytest.mark.parametrize("kind", ["depth", "distance"])

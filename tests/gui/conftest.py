@@ -51,21 +51,23 @@ class Blender:
         return subprocess.run(command, capture_output=True, text=True, timeout=timeout)
 
     def play(self, stories):
-        """Play stories in the real window, one after another; one that ends Blender is the last.
+        """Play stories in the real window, one after another; those that end Blender are the last.
 
         The others are then played by another Blender. What is missing is found by `noted`.
         """
-        waiting = sorted(stories, key=lambda name: name == "closed")  # which ends Blender: last
+        self.ended = {}  # how Blender ended after each
+        waiting = sorted(stories, key=lambda name: name in ("closed", "quitted"))
         for name in waiting:
             (OUT / f"{name}.json").unlink(missing_ok=True)
         while waiting:
             done = self.run("--python", "/project/tests/gui/play.py", "--", *waiting, timeout=1800)
-            self.ended = done.returncode
             played = [name for name in waiting if (OUT / f"{name}.json").exists()]
+            self.ended |= dict.fromkeys(played, done.returncode)
             log = done.stdout + done.stderr
             for name in waiting[: len(played) + 1]:
                 (OUT / f"{name}.log").write_text(log)
-            waiting = waiting[len(played) + 1 :]
+            ended = done.returncode != 0 or not played  # by the next one, which noted nothing
+            waiting = waiting[len(played) + ended :]
 
     def noted(self, story):
         """Return what a story that was played has noted."""

@@ -65,6 +65,7 @@ SMALL = 640, 360, 0.5
 SIZES = {  # of other stories
     "panel": LARGE,
     "second_day": LARGE,
+    "tried": (1280, 720, 1.0),
     **dict.fromkeys(("first_result", "heavy"), (1000, 600, 1.0)),
     **dict.fromkeys(("compared_images", "in_images"), SMALL_LARGE),
     **dict.fromkeys(

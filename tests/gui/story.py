@@ -16,7 +16,7 @@ SIDEBAR_TAB = "Reference Tracer"
 # Blender's timers come before the events that it has just received, and the drawing after those.
 ROUNDS = 3
 # By their numbers: by its name, newer tools press Alt with the one, and Shift with the other.
-KEYS = {"F12": "96", "Numpad 0": "90"}
+KEYS = {"F3": "69", "F12": "96", "Numpad 0": "90"}
 noted = {}  # what the story that is played has found; see play.py
 
 

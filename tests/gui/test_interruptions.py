@@ -32,5 +32,5 @@ def test_what_ends_it_ends_it(noted):
 def test_the_last_window_is_closed(played, noted):
     """Blender ends as it does by its own menu: nothing crashes, and no operator fails."""
     assert noted == {"dirty": False}
-    assert played.ended == 0
+    assert played.ended["closed"] == 0
     assert "in cancel\n" not in (played.out / "closed.log").read_text()

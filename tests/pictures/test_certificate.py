@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.pictures.certificate import POINTS, CameraMismatchError, certify, known_points
 from reference_tracer.scene import SceneError, ViewWindow
-from reference_tracer.tracer.camera import film_of, pixel_size
+from reference_tracer.tracer.camera import film_of
 
 
 @pytest.fixture(params=[False, True], ids=["perspective", "orthographic"])
@@ -25,17 +25,6 @@ def certificate(camera, other):
     return certify(camera, points, np.stack((x, y)))
 
 
-def test_points_lie_all_over_the_view_volume(camera):
-    points = known_points(camera)
-    x, y, depth = film_of(camera, points)
-    assert points.shape == (3, 8 + POINTS)
-    assert x.min() == pytest.approx(0, abs=1e-9) and x.max() == pytest.approx(160)
-    assert y.min() == pytest.approx(0, abs=1e-9) and y.max() == pytest.approx(90)
-    assert depth.min() == pytest.approx(camera.clip_start)
-    assert depth.max() == pytest.approx(camera.clip_end)
-    np.testing.assert_array_equal(points, known_points(camera))  # the same in every run
-
-
 def test_the_same_camera_in_float32_passes(camera):
     matrix = camera.world_from_camera.astype(np.float32).astype(np.float64)
     same = certificate(camera, camera)
@@ -44,14 +33,6 @@ def test_the_same_camera_in_float32_passes(camera):
     assert 0 < rounded.largest <= rounded.allowed < 0.2  # a kilometre away, orthographic
     assert rounded.passed and f"{rounded.largest:.2g} px" in rounded.line()
     assert rounded.to_dict()["passed"] and rounded.to_dict()["points"] == 8 + POINTS
-
-
-@pytest.mark.parametrize("shift", [0.2, -0.5, 1, 40])
-def test_a_shift_fails_by_as_much_as_it_is(camera, shift):
-    w, (width, _) = camera.window, pixel_size(camera)
-    moved = replace(w, left=w.left + shift * width, right=w.right + shift * width)
-    found = certificate(camera, replace(camera, window=moved))
-    assert not found.passed and found.largest == pytest.approx(abs(shift), rel=0.01)
 
 
 @pytest.mark.parametrize("fault", ["mirrored", "fit", "turned", "scaled"])

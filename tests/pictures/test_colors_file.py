@@ -10,7 +10,7 @@ import jsonschema
 import numpy as np
 import pytest
 from reference_tracer.cli.main import main
-from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR
+from reference_tracer.cli.parser import INPUT_ERROR
 from reference_tracer.files import images
 from reference_tracer.files.scenes import save_scene
 from reference_tracer.pictures import colors_file
@@ -48,13 +48,6 @@ def files(scene, tmp_path):
     return compared
 
 
-def exchanged(scene):
-    """Return a scene in which two objects are in one another's place."""
-    first, second = scene.instances
-    other = replace(first, colors=second.colors), replace(second, colors=first.colors)
-    return replace(scene, instances=other)
-
-
 def test_what_is_written_is_as_the_schema_says_and_is_read_again(scene, tmp_path):
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     clear, notes = colors_file.in_colors(scene, By.OBJECT)
@@ -71,24 +64,6 @@ def test_what_is_written_is_as_the_schema_says_and_is_read_again(scene, tmp_path
         [slot] = entry["slots"]
         shown = images.to_display(np.array([[*slot["linear"], 1.0]]))[0, :3]
         assert shown.tolist() == slot["srgb"]
-
-
-@pytest.mark.slow
-def test_objects_that_are_exchanged_are_found(scene, files, tmp_path, capsys):
-    """In one grey they agree; in the colours that were written for it they do not."""
-    assert files(exchanged(scene)) == AGREE
-    out = tmp_path / "new" / "colors.json"
-    quick = "--no-diagnosis"
-    grey = files(scene, "--colors-out", out, "--colors", "object", quick)
-    assert grey == DIFFERENCES
-    asked, _ = colors_file.in_colors(scene, colors_file.read(out))
-    assert f" and {out}" in capsys.readouterr().out
-    for colors in (out, "object", "automatic"):
-        assert files(asked, "--colors", colors) == AGREE
-        assert files(exchanged(asked), "--colors", colors, quick) == DIFFERENCES
-    assert "do not tell 'Left' from 'Right'" in capsys.readouterr().out
-    found = json.loads((tmp_path / "out" / "comparison.json").read_text("utf-8"))
-    assert len(found["scene"]["notes"]) == 1
 
 
 def changed(content, change):

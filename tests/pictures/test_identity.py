@@ -62,17 +62,6 @@ def test_a_wrong_digit_is_noticed():
             assert (decode(wrong, MOST_OBJECTS)[moved] == UNKNOWN).all()
 
 
-def test_mixes_and_chance_are_mostly_nobodys(rng):
-    shown = picture(200)[0]
-    a, b = rng.integers(0, 200, (2, 4000))
-    share = rng.uniform(0.1, 0.9, (4000, 1))
-    mixed = (share * shown[a] + (1 - share) * shown[b])[a != b]
-    found = decode(mixed[None].astype(np.float32), 200)
-    assert (found == UNKNOWN).mean() > 0.9
-    chance = np.concatenate((rng.random((4000, 3)), np.ones((4000, 1))), axis=1)[None]
-    assert (decode(chance, 200) == UNKNOWN).mean() > 0.99
-
-
 def test_counts():
     traced = np.array([[0, 1, NOTHING], [1, 1, 0]], np.int32)
     shown = np.array([[0, 0, NOTHING], [UNKNOWN, 1, NOTHING]], np.int32)
@@ -80,13 +69,6 @@ def test_counts():
     assert found.shows() == Shows(same_object=3, other_object=2, not_known=1)
     assert found.shows(traced == 1) == Shows(same_object=1, other_object=1, not_known=1)
     assert found.to_dict() == {"names": ["A", "B"], "pixels": found.shows()._asdict()}
-
-
-def test_owners_are_numbered():
-    found = Owners.of(("A", "B", "C"), np.array([1, 0], np.int32), ("B", "B", "elsewhere", "A"))
-    assert found.instances.tolist() == [1, 1, 3, 0, NOTHING] and found.instances.dtype == np.int32
-    assert found.same(np.array([0, 3])).tolist() == [True, True]
-    assert found.same(np.array([2, 4])).tolist() == [False, False]
 
 
 def test_the_owners_of_another_scene_are_those_of_the_same_names(make):

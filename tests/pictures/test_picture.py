@@ -9,13 +9,10 @@ import pytest
 from reference_tracer.causes.explain import (
     AGREE,
     COLOR,
-    EDGE,
-    NOT_DECIDABLE,
     NOT_MODELLED,
     UNEXPLAINED,
     explain,
 )
-from reference_tracer.files.images import decoded, to_display
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.identity import UNKNOWN
@@ -49,38 +46,6 @@ def test_the_same_picture_agrees(room, seen):
     assert (causes(room, frame, shown).cause == AGREE).all()
 
 
-def test_a_wrong_object_of_the_right_colour_is_found(room, seen):
-    frame, shown = seen
-    where = shown.owners.pixels == 1
-    found = causes(room, frame, showing(shown, where, 2))
-    differ = found.cause != AGREE
-    assert (differ == where).all() and where.sum() > 50
-    assert (found.cause[where] == UNEXPLAINED).mean() > 0.8
-
-
-def test_colour_and_owner_may_fall_to_different_sides_of_an_edge(make):
-    """Blender's two drawings may fall to different sides of it: within the band, not beyond."""
-    scene = make.scene(
-        make.camera(20, 16), make.quad(-2, 0.1, -2, 2, -3), make.quad(-9, 9, -9, 9, -4)
-    )
-    frame = render(scene)
-    owners = owners_of(("Near", "Far"), frame)
-    owner = owners.pixels
-    rim = (owner[:, :-1] == 0) & (owner[:, 1:] == 1)
-    color = frame.color.copy()
-    color[:, :-1][rim] = frame.color[:, 1:][rim]  # the neighbour's
-    assert rim.sum() == 16
-    band = 0.6  # pixels: the neighbour is within reach
-    without = causes(scene, frame, Picture(color), (), band)
-    assert (without.cause[:, :-1][rim] == NOT_DECIDABLE).all()  # beyond half a pixel
-    known = Picture(color, owners=owners)
-    for shown in (Picture(color), known):
-        beyond, within = (
-            causes(scene, frame, shown, (), near).cause[:, :-1][rim] for near in (0.01, 0.45)
-        )
-        assert (beyond == UNEXPLAINED).all() and (within == EDGE).all()
-
-
 @pytest.mark.parametrize("ramp", [False, True])
 def test_an_owner_that_cannot_have_the_colour_is_forgotten(ramp, make):
     """The two drawings contradict one another; a colour between corners may be any."""
@@ -98,12 +63,6 @@ def test_an_owner_that_cannot_have_the_colour_is_forgotten(ramp, make):
     assert (found.case.picture.owners.pixels[wrong] == (1 if ramp else UNKNOWN)).all()
     unexplained = found.causes.cause == UNEXPLAINED
     assert (unexplained[wrong]).mean() > 0.8 if ramp else not unexplained.any()
-
-
-def test_what_is_not_known_proves_nothing(room, seen):
-    frame, shown = seen
-    unknown = showing(shown, np.ones(frame.shape, bool), UNKNOWN)
-    assert (causes(room, frame, unknown).cause == AGREE).all()
 
 
 def test_light_excuses_shades_but_no_object(room, seen):
@@ -126,17 +85,6 @@ def test_light_without_identity_is_not_modelled(room):
     lit = frame.color * np.float32((0.4, 0.5, 0.6, 1))
     found = causes(room, frame, lit, [LIGHT])
     assert (found.cause[frame.instance_index >= 0] == NOT_MODELLED).all()
-
-
-def test_bytes_may_be_half_a_level_off(room, seen):
-    frame, _ = seen
-    stored = to_display(frame.color).astype(float)
-    for off, cause in ((0.0, AGREE), (1.0, UNEXPLAINED)):
-        moved = stored.copy()
-        moved[..., :3] += off * (stored[..., 3:] > 0) * (1 - 2 * (stored[..., :3] > 200))
-        shown = Picture(decoded(moved / 255).astype(np.float32), storage=Storage(255))
-        found = causes(room, frame, shown).cause
-        assert (found[frame.instance_index >= 0] == cause).all()
 
 
 def test_an_opaque_picture_has_no_alpha_to_compare(room, seen):

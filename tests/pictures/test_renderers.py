@@ -69,19 +69,6 @@ def test_rays_of_float32_may_show_either_of_what_they_do_not_tell_apart(make):
     assert not (causes_of(scene, shown, RAYS) == UNEXPLAINED).any()
 
 
-def test_corners_are_not_snapped_by_rays(make):
-    """An edge 1/300 px on the wrong side of the centres."""
-    camera = make.camera(32, 24)
-    pixel = 2 * camera.window.right / 32
-    scene = make.scene(camera, make.quad(-1, pixel / 2 - pixel / 300, -1, 1, -1))
-    wrong = make.scene(camera, make.quad(-1, pixel / 2 + pixel / 300, -1, 1, -1))
-    shown = render(wrong).color
-    changed = (shown != render(scene).color).any(axis=-1)
-    assert changed.sum() == 24
-    assert not (causes_of(scene, shown, RASTER) == UNEXPLAINED).any()
-    assert (causes_of(scene, shown, RAYS) == UNEXPLAINED).sum() == 24
-
-
 def float32_picture(scene):
     """A renderer that has nothing of the tracer's: Moeller and Trumbore, all of it in float32."""
     camera = scene.camera
@@ -153,21 +140,6 @@ def test_blenders_header_says_which_engine_made_a_picture(make, tmp_path):
         assert images.read_picture(tmp_path / "picture.exr").engine == engine
     exr.save(tmp_path / "own.exr", {"color": np.zeros((3, 4, 4), F)})
     assert images.read_picture(tmp_path / "own.exr").engine == ""
-
-
-def test_a_wrong_edge_at_a_grazing_angle_is_found(make):
-    """A floor that leads away from the camera: its edge is a few pixels beside its place."""
-    camera = make.camera(64, 48)
-    pixel = 2 * camera.window.right / 64
-
-    def floor(x):
-        corners = [(-1, -0.1, -0.5), (x, -0.1, -0.5), (x, -0.1, -20), (-1, -0.1, -20)]
-        return make.scene(camera, Mesh(np.array(corners), [[0, 1, 2], [0, 2, 3]]))
-
-    scene, shown = floor(0.3), render(floor(0.3 + 2 * pixel)).color
-    changed = (shown != render(scene).color).any(axis=-1)
-    causes = causes_of(scene, shown, RAYS)
-    assert changed.sum() > 5 and (causes[changed] == UNEXPLAINED).mean() > 0.8
 
 
 def needles(make, count, above=-3.0):

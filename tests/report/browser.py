@@ -125,8 +125,9 @@ def choose(tab, mode):
 
 
 def both(tab):
-    """Show the two pictures, a half of the stage each, in place of the map of causes."""
-    tab.evaluate("() => change({ left: 'traced', right: 'blender', split: 0.5 })")
+    """Show the two pictures, a half of the stage each and marked, whatever the page opened on."""
+    shown = "left: 'traced', right: 'blender', mode: 'slider', split: 0.5, marks: true"
+    tab.evaluate(f"() => change({{ {shown} }})")
 
 
 def unmarked(tab):

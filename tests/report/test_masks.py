@@ -71,12 +71,6 @@ def test_an_npz_has_all_arrays_and_the_names(written, named):
             assert tuple(held["objects"]) == named.objects
 
 
-def test_top_down_is_for_arrays(named, tmp_path, capsys, exit_code):
-    save_scene(tmp_path / "scene.npz", named)
-    command = ["trace", str(tmp_path / "scene.npz"), "--top-down", "--out", "a.png"]
-    assert exit_code(command) == 4 and "--top-down is for a .npz" in capsys.readouterr().err
-
-
 def _decoded(run):
     """Undo COCO's run lengths: column by column, zeros first."""
     values = np.repeat(np.arange(len(run["counts"])) % 2, run["counts"])

@@ -139,6 +139,15 @@ def test_a_page_without_what_was_left_out(show, differing):
     assert "left out" in tab.locator("#tables").inner_text()
 
 
+def test_a_card_is_one_record(show, differing):
+    tab = show(differing)
+    seeds = "{ title: 'Seeds', of: () => ['Sown', ' and grown'] }"
+    cards = f"{seeds}, {{ title: 'None', of: () => [] }}"
+    tab.evaluate(f"() => {{ CARDS.push({cards}); drawTables(); }}")
+    assert tab.locator("#tables h2").all_inner_texts()[-1] == "Seeds"
+    assert "Sown and grown" in tab.locator("#tables").inner_text()
+
+
 def test_studies_are_shown_with_their_plots(show, differing):
     trade = result_of(tradeoff.measure(differing.scene, 24, 2, "a.blend"))
     rows = result_of(extremes.measure(SCENARIOS[:1], 40))

@@ -2,26 +2,7 @@
 
 from __future__ import annotations
 
-from reference_tracer.report.tables import columns, percent
-
-
-def test_columns_begin_and_end_below_one_another():
-    assert columns(
-        [("name", "n", "unit"), "a title", ("a", "1,000", "m"), ("long one", "2", "")]
-    ) == [
-        "name          n  unit",
-        "a title",
-        "a         1,000     m",
-        "long one      2",
-    ]
-
-
-def test_sides_gap_and_least_widths():
-    rows = [("a", "bb"), ("ccc", "d")]
-    assert columns(rows, left=(0, 1), gap="|") == ["a  |bb", "ccc|d"]
-    assert columns(rows, left=(), gap=" ", least=(4,)) == ["   a bb", " ccc  d"]
-    assert columns(rows, left=(), gap=" ", least=(0, 4, 9)) == ["  a   bb", "ccc    d"]
-    assert columns([]) == [] and columns(["only a title"]) == ["only a title"]
+from reference_tracer.report.tables import percent
 
 
 def test_percent_does_not_round_to_all_or_none():

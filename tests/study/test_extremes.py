@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from reference_tracer.certainty import Certainty
 from reference_tracer.methods import Method
 from reference_tracer.study import extremes
 from reference_tracer.study.extremes import ExtremesRow, breaking_points, measure, written
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
-from reference_tracer.study.truth import truth_of
+from reference_tracer.study.truth import sample, truth_of
+from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 
 from ..sampled import daily
@@ -98,6 +101,14 @@ def test_plain_methods_break_where_predicted(name, method, precision, holds, bre
     assert least <= found[method, precision, breaks].share <= most
 
 
+def test_watertight_never_misses_at_corners_but_crosses_twice():
+    found = at("corners_and_edges", 6.0)
+    for precision in ("float32", "float64"):
+        assert found["watertight", precision, 6.0].missed == 0
+        assert found["watertight", precision, 6.0].doubled > 0.02 * 768
+        assert found["textbook", precision, 6.0].missed > 0.03 * 768
+
+
 def test_true_ties_are_doubled_but_not_wrong():
     """Where a ray meets an edge exactly, each triangle at it is right, and all are crossed."""
     for name in ("integer_cube", "integer_cube_ortho"):
@@ -111,10 +122,70 @@ def test_half_of_all_rays_are_lost_by_the_literal_textbook():
     assert 0.2 < r.share < 0.7
 
 
+def test_what_is_not_finite_is_refused_and_counted():
+    scenario = replace(BY_NAME["non_finite"], scales=(0.0, 0.1))
+    scene = scenario.build(0.1, 32, 24)
+    mesh = scene.meshes[0]
+    broken = (np.abs(mesh.vertices) > 1).any(axis=1)[mesh.triangles].any(axis=1)
+    for r in result_of(measure([scenario], judged=2)):
+        assert r.refused == (broken.sum() if r.scale else 0)
+    found = at("huge", 1e300)
+    float32 = found["watertight", "float32", 1e300]
+    assert float32.refused == scene_triangles("huge", 1e300) + float32.rays
+    assert found["certified", "float64", 1e300].refused == 0
+
+
+def scene_triangles(name, scale):
+    return BY_NAME[name].build(scale, 32, 24).triangle_count
+
+
 @pytest.fixture(scope="module")
 def truth():
     scenario = BY_NAME["corners_and_edges"]
     return scenario, result_of(truth_of(scenario.build(6.0, 16, 12)))
+
+
+def judged_row(truth, frame=None, count=None, odd=True, judged=16):
+    scenario, true = truth
+    count = true.count if count is None else count
+    true = replace(true, frame=frame or true.frame, count=count)
+    return extremes._certified_row(replace(scenario, odd=odd), 6.0, true, judged)
+
+
+def tampered(frame, **changes):
+    """A frame with one of its arrays changed everywhere."""
+    values = {name: np.full_like(getattr(frame, name), value) for name, value in changes.items()}
+    return replace(frame, **values)
+
+
+def test_the_definition_finds_what_is_wrong_with_a_certified_frame(truth):
+    frame = truth[1].frame
+    assert faults([judged_row(truth)]) == []
+    assert judged_row(truth, tampered(frame, triangle_index=0)).wrong >= 15
+    gone = tampered(frame, instance_index=NOTHING, triangle_index=NOTHING)
+    assert judged_row(truth, gone).missed == 16 * 12
+    kept = frame.t.copy()
+    frame.t[:] = np.nextafter(kept, 0)
+    assert judged_row(truth).largest_t_error > 0.5
+    frame.t[:] = kept
+
+
+def test_all_rays_are_held_against_how_often_they_must_cross(truth):
+    count = truth[1].count
+    assert judged_row(truth, count=count + 1).missed > 16 * 12 - 17
+    assert judged_row(truth, count=count + 1).doubled == 16
+    assert judged_row(truth, count=count + 1, odd=None).missed == 0
+    assert judged_row(truth, count=0 * count, odd=None).wrong == 16 * 12 - 16
+    assert judged_row(truth, count=0 * count, odd=None).missed == 16
+
+
+def test_the_sample_has_what_integers_decided(truth):
+    frame = truth[1].frame
+    certainty = np.full_like(frame.certainty, Certainty.BOUND)
+    certainty.flat[[3, 70, 100]] = Certainty.EXACT, Certainty.AMBIGUOUS, Certainty.EXACT
+    pixels = sample(replace(frame, certainty=certainty), 10)
+    assert {3, 70, 100} <= set(pixels) and len(set(pixels)) == 10
+    assert len(sample(frame, 10_000)) == 16 * 12
 
 
 def test_steps_and_stopping():

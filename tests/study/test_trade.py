@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 
+import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.study.trade import COLUMNS, TIMED, Column, TradeRow, advice, gain, mark
@@ -16,6 +17,41 @@ def row(method="textbook", precision="float64", seconds=1.0, wrong=0, coverage=0
     size = options.pop("width", 160), options.pop("height", 90)
     samples = options.pop("samples", 1)
     return TradeRow(method, precision, samples, *size, seconds, wrong, 0.0, 1000, coverage, rounds)
+
+
+def beats(first, second):
+    """As the definition says it: at least as good in both, better in one."""
+    return all(a <= b for a, b in zip(first, second, strict=True)) and any(
+        a < b for a, b in zip(first, second, strict=True)
+    )
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_marks_are_those_of_the_definition(seed):
+    """With few different values, so that there are ties of all kinds."""
+    rng = np.random.default_rng(seed)
+    rows = [
+        row(
+            seconds=float(rng.integers(1, 6)),
+            wrong=int(rng.integers(0, 5)),
+            coverage=float(rng.integers(0, 5)) / 8,
+            width=int(rng.choice([160, 80])),
+            samples=int(rng.choice([1, 2])),
+        )
+        for _ in range(rng.integers(1, 25))
+    ]
+    marked = mark(rows)
+    assert [replace(m, best_pixels=False, best_coverage=False) for m in marked] == rows
+    for m in marked:
+        mine = m.seconds, m.wrong_pixels
+        rivals = [(o.seconds, o.wrong_pixels) for o in rows if o.width == m.width]
+        assert m.best_pixels == (not any(beats(o, mine) for o in rivals))
+        mine = m.seconds, m.coverage_error
+        assert m.best_coverage == (
+            not any(beats((o.seconds, o.coverage_error), mine) for o in rows)
+        )
+        assert m.best == (m.best_pixels or m.best_coverage)
+    assert any(m.best_coverage for m in marked)
 
 
 def test_every_field_that_is_measured_has_a_column():

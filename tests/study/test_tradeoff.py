@@ -103,6 +103,13 @@ def test_largest_t_error_looks_where_both_see_the_same(ball):
     assert largest_t_error(frame, certified) == 0.5
 
 
+@pytest.mark.parametrize("width", [1, 2, 3, 5])
+def test_tiny_pictures(ball, width):
+    trade = result_of(measure(ball, width, 1))
+    assert {(r.method, r.precision) for r in trade.whole} == LADDER
+    assert trade.whole[0].width == width and trade.advice
+
+
 def test_progress_never_goes_back(ball):
     shares = []
     result_of(measure(ball, 8, 2), shares.append)
@@ -154,3 +161,25 @@ def test_what_happens_between_the_steps_takes_no_time(ball, monkeypatch):
         clock[0] += 1000.0
         steps += 1
     assert all(r.seconds < steps for r in trade.rows)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "rounds"),
+    [
+        ((0.2, 0.3, 0.4), 3),  # long: noise does not matter as much
+        ((0.05,) * 4, 4),
+        ((0.05, 0.09, 0.051, 0.05), 4),  # one was disturbed
+        ((0.05, 0.06, 0.06, 0.05, 0.05), 5),  # two were
+        ((0.05, 0.06) * 2 + (0.07,) * 3, 7),
+    ],
+)
+def test_rows_are_repeated_until_noise_no_longer_shows(ball, monkeypatch, seconds, rounds):
+    def timed(choice):
+        choice.rounds.append(seconds[len(choice.rounds)])
+        yield 1.0
+
+    monkeypatch.setattr(tradeoff, "SHORT", 0.1)
+    monkeypatch.setattr(tradeoff, "_repeat", timed)
+    choices = tradeoff.choose(ball, 8, 1)
+    result_of(tradeoff._time_all(choices))
+    assert {len(c.rounds) for c in choices} == {rounds}

@@ -1,4 +1,4 @@
-"""What `reftrace explain` says of some pixels, in parts that fit into a text: Markdown."""
+"""Parts of `reftrace explain`'s Markdown for some pixels."""
 
 from __future__ import annotations
 

@@ -18,7 +18,6 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.command import built_in
 from reference_tracer_grading.judged_scene import prepare
-from reference_tracer_grading.mutations import mutations as mutated
 from reference_tracer_grading.options import PIXELS
 from reference_tracer_grading.subjects.triangle import TRIANGLE
 from reference_tracer_grading.tally import COST
@@ -220,15 +219,11 @@ def judged_pixels() -> str:
     return _whole(PIXELS)
 
 
-def mutations() -> str:
-    return _whole(sum(1 for program in TRIANGLE.programs for _ in mutated(program)))
-
-
 TOUR = Path(__file__).resolve().parents[2] / "docs" / "images" / "tutorial" / "comparison.json"
 
 
 def of_tour() -> dict[str, str]:
-    """What the comparison found whose pictures the tutorial has; `window.py` leaves it there."""
+    """Return figures of the tutorial's comparison; `window.py` leaves it there."""
     found = json.loads(TOUR.read_text(encoding="utf-8"))
     pixels = found["pixels"]
     counts = {f"tutorial_{n}": f"{pixels[n]:,}" for n in ("total", "agree", "differ", "explained")}
@@ -267,7 +262,6 @@ _FIGURES: tuple[Callable[[], str], ...] = (
     triangle_count,
     judged_pairs,
     judged_pixels,
-    mutations,
 )
 
 

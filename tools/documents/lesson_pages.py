@@ -13,7 +13,7 @@ from markdown_it.token import Token
 from mdit_py_plugins.anchors import anchors_plugin
 
 PRINTED = "plans", "worksheets", "solutions"  # folders whose documents are PDFs, too
-_FIGURE = re.compile(r"<!-- (?:[a-z][a-z0-9_]*|/) -->")
+_FIGURE = re.compile(r"<!--(?:[a-z][a-z0-9_]*|/)-->")
 _INDEX = re.compile(r"\b([a-z])_(s?[\dᵢ])\b")  # n_s1: set on paper as an index
 _TITLE = re.compile(r"^# (.+)$", re.M)
 _STYLE = """

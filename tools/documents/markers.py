@@ -1,11 +1,11 @@
-"""What `make docs` fills in: parts of a Markdown file.
+"""Fills in parts of a Markdown file, for `make docs`.
 
     ```console              a command, and what it prints; if the text has nothing of that, it is
     $ reftrace trace …      only run
     what it prints
     ```
-    <!-- not run: REASON --> above a block that stays as it is
-    <!-- NAME -->123<!-- / --> a figure of `figures.py`; a part of `derivations.py`, of `records.py`
+    <!--not run: REASON-->  above a block that stays as it is
+    <!--NAME-->123<!--/-->  a figure of `figures.py`; a part of `derivations.py`, of `records.py`
 
 Seconds are left out, as they are other ones every time.
 """
@@ -17,8 +17,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 _RUN = re.compile(r"^```console\n\$ (?P<command>[^\n]+)\n(?P<body>.*?)^```$", re.M | re.S)
-_FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>.*?)<!-- / -->", re.S)
-_LEFT = re.compile(r"<!-- not run: [^\n]+? -->\n(?P<in> *)```.*?^(?P=in)```$", re.M | re.S)
+_FIGURE = re.compile(r"<!--(?P<name>[a-z][a-z0-9_]*)-->(?P<body>.*?)<!--/-->", re.S)
+_LEFT = re.compile(r"<!--not run: [^\n]+?-->\n(?P<in> *)```.*?^(?P=in)```$", re.M | re.S)
 _SECONDS = re.compile(r"\b\d+\.\d+ s\b")
 _BLENDERS_OWN = re.compile(r"^(\d\d:\d\d\.\d+ |Array iterator out of range).*\n", re.M)  # its log
 
@@ -79,4 +79,4 @@ def refreshed(text: str, run: Callable[[Command], str], values: Mapping[str, str
         return "\n".join(["```console", f"$ {command.text}", *shown, "```"])
 
     text = _RUN.sub(filled, text)
-    return _FIGURE.sub(lambda m: f"<!-- {m['name']} -->{values[m['name']]}<!-- / -->", text)
+    return _FIGURE.sub(lambda m: f"<!--{m['name']}-->{values[m['name']]}<!--/-->", text)

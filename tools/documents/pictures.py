@@ -102,7 +102,7 @@ def weights() -> Picture:
 
 
 def judged() -> Picture:
-    """What a student's file makes of a scene, the certified picture, and the wrong pixels."""
+    """Draw a student's picture of a scene, the certified picture, and the wrong pixels."""
     subject = result_of(prepare("triangle", scene("triangle"), pixels=60_000))
     with Student(STUDENTS / "as_printed.py", TRIANGLE.form) as student:
         found = result_of(look(subject, student.ask))
@@ -111,7 +111,7 @@ def judged() -> Picture:
 
 
 def faults() -> Picture:
-    """What the self-check makes: each fault that can be seen in the scene, with its name below."""
+    """Draw each fault that can be seen in the scene, with its name below."""
     right = scene("perspective")
     width, height = right.camera.width // FAULTY, right.camera.height // FAULTY
     right = right.seen_by(replace(right.camera, width=width, height=height, region=None))

@@ -46,6 +46,6 @@ def _function(name: str, function: Any) -> str:
     told, _, code = examples.partition(">>> ")
     if code:  # the empty line ends what is expected
         parts += [told.strip()] * bool(told.strip())
-        block = "<!-- not run: a test runs it -->", "```pycon", f">>> {code.rstrip()}", "", "```"
+        block = "<!--not run: a test runs it-->", "```pycon", f">>> {code.rstrip()}", "", "```"
         parts.append("\n".join(block))
     return "\n\n".join(parts)

@@ -1,4 +1,4 @@
-"""What the records of causes, faults and methods say of themselves: Markdown."""
+"""The records of causes, faults and methods as Markdown."""
 
 from __future__ import annotations
 
@@ -135,4 +135,4 @@ def _fault(fault: AnyFault) -> str:
     repository, _, number = fault.witness.partition("#")
     seen = f"[{fault.witness}](https://github.com/{repository}/issues/{number})"
     said = f"“{fault.sentence.format(**given)}”"
-    return f"### `{fault.name}`\n\n{said}\n\n{fault.why} Seen in {seen}."
+    return f"### `{fault.name}`\n\n{said}\n\n{fault.why} ({seen})"

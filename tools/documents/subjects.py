@@ -1,4 +1,4 @@
-"""What the pages on grading say of each subject, from its record."""
+"""The records of the grading's subjects as Markdown."""
 
 from __future__ import annotations
 
@@ -19,9 +19,14 @@ def values() -> dict[str, str]:
         out[f"weights_{name}"] = ", ".join(shares)
         count = sum(1 for program in own.programs for _ in mutations(program))
         out[f"mutations_{name}"] = str(count)
-        slips = (f"`{slip.name}`" for program in own.programs for slip in program.slips)
-        named[name] = ", ".join(dict.fromkeys(slips)), ", ".join(f"`{g}`" for g in own.groups)
+        slips = [slip.name for program in own.programs for slip in program.slips]
+        named[name] = [dict.fromkeys(names) for names in (slips, own.groups)]
     for k, part in enumerate(("slips", "groups")):
-        rows = (f"| `{name}` | {texts[k]} |" for name, texts in named.items() if texts[k])
-        out[part] = "\n".join(("", "| `--subject` | names |", "|---|---|", *rows, ""))
+        listed: set[str] = set()
+        rows = ["", "| `--subject` | names |", "|---|---|"]
+        for name, both in named.items():
+            fresh = [f"`{own}`" for own in both[k] if own not in listed]
+            rows += [f"| `{name}` | {', '.join(fresh)} |"] * bool(fresh)
+            listed.update(both[k])
+        out[part] = "\n".join([*rows, ""])
     return out

@@ -1,1 +1,1 @@
-"""What the tracer computes, recorded as expressions: the bridge from its code to `proofs/`."""
+"""Records the tracer's computations as expressions: the bridge from its code to `proofs/`."""

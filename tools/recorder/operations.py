@@ -1,4 +1,4 @@
-"""What each operation of numpy is as a node; and the words in which others are refused."""
+"""The node of each of numpy's operations; and the words in which others are refused."""
 
 from __future__ import annotations
 

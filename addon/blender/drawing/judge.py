@@ -43,7 +43,7 @@ class Judge:
     name: str  # in options, folders and JSON; in capitals, in a script and in a .blend
     label: str  # in the interface
     description: str = ""  # a tooltip; only one that a user can choose needs it
-    # What a .blend stores: never given to another judge. Without a number, only Automatic chooses
+    # A .blend stores it: never given to another judge. Without a number, only Automatic chooses
     # this judge.
     number: int | None = None
     engine: str | None = None  # Blender's name of it; None: the drawing of the viewport

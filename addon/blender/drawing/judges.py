@@ -17,7 +17,7 @@ from .workbench import WORKBENCH
 if TYPE_CHECKING:
     from ...pictures.picture import Source
 
-# What is chosen in place of a judge: an engine by its name, or a picture that is there.
+# Choices in place of a judge: an engine by its name, or a picture that is there.
 ENGINE = "ENGINE"
 RENDER_RESULT = "RENDER_RESULT"
 IMAGE = "IMAGE"

@@ -21,7 +21,7 @@ from ..temporary import made_for
 from ..versions import set_format
 from .judge import Judge
 
-# What a picture that can be compared needs: property of the scene, and value.
+# Settings of a picture that can be compared: property of the scene, and value.
 _ALWAYS = {
     "render.use_crop_to_border": True,
     "render.use_file_extension": True,

@@ -20,7 +20,7 @@ from ..drawing.judges import RENDER_RESULT
 from ..reading.view_volume import polygon
 from .against import exported_in
 
-# What is kept of a scene's `render`: the picture's size, and its engine.
+# Settings copied from a scene's `render`: the picture's size, and its engine.
 _KEPT = (
     "engine",
     "resolution_x",

@@ -26,7 +26,7 @@ class Lens(NamedTuple):
     kind: str  # its type; of a panorama, that of the panorama
     # The window of a `bpy.types.Camera`, by the length of the sensor's fitted side in millimetres.
     window: Callable[[Any, float, Around], Edges]
-    # What to set of a camera with a horizontal sensor, for a window.
+    # Sets a camera with a horizontal sensor, for a window.
     settings: Callable[[Edges], dict[str, Any]]
 
 

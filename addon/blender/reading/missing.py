@@ -16,7 +16,7 @@ from ...manifest import Effect, Unmodelled
 from .missing_files import Lost, exists, lost_files
 
 MOST = 5  # things that one line names
-# What a data-block passes on of what it uses, by the types of both (`ID.id_type`): the rest of it
+# Uses that a data-block passes on, by the types of both (`ID.id_type`): the rest of it
 # is not seen in surfaces that show one colour. One that is not here passes on everything.
 _PASSES = {
     "SCENE": ("ACTION",),

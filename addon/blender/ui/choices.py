@@ -73,14 +73,14 @@ JUDGES: tuple[Item, ...] = (
     (judges.IMAGE, "Image", "An image of this file, whatever made it", 12),
 )
 
-# What is known of a picture that nobody's engine drew for the comparison.
+# How a picture that no engine drew for the comparison was made.
 RENDERERS: tuple[Item, ...] = (
     ("AUTO", "Automatic", "As the picture says, else rays", 0),
     ("RAYS", "Rays", "Float32 rays", 1),
     ("RASTER", "Rasterised", "A depth buffer of 24 bits, and rounded corners", 2),
 )
 
-# What a render shows of a surface: `tracer/coloring.py` has the functions.
+# Colours of a render's surfaces: `tracer/coloring.py` has the functions.
 COLORS: tuple[Item, ...] = (
     ("object", "Object", "The object's own colour", 0),
     ("normal", "Normal", "The normal in world space: red, green, blue are X, Y, Z", 1),
@@ -88,7 +88,7 @@ COLORS: tuple[Item, ...] = (
     ("depth", "Depth", "From white at the nearest hit to dark at the farthest, evenly", 3),
 )
 
-# What a 3D view shows: `live/shows.py` has the functions. The colours follow, 4 and more.
+# Pictures of a 3D view: `live/shows.py` has the functions. The colours follow, 4 and more.
 SHOWS: tuple[Item, ...] = (
     ("PICTURE", "Picture", "What a render shows", 0),
     (

@@ -221,7 +221,7 @@ class ReferenceTracerWindow(bpy.types.PropertyGroup):
     )
 
 
-# What has the settings, as its attribute `reference_tracer`.
+# The types with settings, in their attribute `reference_tracer`.
 GROUPS = (
     (bpy.types.Scene, ReferenceTracerScene),
     (bpy.types.ViewLayer, ReferenceTracerLayer),

@@ -17,6 +17,9 @@ from bpy.props import EnumProperty
 from . import results
 from .long_work import Answer, named
 
+SETTLED = 0.3  # seconds after which panels that grow are in place: Blender moves them for 0.1 s,
+# and would leave them lying over each other where a window is opened meanwhile.
+
 # By the identifiers of the switch; Both is the traced picture with the other one over it.
 IMAGES = {
     "TRACED": results.TRACED,
@@ -85,7 +88,7 @@ def open_as_render(context: Any, image: Any) -> None:
     """
     if not show_where_shown(context, image):
         opening = partial(_open, context.window.as_pointer(), image[results.MARK])
-        bpy.app.timers.register(opening, first_interval=0.0)
+        bpy.app.timers.register(opening, first_interval=SETTLED)
 
 
 def _open(window: int, name: str) -> None:

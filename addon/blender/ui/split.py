@@ -27,7 +27,7 @@ _WIDTH = 1.5  # of lines; their black rim is twice as wide
 _LETTERS = 12
 _WHITE = 1.0, 1.0, 1.0
 
-# What is transparent is grey, on both sides. Blender centres an image by half pixels, so a screen's
+# Transparent pixels are grey, on both sides. Blender centres an image by half pixels, so a screen's
 # pixel may lie between two of it: the later one is shown, as Blender does.
 _SHOWN = """
 void main() {
@@ -45,7 +45,7 @@ def _shader() -> Any:
 
 
 class Place(NamedTuple):
-    """Where an image lies in a region, in its pixels, and where the line is."""
+    """The place of an image in a region, in its pixels, and of the line."""
 
     left: float
     right: float

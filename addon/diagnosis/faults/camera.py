@@ -12,9 +12,9 @@ from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
 from .fault import AnyFault, Effort, Example, Fault, Numbers, of_camera, with_values
-from .film import CROPPED, FOCAL, FOCALS, OFFSET, ROLL
+from .film import CROPPED, FOCAL, FOCALS, OFFSET
 from .fitting import fitting
-from .stand import MOVED, PLACED, TURNED
+from .stand import MOVED, PLACED, ROLL, TURNED
 
 
 def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:

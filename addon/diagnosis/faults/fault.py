@@ -111,7 +111,7 @@ class Effort(IntEnum):
     ANYTHING = 7
 
 
-# What is tried, in words, and at which cost.
+# The step of the search, in words, and its cost.
 TRIED = {
     Effort.NOTHING: (
         "colours, rows, and what Blender says of the scene",
@@ -154,7 +154,7 @@ class Fault(Generic[G]):
     assume: Make[G]
     find: Find[G] = ONCE  # the guesses that are tried
     numbers: tuple[str, ...] = ()  # names of the guess' values
-    # What is done to the pixels traced of that case, (h', w', 4), to give the picture's, (h, w, 4).
+    # Makes the picture's pixels, (h, w, 4), of those traced of that case, (h', w', 4).
     after: After[G] | None = None
     sampled: bool = True  # whether a guess can be scored on single pixels
     refine: Refine[G] | None = None  # fits a guess on a finer sample

@@ -1,4 +1,4 @@
-"""Families of cameras in the same place: an offset on the film, focal lengths, a roll."""
+"""Families of cameras in the same place: an offset on the film, focal lengths."""
 
 from __future__ import annotations
 
@@ -7,13 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Array, Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
 from ...tracer.camera import pixel_size
 from ..evidence import Evidence
 from .fault import Values
-from .fitting import KEPT, Family
+from .fitting import Family
 
 SENSOR = 36.0  # millimetres: the width that Blender's cameras have unless it is changed
 STEP = 4.0  # pixels that the picture's corners move from one start to the next
@@ -44,16 +43,6 @@ def _cropped(camera: Camera, percent: float, dx: float, dy: float) -> Camera | N
     return zoomed and offset(zoomed, dx, dy)
 
 
-def _rolled(camera: Camera, degrees: float) -> Camera:
-    """Return the camera rolled about its axis; the picture's content turns the other way."""
-    angle = np.radians(degrees)
-    right, up = camera.right.copy(), camera.up.copy()
-    matrix = camera.world_from_camera.copy()
-    matrix[:3, 0] = np.cos(angle) * right + np.sin(angle) * up
-    matrix[:3, 1] = np.cos(angle) * up - np.sin(angle) * right
-    return replace(camera, world_from_camera=matrix)
-
-
 def radius(evidence: Evidence) -> float:
     """Return the distance from the picture's centre to its corners, in pixels."""
     region = evidence.case.scene.camera.region
@@ -63,36 +52,6 @@ def radius(evidence: Evidence) -> float:
 def _zooms(evidence: Evidence) -> Iterator[Values]:
     for factor in np.exp(np.arange(-np.log(4), np.log(4), STEP / radius(evidence))):
         yield (100 * float(factor) - 100,)
-
-
-def _rolls(evidence: Evidence) -> Iterator[Values]:
-    for degrees in np.arange(-180, 180, np.degrees(STEP / radius(evidence))):
-        yield (float(degrees),)
-
-
-def _correlated(evidence: Evidence) -> Iterator[tuple[float, float]]:
-    """Yield the offsets with the best cross-correlation of both pictures."""
-    traced, shown = (_gray(c) for c in (evidence.frame.color, evidence.picture.color))
-    size = [2 * n for n in traced.shape]
-    product = np.fft.rfft2(traced, size) * np.conj(np.fft.rfft2(shown, size))
-    for whitened in (True, False):
-        spectrum = product / (np.abs(product) + 1e-12) if whitened else product
-        likeness = np.fft.irfft2(spectrum, size)
-        best = np.argpartition(likeness, -KEPT, axis=None)[-KEPT:]  # sorting all takes a second
-        for index in best[np.argsort(-likeness.flat[best])]:
-            y, x = np.unravel_index(index, likeness.shape)
-            height, width = traced.shape
-            dx, dy = (
-                (int(x) + width) % (2 * width) - width,
-                (int(y) + height) % (2 * height) - height,
-            )
-            yield (float(dx), float(dy))
-
-
-def _gray(colors: Array) -> Floats:
-    """Project colours (h, w, 4) on one axis that separates most of them; the mean is 0."""
-    gray = np.nan_to_num(colors.astype(np.float64), posinf=0, neginf=0) @ (0.31, 0.53, 0.97, 0.41)
-    return np.clip(gray - gray.mean(), -4, 4)
 
 
 def _beside(camera: Camera, dx: float, dy: float) -> str:
@@ -129,8 +88,7 @@ def _focal(camera: Camera, percent: float) -> str:
     return f"the focal length is {percent:+.4g} % off: {millimetres}; {shows}"
 
 
-OFFSET = Family(offset, lambda evidence: (1.0, 1.0), _beside, _correlated)
+OFFSET = Family(offset, lambda evidence: (1.0, 1.0), _beside)
 FOCAL = Family(_zoomed, lambda evidence: (100 / radius(evidence),), _focal, _zooms)
 FOCALS = Family(_stretched, lambda evidence: (100 / radius(evidence),) * 2)
 CROPPED = Family(_cropped, lambda evidence: (100 / radius(evidence), 1.0, 1.0))
-ROLL = Family(_rolled, lambda evidence: (float(np.degrees(1 / radius(evidence))),), starts=_rolls)

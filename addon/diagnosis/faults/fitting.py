@@ -10,20 +10,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
-from ...arrays import Array, Bools, Floats, Places
+from ...arrays import Array, Bools, Floats
 from ...causes.checks.probe import Probe
 from ...pictures.picture import Picture
 from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, Scene
+from ...scene import Camera
 from ...tracer.camera import film_of
-from ...tracer.hits import Hits
 from ...tracer.progress import Work
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
-from .climbing import Right, values_of
+from .climbing import values_of
 from .fault import Find, Numbers, Refine, Values
 from .matching import Fitted, fitted, is_everywhere, matches
 from .search import Search
@@ -44,16 +43,6 @@ BETTER = 0.03  # the least gain of a start in the share of right pixels
 ENCLOSED = 3  # numbers, at most, whose range is searched
 FITTED = 1024  # sampled pixels of each kind for more numbers
 WIDER = 2.0  # times the reach of a fit of more numbers, which pulls at several
-
-
-class Shown(Protocol):
-    """Some sampled pixels of the picture."""
-
-    def only(self, some: Places) -> Shown:
-        """Return some of the pixels, by index."""
-
-    def agrees(self, scene: Scene, hits: Hits) -> Bools:
-        """Return which of the n pixels agree with the hits of a scene, (n,)."""
 
 
 def looked_up(evidence: Evidence, camera: Camera) -> float:
@@ -152,7 +141,6 @@ def fitting(family: Family, *rivals: Family) -> Fit:
             least=evidence.least_right(family.worth),
             unseen=family.unseen(evidence),
             moves=np.inf if fine else MOVES,
-            among=traced.among,
         )
         step = FINER if fine else 0.5
         best = yield from search.guess([guess.values], step, enclose=fine and known)
@@ -221,10 +209,6 @@ class Traced:
         The camera with some numbers, from the scene's own one.
     reach : float
         Pixels that rays may pass beside where they start.
-    shown : Evidence or Looked, optional
-        What says which of the sampled pixels show what is hit; by default the evidence.
-    surface : (3, k) float, optional
-        World-space points of an object, which may be nearer than what the pixels show.
     """
 
     def __init__(
@@ -232,27 +216,14 @@ class Traced:
         evidence: Evidence,
         camera: Callable[..., Camera | None],
         reach: float = REACH,
-        shown: Shown | None = None,
-        surface: Floats | None = None,
     ) -> None:
         self.evidence = evidence
         self.camera = camera
         self.reach = reach
-        self.shown = shown or evidence
         few = _few(evidence)
         # Film positions, and what is seen there: how far it moves says whether triangles stay near.
-        points = evidence.points[:, few]
-        points = points if surface is None else np.concatenate((points, surface), axis=1)
-        self.guide = evidence.film[:, few], points
+        self.guide = evidence.film[:, few], evidence.points[:, few]
         self.probes: list[Probe] = []  # the last one first
-
-    def among(self, some: Places) -> Right:
-        """Return the same function of some of the pixels, by index."""
-        evidence, shown = self.evidence.only(some), self.shown.only(some)
-        traced = Traced(evidence, self.camera, self.reach, shown)
-        traced.guide = self.guide  # the few pixels may all show what is far away
-        traced.probes = [probe.take(some) for probe in self.probes]
-        return traced.right
 
     def right(self, values: Values) -> Work[Bools | None]:
         """Return which of the n pixels agree, (n,); None if there is no such camera."""
@@ -267,7 +238,7 @@ class Traced:
             self.probes = [probe, *self.probes[: PREPARED - 1]]
         probe = replace(probe, scene=probe.scene.seen_by(camera))
         hits = yield from probe.trace()
-        return self.shown.agrees(probe.scene, hits)
+        return evidence.agrees(probe.scene, hits)
 
     def _near(self, prepared: Camera, camera: Camera) -> bool:
         """Return whether a camera sees everything near where the prepared one does."""

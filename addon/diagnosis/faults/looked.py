@@ -17,11 +17,9 @@ from ...scene import Scene
 from ...tracer.camera import camera_rays, pixel_size
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
-from ...tracer.vector import transform_points
 from ..evidence import WORTH, Evidence, shows_colors, spread
 from .fault import instances_named
 
-VERTICES = 64  # of an object, about, that are tracked to say how far it moves
 AROUND = 6  # pixels around the object, on both sides, that are looked at, too
 
 
@@ -81,12 +79,6 @@ class Looked:
         own = instances_named(scene, self.name)
         return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())
 
-    def only(self, some: Places) -> Looked:
-        """Return the same for some of the n pixels, by index."""
-        rows, columns = self.at
-        at, behind = (rows[some], columns[some]), self.behind.take(some)
-        return replace(self, at=at, picture=self.picture.at(some), behind=behind)
-
     def right(self, changed: Scene) -> Work[Bools]:
         """Return which of the n pixels are right with the object as a scene has it, (n,)."""
         return self.agrees(changed, (yield from self.traced(changed)))
@@ -95,23 +87,6 @@ class Looked:
         """Return which of the n pixels agree with the hits of a scene of the object alone, (n,)."""
         before = (hits.instance != NOTHING) & (hits.t < self.behind.t)
         return (self._beneath & ~before) | self._agree(changed, hits, before)
-
-    @property
-    def of_it_alone(self) -> Evidence:
-        """The evidence of the n pixels, of the object alone."""
-        case = self.evidence.case.in_scene(self.alone)
-        return replace(self.evidence, chosen=self.at, case=case)
-
-    @property
-    def surface(self) -> Floats:
-        """Some of the object's vertices, in world space, (3, k)."""
-        scene = self.alone
-        of_each = (
-            transform_points(i.world_from_object, scene.meshes[i.mesh].vertices.T)
-            for i in scene.instances
-        )
-        vertices = np.concatenate(list(of_each), axis=1)
-        return vertices[:, :: max(1, -(-vertices.shape[1] // VERTICES))]
 
     @property
     def _may_settle(self) -> float:
@@ -123,7 +98,7 @@ class Looked:
 
     @cached_property
     def _beneath(self) -> Bools:
-        """Which of the n pixels show what is behind the object."""
+        """The pixels, among n, that show what is behind the object."""
         return self._agree(self.rest, self.behind, np.ones(len(self.behind), bool))
 
     def _agree(self, scene: Scene, hits: Hits, where: Bools) -> Bools:

@@ -39,7 +39,7 @@ MANY = 60  # unexplained pixels: with fewer nobody knows
 
 
 class Matches(NamedTuple):
-    """Where n points at edges are traced, and where the picture shows them."""
+    """The places of n points at edges, as traced and as the picture shows them."""
 
     points: Floats  # (3, n) in the world
     film: Floats  # (2, n) where the camera has them, in pixels

@@ -176,7 +176,7 @@ def _quarter(axis: int, quarters: int) -> Floats:
     return out
 
 
-# What is done to an object's own axes, and how it is called.
+# Changes of an object's own axes, and their names.
 _TURNS: list[tuple[Floats, str]] = [
     *(
         (_quarter(axis, quarters), f"turned by {degrees} degrees about its own {'XYZ'[axis]}")

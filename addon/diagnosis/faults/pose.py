@@ -9,16 +9,16 @@ from itertools import product
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Places
+from ...arrays import Bools, Floats
 from ...causes.case import Case
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Instance, Scene
 from ...tracer.progress import Work
 from ...tracer.vector import transform_points
 from ..evidence import Evidence
-from .climbing import Among, Right, values_of
+from .climbing import values_of
 from .fault import Numbers, Values, instances_named, with_instances
-from .fitting import FINE_REACH, FINER, FOUND, NEARLY, Fit, Traced
+from .fitting import FINER, FOUND, NEARLY, Fit
 from .looked import Looked
 from .matching import Fitted, fitted, matches
 from .search import Search
@@ -168,34 +168,27 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
         pose = of(looked)
         alone = looked.alone
 
-        def right_among(some: Places) -> Right:
-            return partial(right, looked.only(some))
-
-        def right(looked: Looked, values: Values) -> Work[Bools | None]:
+        def right(values: Values) -> Work[Bools | None]:
             changed = pose.change(alone, values)
             return None if changed is None else (yield from looked.right(changed))
 
-        starts, step = pose.starts, FIRST * looked.width
-        if pose.axes.shape[1] == 1:  # of which more are looked at on each side
+        starts, step, axes = pose.starts, FIRST * looked.width, pose.axes
+        if axes.shape[1] == 1:  # of which more are looked at on each side
             step /= 4
-        fine = bool(guess.low)
-        if guess.values:
-            starts, step = [guess.values], FINER if fine else 1.0
-        elif pose.camera and not kept:
+        if pose.camera and not kept:
             found, moves = _matched(looked, pose), _matched(looked, _placed(looked))
             if moves and not (found and found.share >= NEARLY * moves.share):
                 return None
             if found:
-                starts, step = [values_of(pose.origin + pose.axes @ found.units)], NEAR_STEP
+                starts, step = [values_of(pose.origin + axes @ found.units)], NEAR_STEP
+                axes = axes @ found.axes
+        fine = bool(guess.low)
+        if guess.values:
+            starts, step = [guess.values], FINER if fine else 1.0
         if not starts:
             return None
         least = 0.0 if guess.values else looked.least_right
-        known: Right = partial(right, looked)
-        among: Among = right_among
-        if fine and not pose.origin and pose.camera:  # then the triangles near its rays stay
-            traced = Traced(looked.of_it_alone, pose.camera, FINE_REACH, looked, looked.surface)
-            known, among = traced.right, traced.among
-        search = Search(known, pose.axes, FINEST, least, pose.unseen, among=among)
+        search = Search(right, axes, FINEST, least, pose.unseen)
         return (yield from search.guess(starts, step, guess.object, enclose=fine))
 
     def find(evidence: Evidence) -> Work[list[Numbers]]:

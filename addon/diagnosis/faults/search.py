@@ -12,7 +12,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...tracer.progress import Work
-from .climbing import COARSE, SMALL, Among, Climb, Right, values_of
+from .climbing import COARSE, SMALL, Climb, Right, values_of
 from .fault import Numbers, Values
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
@@ -28,7 +28,7 @@ class Search(Climb):
 
     Parameters
     ----------
-    right, axes, moves, among
+    right, axes, moves
         As those of :class:`Climb`.
     finest : float
         Units: the last step.
@@ -46,9 +46,8 @@ class Search(Climb):
         least: float = 0,
         unseen: Floats | None = None,
         moves: float = np.inf,
-        among: Among | None = None,
     ) -> None:
-        super().__init__(right, axes, moves, among)
+        super().__init__(right, axes, moves)
         self.unseen = np.zeros((len(self.axes), 0)) if unseen is None else unseen
         self.finest = finest
         self.least = least
@@ -100,8 +99,7 @@ class Search(Climb):
 
         So does what is unseen, of all numbers together.
         """
-        self._wanted = right
-        alone = np.diag(np.abs(self.axes).sum(axis=1))
+        alone = np.diag(np.abs(self.axes).max(axis=1))
         places = [best]
         for along in np.hstack((alone, -alone, self.unseen, -self.unseen)).T:
             places.append((yield from self._end(best, along, right)))

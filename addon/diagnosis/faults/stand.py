@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from ...scene import Camera
 from ...tracer.camera import pixel_size
 from ..evidence import Evidence
 from .fault import Values
-from .film import radius
+from .film import STEP, radius
 from .fitting import Family
 
 NEGLIGIBLE = 1e-4  # of the largest number: smaller ones are reported as 0
@@ -114,6 +115,17 @@ def _placed_words(camera: Camera, *numbers: float) -> str:
     )
 
 
+def _rolled(camera: Camera, degrees: float) -> Camera:
+    """Return the camera rolled about its axis; the picture's content turns the other way."""
+    return turned(camera, 0, 0, degrees)
+
+
+def _rolls(evidence: Evidence) -> Iterator[Values]:
+    for degrees in np.arange(-180, 180, np.degrees(STEP / radius(evidence))):
+        yield (float(degrees),)
+
+
 MOVED = Family(moved, _seen, _in_the_world, worth=WORTH, unseen=_unseen)
 TURNED = Family(turned, _degrees, _in_degrees, worth=WORTH)
 PLACED = Family(placed, _six, _placed_words, worth=WORTH)
+ROLL = Family(_rolled, lambda evidence: (float(np.degrees(1 / radius(evidence))),), starts=_rolls)

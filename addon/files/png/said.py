@@ -17,7 +17,7 @@ from ...wording import count_of
 from .samples import PALETTE, Header, PngError
 
 _CRITICAL = {b"IHDR", b"PLTE", b"IDAT", b"IEND"}
-# What is applied or looked at here; then what says nothing of the pixels.
+# Chunks that are applied or looked at here; then those that say nothing of the pixels.
 _KNOWN = {b"tRNS", b"cICP", b"iCCP", b"sRGB", b"gAMA", b"cHRM", b"sBIT"}
 _IDLE = {b"tIME", b"bKGD", b"hIST", b"sPLT"}
 _OPTIONAL = 0x20  # of the first letter of a name, if it is small: not critical

@@ -3,8 +3,29 @@
 
 const PUT_RIGHT = "put_right_"; // of the layer of each fault, with its number
 const CROP = [64, 36]; // pixels in the close-up
+const NEARLY_ALL = 0.9; // of the unexplained pixels
 
 const diagnosis = page.comparison.diagnosis;
+
+/** Whether what is told accounts for nearly all unexplained pixels. */
+const isAccounted = () =>
+  diagnosis?.told.length > 0 &&
+  diagnosis.left <= (1 - NEARLY_ALL) * page.comparison.pixels.unexplained;
+
+/** The two pictures, each with all put right that is told of it. */
+function putRightSides() {
+  const sides = { traced: "traced", blender: "blender" };
+  for (const { id, of } of page.pictures)
+    if (of && !diagnosis.told[id.slice(PUT_RIGHT.length)].alternative) sides[of] = id;
+  return { left: sides.traced, right: sides.blender };
+}
+
+/** What is wrong where no fault is known: how many pixels, and where most of them are. */
+function unknown({ silent, left }) {
+  if (silent) return silent;
+  const names = namesOf(page.regions[0]);
+  return `no known fault accounts for ${count(left)} px, the most of them at ${names}`;
+}
 
 /** How many of the unexplained pixels a fault accounts for, and what it would break. */
 function settledBy({ settled, unexplained: all, broken }) {
@@ -19,7 +40,7 @@ function settledBy({ settled, unexplained: all, broken }) {
 
 function drawDiagnosis() {
   byId("diagnosis").hidden = !diagnosis;
-  byId("told").hidden = !diagnosis?.told.length;
+  byId("told").hidden = !diagnosis;
   if (!diagnosis) return;
   const { told, guesses, regions, untried, silent } = diagnosis;
   const names = untried.map((name) => name.replaceAll("_", " ")).join(", ");
@@ -28,6 +49,7 @@ function drawDiagnosis() {
     (names ? `; a limit of work ended the search for: ${names}.` : ".");
   byId("told").replaceChildren(
     element("strong", {}, "Diagnosis: "),
+    told.length ? "" : element("a", { href: "#diagnosis" }, unknown(diagnosis)),
     ...told.flatMap(({ sentence, alternative }, k) => [
       alternative ? ", or, as likely, " : k ? ", and " : "",
       element("a", { href: "#diagnosis" }, sentence),

@@ -2,7 +2,7 @@
 // What backs the verdict, where the comparison has it: a card each.
 
 /** The counts of interior and boundary pixels apart. */
-function splitCard() {
+function split() {
   const parts = ["interior", "boundary"].filter((name) => page.comparison.pixels[name]);
   if (!parts.length) return null;
   const scores = parts.map((name) => page.comparison.pixels[name]);
@@ -17,23 +17,21 @@ function splitCard() {
       ...scores.map((score) => count(score.by_cause[name] ?? 0)),
     ]),
   ];
-  return card(
-    "Inside and at edges",
+  return [
     table(
       "Pixels in the interior of surfaces, and at their boundaries",
       ["", ...parts.map(words)],
       rows,
       [1, 2],
     ),
-  );
+  ];
 }
 
 /** Do the tracer's camera and Blender's see known points in the same places? */
-function certificateCard() {
+function certificate() {
   const held = page.comparison.certificate;
   if (!held) return null;
-  return card(
-    "Camera certificate",
+  return [
     element(
       "p",
       { class: held.passed ? "yes" : "no" },
@@ -44,11 +42,11 @@ function certificateCard() {
       ["Farthest apart", px(held.largest)],
       ["Allowed", `${px(held.allowed)}, by float32`],
     ]),
-  );
+  ];
 }
 
 /** Faults that were made on purpose, and whether the comparison found them. */
-function selfCheckCard() {
+function selfCheck() {
   const held = page.comparison.self_check;
   if (!held?.length) return null;
   const rows = held.map((f) => [
@@ -63,15 +61,12 @@ function selfCheckCard() {
     `${count(f.unexplained)} of ${count(f.looked_at)}`,
     f.note,
   ]);
-  return wide(
-    card(
-      "Would a fault have been found?",
-      table(
-        "Known faults, made on purpose and judged like this comparison",
-        ["Fault", "", "Pixels changed", "Differ", "Unexplained", ""],
-        rows,
-        [2, 3, 4],
-      ),
+  return [
+    table(
+      "Known faults, made on purpose and judged like this comparison",
+      ["Fault", "", "Pixels changed", "Differ", "Unexplained", ""],
+      rows,
+      [2, 3, 4],
     ),
-  );
+  ];
 }

@@ -7,7 +7,8 @@ const LEAST = 22; // screen pixels: what a frame of one pixel has from afar
 const NAMED_IN = 3; // objects that a region is named by
 
 const unexplained = () => page.causes.find((cause) => cause.name === "unexplained");
-const framesShown = () => page.regions.length && isShown(unexplained().value);
+const framesShown = () =>
+  page.regions.length && isShown(unexplained().value) && !isAccounted();
 
 /** Frame each region in a pane. A frame's number stands where no other one does. */
 function drawFrames(context, pane) {
@@ -72,8 +73,14 @@ function namesOf({ objects }) {
 function drawRegions() {
   const { regions } = page;
   const where = byId("regions");
-  where.hidden = !framesShown();
+  where.hidden = !regions.length || !isShown(unexplained().value);
   if (where.hidden) return;
+  if (isAccounted()) {
+    const all = page.comparison.pixels.unexplained;
+    const said = `What is wrong accounts for ${count(all - diagnosis.left)} of ${count(all)} unexplained pixels: no region is framed.`;
+    where.replaceChildren(element("span", {}, said));
+    return;
+  }
   const said =
     regions.length === 1
       ? "The unexplained pixels are in one region, which is framed:"

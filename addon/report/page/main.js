@@ -1,6 +1,8 @@
 "use strict";
 // Everything together: fill the page, and keep what is shown true to the state.
 
+const WALL = 0.25; // of a picture: so many unexplained pixels would hide it
+
 /** The pixel that the address names, #x=..&y=..; null where it names none. */
 function linked() {
   const named = new URLSearchParams(location.hash.slice(1));
@@ -84,12 +86,19 @@ function connect() {
   window.addEventListener("hashchange", () => linked() && goTo(visit, ...linked()));
 }
 
+/** What is unexplained is what one came for: how it is seen best. */
+function firstSight() {
+  if (!linked() && isAccounted()) return { ...putRightSides(), mode: "pair", marks: false };
+  const { unexplained: many, total } = page.comparison.pixels;
+  if (!linked() && many > WALL * total) return { mode: "pair", marks: false };
+  return { right: "causes", split: 0 }; // its map covers the stage, and the slider uncovers
+}
+
 /** Look at what the address names, else the first example, else the middle of the picture. */
 function begin() {
-  // What is unexplained is what one came for: its map covers the stage, and the slider uncovers.
-  if (page.comparison.verdict === "differences" && page.comparison.pixels.unexplained)
-    change({ right: "causes", split: 0 });
-  const [first] = shownExamples();
+  const wrong = page.comparison.verdict === "differences" && page.comparison.pixels.unexplained;
+  if (wrong) change(firstSight());
+  const first = wrong ? closeUp() : shownExamples()[0];
   const [x, y] = linked() ?? first ?? [Math.floor(WIDTH / 2), Math.floor(HEIGHT / 2)];
   goTo(linked() ? visit : select, x, y);
   for (const show of [

@@ -132,7 +132,10 @@ function sidesOf(x, y, pixel) {
         : null,
       row(
         "Object",
-        ids.map((id) => objectOn(id, pixel)),
+        ids.map((id) => {
+          const object = objectOn(id, pixel);
+          return id === "blender" && object === NOT_KNOWN ? objectByColor(pixel) : object;
+        }),
       ),
       row(
         "Triangle",
@@ -173,6 +176,33 @@ function objectOn(id, pixel) {
   if (id !== "blender" || !pixels.identity) return NOT_KNOWN;
   const name = pixels.identity.shown[pixel];
   return name === -1 ? "nothing" : name < 0 ? NOT_KNOWN : page.comparison.identity.names[name];
+}
+
+let owners = null; // by colour: its object, or "" where several have it
+
+/** The one object that has a pixel's colour of the picture, where the colours are clear. */
+function objectByColor(pixel) {
+  owners ??= findOwners();
+  const [x, y] = [pixel % WIDTH, Math.floor(pixel / WIDTH)];
+  const object = owners.get(String(shownColor("blender", x, y)));
+  return object ? `${object}, by its colour` : NOT_KNOWN;
+}
+
+/** The colours that are traced where an object is all around: at its rim they may be mixed. */
+function findOwners() {
+  const found = new Map();
+  if (!pixels.surfaces) return found;
+  const { instance, instances } = pixels.surfaces;
+  const at = Array.from(pixels.surface, (number) =>
+    number ? page.object_of[instances[instance[number - 1]]] : -1,
+  );
+  at.forEach((object, pixel) => {
+    if ([-1, 1, -WIDTH, WIDTH].some((step) => (at[pixel + step] ?? object) !== object)) return;
+    const color = String(shownColor("traced", pixel % WIDTH, Math.floor(pixel / WIDTH)));
+    const name = page.objects[object] ?? "nothing";
+    found.set(color, (found.get(color) ?? name) === name ? name : "");
+  });
+  return found;
 }
 
 function triangleOn(id, pixel) {

@@ -1,7 +1,7 @@
 "use strict";
-// What was exported, the trade and the extremes, and what is not in the page: a card each.
+// What was exported, the trade and the extremes: a card each.
 
-function manifestCard() {
+function manifest() {
   const { objects, unmodelled, notes, evaluation } = page.comparison.scene;
   const rows = objects.map((o) => [
     o.name,
@@ -17,27 +17,24 @@ function manifestCard() {
       .filter(Boolean)
       .join(", "),
   ]);
-  return wide(
-    card(
-      "What was exported",
-      ...unmodelled.map((u) =>
-        element(
-          "p",
-          { class: "notice" },
-          element("strong", {}, `${u.effect === "missing" ? words(u.feature) : "Not modelled"}: `),
-          u.effect === "missing" ? u.object : `${u.object}: ${u.feature}`,
-          u.detail ? ` (${u.detail})` : "",
-        ),
-      ),
-      ...notes.map((note) => element("p", { class: "muted" }, note)),
-      table(
-        `Objects, as in ${evaluation.toLowerCase()} evaluation`,
-        ["Object", "Type", "", "Instances", "Triangles", "Notes"],
-        rows,
-        [3, 4],
+  return [
+    ...unmodelled.map((u) =>
+      element(
+        "p",
+        { class: "notice" },
+        element("strong", {}, `${u.effect === "missing" ? words(u.feature) : "Not modelled"}: `),
+        u.effect === "missing" ? u.object : `${u.object}: ${u.feature}`,
+        u.detail ? ` (${u.detail})` : "",
       ),
     ),
-  );
+    ...notes.map((note) => element("p", { class: "muted" }, note)),
+    table(
+      `Objects, as in ${evaluation.toLowerCase()} evaluation`,
+      ["Object", "Type", "", "Instances", "Triangles", "Notes"],
+      rows,
+      [3, 4],
+    ),
+  ];
 }
 
 function diagnosed(diagnosis) {
@@ -51,25 +48,22 @@ function diagnosed(diagnosis) {
   return said_;
 }
 
-function tradeCard() {
+function trade() {
   const { trade } = page;
   if (!trade) return null;
   const { head, rows } = trade.table;
-  return wide(
-    card(
-      "The trade: speed against accuracy",
-      plotFigure(trade.plot),
-      element(
-        "details",
-        {},
-        element("summary", {}, `All ${rows.length} rows`),
-        table("*: no other row beats it", head, rows, [...head.keys()].slice(3)),
-      ),
+  return [
+    plotFigure(trade.plot),
+    element(
+      "details",
+      {},
+      element("summary", {}, `All ${rows.length} rows`),
+      table("*: no other row beats it", head, rows, [...head.keys()].slice(3)),
     ),
-  );
+  ];
 }
 
-function extremesCard() {
+function extremes() {
   const { extremes } = page;
   if (!extremes) return null;
   const title = Object.fromEntries(
@@ -86,31 +80,23 @@ function extremesCard() {
     title[name] ?? name,
     ...columns.map((column) => breaking(at.get(`${name} ${column}`))),
   ]);
-  return wide(
-    card(
-      "The extremes: where methods break",
-      plotFigure(extremes.plot),
-      element(
-        "details",
-        {},
-        element("summary", {}, "All breaking points"),
-        table(
-          "The first scale at which a ray is lost; +: a ray crosses too many triangles",
-          ["Sweep", ...columns.map(words)],
-          rows,
-          columns.map((_, k) => k + 1),
-        ),
+  return [
+    plotFigure(extremes.plot),
+    element(
+      "details",
+      {},
+      element("summary", {}, "All breaking points"),
+      table(
+        "The first scale at which a ray is lost; +: a ray crosses too many triangles",
+        ["Sweep", ...columns.map(words)],
+        rows,
+        columns.map((_, k) => k + 1),
       ),
     ),
-  );
+  ];
 }
 
 function breaking(point) {
   if (!point) return "";
   return `${point.lost === null ? "never" : general(point.lost, 3)}${point.doubled === null ? "" : " +"}`;
 }
-
-const leftOutCard = () =>
-  page.left_out.length
-    ? wide(card("Not in this page", ...page.left_out.map((line) => element("p", {}, line))))
-    : null;

@@ -1,10 +1,7 @@
 "use strict";
-// What was compared, and how: a card each; the cards of `evidence.js` and `studies.js` among them.
+// What was compared, and how: a card each, those of `evidence.js` and `studies.js` among them.
 
-const card = (title, ...children) =>
-  element("section", { class: "card" }, element("h2", {}, title), ...children);
 const px = (value) => `${general(value, 3)} px`;
-const wide = (made) => (made.classList.add("wide"), made);
 const facts = (pairs) =>
   element(
     "dl",
@@ -13,27 +10,37 @@ const facts = (pairs) =>
   );
 const seconds = (value) => `${general(value, 3)} s`;
 
+// Each is a card below all else, in this order: `of` returns its elements, or nothing for no card.
+const CARDS = [
+  { title: "Traced by", of: methods },
+  { title: "How far apart", of: metrics },
+  { title: "Inside and at edges", of: split },
+  { title: page.comparison.blender.version ? "How Blender drew it" : "The picture", of: drawnBy },
+  { title: "Camera certificate", of: certificate },
+  { title: "Would a fault have been found?", of: selfCheck, kind: "wide" },
+  { title: "What was exported", of: manifest, kind: "wide" },
+  { title: "The trade: speed against accuracy", of: trade, kind: "wide" },
+  { title: "The extremes: where methods break", of: extremes, kind: "wide" },
+  { title: "Not in this page", of: leftOut, kind: "wide" },
+];
+
+function leftOut() {
+  return page.left_out.map((line) => element("p", {}, line));
+}
+
 function drawTables() {
-  byId("tables").replaceChildren(
-    ...[
-      methodsCard(),
-      metricsCard(),
-      splitCard(),
-      blenderCard(),
-      certificateCard(),
-      selfCheckCard(),
-      manifestCard(),
-      tradeCard(),
-      extremesCard(),
-      leftOutCard(),
-    ].filter(Boolean),
-  );
+  const made = CARDS.map(({ title, of, kind = "" }) => {
+    const held = of();
+    if (!held?.length) return "";
+    return element("section", { class: `card ${kind}` }, element("h2", {}, title), ...held);
+  });
+  byId("tables").replaceChildren(...made);
   byId("colophon").textContent =
     `Traced in plain Python and numpy, and compared with ${OTHER}, by Reference Tracer. ` +
     "This page fetches nothing.";
 }
 
-function methodsCard() {
+function methods() {
   const rows = page.comparison.methods.map((m) => [
     `${words(m.method)}, ${m.precision}`,
     seconds(m.seconds),
@@ -41,8 +48,7 @@ function methodsCard() {
     count(m.ambiguous),
   ]);
   const required = [...new Set(page.comparison.methods.flatMap((m) => m.required))];
-  return card(
-    "Traced by",
+  return [
     table(
       "Methods, side by side",
       ["Method", "Time", "Wrong pixels", "Ambiguous"],
@@ -50,7 +56,7 @@ function methodsCard() {
       [1, 2, 3],
     ),
     ...[...required, ...roundedBefore()].map((line) => element("p", { class: "muted" }, `${line}.`)),
-  );
+  ];
 }
 
 /** What is rounded before the proof begins, in a sentence; nothing where nothing is proven. */
@@ -62,11 +68,10 @@ function roundedBefore() {
   return [`before any test, rounding moves ${rays}, ${corners}`];
 }
 
-function metricsCard() {
+function metrics() {
   const { rmse, psnr, ssim, largest_difference: most } = page.comparison.metrics;
   const [x, y] = most.pixel;
-  return card(
-    "How far apart",
+  return [
     facts([
       ["RMSE", general(rmse, 4)],
       ["PSNR", psnr === null ? "infinite" : `${psnr.toFixed(1)} dB`],
@@ -96,20 +101,19 @@ function metricsCard() {
         )
       : null,
     page.comparison.transform ? element("p", {}, `Colours: ${page.comparison.transform}.`) : null,
-  );
+  ];
 }
 
-function blenderCard() {
+function drawnBy() {
   const { version, source, settings = {}, sample_radius: radius } = page.comparison.blender;
-  return card(
-    page.comparison.blender.version ? "How Blender drew it" : "The picture",
+  return [
     facts([
       ...(version ? [["Version", version]] : []),
       ["Picture", words(source)],
       ...(radius ? [["Samples within", `${general(radius)} px of the centre`]] : []),
       ...Object.entries(settings).map(([name, value]) => [words(name), said(value)]),
     ]),
-  );
+  ];
 }
 
 const said = (value) =>

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from reference_tracer.arrays import Floats
+from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.tracer.hits import NOTHING
 
 from ..depth import depth, distance
 from ..kind import Data, Turn
 from ..seen import Seen
-from .turned import Turned, data_fault, once
+from .normalised import normalised
+from .turned import Turned, data_fault, once, picture_of
 
 _UNITS = (
     (1000.0, "millimetres"),
     (100.0, "centimetres"),
     (0.001, "kilometres, or metres were taken for millimetres"),
 )
+_STRAY = 0.02  # of the background: as much of it may hold something else
 _LEAST = 16  # pixels that say by which factor values are off
 _OUTLIERS = 1  # per cent of these at either end that may be wrong for another reason
 
@@ -67,15 +71,6 @@ def _buffer(made: Floats, seen: Seen) -> Floats:
         return far / (far - near) * (1 - near / z)
 
 
-def _linear(made: Floats, seen: Seen) -> Floats:
-    near, far = _clip(seen)
-    return (made - near) / (far - near)
-
-
-def _between(near: float, far: float) -> Turn:
-    return lambda made, seen: (made - near) / ((far - near) or 1.0)
-
-
 def _into(turn: Turn, full: float, reverse: bool) -> Turn:
     """Return a turn to values from 0 to 1, reversed or not, of the file's whole range."""
     if reverse:
@@ -92,15 +87,23 @@ def _buffers(evidence: Evidence, data: Data) -> Iterator[Turned]:
     yield Turned(words=words, turn=lambda made, seen: 2 * _buffer(made, seen) - 1)
 
 
-def _normalised(evidence: Evidence, data: Data) -> Iterator[Turned]:
-    made = data.of_frame(evidence.frame)
-    if not np.isfinite(made).any():
+def _background(evidence: Evidence, data: Data) -> Iterator[Turned]:
+    """Guess that one value stands for nothing in the whole background, as no other does."""
+    nothing = evidence.frame.instance_index == NOTHING
+    if (data.blank & nothing).sum() > _STRAY * nothing.sum():
         return
-    ends = float(np.nanmin(made)), float(np.nanmax(made))
-    for turn, of in ((_linear, "the clip range"), (_between(*ends), "what is seen")):
-        for reverse in (False, True):
-            words = f"{'1 to 0' if reverse else '0 to 1'} over {of}"
-            yield Turned(words=words, turn=_into(turn, data.full, reverse))
+    held = data.values[nothing & evidence.unexplained]
+    value, count = np.unique(held, return_counts=True)
+    if len(value) and np.max(count) > (1 - _STRAY) * nothing.sum():
+        yield Turned((float(value[np.argmax(count)]),))
+
+
+def _taken_for_nothing(case: Case, guess: Turned) -> Case:
+    """Return the case in which a value says that nothing is there."""
+    picture = picture_of(case)
+    (value,) = guess.values
+    blank = picture.data.blank | (picture.data.values == value).all(axis=-1)
+    return replace(case, picture=replace(picture, data=replace(picture.data, blank=blank)))
 
 
 def _inverse(made: Floats, seen: Seen) -> Floats:
@@ -160,13 +163,27 @@ DEPTH_FAULTS = (
     data_fault(
         "depth_normalised",
         ("depth", "distance"),
-        "the values are normalised: {words}",
-        "A picture of depths to look at is stretched to the range of what is seen, and often "
-        "reversed, so that what is near is bright.",
+        "the values are normalised: 0 is at {zero:.6g} m, full scale at {one:.6g} m",
+        "A picture of depths to look at is stretched to some range, such as that of what is seen, "
+        "and often reversed, so that what is near is bright.",
         "save the depths themselves, before they are normalised to be looked at",
-        _normalised,
-        words="over which range, and whether they are reversed",
+        normalised,
+        ("zero", "one"),
         witness="zju3dv/pvnet-rendering#5",
+    ),
+    replace(
+        data_fault(
+            "background_value",
+            ("depth", "distance"),
+            "where nothing is seen the values are {value:.6g}",
+            "An emptied depth buffer has the far plane's value, which is another than the scene's, "
+            "or a depth is cut off at some value.",
+            "save 0, an infinity or NaN where nothing is seen, or clip both at one depth",
+            _background,
+            ("value",),
+            witness="ros-perception/vision_opencv#248",
+        ),
+        assume=_taken_for_nothing,
     ),
     data_fault(
         "inverse_depth",

@@ -3,43 +3,121 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 from reference_tracer.arrays import Floats
+from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
+from reference_tracer.diagnosis.faults.fault import Fault, Guess
 from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.progress import at_once
 
-from ..kind import Data
+from ..kind import Data, Turn
 from ..seen import Seen
-from .turned import Turned, data_fault
+from .turned import Turned, data_fault, data_of, picture_of
 
 _MOST = 0.5  # of an object's unexplained pixels that have one id, at least
 _NAMED = 3  # objects that are named
+_LEAST = 8  # pixels that hold a mean
+_REACH = 2  # pixels: as far does a filter mix
+
+
+def _values(evidence: Evidence, data: Data, wrong: bool) -> dict[str, float]:
+    """Return the id that most wrong pixels of each object have, or the right one of each.
+
+    Of those that are wrong it has to be more than half.
+    """
+    scene, seen = evidence.case.scene, evidence.frame.object_index
+    made = data.of_frame(evidence.frame)
+    out: dict[str, float] = {}
+    where = (seen != NOTHING) & (evidence.unexplained | (not wrong))
+    for number in np.unique(seen[where]):
+        own = where & (seen == number)
+        value, count = np.unique((data.values if wrong else made)[own][:, 0], return_counts=True)
+        if np.max(count) > _MOST * count.sum():
+            out[scene.objects[number]] = float(value[np.argmax(count)])
+    return out
+
+
+def _turned(own: dict[str, float]) -> Turn:
+    """Return what gives objects other ids."""
+
+    def turn(made: Floats, seen: Seen) -> Floats:
+        table = np.array([own.get(name, np.nan) for name in seen.scene.objects])
+        new = table[seen.scene.instance_objects[seen.instance]][:, None]
+        return np.where(np.isnan(new), made, new)
+
+    return turn
+
+
+def _is_exchange(evidence: Evidence, data: Data, own: dict[str, float]) -> bool:
+    """Return whether objects have one another's ids, and no other."""
+    right = _values(evidence, data, wrong=False)
+    return len(own) > 1 and {right[name] for name in own} == {*own.values()}
 
 
 def _shared(evidence: Evidence, data: Data) -> Iterator[Turned]:
     """Guess that each object has the id that most of its wrong pixels have."""
-    scene, seen = evidence.case.scene, evidence.frame.object_index
-    own: dict[str, float] = {}
-    wrong = evidence.unexplained & (seen != NOTHING)
-    for number in np.unique(seen[wrong]):
-        shown = data.values[wrong & (seen == number)][:, 0]
-        value, count = np.unique(shown, return_counts=True)
-        if np.max(count) > _MOST * count.sum():
-            own[scene.objects[number]] = float(value[np.argmax(count)])
-    if not own:
-        return
+    own = _values(evidence, data, wrong=True)
+    if own and not _is_exchange(evidence, data, own):
+        more = len(own) - _NAMED
+        words = ", ".join(f"'{name}'" for name in [*own][:_NAMED])
+        words += f" and {more} more" if more > 0 else ""
+        yield Turned(words=f"{words} {'have' if len(own) > 1 else 'has'}", turn=_turned(own))
 
-    def turn(made: Floats, seen: Seen) -> Floats:
-        names = seen.scene.objects
-        table = np.array([own.get(name, np.nan) for name in names])
-        new = table[seen.scene.instance_objects[seen.instance]][:, None]
-        return np.where(np.isnan(new), made, new)
 
-    named = [f"'{name}'" for name in own]
-    more = len(named) - _NAMED
-    words = ", ".join(named[:_NAMED]) + (f" and {more} more" if more > 0 else "")
-    yield Turned(words=f"{words} {'have' if len(named) > 1 else 'has'}", turn=turn)
+def _exchanged(evidence: Evidence, data: Data) -> Iterator[Turned]:
+    """Guess that objects whose pixels are wrong have one another's ids."""
+    own = _values(evidence, data, wrong=True)
+    if _is_exchange(evidence, data, own):
+        words = ", ".join(f"'{name}'" for name in own)
+        yield Turned(words=words, turn=_turned(own))
+
+
+@dataclass(frozen=True, eq=False)
+class Mended(Guess):
+    """Data without what is wrong with them."""
+
+    data: Data
+
+
+def _mended(case: Case, guess: Mended) -> Case:
+    return replace(case, picture=replace(picture_of(case), data=guess.data))
+
+
+@at_once
+def _mixed(evidence: Evidence) -> list[Mended]:
+    """Guess which pixels hold a mean of ids around them: nobody's, but between some of them."""
+    data = data_of(evidence)
+    if data.raw is None:
+        return []
+    made = data.of_frame(evidence.frame)
+    raw = np.full(data.raw.shape, np.nan)  # as it should be
+    nothing = evidence.frame.object_index == NOTHING
+    if (data.blank & nothing).any():
+        raw[nothing] = data.raw[data.blank & nothing][0]
+    pure = data.blank.copy()
+    for number in np.unique(made[~nothing]):
+        same = data.values[..., 0] == number
+        pure |= same
+        if same.any():
+            raw[made[..., 0] == number] = data.raw[same][0]
+    rows, columns = np.nonzero(evidence.unexplained & ~pure)
+    low, high = (np.full((len(rows), raw.shape[2]), np.nan) for _ in range(2))
+    height, width = pure.shape
+    for y, x in product(range(-_REACH, _REACH + 1), repeat=2):
+        beside = raw[np.clip(rows + y, 0, height - 1), np.clip(columns + x, 0, width - 1)]
+        low, high = np.fmin(low, beside), np.fmax(high, beside)
+    held = data.raw[rows, columns]
+    between = ((low <= held) & (held <= high)).all(axis=1)
+    if between.sum() < _LEAST:
+        return []
+    mixed = np.zeros_like(pure)
+    mixed[rows[between], columns[between]] = True
+    values = np.where((mixed & ~nothing)[..., None], made, data.values)
+    return [Mended(replace(data, values=values, blank=data.blank | (mixed & nothing)))]
 
 
 ID_FAULTS = (
@@ -53,5 +131,24 @@ ID_FAULTS = (
         _shared,
         words="which objects",
         witness="DIYer22/bpycv#52",
+    ),
+    data_fault(
+        "id_exchanged",
+        ("ids",),
+        "{words} have one another's ids",
+        "Ids and objects stand in two lists, of which one is sorted.",
+        "store the id with the object, or write the table and the picture in one run",
+        _exchanged,
+        words="which objects",
+        witness="facebookresearch/House3D#6",
+    ),
+    Fault(
+        "id_mixed",
+        "ids are mixed at edges, as colours are: their means are nobody's ids",
+        "The picture of ids is rendered with anti-aliasing, or is scaled smoothly.",
+        "render ids with one sample in each pixel's centre, and scale them by the nearest pixel",
+        _mended,
+        _mixed,
+        witness="princeton-vl/infinigen#383",
     ),
 )

@@ -25,16 +25,19 @@ class Turned(Numbers):
 
 def turned(case: Case, guess: Turned) -> Case:
     """Return the case whose file is taken to hold what the fault makes."""
-    picture = case.picture
-    assert isinstance(picture, DataPicture)
+    picture = picture_of(case)
     return replace(case, picture=replace(picture, data=picture.data.turned(guess.turn)))
+
+
+def picture_of(case: Case) -> DataPicture:
+    """Return the picture of a case, which holds data."""
+    assert isinstance(case.picture, DataPicture)
+    return case.picture
 
 
 def data_of(evidence: Evidence) -> Data:
     """Return the data of the evidence's picture."""
-    picture = evidence.case.picture
-    assert isinstance(picture, DataPicture)
-    return picture.data
+    return picture_of(evidence.case).data
 
 
 def of_kinds(kinds: tuple[str, ...], guesses: Guesses) -> Find[Turned]:

@@ -1,4 +1,4 @@
-"""What is recorded: a record for each function, with the theorem that is about it."""
+"""The records: one for each function, with the theorem that is about it."""
 
 from .record import BY_HAND, Inputs, Output, Record, computed, outputs, recorded
 from .table import FILES, NAMES, RECORDS, WHOLE, every_output

@@ -192,7 +192,7 @@ class _Surface:
 
 
 class _Order:
-    """What compares two surfaces: a term of Coq's type `comparison`."""
+    """Comparison of two surfaces: a term of Coq's type `comparison`."""
 
     __hash__ = None
 

@@ -1,4 +1,4 @@
-"""What is kept, and what is dropped, by what is in front: `ladder.py`, `sweep/`."""
+"""Candidates that are kept or dropped by what is in front: `ladder.py`, `sweep/`."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def _unit(v: Inputs, prefix: str) -> Kept:
 
 
 def _triangle(v: Inputs) -> Kept:
-    """What is handed on of a triangle: its normal as high + low, and M."""
+    """The values handed on of a triangle: its normal as high + low, and M."""
     kept = []
     rays = Rays(v.shared("ox oy oz"), v.vector("dx dy dz"), one_origin=True)
     with mock.patch.object(Quotients, "_enter", lambda *some: kept.append(some)):
@@ -102,7 +102,7 @@ def _table(v: Inputs, case: str) -> Kept:
 
 
 def _meet(v: Inputs, case: str) -> Kept:
-    """What `_quotient` is called with: it is recorded by itself."""
+    """The arguments of `_quotient`, which is recorded by itself."""
     own = _prepared(v, case)
     own._table = v.vector(" ".join(_columns(case)))
     origins = {"from_point": "", "parallel": "qx qy qz", "alone": "ox oy oz"}[case]
