@@ -85,6 +85,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         "is shifted up tells this from a camera that is mirrored",
         _upside_down,
         effort=Effort.VIEW,  # with the mirrored camera, which shows the same
+        turns=True,
         examples=(Example("rows", "the picture's rows from top to bottom"),),
         witness="glium/glium#1526",
     ),
