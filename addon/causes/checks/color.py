@@ -39,9 +39,7 @@ COLOR = Cause(
     why="The colours of the whole picture are changed: by light, which the tracer does not "
     "have, or by a transform of another program's picture.",
     check="In a lit picture, the same object is shown. In another program's picture, one "
-    "transform makes the surfaces agree. If a single object has another shade, its pixels "
-    "are unexplained, and the comparison names it. The figure is the difference that "
-    "remains after the transform.",
+    "transform makes the surfaces agree; the figure is the difference that remains after it.",
     never="A single object in another shade; a transform of all objects but one.",
     advice="compare like for like, or undo the transform that the comparison names",
 )
@@ -66,6 +64,7 @@ def check(pixels: OpenPixels) -> Work[None]:
         if found is None:
             return
         pixels.out.transform = found.name
+        pixels.out.made_by = found.of
         pixels.picture = replace(pixels.picture, transform=found.of)
     for rows in blocks(pixels.open.shape):
         picture = pixels.picture.at(rows)

@@ -33,9 +33,8 @@ HIDDEN = Cause(
     why="One side hides an object, by a flag or a collection of the scene, or shows another frame.",
     check="Blender's picture shows such an object. For another program's picture, the scene is "
     "traced with the object hidden or shown, and must give what the picture shows in 97 % "
-    "of the pixels that this changes; at its edges, pixels within rounding count as "
-    "right. Flags are tried one by one and all together, as one hidden object may be in "
-    "front of another.",
+    "of the pixels that this changes, within rounding at its edges. Flags are tried one by one, "
+    "and all together.",
     never="An object that nothing hides; one that is there in part; any other damage.",
     advice="show the object to both sides, or hide it from both",
 )
