@@ -94,6 +94,7 @@ class Case:
     # Makes the scene with faults for which Blender is needed, one after another; called only if
     # pixels are unexplained.
     variants: Callable[[], Iterable[Variant]] = no_variants
+    background: Colors | None = None  # (4,) the scene's own, where it was put before another one
 
     def __post_init__(self) -> None:
         if self.settings.color != Color.OBJECT:
@@ -138,4 +139,6 @@ class Case:
         behind = partial(replace, background=background)
         picture = replace(self.picture, background=background)
         then = self.next_frame and behind(self.next_frame)
-        return replace(self.with_scenes(behind), picture=picture, next_frame=then)
+        own = self.scene.background if self.background is None else self.background
+        changed = self.with_scenes(behind)
+        return replace(changed, picture=picture, next_frame=then, background=own)

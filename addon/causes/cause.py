@@ -167,6 +167,7 @@ class Causes:
     behind: Bools | None = None
     hidden: list[Hidden] = field(default_factory=list)  # a figure may be an index into it
     transform: str = ""  # what turns the traced colours into the picture's, in words
+    made_by: Callable[[Floats], Floats] | None = None  # that transform, if it is one of each colour
     shades: list[Shade] = field(default_factory=list)
     # Differing pixels that no check looked at, (n,), numbered row by row.
     passed_over: Places = field(default_factory=lambda: np.zeros(0, np.intp))

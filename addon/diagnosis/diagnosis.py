@@ -24,7 +24,7 @@ from .faults.fitting import ENCLOSED
 from .guessing import LEAST_SETTLED, ROUGHLY, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
 from .trial import Trial, counted
-from .variants import carried, with_variants
+from .variants import carried, in_its_colors, with_variants
 
 ROUNDS = 3  # faults one after the other, at most
 FRAMED = 5  # regions that are named
@@ -46,6 +46,7 @@ class Told:
     picture: Colors  # what it is compared with, (h, w, 4) linear RGBA
     alternative: bool = False  # it explains as much as the one before it
     also: tuple[str, ...] = ()  # names of further faults that do as well
+    colors: str = ""  # by which transform colours then agree, if they did not before
 
     @property
     def sentence(self) -> str:
@@ -83,6 +84,8 @@ class Told:
         """Yield it as lines of text."""
         yield f"diagnosis: {'or, as likely, ' if self.alternative else ''}{self.sentence}"
         yield f"           {self.effect()}"
+        if self.colors:
+            yield f"           its colours then agree by one transform: {self.colors}"
         if enclosed := self.enclosed():
             yield f"           as many pixels agree with {enclosed}"
         if self.also:
@@ -105,6 +108,7 @@ class Told:
             "object": g.object,
             "numbers": numbers,
             "alternative": self.alternative,
+            "colors": self.colors,
             "also": list(self.also),
             "unexplained": self.unexplained,
             "settled": self.settled,
@@ -181,7 +185,7 @@ def diagnose(
     The frame was traced of the case, and the causes were found of it, all before the picture's own
     background. If nothing is unexplained, nothing is done. No guess is begun after so many steps.
     """
-    evidence = Evidence(case, frame, causes)
+    evidence = in_its_colors(Evidence(case, frame, causes))
     if not evidence.unexplained.any() or frame.cancelled:
         return Diagnosis()
     began = time.monotonic()
@@ -252,4 +256,5 @@ def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
         replace(after.frame, color=color),
         after.case.picture.color,
         alternative,
+        colors="" if evidence.picture.transform else after.causes.transform,
     )

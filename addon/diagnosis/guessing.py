@@ -27,6 +27,8 @@ from typing import TypeVar
 import numpy as np
 
 from ..causes.case import PRECISE
+from ..causes.checks.color import find_transform
+from ..pictures.metrics import boundary
 from ..scene import SceneError
 from ..tracer.progress import Work, called, scaled
 from .evidence import FEW, Evidence, Score
@@ -35,7 +37,7 @@ from .faults.fault import TRIED, AnyFault, Effort, Guess
 from .faults.fitting import ENCLOSED
 from .faults.given import given
 from .faults.matching import is_everywhere
-from .trial import Trial, trial_of
+from .trial import Trial, traced_anew, trial_of
 from .variants import carried
 
 T = TypeVar("T")
@@ -254,7 +256,36 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
         part /= 2
         if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
             return [[first], best]
+    for first in (yield from scaled(_turned(guessing, evidence), 1 - part, 0.0)):
+        looking = guessing.trials(carried(evidence, first), evidence)
+        seconds = yield from scaled(looking, 1 - part, part / 2)
+        if best := _best(evidence, seconds):
+            return [[first], best]
     return []
+
+
+def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
+    """Try how the picture may be turned if all of its colours are wrong, too.
+
+    No pixel says so then, but surfaces do, of which one transform makes the colours agree.
+    """
+    case, picture, out = replace(evidence.case, curves=None), evidence.picture, []
+    known = picture.transform or picture.lit or not picture.has_colors
+    if known or evidence.unexplained.mean() < MAIN:
+        return []
+    if case.background is not None:  # what was taken for the picture's is what lies elsewhere in it
+        case = case.before(case.background)
+        case = replace(case, picture=replace(case.picture, background=None))
+    frame = yield from traced_anew(case, evidence.case, evidence.frame)
+    evidence = replace(evidence, case=case, frame=frame)
+    for fault in (f for f in guessing.faults if f.turns):
+        for guess in (yield from fault.find(evidence)):
+            if other := fault.assume(case, guess):
+                traced = yield from traced_anew(other, case, frame)
+                if (yield from find_transform(traced, other.picture, ~boundary(traced))):
+                    trial = yield from trial_of(evidence, fault, guess, promising=True)
+                    out += [trial] if trial else []
+    return out
 
 
 def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:

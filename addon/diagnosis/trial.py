@@ -72,12 +72,16 @@ class Trial:
 
 
 def trial_of(
-    evidence: Evidence, fault: AnyFault, guess: Guess, of: Evidence | None = None
+    evidence: Evidence,
+    fault: AnyFault,
+    guess: Guess,
+    of: Evidence | None = None,
+    promising: bool = False,
 ) -> Work[Trial | None]:
     """Try a guess on the whole picture; yields the share of the work done.
 
     `of` is the evidence before other faults were put right, if there are any: what the trial counts
-    is of that. None if the guess cannot be tried.
+    is of that. None if the guess cannot be tried, or is not promising.
     """
     before = of or evidence
     case, frame = evidence.case, evidence.frame
@@ -90,7 +94,7 @@ def trial_of(
             color = fault.after(traced.color, guess, evidence)
             traced = replace(frame, color=color.astype(np.float32))
             other = replace(other, scene=case.scene, alternatives=case.alternatives)
-        if traced.shape != frame.shape or not _hopeful(before, other, traced):
+        if traced.shape != frame.shape or not (promising or _hopeful(before, other, traced)):
             return None
     except (SceneError, MemoryError):  # no such camera or scene can be, or be traced here
         return None

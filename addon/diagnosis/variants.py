@@ -76,7 +76,17 @@ def carried(evidence: Evidence, trial: Trial) -> Evidence:
             scene = case.scene
         variants.append(replace(variant, scene=scene))
     of_object = evidence.of_object or bool(trial.guess.object)
-    return replace(trial.evidence, variants=tuple(variants), of_object=of_object)
+    return in_its_colors(replace(trial.evidence, variants=tuple(variants), of_object=of_object))
+
+
+def in_its_colors(evidence: Evidence) -> Evidence:
+    """Return the evidence with the transform of colours that was found put right.
+
+    What else is wrong is looked for as if the colours were right.
+    """
+    made_by, case = evidence.causes.made_by, evidence.case
+    picture = replace(case.picture, transform=made_by or case.picture.transform)
+    return replace(evidence, case=replace(case, picture=picture), known={}) if made_by else evidence
 
 
 def _as_in(own: Scene, other: Scene) -> Scene:

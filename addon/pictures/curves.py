@@ -44,30 +44,72 @@ def _power(color: Array) -> Array:
     return np.clip(color, 0, 1) ** (1 / 2.2)
 
 
+def _of_code(change: Transform) -> Transform:
+    """Return what changes linear values by a function of sRGB's."""
+    return lambda color: curve_undone(change(curve(np.clip(color, 0, 1))))
+
+
+def _to_bits(cut_off: bool, bits: tuple[int, int, int]) -> Transform:
+    """Return what rounds values to some bits of each channel, or cuts them off."""
+    most = 2.0 ** np.array(bits) - 1
+    if cut_off:
+        return _of_code(lambda v: np.floor(np.rint(EIGHT_BITS * v) * (most + 1) / 256) / most)
+    return _of_code(lambda v: np.rint(most * v) / most)
+
+
 ROUNDED_ONCE = Curve("values rounded to 8 bits", _in_srgb, key="rounding_level")
-# Transforms with a rounding to 8 bits within them: a diagnosis tells them, no comparison excuses
-# them.
-ROUNDED = (
-    Curve(
+# What linear values go through, in a name's words; and what of them is then wrong.
+_BEFORE: dict[str, Transform] = {
+    "": lambda c: c,
+    ", after values were rounded to 8 bits": _in_srgb,
+    ", after linear values were rounded to 8 bits": _eight,
+}
+_STEPS: tuple[tuple[str, str, Transform], ...] = (
+    (
+        "srgb_twice",
         "sRGB's curve applied once more, to values of 8 bits",
         lambda c: _eight(curve(np.clip(c, 0, 1))),
-        key="srgb_twice",
     ),
-    Curve(
+    (
+        "srgb_left_out",
         "sRGB's curve left out, linear values stored in 8 bits and read as sRGB's",
         lambda c: curve_undone(_eight(c)),
-        key="srgb_left_out",
     ),
-    Curve(
+    (
+        "power_for_srgb",
         "a power of 1/2.2 in place of sRGB's curve, in 8 bits",
         lambda c: curve_undone(_eight(_power(c))),
-        key="power_for_srgb",
     ),
-    Curve("a power of 1/2.2, in 8 bits", lambda c: _eight(_power(c)), key="gamma"),
+    ("gamma", "a power of 1/2.2, in 8 bits", lambda c: _eight(_power(c))),
+)
+_FEWER = (5, 6, 5), (5, 5, 5), (4, 4, 4), (3, 3, 2)  # bits of red, green and blue
+
+
+def _one_after_the_other(first: Transform, second: Transform) -> Transform:
+    return lambda color: second(first(color))
+
+
+# Transforms with a rounding within them: a diagnosis tells them, no comparison excuses them.
+ROUNDED = (
+    *(
+        Curve(name + before, _one_after_the_other(first, second), key=key)
+        for before, first in _BEFORE.items()
+        for key, name, second in _STEPS
+    ),
     Curve(
         "values cut off to 8 bits, not rounded",
-        lambda c: curve_undone(np.floor(EIGHT_BITS * curve(np.clip(c, 0, 1)) + 1e-6) / EIGHT_BITS),
+        _of_code(lambda v: np.floor(EIGHT_BITS * v + 1e-6) / EIGHT_BITS),
         key="cut_off",
+    ),
+    Curve("linear values rounded to 8 bits, before sRGB's curve", _eight, key="rounding_level"),
+    *(
+        Curve(
+            f"values {'cut off' if cut_off else 'rounded'} to {r}, {g} and {b} bits",
+            _to_bits(cut_off, (r, g, b)),
+            key="rounding_level",
+        )
+        for r, g, b in _FEWER
+        for cut_off in (False, True)
     ),
 )
 # The names of the faults of colours, in the order in which they are reported, and what they are.
@@ -81,7 +123,7 @@ KEYS = {
     "coded_gamma": "a power of coded (sRGB) values",
     "exposure": "an exposure",
     "view_transform": "a view transform",
-    "rounding_level": "rounded to 8 bits",
+    "rounding_level": "values rounded to 8 bits or fewer",
 }
 
 

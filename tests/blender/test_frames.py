@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer.blender.jobs import compare as compare_module
+from reference_tracer.blender.jobs.cameras import cameras
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
@@ -356,9 +357,8 @@ def test_each_frame_is_traced_as_it_is_by_itself(moving, tmp_path, capsys):
         for name in names:
             assert (tmp_path / found / name).read_bytes() == (tmp_path / single / name).read_bytes()
     moving.frame_set(1)
-    assert in_blender.run(["camera", "--frames", "2-4:2", "--out", str(tmp_path / "c.json")]) == 0
-    text = (tmp_path / "c.json").read_text("utf-8")
-    assert re.findall(r"\d{4}\.png", text) == ["0002.png", "0004.png"]
+    named = [camera.view.name for camera in cameras([2, 4])]
+    assert named == ["0002.png", "0004.png"]
 
 
 def test_frames_are_seen_by_their_own_cameras(moving, tmp_path, seen_by):

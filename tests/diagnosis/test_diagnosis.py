@@ -11,7 +11,8 @@ import trimesh
 from reference_tracer.causes.case import MOST_VARIANTS, WHOLE, Variant
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option, Pair
+from reference_tracer.diagnosis.faults.colors import Painted
+from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
 from reference_tracer.diagnosis.faults.picture import Rolled
 from reference_tracer.diagnosis.faults.triangles import Triangles
 from reference_tracer.diagnosis.variants import ASKING
@@ -53,7 +54,6 @@ MADE = [
     ("object_moved", Numbers((0.2, -0.1, 0.15), object="Box")),
     ("object_twice", Numbers((0.9, 0.3, 0.8), object="Ball")),
     ("recolored", Numbers((0.1, 0.8, 0.9), object="Drum")),
-    ("swapped_colors", Pair("Ball", "Ring")),
     ("rows", Guess()),
     ("row_off", Rolled(0, 1)),
     ("row_off", Rolled(-1, 0)),
@@ -272,10 +272,9 @@ def test_a_variant_may_list_its_objects_otherwise(solids):
     names = (solids.objects[last], *solids.objects[:last])
     other = replace(solids, instances=listed, objects=names)
     color = render(solids).color
+    guess = Painted(colors={("Ball", 0): np.array([[0.9, 0.1, 0.1, 1.0]], np.float32)})
     first, second = (
-        render(
-            BY_NAME["swapped_colors"].assume(case_of(scene, color), Pair("Ball", "Ring")).scene
-        ).color
+        render(BY_NAME["swapped_colors"].assume(case_of(scene, color), guess).scene).color
         for scene in (solids, other)
     )
     assert np.array_equal(first, second) and not np.array_equal(first, color)

@@ -87,7 +87,7 @@ def find_background(
     if not np.isfinite(color).all() or same.sum() < NEARLY_ALL * nothing.sum():
         return None
     found = yield from colors.find_transform(frame, picture, interior, curves)
-    transform = found.of if found else None
+    transform = found.of if found else picture.transform
     surface, made = interior & ~nothing, replace(picture, transform=transform)
     if not (yield from _apart(frame, made, color, surface)):
         return None

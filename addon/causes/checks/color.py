@@ -64,6 +64,7 @@ def check(pixels: OpenPixels) -> Work[None]:
         if found is None:
             return
         pixels.out.transform = found.name
+        pixels.out.made_by = found.of
         pixels.picture = replace(pixels.picture, transform=found.of)
     for rows in blocks(pixels.open.shape):
         picture = pixels.picture.at(rows)

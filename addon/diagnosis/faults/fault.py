@@ -7,6 +7,7 @@ whether this gives the picture that was to be explained. Both read the records o
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import IntEnum
@@ -60,14 +61,6 @@ class Option(Guess):
     """One of several ways to make the fault, by index."""
 
     number: int
-
-
-@dataclass(frozen=True, eq=False)
-class Pair(Guess):
-    """Two objects that are exchanged in something."""
-
-    first: str
-    second: str
 
 
 Make = Callable[[Case, G], Case | None]  # None where there is nothing to get wrong
@@ -173,6 +166,7 @@ class Fault(Generic[G]):
     everywhere: bool = False  # changes all pixels: not tried beside an object's fault
     vague: bool = False  # allows for several pictures: an exact fault is reported in its place
     removes: bool = False  # its object is not visible
+    turns: bool = False  # turns the picture: tried also where all colours are wrong
     examples: tuple[Example, ...] = ()
     words: str = ""  # the words of any guess, for the documents
     witness: str = ""  # the public report of it, "owner/repository#number" on GitHub
@@ -247,6 +241,19 @@ def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Ways, Find[Opt
 def instances_named(scene: Scene, name: str) -> list[int]:
     """Return the instances of an object's meshes; those of all objects if the name is empty."""
     return [n for n, i in enumerate(scene.instances) if name in ("", scene.objects[i.object])]
+
+
+Key = tuple[str, int]  # an object's name, and which of its instances and planes it is
+
+
+def keys_of(scene: Scene) -> list[Key]:
+    """Return what each instance and plane is called, also where a scene lists them otherwise."""
+    before: Counter[str] = Counter()
+    out = []
+    for name in (scene.objects[n] for n in scene.instance_objects[:-1]):
+        out.append((name, before[name]))
+        before[name] += 1
+    return out
 
 
 def of_object(change: Callable[..., Instance | None]) -> Make[Guess]:

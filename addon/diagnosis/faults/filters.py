@@ -6,41 +6,28 @@ more is known than how far it reaches, so it is told if no mean does as well.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import NamedTuple
 
 import numpy as np
 
-from ...arrays import Array, Colors
+from ...arrays import Colors
 from ...causes.case import Case
-from ...files.images import decoded, encoded
 from ...pictures.bounds import largest_within
 from ...pictures.metrics import beside_edges
 from ...tracer import shading
 from ...tracer.progress import Work
 from ..evidence import NEAR, Evidence
 from .fault import AnyFault, Effort, Fault, Guess, Numbers, Values
-from .sizes import at_size, sampled_right
+from .matching import touched_parts
+from .sizes import CODINGS, Coding, at_size, sampled_right
 
 RADII = (0.5, 0.75, 1.0, 1.5, 2.0)  # of filters that are tried, in pixels
-EDGES = 0.4, 0.8  # the least share of edges that must be mixed: by less than a pixel, by more
+EDGES = 0.2  # the least share of edges that must be mixed
+PARTS = 0.8  # the least share of the picture's parts with edges in which some must be
 MIXED = 0.5  # the least share of unexplained pixels that must show no colour of the scene
 MEANS = (2, 3, 4)  # samples each way
 MOST_SAMPLES = 1 << 24  # of a picture that is traced with several a pixel
-
-
-class Coding(NamedTuple):
-    """The values in which colours (..., 4) are mixed."""
-
-    into: Callable[[Array], Array]  # from linear, premultiplied ones
-    back: Callable[[Array], Array]
-    words: str
-
-
-SRGB = Coding(encoded, decoded, ", in sRGB values")  # as in a file
-CODINGS = (Coding(np.asarray, np.asarray, ""), SRGB)
 
 
 def _shows_mixes(evidence: Evidence) -> Work[bool]:
@@ -117,24 +104,24 @@ def _filtered(case: Case, guess: Numbers) -> Case:
 
 def _find_filter(evidence: Evidence) -> Work[list[Numbers]]:
     """Guess radii beyond the picture's own, if most unexplained pixels mix colours."""
-    if not (yield from _shows_mixes(evidence)):
+    if not ((yield from _shows_mixes(evidence)) and _edges_mix(evidence)):
         return []
     larger = [r for r in RADII if r > evidence.picture.sampling.filter_radius]
-    fits = (r for r in larger if _may_mix(evidence, r) and _edges_mix(evidence, r))
+    fits = (r for r in larger if _may_mix(evidence, r))
     return [Numbers((r,), (r,), (r,)) for r in fits]
 
 
-def _edges_mix(evidence: Evidence, radius: float) -> bool:
+def _edges_mix(evidence: Evidence) -> bool:
     """Return whether enough edges are unexplained for the whole picture to be filtered.
 
-    Of the pixels beside an edge, two wide, a filter of half a pixel mixes about half (44 % in the
-    test bed), one of a pixel nearly all. A picture that is blurred in a part has crisp edges, too.
+    Of the pixels beside an edge, two wide, the mean of four samples mixes about a quarter, a filter
+    of a pixel nearly all. A picture that is blurred in a part has crisp edges in the others.
     """
     if evidence.picture.sampling.filter_radius:
         return True  # most are mixed already
-    made = evidence.picture.made_of(evidence.frame.color)
-    edge = beside_edges(made, 2 * NEAR)
-    return bool(edge.any() and evidence.unexplained[edge].mean() >= EDGES[radius >= 1])
+    edge = beside_edges(evidence.picture.made_of(evidence.frame.color), 2 * NEAR)
+    mixed = edge.any() and evidence.unexplained[edge].mean() >= EDGES
+    return bool(mixed and touched_parts(evidence) >= PARTS)
 
 
 def _may_mix(evidence: Evidence, radius: float) -> bool:

@@ -215,15 +215,19 @@ def is_everywhere(evidence: Evidence) -> bool:
 
     A few pixels may lie anywhere: they are taken to do so.
     """
-    if "everywhere" not in evidence.known:
+    return bool(evidence.unexplained.sum() < MANY) or touched_parts(evidence) >= MOST
+
+
+def touched_parts(evidence: Evidence) -> float:
+    """Return the share of the picture's parts with edges in which some are unexplained (cached)."""
+    if "parts" not in evidence.known:
         edges = beside_edges(
             np.nan_to_num(evidence.picture.made_of(evidence.frame.color)), 2 * NEAR
         )
         tiles, touched = (_in_tiles(v) for v in (edges, edges & evidence.unexplained))
         share = touched[tiles > 0].astype(bool).mean() if tiles.any() else 1.0
-        few = evidence.unexplained.sum() < MANY
-        evidence.known["everywhere"] = bool(few or share >= MOST)
-    return bool(evidence.known["everywhere"])
+        evidence.known["parts"] = float(share)
+    return float(evidence.known["parts"])
 
 
 def _in_tiles(mask: Bools) -> Integers:

@@ -141,6 +141,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "the sign of one axis alone mirrors the picture.",
         "check the sign of the camera's right axis, or of x on the film",
         *ways(("", _matrix(_mirrored(-1, 1, 1))), ("", lambda camera: flipped(camera, 0))),
+        turns=True,
         examples=(Example("mirrored_x", "the camera mirrored left to right", with_option(0)),),
         witness="facebookresearch/pytorch3d#78",
     ),

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...arrays import Floats
 from ...causes.case import Case
-from ...scene import Instance
+from ...pictures.picture import MAJORITY
+from ...scene import Instance, Scene
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, at_once
-from ..evidence import Evidence
+from ..evidence import LEAST_SEEN, Evidence
 from .climbing import values_of
 from .fault import (
     AnyFault,
@@ -21,11 +23,13 @@ from .fault import (
     Example,
     Fault,
     Guess,
+    Key,
     Make,
     Numbers,
     Option,
     always,
     instances_named,
+    keys_of,
     of_object,
     one_of,
 )
@@ -42,8 +46,45 @@ from .pose import (
 )
 from .suspects import largest, seen_instances, suspects
 
+NAMED = 4  # objects
 SHEARED = 1e-6  # of the longest axis' square: products of axes below are rounding
 UNITS = (0.01, 100.0, 0.001, 1000.0, 0.1, 10.0, 0.0254, 1 / 0.0254, 0.3048, 1 / 0.3048)
+
+
+@dataclass(frozen=True, eq=False)
+class Several(Guess):
+    """Some instances."""
+
+    keys: frozenset[Key]
+
+
+def _without(case: Case, guess: Several) -> Case:
+    """Return the case without some instances."""
+
+    def without(scene: Scene) -> Scene:
+        pairs = zip(keys_of(scene), scene.instances, strict=False)
+        return replace(scene, instances=tuple(i for key, i in pairs if key not in guess.keys))
+
+    return case.with_scenes(without)
+
+
+@at_once
+def _not_shown(evidence: Evidence) -> list[Several]:
+    """Guess that all instances are left out of which most pixels are unexplained."""
+    scene, index = evidence.case.scene, evidence.frame.instance_index
+    count = len(scene.instances)
+    seen, wrong = (
+        np.bincount(index[where & (index >= 0)], minlength=count)[:count]
+        for where in (index >= 0, evidence.unexplained)
+    )
+    gone = np.flatnonzero((wrong > MAJORITY * seen) & (wrong >= LEAST_SEEN))
+    if not 1 < len(gone) < (seen > 0).sum():
+        return []
+    keys = [keys_of(scene)[n] for n in gone]
+    named = Counter(name for name, _ in keys)
+    words = ", ".join(f"'{name}'" + f" ({n})" * (n > 1) for name, n in named.most_common(NAMED))
+    more = f", and {len(named) - NAMED} more" if len(named) > NAMED else ""
+    return [Several(frozenset(keys), words=words + more)]
 
 
 def _a_pixel_to_the_right(case: Case, frame: Frame) -> Numbers | None:
@@ -192,6 +233,17 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         removes=True,
         examples=(Example("dropped_instance", "the largest object left out", largest),),
         witness="KhronosGroup/glTF-Blender-IO#2726",
+    ),
+    Fault(
+        "instances_missing",
+        "several objects or instances are missing: {words}",
+        "Exporters write each mesh once, and leave out what instances it: collections, particles, "
+        "geometry nodes.",
+        "write what `depsgraph.object_instances` lists, each with a matrix of its own",
+        _without,
+        _not_shown,
+        words="which, and how many",
+        witness="KhronosGroup/glTF-Blender-IO#1537",
     ),
     Fault(
         "transform_left_out",

@@ -40,10 +40,8 @@ def _find(evidence: Evidence) -> list[Processed]:
     found = surfaces(evidence)
     if found is None or len(found.wrong) < SEVERAL or found.wrong.mean() < ALL:
         return []
-    pair = [encoded(v.astype(np.float64))[:, :3] for v in (found.traced, found.shown)]
-    apart = float(np.abs(pair[0] - pair[1]).max())
-    like = np.corrcoef(pair[0].ravel(), pair[1].ravel())[0, 1] if np.ptp(pair[1]) else 0.0
-    if apart > RECOLORED or not like >= ALIKE:
+    apart = shades_apart(found.traced, found.shown)
+    if apart is None:
         return []
     made, color = _mapped(evidence.frame.color, found), evidence.picture.color
     off = _off(made, color)
@@ -52,6 +50,14 @@ def _find(evidence: Evidence) -> list[Processed]:
         return []
     made[off <= size] = color[off <= size]
     return [Processed((100 * max(apart, size),), made=made)]
+
+
+def shades_apart(traced: Colors, shown: Colors) -> float | None:
+    """Return how far k colours are apart as a file codes them; None if some are other colours."""
+    pair = [encoded(v.astype(np.float64))[:, :3] for v in (traced, shown)]
+    apart = float(np.abs(pair[0] - pair[1]).max())
+    like = np.corrcoef(pair[0].ravel(), pair[1].ravel())[0, 1] if np.ptp(pair[1]) else 0.0
+    return apart if apart <= RECOLORED and like >= ALIKE else None
 
 
 def _mapped(colors: Colors, found: Surfaces) -> Colors:

@@ -1,4 +1,4 @@
-"""The fault of another size: a picture that was rendered small, or shrunk, and enlarged.
+"""Faults of another size: a picture that was rendered smaller or larger, or shrunk and enlarged.
 
 What is traced goes through the same, and is held against the picture; of the ways to do so, those
 are tried that are right in most of the sampled pixels.
@@ -6,15 +6,20 @@ are tried that are right in most of the sampled pixels.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import partial
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
-from ...arrays import Array, Colors
+from ...arrays import Array, Colors, Floats, Places
 from ...causes.case import Case
 from ...causes.checks.probe import SOUND
+from ...files.images import decoded, encoded
+from ...pictures.picture import Picture
 from ...rendering import steps
 from ...scene import Region, ViewWindow
 from ...tracer.camera import pixel_size
@@ -31,13 +36,53 @@ class Way(StrEnum):
     """How a picture is resampled, in words."""
 
     NEAREST = "by the nearest pixel"
-    LINEAR = "linearly"
     MEAN = "by the mean of pixels"
+    LINEAR = "linearly"
+    CUBIC = "bicubically"
+    SHARP = "bicubically, sharply"
+    LANCZOS = "by Lanczos' filter"
+
+
+def _cubic(a: float, x: Floats) -> Floats:
+    """Return Keys' cubic kernel (1981): a is -0.5 in Pillow, -0.75 in OpenCV."""
+    x = np.abs(x)
+    near = ((a + 2) * x - (a + 3)) * x * x + 1
+    return np.where(x < 1, near, np.where(x < 2, a * (((x - 5) * x + 8) * x - 4), 0))
+
+
+# How many pixels each reaches, and its weight of one that is x pixels away.
+_KERNELS: dict[Way, tuple[int, Callable[[Floats], Floats]]] = {
+    Way.LINEAR: (1, lambda x: np.maximum(1 - np.abs(x), 0)),
+    Way.CUBIC: (2, partial(_cubic, -0.5)),
+    Way.SHARP: (2, partial(_cubic, -0.75)),
+    Way.LANCZOS: (3, lambda x: np.where(np.abs(x) < 3, np.sinc(x) * np.sinc(x / 3), 0)),
+}
+
+
+class Coding(NamedTuple):
+    """The values in which colours (..., 4) are mixed."""
+
+    into: Callable[[Array], Array]  # from linear, premultiplied ones
+    back: Callable[[Array], Array]
+    words: str
+
+
+# As a renderer mixes them; and as programs do that have a file's values.
+CODINGS = (
+    Coding(np.asarray, np.asarray, ""),
+    Coding(encoded, lambda c: decoded(np.clip(c, 0, 1)), ", in sRGB values"),
+)
+
+
+def _rounded_before(picture: Picture) -> Picture:
+    """Return a picture with a level more in a file: what is mixed in it was rounded before."""
+    storage = picture.storage
+    return replace(picture, storage=replace(storage, dither=storage.dither + (storage.levels > 0)))
 
 
 def sampled_right(evidence: Evidence, colors: Array) -> bool:
     """Return whether most sampled pixels, and most unexplained ones, show colours (n, 4)."""
-    right = ~evidence.shown.other_color(colors)
+    right = ~_rounded_before(evidence.shown).other_color(colors)
     return bool(right[evidence.unexplained_sampled].mean() > RIGHT and right.mean() > RIGHT)
 
 
@@ -55,6 +100,41 @@ def at_size(case: Case, size: float) -> Case:
     return case.with_scenes(lambda scene: scene.seen_by(camera))
 
 
+Mix = list[tuple[Places, Floats]]  # for each of n places, which pixels are taken, and their weights
+
+
+def _mix(have: int, size: int, way: Way) -> Mix:
+    """Return the weights with which a row of `have` pixels is resampled to `size` pixels."""
+    place = (np.arange(size) + 0.5) * have / size - 0.5
+    if way is Way.NEAREST:
+        return [(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), np.ones(size))]
+    reach, kernel = _KERNELS[way]
+    pixels = np.floor(place).astype(int) - reach + 1 + np.arange(2 * reach)[:, None]
+    weights = np.where((pixels >= 0) & (pixels < have), kernel(place - pixels), 0)
+    return [*zip(pixels.clip(0, have - 1), weights / weights.sum(axis=0), strict=True)]
+
+
+At = tuple[Places, Places]  # rows and columns
+
+
+def _everywhere(shape: tuple[int, ...]) -> At:
+    rows, columns = np.ogrid[: shape[0], : shape[1]]
+    return rows, columns
+
+
+def resized(
+    colors: Array, shape: tuple[int, ...], way: Way = Way.LINEAR, at: At | None = None
+) -> Array:
+    """Resample a picture (h', w', 4) to another size (h, w); return all pixels, or some."""
+    rows, columns = at or _everywhere(shape)
+    ups, acrosses = (_mix(*sizes, way) for sizes in zip(colors.shape[:2], shape[:2], strict=True))
+    parts = (
+        (up[rows] * across[columns])[..., None] * colors[y[rows], x[columns]]
+        for (y, up), (x, across) in product(ups, acrosses)
+    )
+    return np.asarray(sum(parts))
+
+
 @dataclass(frozen=True, eq=False)
 class Small(Guess):
     """A picture smaller by a factor of n, enlarged again."""
@@ -62,16 +142,14 @@ class Small(Guess):
     n: int
     down: Way | None  # how it was shrunk; None if it was rendered so small
     up: Way
+    coding: Coding
     corner: tuple[int, int] = (0, 0)  # which pixel of each n x n is taken if one is: row, column
+    hues: bool = False  # whether these alone were, and not the brightness
 
     @property
     def values(self) -> Values:
         """The factor."""
         return (float(self.n),)
-
-
-def _rendered(case: Case, guess: Small) -> Case:
-    return at_size(case, 1 / guess.n) if guess.down is None else case
 
 
 def _shrunk(colors: Array, guess: Small) -> Array:
@@ -92,56 +170,82 @@ def _shrunk(colors: Array, guess: Small) -> Array:
     return out[::-1]
 
 
-def _enlarged(colors: Colors, guess: Small, evidence: Evidence) -> Colors:
-    """Enlarge a picture to the evidence's size; shrink it before, unless it was rendered small."""
-    small = colors if guess.down is None else _shrunk(colors, guess)
-    height, width = evidence.unexplained.shape
-    if guess.up is Way.LINEAR:
-        return resized(small, (height, width))
-    rows, columns = (  # counted from above: a last block may be smaller
-        np.minimum(((np.arange(size) + 0.5) / step).astype(int), have - 1)
-        for size, have in zip((height, width), small.shape[:2], strict=True)
+def _grown(small: Array, guess: Small, shape: tuple[int, ...], at: At) -> Array:
+    """Return some pixels of a picture that is enlarged again."""
+    if guess.up is not Way.NEAREST:
+        return resized(small, shape, guess.up, at)
+    blocks = (  # counted from above: a last one may be smaller
+        np.minimum(((place + 0.5) / step).astype(int), have - 1)
+        for place, size, have in zip(
+            (shape[0] - 1 - at[0], at[1]), shape, small.shape, strict=False
+        )
         for step in [guess.n if guess.down else size / have]
     )
-    return small[::-1][rows][:, columns][::-1].astype(np.float32)
+    return small[::-1][tuple(blocks)]
 
 
-def resized(colors: Array, shape: tuple[int, ...]) -> Colors:
-    """Resample a picture (h', w', 4) linearly to another size (h, w)."""
-    out: Array = np.asarray(colors, np.float64)
-    for axis, size in enumerate(shape):
-        have = out.shape[axis]
-        place = (np.arange(size) + 0.5) * have / size - 0.5
-        low = np.clip(np.floor(place), 0, have - 1).astype(int)
-        share = np.clip(place - low, 0, 1).reshape([-1 if n == axis else 1 for n in range(3)])
-        first, second = (out.take(at, axis=axis) for at in (low, np.minimum(low + 1, have - 1)))
-        out = first * (1 - share) + second * share
-    return out.astype(np.float32)
+def _enlarged(colors: Colors, guess: Small, evidence: Evidence) -> Colors:
+    """Enlarge a picture to the evidence's size; shrink it before, unless it was rendered small."""
+    shape, coded = evidence.unexplained.shape, guess.coding.into(colors)
+    small = _shrunk(coded, guess) if guess.down else coded
+    return _recoded(coded, _grown(small, guess, shape, _everywhere(shape)), guess)
+
+
+def _recoded(coded: Array, large: Array, guess: Small) -> Colors:
+    """Return linear colours; with their own brightness (Rec. 601) if the hues alone were shrunk."""
+    if guess.hues:
+        large[..., :3] += ((coded - large)[..., :3] @ (0.299, 0.587, 0.114))[..., None]
+    return guess.coding.back(large).astype(np.float32)
 
 
 def _find(evidence: Evidence) -> Work[list[Small]]:
     """Guess by what factor the picture is smaller, and how, by the sampled pixels."""
-    out = []
+    at, shape, out = evidence.sample, evidence.unexplained.shape, []
     for n, name in SHARES.items():
-        small = Frame.empty(at_size(evidence.case, 1 / n).scene)
-        yield from steps(small.scene, SOUND, small)
-        places = sorted({0, n // 2, n - 1})
-        downs: list[tuple[Way | None, tuple[int, int]]] = [(None, (0, 0)), (Way.MEAN, (0, 0))]
-        downs += [(Way.NEAREST, corner) for corner in product(places, places)]
-        for (down, corner), up in product(downs, (Way.NEAREST, Way.LINEAR)):
-            made = f"shrunk to {name} its size {down}" if down else f"rendered at {name} its size"
-            guess = Small(n, down, up, corner, words=f"{made}, and enlarged {up}")
-            colors = evidence.frame.color if down else small.color
-            if sampled_right(evidence, _enlarged(colors, guess, evidence)[evidence.sample]):
-                out.append(guess)
+        rendered = Frame.empty(at_size(evidence.case, 1 / n).scene)
+        yield from steps(rendered.scene, SOUND, rendered)
+        for guesses in _downs(n, name):
+            first = guesses[0]
+            coded = first.coding.into((evidence.frame if first.down else rendered).color)
+            small = _shrunk(coded, first) if first.down else coded
+            for guess in guesses:
+                own = coded[at] if guess.hues else coded
+                large = _recoded(own, _grown(small, guess, shape, at), guess)
+                if sampled_right(evidence, large):
+                    out.append(guess)
+            yield 0.0
     return out
+
+
+def _downs(n: int, name: str) -> Iterator[list[Small]]:
+    """Yield the guesses of each way to come to a picture smaller by n."""
+    places = sorted({0, n // 2, n - 1})
+    downs: list[tuple[Way | None, tuple[int, int]]] = [(None, (0, 0)), (Way.MEAN, (0, 0))]
+    downs += [(Way.NEAREST, corner) for corner in product(places, places)]
+    for coding, (down, corner) in product(CODINGS, downs):
+        made = f"shrunk to {name} its size {down}" if down else f"rendered at {name} its size"
+        whose = {False: f" was {made}"}
+        if down is Way.MEAN and coding.words:
+            whose[True] = f"'s hues alone were shrunk to {name} the size {down}"
+        yield [
+            Small(n, down, up, coding, corner, hues, words=f"{words}, and enlarged {up}")
+            for hues, words in whose.items()
+            for up in (Way.NEAREST, *_KERNELS)
+        ]
+
+
+def _rendered(case: Case, guess: Small) -> Case:
+    """Return the case at the size at which it was rendered, with a level more in a file."""
+    case = at_size(case, 1 / guess.n) if guess.down is None else case
+    return replace(case, picture=_rounded_before(case.picture))
 
 
 SIZE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "resampled",
-        "the picture was {words}",
-        "A preview, a thumbnail or a screenshot was rendered or stored small, and enlarged.",
+        "the picture{words}",
+        "A preview, a thumbnail or a screenshot was rendered or stored small, and enlarged; a JPEG "
+        "and a video have the hues (chroma) at half the size (4:2:0).",
         "compare the picture as it was rendered, at the size at which it was",
         _rendered,
         _find,
@@ -150,7 +254,7 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
         sampled=False,
         after=_enlarged,
         effort=Effort.PIXELS,
-        words="rendered at, or shrunk to, a part of its size, and enlarged",
+        words=" was rendered at, or shrunk to, a part of its size, and enlarged, or its hues were",
         witness="mozilla-services/screenshots#1006",
     ),
 )
