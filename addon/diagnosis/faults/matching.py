@@ -33,6 +33,7 @@ FIXED = 1e-3  # keeps what no point says near 0
 INFORMED = 1 / SNAPPED  # 1/px²: what a point tells of one direction, about
 LONGEST = 16.0  # units: an axis along which next to nothing moves is no longer
 HIT = 1.0  # px: points that are fitted as near are explained
+SURE = 6  # digits of a unit
 TILES = 6  # across, and up
 MOST = 0.5  # of the tiles with edges
 MANY = 60  # unexplained pixels: with fewer nobody knows
@@ -112,7 +113,9 @@ def fitted(found: Matches, camera: Callable[[Floats], Camera | None], count: int
     if now is None:
         return None
     apart = _apart(now, found.sure)
-    return Fitted(units, float((apart[np.isfinite(apart)] < HIT).sum() / len(apart)), axes)
+    share = float((apart[np.isfinite(apart)] < HIT).sum() / len(apart))
+    # LAPACK's last digits are another machine's, and where a search begins is what it tells.
+    return Fitted(np.round(units, SURE), share, np.round(axes, SURE))
 
 
 def _apart(off: Floats, sure: Floats) -> Floats:
