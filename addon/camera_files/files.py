@@ -152,14 +152,17 @@ def of_frames(views: Sequence[View], frames: Sequence[int]) -> dict[int, View]:
     numbers = [number_of(view) for view in views]
     if not any(number is not None for number in numbers):
         if len(views) != len(frames):
-            has, of = count_of(len(views), "camera"), count_of(len(frames), "frame")
+            has, wanted = count_of(len(views), "camera"), count_of(len(frames), "frame")
             raise SceneError(
-                f"the file of --camera has {has} without numbers for {of}: {_names(views)}"
+                f"the file of --camera has {has} without numbers for {wanted}: {_names(views)}"
             )
         return dict(zip(frames, views, strict=True))
+    of: dict[int | None, list[View]] = {}
+    for number, view in zip(numbers, views, strict=True):
+        of.setdefault(number, []).append(view)
     found = {}
     for frame in frames:
-        own = [view for view, number in zip(views, numbers, strict=True) if number == frame]
+        own = of.get(frame, [])
         if len(own) != 1:
             has = count_of(len(own), "camera") if own else "no camera"
             raise SceneError(

@@ -59,8 +59,6 @@ MOST_SURE = 24  # trials of guesses that gain nearly all, at most: an empty pict
 MAIN = 0.5  # of the unexplained pixels: a guess with such a gain may need a second one beside it
 STARTS = 2  # first guesses of two that are followed
 LOST = 0.1  # of the pixels that a first guess settles: it may break no more
-# The limit of work; a search that reaches it is given up. A step is a bounded number of rays, pairs
-# or pixels, the same on each machine.
 IN_PLACES = (  # where most of the picture agrees
     Effort.NOTHING,
     Effort.LEFT_OUT,
@@ -71,6 +69,8 @@ IN_PLACES = (  # where most of the picture agrees
     Effort.CAMERA,
     Effort.ANYTHING,
 )
+# The limit of work; a search that reaches it is given up. A step is a bounded number of rays, pairs
+# or pixels, the same on each machine.
 STEPS = 16_000
 PART = 3  # of them: one fault, or one trial, has no more than one part in as many
 NONE = Score(0.0, 0.0)

@@ -26,7 +26,7 @@ from .children import one_core
 from .field import Field
 from .meshes import MissingMeshError
 from .plan import Case, Plan
-from .rounds import Ratio, Runner, in_rounds, ratio
+from .rounds import Runner, in_rounds
 from .rows import Bench, Row
 from .scenes import SUBJECTS, build, mesh_of
 
@@ -215,24 +215,10 @@ class Timing:
         )
         for name, runner in peers.items():
             setattr(row, f"{name}_s", runner.median)
-        _enter(row, "ratio_to_mt", ratio(ours, self.runners[PLAIN, TRACE]))
-        _enter(row, "render_ratio_to_mt", ratio(whole, self.runners[PLAIN, RENDER]))
-        if "embreex_trace" in peers:
-            _enter(row, "ratio_to_embreex", ratio(ours, peers["embreex_trace"]))
         if settings == CERTIFIED:
             picture, outputs = (self.runners[settings, what] for what in (PICTURE, OUTPUTS))
             row.picture_s, row.outputs_s = picture.median, outputs.median
-            if "embreex_trace" in peers:
-                _enter(row, "picture_ratio", ratio(picture, peers["embreex_ids"]))
-                _enter(row, "outputs_ratio", ratio(outputs, peers["embreex_trace"]))
         return row
-
-
-def _enter(row: Row, name: str, found: Ratio | None) -> None:
-    if found:
-        setattr(row, name, found.median)
-        setattr(row, f"{name}_least", found.least)
-        setattr(row, f"{name}_most", found.most)
 
 
 def _medians(rounds: list[dict[str, float]]) -> dict[str, float]:

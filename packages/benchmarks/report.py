@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,8 +11,6 @@ from reference_tracer.report import folders
 
 from .peers import MissingPeerError, missing
 from .rows import Bench
-from .scaling import scalings
-from .tables import table
 
 if TYPE_CHECKING:
     from pyperf import BenchmarkSuite
@@ -25,7 +24,6 @@ _UNITS = {
     "cycles_s, workbench_s": "the same, in seconds that a user waits",
     "_rays": "rays that were traced; fewer than the picture has: its seconds are extrapolated",
     "_bytes": "bytes at the peak, beside the scene and the libraries",
-    "_least, _most": "of the ratios of two times of one round",
     "embreex_differs": "share of pixels in which embreex, in float32, names another triangle",
     "stages": "seconds of a whole frame, by stage",
     "commands": "cpu_s: CPU seconds of its process; ratio: to those of `import bpy`, of one round",
@@ -33,7 +31,7 @@ _UNITS = {
 
 
 def to_dict(bench: Bench) -> dict[str, Any]:
-    """Return what `bench.json` holds: facts of the machine, rows, and what was fitted to them."""
+    """Return what `bench.json` holds: facts of the machine, and rows."""
     return {
         "schema": SCHEMA,
         **bench.machine,
@@ -43,7 +41,6 @@ def to_dict(bench: Bench) -> dict[str, Any]:
         "units": _UNITS,
         "rows": [asdict(r) for r in bench.rows],
         "commands": [asdict(c) for c in bench.commands],
-        "scaling": [asdict(s) for s in scalings(bench.rows)],
     }
 
 
@@ -53,8 +50,8 @@ def write_json(directory: str | Path, bench: Bench) -> None:
         folders.write_json(new, to_dict(bench))
 
 
-def suite(bench: Bench) -> BenchmarkSuite | None:
-    """Return the seconds of all rounds and the peaks of memory as pyperf keeps them, if any.
+def suite(values: Mapping[str, tuple[list[float], str]]) -> BenchmarkSuite | None:
+    """Return values by their names, each with its unit, as pyperf keeps them, if there are any.
 
     Raises
     ------
@@ -65,17 +62,22 @@ def suite(bench: Bench) -> BenchmarkSuite | None:
         from pyperf import Benchmark, BenchmarkSuite, Run
     except ImportError:
         raise missing("pyperf") from None
+    runs = [Run(of, metadata={"name": name, "unit": unit}) for name, (of, unit) in values.items()]
+    return BenchmarkSuite([Benchmark([run]) for run in runs]) if runs else None
+
+
+def _values(bench: Bench) -> dict[str, tuple[list[float], str]]:
+    """Return the seconds of all rounds, and the peaks of memory."""
     kept: dict[str, tuple[list[float], str]] = {k: (v, "second") for k, v in bench.times.items()}
     for r in bench.rows:
         if r.peak_bytes:
             name = f"{r.scene}, {r.width} x {r.height}, {r.camera}: {r.method}, memory"
             kept[name] = [r.peak_bytes], "byte"
-    runs = [Run(of, metadata={"name": name, "unit": unit}) for name, (of, unit) in kept.items()]
-    return BenchmarkSuite([Benchmark([run]) for run in runs]) if runs else None
+    return kept
 
 
 def write(directory: str | Path, bench: Bench) -> None:
-    """Write the table and the JSONs; a note says if pyperf is missing.
+    """Write the table and the JSONs; a note says if pyperf, which makes tables, is missing.
 
     Parameters
     ----------
@@ -88,9 +90,11 @@ def write(directory: str | Path, bench: Bench) -> None:
     OSError
         If the folder cannot be written.
     """
+    from .tables import table
+
     with folders.replacing(Path(directory), (TIMES, TABLE, JSON)) as new:
         try:
-            if kept := suite(bench):
+            if kept := suite(_values(bench)):
                 kept.dump(str(new / TIMES))
         except MissingPeerError as error:
             bench.note(str(error))

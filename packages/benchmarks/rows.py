@@ -17,11 +17,7 @@ Key = tuple[str, int, int, str, str, str]
 
 @dataclass
 class Row:
-    """One picture. Seconds are medians of the rounds, None where something was not run.
-
-    A ratio is that of two times of one round, each round measuring everyone once, so that a slow
-    moment of the machine is shared: the median, the least and the most of all rounds.
-    """
+    """One picture. Seconds are medians of the rounds, None where something was not run."""
 
     scene: str
     triangles: int
@@ -49,21 +45,6 @@ class Row:
     bvhtree_rays: int | None = None
     bvhtree_build_s: float | None = None
     embreex_differs: float | None = None  # share of pixels in which embreex names another triangle
-    ratio_to_mt: float | None = None  # trace against float64 Möller-Trumbore's
-    ratio_to_mt_least: float | None = None
-    ratio_to_mt_most: float | None = None
-    render_ratio_to_mt: float | None = None  # the same of whole frames
-    render_ratio_to_mt_least: float | None = None
-    render_ratio_to_mt_most: float | None = None
-    ratio_to_embreex: float | None = None  # trace against embreex's, without its build
-    ratio_to_embreex_least: float | None = None
-    ratio_to_embreex_most: float | None = None
-    picture_ratio: float | None = None  # `picture_s` against `embreex_ids_s`
-    picture_ratio_least: float | None = None
-    picture_ratio_most: float | None = None
-    outputs_ratio: float | None = None  # `outputs_s` against `embreex_trace_s`
-    outputs_ratio_least: float | None = None
-    outputs_ratio_most: float | None = None
     rounds: int = 0
     stages: dict[str, float] = field(default_factory=dict)  # seconds, by stage, of `render`
 

@@ -86,8 +86,6 @@ SUBJECTS = {
         Subject("icosphere_5m", 5_242_880, partial(meshes.icosphere, 9), _AROUND, SCALING),
     )
 }
-# Of one shape, so that only the number of triangles tells them apart.
-SCALED = "icosphere_5k", "icosphere_82k", "icosphere_1m", "icosphere_5m"
 
 
 def subject(name: str) -> Subject:

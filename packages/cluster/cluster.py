@@ -43,9 +43,8 @@ class NobodyError(ClusterError):
 class Asked:
     """A task that was given away, perhaps more than once, and its answers as they come."""
 
-    task: Callable[..., bytes]
+    task: Callable[..., Any]
     arguments: tuple
-    without: frozenset[str]  # the workers that must not do it
     busy: set[str] = field(default_factory=set)  # those that are late with it
     only: set[str] | None = None  # those it was last given to, where not to all
     answers: SimpleQueue = field(default_factory=SimpleQueue)
@@ -104,14 +103,14 @@ class Cluster:
         with suppress(TimeoutError):
             self.client.run(tasks.keep, name, data, **options)
 
-    def ask(self, task: Callable, *arguments: Any, without: frozenset[str] = frozenset()) -> Asked:
+    def ask(self, task: Callable, *arguments: Any) -> Asked:
         """Have a task done, with plain arguments."""
-        asked = Asked(task, arguments, without)
+        asked = Asked(task, arguments)
         self._send(asked)
         return asked
 
-    def answer(self, asked: Asked) -> Work[tuple[bytes, str]]:
-        """Wait for the answer, yielding 0; return it, and whose it is.
+    def answer(self, asked: Asked) -> Work[Any]:
+        """Wait for the answer, yielding 0; return it.
 
         Raises
         ------
@@ -148,11 +147,11 @@ class Cluster:
             raise ClusterError(words(found)) from found
         asked.futures.clear()
         self.silent.discard(worker)
-        return found, worker
+        return found
 
     def _send(self, asked: Asked) -> None:
-        if asked.without or asked.busy or self.silent:
-            may = self._allowed(asked)
+        if asked.busy or self.silent:
+            may = set(self.workers())
             asked.only = may - asked.busy - self.silent or may - asked.busy or may
             if not may:  # no workers are all workers to Dask
                 asked.answers.put((NobodyError(self._nobody), ""))
@@ -190,7 +189,7 @@ class Cluster:
 
     def _send_elsewhere(self, asked: Asked, is_late: bool) -> None:
         """Give a task that is late, or whose workers are gone, to another one, if there is one."""
-        workers, busy = self._allowed(asked), set()
+        workers, busy = set(self.workers()), set()
         if not workers:
             raise NobodyError(self._nobody)
         if is_late:
@@ -203,9 +202,3 @@ class Cluster:
                 self.silent |= busy
                 asked.busy |= busy
                 self._send(asked)
-        elif is_late and asked.without:
-            self.told(tasks.about)  # who is silent need not be waited for
-
-    def _allowed(self, asked: Asked) -> set[str]:
-        """Return who may do a task; what may be done here, too, is not for who is silent."""
-        return self.workers().keys() - (asked.without | self.silent if asked.without else set())

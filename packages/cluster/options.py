@@ -1,4 +1,4 @@
-"""`--scheduler` and `--verify`, for the commands whose work may be done elsewhere."""
+"""`--scheduler`, for the commands whose work may be done elsewhere."""
 
 from __future__ import annotations
 
@@ -8,14 +8,13 @@ from contextlib import contextmanager, nullcontext
 from typing import Any
 
 from reference_tracer.cli.arguments import Place
-from reference_tracer.cli.parser import FINITE, Parser
-from reference_tracer.scene import SceneError
+from reference_tracer.cli.parser import Parser
 
 _COMMANDS = "trace", "compare", "trade", "extremes"
 
 
 def add(parser: Parser, name: str) -> None:
-    """Add the options to a command's parser, and what they mean: its `place`."""
+    """Add the option to a command's parser, and what it means: its `place`."""
     if name not in _COMMANDS:
         return
     group = parser.add_argument_group("more cores, more machines (docs/cluster.md)")
@@ -25,45 +24,32 @@ def add(parser: Parser, name: str) -> None:
         help="Dask's, whose workers do the work: tcp://HOST:PORT, tls:// (other machines), or "
         "local:N (N processes)",
     )
-    group.add_argument(
-        "--verify",
-        type=FINITE,
-        metavar="SHARE",
-        help="of the work (above 0, to 1) that two workers do, and must find the same",
-    )
     parser.set_defaults(place=lambda given: place(given, name))
 
 
 def place(given: Namespace, name: str) -> Place:
-    """Return the parameters that have a command's work done where the options say.
+    """Return the parameters that have a command's work done where the option says.
 
     Raises
     ------
     SceneError
-        If an option is wrong.
+        If the address is none.
     ClusterError, MissingLibraryError
         If there are no such workers, or no Dask; once it is entered.
     """
-    share = given.verify
-    if given.scheduler is None:
-        if share is not None:
-            raise SceneError("--verify is about the workers of --scheduler: name one")
-        return nullcontext({})
-    if share is not None and not 0 < share <= 1:
-        raise SceneError(f"--verify is {share:g}; it must be above 0 and at most 1")
-    return _of_workers(given.scheduler, share, name)
+    return nullcontext({}) if given.scheduler is None else _of_workers(given.scheduler, name)
 
 
 @contextmanager
-def _of_workers(address: str, share: float | None, name: str) -> Iterator[dict[str, Any]]:
+def _of_workers(address: str, name: str) -> Iterator[dict[str, Any]]:
     from .connection import connected
 
     with connected(address) as cluster:
         from . import pictures, studies
 
         if name == "trade":
-            yield {"every": studies.trade(cluster, share)}
+            yield {"every": studies.trade(cluster)}
         elif name == "extremes":
-            yield {"every": studies.extremes_of(cluster, share)}
+            yield {"every": studies.extremes_of(cluster)}
         else:
-            yield {"tracer": pictures.tracer(cluster, share)}
+            yield {"tracer": pictures.tracer(cluster)}

@@ -1,16 +1,16 @@
-"""The workers' tasks: bytes, numbers and texts come in, bytes go out; no object of ours travels."""
+"""What workers do: bytes, numbers and texts come in, what they find goes out."""
 
 from __future__ import annotations
 
 import json
 import platform
 from collections.abc import Callable
-from dataclasses import asdict
 from functools import lru_cache, wraps
 from hashlib import sha256
+from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import reference_tracer
@@ -21,12 +21,14 @@ from reference_tracer.methods import Method
 from reference_tracer.rendering import TRACERS, resolved
 from reference_tracer.scene import Region, Scene
 from reference_tracer.study import extremes, tradeoff
+from reference_tracer.study.extremes import ExtremesRow
 from reference_tracer.study.scenarios.sweeps import BY_NAME
-from reference_tracer.tracer.hits import Statistics
+from reference_tracer.study.trade import TradeRow
+from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.settings import Settings
 
-from .claims import Claim, packed, unpacked
+from .owners import Owners
 
 T = TypeVar("T")
 PROVEN = Settings(Method.CERTIFIED)
@@ -43,11 +45,11 @@ def about() -> str:
     return json.dumps({"Reference Tracer": own, "numpy": np.__version__, "Python": python})
 
 
-def _named(task: Callable[..., bytes]) -> Callable[..., bytes]:
+def _named(task: Callable[..., T]) -> Callable[..., T]:
     """Have a task refuse callers of another version, and say which worker has failed."""
 
     @wraps(task)
-    def named(asked_by: str, *arguments: object) -> bytes:
+    def named(asked_by: str, *arguments: Any) -> T:
         worker = f"worker {get_worker().address}"
         if asked_by != about():
             raise RuntimeError(f"{worker} is of another version: {about()}, not {asked_by}")
@@ -101,26 +103,25 @@ def _seen(scene: str, camera: str) -> Scene:
 @_named
 def trace(
     scene: str, camera: str, settings: str, reach: float, region: tuple, dx: float, dy: float
-) -> bytes:
-    """Return a `Claim` of what a region's rays see."""
+) -> tuple[Owners | Hits, Statistics]:
+    """Return what a region's rays see, and what it took."""
     seen, statistics = _seen(scene, camera), Statistics()
     chosen = resolved(Settings(**json.loads(settings)), statistics)
     trace_band = _done(TRACERS[chosen.method](seen, chosen, reach, statistics))
-    return Claim.of(_done(trace_band(Region(*region), dx, dy)), statistics).packed()
+    hits = _done(trace_band(Region(*region), dx, dy))
+    return Owners.of(hits) if chosen.method.is_proven else hits, statistics
 
 
 @_named
-def trade_row(scene: str, camera: str, settings: str, truth: str) -> bytes:
-    """Return a row of the trade, as JSON; it is held against the colour `truth` (h, w, 4)."""
-    seen, [color] = _seen(scene, camera), unpacked(_KEPT[truth], (np.float64, (None, None, 4)))
+def trade_rows(scene: str, camera: str, settings: str, truth: str) -> list[TradeRow]:
+    """Return a row of the trade; it is held against the colour `truth` (h, w, 4)."""
+    seen, color = _seen(scene, camera), np.load(BytesIO(_KEPT[truth]), allow_pickle=False)
     wanted = tradeoff.Choice(Settings(**json.loads(settings)), seen)
     proven = tradeoff.Choice(PROVEN, seen)
-    rows = _done(tradeoff.rows_of([proven, wanted], color))[-1:]
-    return packed(np.array(json.dumps([asdict(row) for row in rows])))
+    return _done(tradeoff.rows_of([proven, wanted], color))[-1:]
 
 
 @_named
-def extremes_rows(scenario: str, scale: float, rays: int | None, judged: int) -> bytes:
-    """Return the rows of a scenario at a scale, as JSON."""
-    rows = _done(extremes.rows_of(BY_NAME[scenario], scale, rays, judged))
-    return packed(np.array(json.dumps([asdict(row) for row in rows])))
+def extremes_rows(scenario: str, scale: float, rays: int | None, judged: int) -> list[ExtremesRow]:
+    """Return the rows of a scenario at a scale."""
+    return _done(extremes.rows_of(BY_NAME[scenario], scale, rays, judged))

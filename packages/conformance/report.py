@@ -18,7 +18,6 @@ from reference_tracer.tracer.progress import Work
 from reference_tracer.wording import count_of
 
 from .judging import Program, Result
-from .svg import element, said, width_of
 
 PAGE, BADGE, JUNIT, JSON = NAMES = "index.html", "badge.svg", "junit.xml", "conformance.json"
 SCHEMA = "reference_tracer.conformance/1"
@@ -28,6 +27,8 @@ _COLORS = {  # of a badge, by the gravest verdict: dark enough for white words
     Verdict.WARNINGS: "#7a5a00",
 }
 _BAD = "#a8001c"
+_LETTER = 0.64 * 11  # of a badge: the width of a letter, with room; no font is known here
+_LEFT = 122.64  # and of its left half
 _HEAD = "scene", "verdict", "what is wrong"
 
 
@@ -86,19 +87,23 @@ def lines(results: Sequence[Result]) -> list[str]:
 
 def badge(results: Sequence[Result]) -> str:
     """Return an SVG that says how many scenes agree, in the colour of the gravest verdict."""
-    color = _COLORS.get(verdict(results), _BAD)
-    texts = "Reference Tracer", f"{agreeing(results)} of {len(results)}"
-    drawn, x = [], 0.0
-    for text, fill in zip(texts, ("#444", color), strict=True):
-        width = width_of(text, 11) + 10
-        drawn.append(element("rect", x=x, width=width, height=20.0, fill=fill))
-        drawn.append(said("text", text, x=x + width / 2, y=14.0))
-        x += width
-    words = {"fill": "#fff", "font_family": "sans-serif", "text_anchor": "middle"}
-    drawn = [element("g", *drawn, **words, font_size=11.0)]
-    title = said("title", f"Reference Tracer: {summary(results)}")
-    space = "http://www.w3.org/2000/svg"
-    return element("svg", title, *drawn, xmlns=space, width=x, height=20.0, role="img") + "\n"
+    count = f"{agreeing(results)} of {len(results)}"
+    right = len(count) * _LETTER + 10
+    return _filled(
+        BADGE,
+        summary=summary(results),
+        count=count,
+        color=_COLORS.get(verdict(results), _BAD),
+        right=f"{right:.7g}",
+        middle=f"{_LEFT + right / 2:.7g}",
+        width=f"{_LEFT + right:.7g}",
+    )
+
+
+def _filled(name: str, **words: str) -> str:
+    """Return a template that lies beside this file, with words in place of their names."""
+    text = Path(__file__).with_name(name).read_text(encoding="utf-8")
+    return Template(text).substitute(words)
 
 
 def _content(program: Program, results: Sequence[Result]) -> dict[str, object]:
@@ -122,7 +127,8 @@ def _content(program: Program, results: Sequence[Result]) -> dict[str, object]:
 
 
 def _page(program: Program, results: Sequence[Result]) -> str:
-    return Template(Path(__file__).with_name("page.html").read_text(encoding="utf-8")).substitute(
+    return _filled(
+        "page.html",
         title=escape(f"{_TITLE}: {summary(results)}"),
         badge=badge(results),
         command=f"<code>{escape(program.command)}</code>",

@@ -15,7 +15,7 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from itertools import chain, count, islice
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +26,7 @@ from reference_tracer_processes.sandbox import sandbox
 from .external import Run
 from .formats import FORMATS
 from .judging import Judgement
+from .names import numbered
 from .page import class_page, page
 from .report import Student, student, to_dict
 from .subjects.subject import Subject
@@ -186,11 +187,5 @@ def _imported(tree: ast.Module) -> Iterator[str]:
 
 def _file_names(names: Sequence[str]) -> dict[str, str]:
     """Return a file's name for each student, of plain characters, none twice."""
-    out: dict[str, str] = {}
-    taken: set[str] = set()
-    for name in names:
-        short = re.sub(r"[^\w.-]+", "_", name).strip("._")[:_LONGEST] or "student"
-        numbered = chain([short], (f"{short}_{n}" for n in count(2)))
-        out[name] = next(own for own in numbered if own.casefold() not in taken)
-        taken.add(out[name].casefold())
-    return out
+    short = [re.sub(r"[^\w.-]+", "_", n).strip("._")[:_LONGEST] or "student" for n in names]
+    return dict(zip(names, numbered(short, "{}_{}", str.casefold), strict=True))

@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import chain, count
 from pathlib import Path
 from typing import TypeVar
 
@@ -27,7 +26,7 @@ from .faults import Fault, dependence, find_faults, raising
 from .form import Form
 from .judged_scene import JudgedScene
 from .matching import Match
-from .names import distinct
+from .names import distinct, numbered
 from .picture import Look, in_scenes, look
 from .shared_edges import SharedEdges, try_edges
 from .student import Student
@@ -170,12 +169,11 @@ def names(submissions: Sequence[Path | Run]) -> list[str]:
     """Return what a reader calls each: its file's or folder's name, or a command; none twice."""
     paths = [s.own if isinstance(s, Run) else s for s in submissions]
     files = iter(distinct([path for path in paths if path]))
-    out: list[str] = []
-    for each, path in zip(submissions, paths, strict=True):
-        name = next(files) if path or not isinstance(each, Run) else printable(each.command)
-        numbered = chain([name], (f"{name} ({n})" for n in count(2)))
-        out.append(next(own for own in numbered if own not in out))
-    return out
+    every = [
+        printable(each.command) if isinstance(each, Run) and not path else next(files)
+        for each, path in zip(submissions, paths, strict=True)
+    ]
+    return list(numbered(every, "{} ({})"))
 
 
 def _on_cases(out: Judgement, student: Submission, cases: TableCases) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from reference_tracer.wording import printable
@@ -14,7 +15,11 @@ def distinct(paths: Sequence[Path]) -> list[str]:
     What steers a terminal is spelt out: the names are not ours.
     """
     parts = [Path(p).resolve().parts for p in paths]
-    return [printable("/".join(_least(own, parts))) for own in parts]
+    ends = Counter(own[-k:] for own in set(parts) for k in range(1, len(own)))
+    least = (
+        next((own[-k:] for k in range(1, len(own)) if ends[own[-k:]] == 1), own) for own in parts
+    )
+    return [printable("/".join(own)) for own in least]
 
 
 def stems(paths: Sequence[Path]) -> list[str]:
@@ -23,9 +28,14 @@ def stems(paths: Sequence[Path]) -> list[str]:
     return [a if short.count(a) == 1 else b for a, b in zip(short, whole, strict=True)]
 
 
-def _least(own: tuple[str, ...], every: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    others = [p for p in every if p != own]
-    for count in range(1, len(own)):
-        if all(p[-count:] != own[-count:] for p in others):
-            return own[-count:]
-    return own
+def numbered(names: Sequence[str], pattern: str, key: Callable[[str], str] = str) -> Iterator[str]:
+    """Yield names, those that were there before with a number; `key` says which are the same."""
+    taken: set[str] = set()
+    last: Counter[str] = Counter()
+    for name in names:
+        own = name
+        while key(own) in taken:
+            last[key(name)] += 1
+            own = pattern.format(name, last[key(name)] + 1)
+        taken.add(key(own))
+        yield own

@@ -86,16 +86,23 @@ def differences(
 
 def _of_planes(first: Scene, second: Scene) -> Iterator[Difference]:
     """Yield how infinite planes differ, which have no triangles."""
-    own, other = ([(s.objects[p.object], p) for p in s.planes] for s in (first, second))
-    for name, plane in own:
-        theirs = [p for its, p in other if its == name]
-        if not theirs:
-            yield _of_fault("object_missing", name)
-        elif not any(_alike(plane, p) for p in theirs):
-            yield Difference(name, "plane_moved", f"the infinite plane '{name}' lies elsewhere")
-    for name in dict.fromkeys(its for its, _ in other):
-        if name not in [its for its, _ in own]:
+    own, other = map(_planes_of, (first, second))
+    for name, planes in own.items():
+        for plane in planes:
+            if name not in other:
+                yield _of_fault("object_missing", name)
+            elif not any(_alike(plane, p) for p in other[name]):
+                yield Difference(name, "plane_moved", f"the infinite plane '{name}' lies elsewhere")
+    for name in other:
+        if name not in own:
             yield Difference(name, "object_added", f"'{name}' is not in the first scene")
+
+
+def _planes_of(scene: Scene) -> dict[str, list[Plane]]:
+    out: dict[str, list[Plane]] = {}
+    for plane in scene.planes:
+        out.setdefault(scene.objects[plane.object], []).append(plane)
+    return out
 
 
 def _alike(first: Plane, second: Plane) -> bool:

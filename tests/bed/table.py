@@ -39,8 +39,8 @@ from .bridge import case_of
 from .damage import COUNT, damaged
 from .description import Description
 from .faults import cells
-from .making import Made, right
-from .names import right_names, same, says_nothing
+from .making import Fault, Made, right
+from .names import right_names, same, says_nothing, spoken
 from .variants import with_variants
 
 Row: TypeAlias = dict[str, Any]
@@ -67,12 +67,12 @@ def listed(fault: str | None = None, scene: int | None = None, damage: int = 0) 
     return [*(names[n] for n in order), *(f"damage | {n}" for n in range(damage))]
 
 
-def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, dict[str, str]] | None:
-    """Return a cell's scene, picture, what made it, and right names; None if nothing shows it."""
+def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, Fault | None] | None:
+    """Return a cell's scene, picture, what made it, and its fault; None if nothing shows it."""
     name, number = cell.split(" | ")
     if name == "damage":
         _, scene, picture = damaged(int(number))
-        return scene, picture, None, {}
+        return scene, picture, None, None
     found = [pair for pair in cells(None, int(number)) if pair[0].name == name]
     if not found:  # a version before may not know it
         return None
@@ -81,7 +81,7 @@ def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, dict[str, 
     shown = None if wrong is None else wrong.stored()
     if shown is None or same(shown, right(scene).picture()) or says_nothing(shown):
         return None
-    return scene, shown, wrong, right_names(fault, scene)
+    return scene, shown, wrong, fault
 
 
 def compared(scene: Description, picture: np.ndarray, made: Made | None = None) -> Comparison:
@@ -95,7 +95,7 @@ def measured(cell: str) -> Row:
     made = made_of(cell)
     if made is None:
         return {"answer": "not seen"}
-    scene, picture, wrong, names = made
+    scene, picture, wrong, fault = made
     began = time.process_time()
     found = compared(scene, picture, wrong)
     between = time.process_time()
@@ -109,13 +109,20 @@ def measured(cell: str) -> Row:
     useful = wrong is not None and set(shown) & changed(scene, wrong)
     silent = "useful" if useful else "silent"
     return {
-        "answer": "wrong" if every - names.keys() else "named" if every else silent,
+        "answer": ("named" if _are_right(every, fault, scene) else "wrong") if every else silent,
         "compare": between - began,
         "both": ended - began,
         "told": [transform] * bool(transform) + [t.sentence for t in told],
         "names": sorted(every),
         "ended": bool(diagnosis and diagnosis.untried),
     }
+
+
+def _are_right(names: set[str], fault: Fault | None, scene: Description) -> bool:
+    """Return whether names are right: only others than the fault's own take long to judge."""
+    if fault is None:
+        return False
+    return names <= {fault.key, spoken(fault)} or names <= right_names(fault, scene).keys()
 
 
 def changed(scene: Description, made: Made) -> set[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -19,7 +19,6 @@ from reference_tracer_benchmarks.plan import Case, Plan
 from reference_tracer_benchmarks.rays import rays_of
 from reference_tracer_benchmarks.rounds import Runner, in_rounds, ratio
 from reference_tracer_benchmarks.rows import Bench, CommandRow, Row, machine
-from reference_tracer_benchmarks.scaling import scalings
 from reference_tracer_benchmarks.window import WINDOW
 
 WIDTH, HEIGHT = 48, 27
@@ -41,9 +40,6 @@ REQUIRED = {
     "cycles_s",
     "workbench_s",
     "peak_bytes",
-    "ratio_to_mt",
-    "ratio_to_mt_least",
-    "ratio_to_mt_most",
 }
 
 
@@ -288,11 +284,7 @@ def test_a_row_for_each_scene_size_camera_and_method(bench):
         assert r.embreex_trace_s > 0 and r.embreex_build_s > 0 and r.embreex_rays == r.pixels
         assert r.rtree_s > r.embreex_trace_s and 0 < r.rtree_rays <= r.pixels
         assert r.embreex_differs < 0.01
-        assert r.ratio_to_mt_least <= r.ratio_to_mt <= r.ratio_to_mt_most
-        assert r.ratio_to_embreex_least <= r.ratio_to_embreex <= r.ratio_to_embreex_most
         assert (r.bvhtree_s, r.cycles_s, r.workbench_s) == (None, None, None)
-        if r.method == "moller_trumbore":
-            assert r.ratio_to_mt == r.ratio_to_mt_least == r.ratio_to_mt_most == 1
     assert not bench.notes
 
 
@@ -320,37 +312,10 @@ def test_a_plain_method_that_takes_too_long_is_not_timed(tmp_path, monkeypatch):
     result_of(measure.measure(Plan((case,), False, 1, 1.0, 0.1), found, tmp_path))
     plain, certified = found.rows
     assert plain.trace_s is plain.render_s is plain.peak_bytes is None
-    assert certified.trace_s > 0 and certified.peak_bytes > 0 and certified.ratio_to_mt is None
+    assert certified.trace_s > 0 and certified.peak_bytes > 0
     assert sum("takes more than" in note for note in found.notes) == 2
 
 
 def test_no_memory_is_known_where_a_child_fails(tmp_path):
     jobs = [memory.Job(8, 8, "perspective", "certified", "float64", False)] * 2
     assert list(memory.peaks("suzanne", tmp_path, jobs)) == [None, None]
-
-
-# ---- scaling
-
-
-def test_scaling_over_triangles_and_pixels():
-    rows = [
-        Row(
-            name,
-            scenes.SUBJECTS[name].triangles,
-            w,
-            h,
-            "perspective",
-            "certified",
-            "float64",
-            trace_s=1e-9 * scenes.SUBJECTS[name].triangles ** 0.5 * (w * h) ** 0.75,
-        )
-        for name in ("icosphere_5k", "icosphere_82k", "icosphere_1m")
-        for w, h in ((480, 270), (1920, 1080))
-    ]
-    cube = replace(rows[0], scene="cube", triangles=12)  # another shape, and no second size
-    found = scalings([*rows, cube])
-    triangles = [s for s in found if s.over == "triangles"]
-    pixels = [s for s in found if s.over == "pixels"]
-    assert [s.exponent for s in triangles] == pytest.approx([0.5] * 2)
-    assert [s.exponent for s in pixels] == pytest.approx([0.75] * 3)
-    assert {s.points for s in triangles} == {3} and {s.of for s in found} == {"trace"}

@@ -34,17 +34,10 @@ def heavy(build):
 
 
 @pytest.mark.parametrize("colors", [By.AUTOMATIC, By.VIEWPORT, By.OBJECT])
-def test_all_pictures_come_of_one_evaluation(colors, heavy, compare):
+@pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
+def test_all_pictures_come_of_one_evaluation(judge, colors, heavy, compare):
     with counted() as found:
-        comparison = compare(judge="WORKBENCH", colors=colors)
-    assert comparison.verdict == "agree"
-    assert comparison.identity.shows().not_known == 0
-    assert found == [1]
-
-
-def test_a_ray_tracer_draws_all_pictures_of_one_evaluation(heavy, compare):
-    with counted() as found:
-        comparison = compare(judge="CYCLES")
+        comparison = compare(judge=judge, colors=colors)
     assert comparison.verdict == "agree"
     assert comparison.identity.shows().not_known == 0
     assert found == [1]

@@ -22,19 +22,15 @@ from reference_tracer.manifest import Unmodelled
 from reference_tracer.pictures.bands import band_of
 from reference_tracer.pictures.bounds import differing
 from reference_tracer.rendering import render
-from reference_tracer.scene import Region, ViewWindow
+from reference_tracer.scene import ViewWindow
 from reference_tracer.tracer import render as rendering
-from reference_tracer.tracer.camera import film_of, pixel_size
+from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
 from ..cases import count, explained, find_causes
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
-
-
-def test_the_same_picture_agrees(room):
-    assert (explained(room, render(room).color).cause == AGREE).all()
 
 
 def faults():
@@ -122,32 +118,6 @@ def test_what_is_not_modelled_explains_only_its_own_place(room):
     assert (found.cause[~rows] == AGREE).all()
 
 
-def test_a_box_covers_its_projection(room, rng):
-    for _ in range(40):
-        center, size = rng.normal(size=3), 10.0 ** rng.uniform(-3, 0, 3)
-        bounds = np.stack((center - size, center + size))
-        inside = covered(room.camera, bounds)
-        points = rng.uniform(*bounds, (2000, 3))
-        points[:8] = np.array(np.meshgrid(*bounds.T)).reshape(3, 8).T
-        x, y, depth = film_of(room.camera, points.T)
-        assert (depth > room.camera.clip_start).all()
-        shown = (x >= 0) & (x < 60) & (y >= 0) & (y < 45)
-        assert inside[y[shown].astype(int), x[shown].astype(int)].all()
-        box = [np.floor(v.min()) <= np.arange(n) for v, n in ((y[:8], 45), (x[:8], 60))]
-        box = [b & (np.arange(len(b)) <= v[:8].max()) for b, v in zip(box, (y, x), strict=True)]
-        assert (inside <= np.outer(*box)).all()
-
-
-def test_boxes_around_behind_and_beyond(room):
-    eye, forward = room.camera.origin, room.camera.forward
-
-    def at(depth):
-        return covered(room.camera, eye + depth * forward + np.array([[-0.3], [0.3]]))
-
-    assert at(0).all() or room.camera.projection.shares_direction
-    assert not at(-2).any() and not at(2000).any()
-
-
 def test_far_from_the_origin_nothing_is_decided(room, make):
     far = np.eye(4)
     far[:3, 3] = (3e7, -2e7, 1e7)
@@ -184,12 +154,6 @@ def test_rows_that_were_not_traced(room, monkeypatch):
     assert (found.cause[frame.rows_done] == AGREE).all()
 
 
-def test_an_empty_scene_agrees_with_its_background(make):
-    scene = make.scene(make.camera(8, 6), background=(0.2, 0.3, 0.4, 1))
-    assert (explained(scene, render(scene).color).cause == AGREE).all()
-    assert (explained(scene, render(scene).color * 0).cause == UNEXPLAINED).all()
-
-
 def test_progress_rises(room):
     shares = []
     result_of(find_causes(room, render(room), 0 * render(room).color), shares.append)
@@ -202,21 +166,6 @@ def test_bounds_that_are_not_finite_explain_nothing(room, bounds):
     hair = Unmodelled("Hair", "hair", bounds=np.full((2, 3), bounds) * [[-1], [1]])
     found = explained(room, 0 * render(room).color, [hair])
     assert count(found, UNEXPLAINED) > 100 and count(found, NOT_MODELLED) == 0
-
-
-def test_a_border_has_the_causes_of_the_whole(room):
-    """Away from its rim, where a pixel's neighbours are not there."""
-    picture = render(room).color.copy()
-    picture[::2] = WHITE
-    hair = Unmodelled("Hair", "hair", bounds=np.array([(0.3, -0.8, -0.9), (1.1, 0.1, 0.3)]))
-    region = Region(11, 6, 52, 41)
-    part = replace(room, camera=replace(room.camera, region=region))
-    whole = explained(room, picture, [hair])
-    found = explained(part, picture[6:41, 11:52].copy(), [hair])
-    assert len(np.unique(found.cause)) == 3
-    for name in ("cause", "figure", "allowed"):
-        cut = getattr(whole, name)[7:40, 12:51]
-        assert np.array_equal(getattr(found, name)[1:-1, 1:-1], cut, equal_nan=True)
 
 
 def test_a_near_surface_does_not_excuse_the_background(make):

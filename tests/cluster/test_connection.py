@@ -8,7 +8,6 @@ import socket
 import subprocess
 import sys
 import time
-from argparse import Namespace
 
 import dask.config
 import psutil
@@ -21,7 +20,6 @@ from reference_tracer.scene import SceneError
 from reference_tracer_cluster import connection, pictures
 from reference_tracer_cluster.cluster import ClusterError
 from reference_tracer_cluster.connection import connected
-from reference_tracer_cluster.options import place
 
 from .conftest import dask as running_dask
 
@@ -48,20 +46,6 @@ pytestmark = pytest.mark.slow
 )
 def test_an_address_is_refused(address, said):
     with pytest.raises(SceneError, match=said), connected(address):
-        pass
-
-
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        ({"scheduler": "local:1", "verify": 0.0}, "above 0 and at most 1"),
-        ({"scheduler": "local:1", "verify": 1.5}, "above 0 and at most 1"),
-        ({"scheduler": "local:1", "verify": float("nan")}, "above 0 and at most 1"),
-        ({"scheduler": None, "verify": 0.5}, "name one"),
-    ],
-)
-def test_a_share_is_refused(options, said):
-    with pytest.raises(SceneError, match=said), place(Namespace(**options), "trace"):
         pass
 
 
@@ -118,7 +102,7 @@ def test_who_joins_later_is_asked_too(tmp_path, scene):
             running.end("first")
             late = running.work("late", "--preload", str(tmp_path / "late.py"))
             with pytest.raises(ClusterError, match=f"worker {late} is of another version"):
-                render(scene, tracer=pictures.tracer(cluster, None))
+                render(scene, tracer=pictures.tracer(cluster))
 
 
 def test_with_certificates(tmp_path, scene):
@@ -131,7 +115,7 @@ def test_with_certificates(tmp_path, scene):
     with running_dask(tmp_path, *tls) as running:
         running.work("first")
         with dask.config.set(own), connected(running.address) as cluster:
-            found = render(scene, tracer=pictures.tracer(cluster, None))
+            found = render(scene, tracer=pictures.tracer(cluster))
         with pytest.raises(ClusterError, match="no scheduler answers"):
             with connected(running.address.replace("tls", "tcp")):
                 pass

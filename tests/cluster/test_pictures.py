@@ -28,14 +28,12 @@ from .conftest import dask
 
 pytestmark = pytest.mark.slow
 
-CASES = [  # with the share that is verified
-    (Settings("certified"), None),
-    (Settings("certified"), 1.0),
-    (Settings("certified", samples=3), None),
-    (Settings("certified", samples=2, color="depth"), 0.01),
-    (Settings("certified", color="depth"), 0.01),
-    (Settings("watertight", samples=2), None),
-    (Settings("textbook", "float32", color="facing"), 0.01),
+CASES = [
+    Settings("certified"),
+    Settings("certified", samples=3),
+    Settings("certified", samples=2, color="depth"),
+    Settings("watertight", samples=2),
+    Settings("textbook", "float32", color="facing"),
 ]
 
 
@@ -44,9 +42,9 @@ def bits(frame: Frame) -> dict:
     return out | {"ties": dict(frame.ties), "refused": frame.statistics.refused}
 
 
-@pytest.mark.parametrize(("settings", "share"), CASES)
-def test_all_arrays_are_those_of_one_process(cluster, scene, settings, share):
-    found = render(scene, settings, tracer=pictures.tracer(cluster, share))
+@pytest.mark.parametrize("settings", CASES)
+def test_all_arrays_are_those_of_one_process(cluster, scene, settings):
+    found = render(scene, settings, tracer=pictures.tracer(cluster))
     assert bits(found) == bits(render(scene, settings))
     if settings.method == "certified":
         assert len(found.ties) > 10 and (found.certainty == Certainty.EXACT).any()
@@ -58,10 +56,10 @@ def larger(scene):
     return scene.seen_by(replace(scene.camera, width=240, height=180, region=None))
 
 
-def happens(cluster, scene, do, **options) -> Frame:
+def happens(cluster, scene, do) -> Frame:
     """Trace, and do something once a part is there."""
     frame = Frame.empty(scene)
-    work = steps(scene, Settings("certified"), frame, pictures.tracer(cluster, **options))
+    work = steps(scene, Settings("certified"), frame, pictures.tracer(cluster))
     for share in work:
         if share > 0.1 and do:
             do()
@@ -80,7 +78,7 @@ def victim(shared, monkeypatch):
 
 def test_a_worker_is_killed(victim, shared, cluster, larger):
     kill = shared.processes["victim"].kill
-    assert bits(happens(cluster, larger, kill, share=None)) == bits(render(larger))
+    assert bits(happens(cluster, larger, kill)) == bits(render(larger))
 
 
 def test_a_worker_is_paused(victim, shared, cluster, larger, monkeypatch):
@@ -90,7 +88,7 @@ def test_a_worker_is_paused(victim, shared, cluster, larger, monkeypatch):
     def pause():
         shared.processes["victim"].send_signal(signal.SIGSTOP)
 
-    assert bits(happens(cluster, larger, pause, share=None)) == bits(render(larger))
+    assert bits(happens(cluster, larger, pause)) == bits(render(larger))
 
 
 def test_workers_are_silent_from_the_start(shared, cluster, scene, monkeypatch):
@@ -100,7 +98,7 @@ def test_workers_are_silent_from_the_start(shared, cluster, scene, monkeypatch):
     try:
         second.send_signal(signal.SIGSTOP)
         for _ in range(2):
-            assert bits(render(scene, tracer=pictures.tracer(cluster, 1.0))) == bits(render(scene))
+            assert bits(render(scene, tracer=pictures.tracer(cluster))) == bits(render(scene))
             assert len(cluster.silent) == 1
         with connected(shared.address) as another:
             assert another.silent == cluster.silent
@@ -130,7 +128,7 @@ def test_a_task_is_done_twice(cluster, scene, monkeypatch):
     given = []
     send = cluster_module.Cluster._send
     monkeypatch.setattr(cluster_module.Cluster, "_send", lambda *a: given.append(send(*a)))
-    found = render(scene, tracer=pictures.tracer(cluster, None))
+    found = render(scene, tracer=pictures.tracer(cluster))
     assert bits(found) == bits(render(scene))
     assert len(given) > pictures.EACH * 2
 
@@ -140,7 +138,7 @@ def test_the_scheduler_ends(tmp_path, larger, monkeypatch):
     with dask(tmp_path) as own, pytest.raises(ClusterError, match=r"127\.0\.0\.1:\d+ has ended"):
         own.work("only")
         with connected(own.address) as found:
-            happens(found, larger, lambda: own.end("scheduler"), share=None)
+            happens(found, larger, lambda: own.end("scheduler"))
 
 
 def test_what_is_not_wanted_any_more_is_not_done(shared, larger):
@@ -149,7 +147,7 @@ def test_what_is_not_wanted_any_more_is_not_done(shared, larger):
             larger.seen_by(replace(larger.camera, width=960, height=720, region=None)),
             Settings("textbook", samples=8),
             Frame.empty(larger),
-            pictures.tracer(found, None),
+            pictures.tracer(found),
         )
         while not any(found.client.processing().values()):
             next(work)
@@ -159,13 +157,13 @@ def test_what_is_not_wanted_any_more_is_not_done(shared, larger):
                 break
             time.sleep(0.1)
         assert not any(again.client.processing().values())
-        assert bits(render(larger, tracer=pictures.tracer(again, None)))
+        assert bits(render(larger, tracer=pictures.tracer(again)))
 
 
 def test_commands(shared, scene, tmp_path, capsys, monkeypatch):
     """Each writes what it writes without workers."""
     save_scene(tmp_path / "scene.npz", scene)
-    elsewhere = ["--scheduler", shared.address, "--verify", "0.1"]
+    elsewhere = ["--scheduler", shared.address]
 
     def both(command, out, *options):
         for where, more in (("here", []), ("there", elsewhere)):

@@ -17,6 +17,21 @@ def test_shapes_are_meshes(ball_scene, pixel):
         assert all(len(set(face)) == len(face) >= 3 for face in shape.faces)
 
 
+def area(points):
+    a, b, c = points
+    return np.linalg.norm(np.cross(b - a, c - a))
+
+
+def test_the_weights_are_the_shares_of_the_area(ball_scene):
+    found = derive(ball_scene, 12, 9)
+    weights = [s for s in shapes(found) if s.name.startswith("s")]
+    areas = np.array([area(s.vertices) for s in weights])
+    np.testing.assert_allclose(areas / areas.sum(), found.certified.s, rtol=1e-4, atol=1e-6)
+    x = found.pixel.origin + found.certified.t * found.pixel.direction
+    hit = next(s for s in shapes(found) if s.name == "Hit")
+    np.testing.assert_allclose(hit.vertices.mean(axis=0), x, rtol=1e-9)
+
+
 def test_pieces_lie_in_their_planes_and_hold_x(ball_scene):
     found = derive(ball_scene, 12, 9)
     pieces = {s.name.split()[0]: s for s in shapes(found) if " plane of " in s.name}

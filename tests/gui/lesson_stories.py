@@ -28,8 +28,8 @@ from story import (
 
 RECORDED = "LESSON_CLIPS" in os.environ
 COMPARE = "reference_tracer.compare("
-# Pixels from *Trace and Compare* down to what can be unfolded, where nothing is compared yet.
-SAMPLES, SETTINGS = 109, 83
+# Pixels from the top of *Trace and Compare* down to what can be unfolded, before any comparison.
+SAMPLES, SETTINGS = 115, 71
 
 
 def area(kind):

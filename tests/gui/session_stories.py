@@ -212,7 +212,7 @@ def tried():
     yield from front()
     press_compare()
     yield from until(at_rest, 120)
-    yield 1.0
+    yield 2.0  # panels that grow are in place
     content = result().content
     noted["tried"] = [content.verdict, sorted({u.feature for u in content.manifest.unmodelled})]
     screenshot("session_tried")
@@ -236,6 +236,7 @@ def tried():
     yield 1.5
     screenshot("session_tooltip_by_key")
     press("Escape")
+    bpy.ops.preferences.reset_default_theme()
 
 
 def without_result():

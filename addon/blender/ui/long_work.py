@@ -182,7 +182,7 @@ class LongWork(Mixin):
         LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"
         LongWork._told.add(context.workspace.as_pointer())
         context.workspace.status_text_set(LongWork.said)
-        _redraw_said(context)
+        redraw_said(context)
 
     def cancel(self, context: Any) -> None:
         """Stop, as Blender itself asks for at quitting or loading a file."""
@@ -199,7 +199,7 @@ class LongWork(Mixin):
             if workspace.as_pointer() in LongWork._told:
                 workspace.status_text_set(None)
         LongWork._told.clear()
-        _redraw_said(context)
+        redraw_said(context)
 
     def _end(self, context: Any, result: Any) -> Answer:
         """Show the result, and report it."""
@@ -210,7 +210,7 @@ class LongWork(Mixin):
         return {"FINISHED"}
 
 
-def _redraw_said(context: Any) -> None:
+def redraw_said(context: Any) -> None:
     """Have what says how far the work is drawn again, and nothing that costs more."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:

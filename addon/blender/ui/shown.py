@@ -15,10 +15,9 @@ from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty
 
 from . import results
-from .long_work import Answer, named
+from .long_work import Answer, named, redraw_said
 
-SETTLED = 0.3  # seconds after which panels that grow are in place: Blender moves them for 0.1 s,
-# and would leave them lying over each other where a window is opened meanwhile.
+SETTLED = 0.5  # seconds from when on panels are at rest, which Blender moves where one has grown
 
 # By the identifiers of the switch; Both is the traced picture with the other one over it.
 IMAGES = {
@@ -88,7 +87,7 @@ def open_as_render(context: Any, image: Any) -> None:
     """
     if not show_where_shown(context, image):
         opening = partial(_open, context.window.as_pointer(), image[results.MARK])
-        bpy.app.timers.register(opening, first_interval=SETTLED)
+        bpy.app.timers.register(opening, first_interval=0.0)
 
 
 def _open(window: int, name: str) -> None:
@@ -104,6 +103,8 @@ def _open(window: int, name: str) -> None:
     if way == "WINDOW" or (way != "NONE" and _of_render(context) is None):
         with context.temp_override(window=found[0]):
             bpy.ops.render.view_show("INVOKE_DEFAULT")
+        # Blender leaves panels where they are by then: they would lie over each other.
+        bpy.app.timers.register(partial(redraw_said, context), first_interval=SETTLED)
     if space := _of_render(context):
         space.image = image
         _fit(context, space)

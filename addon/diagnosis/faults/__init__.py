@@ -28,7 +28,7 @@ FAULTS: tuple[AnyFault, ...] = (
     *CAMERA_FAULTS,
     *_at(Effort.VIEW, MATRIX_FAULTS),
     *_at(Effort.VIEW, LENS_FAULTS),
-    *_at(Effort.VIEW, VIEW_FAULTS),
+    *_at(Effort.LEFT_OUT, VIEW_FAULTS),
     *GIVEN_FAULTS,
     *_at(Effort.LEFT_OUT, OBJECT_FAULTS),
     *TRIANGLE_FAULTS,

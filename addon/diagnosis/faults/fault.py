@@ -124,7 +124,10 @@ TRIED = {
         "pixels",
     ),
     Effort.CAMERA: ("the camera's place and turn", "two to six numbers are fitted likewise"),
-    Effort.LEFT_OUT: ("an object that is missing, or as in its file", "as colours"),
+    Effort.LEFT_OUT: (
+        "what is clipped; an object that is missing, or as in its file",
+        "as colours",
+    ),
     Effort.PIXELS: (
         "samples, sizes and triangles",
         "a few hundred pixels say which of some dozen ways is right",

@@ -9,7 +9,7 @@ import numpy as np
 from ...causes.case import Case
 from ...tracer.progress import at_once
 from ..evidence import Evidence
-from .fault import AnyFault, Example, Fault, Guess, Make, always
+from .fault import AnyFault, Effort, Example, Fault, Guess, Make, always
 from .filters import FILTER_FAULTS
 from .processed import PROCESSED
 from .recolor import alpha_divided, alpha_multiplied, recolored
@@ -85,6 +85,7 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         "is shifted up tells this from a camera that is mirrored",
         _upside_down,
         turns=True,
+        effort=Effort.VIEW,  # with the mirrored camera, which shows the same
         examples=(Example("rows", "the picture's rows from top to bottom"),),
         witness="glium/glium#1526",
     ),

@@ -2,32 +2,15 @@
 
 from __future__ import annotations
 
-import gc
-import weakref
 from dataclasses import replace
 
 import numpy as np
-from reference_tracer.causes.checks.plans import SOUND, shared_plan, widened
+from reference_tracer.causes.checks.plans import SOUND, shared_plan
 from reference_tracer.causes.checks.probe import Probe
-from reference_tracer.pictures.renderers import RASTER, RAYS
+from reference_tracer.pictures.renderers import RASTER
 from reference_tracer.scene import Region
 from reference_tracer.tracer.nearest import plan
 from reference_tracer.tracer.progress import result_of
-
-
-def test_a_plan_is_made_again_only_where_it_does_not_hold(room):
-    first = result_of(shared_plan(room, RASTER, 0.1))
-    assert result_of(shared_plan(room, RASTER, 0.05)) is first
-    assert result_of(shared_plan(room, RAYS, 0.05)) is not first
-    wider = result_of(shared_plan(room, RAYS, 0.2))
-    assert wider.reach == 0.2 and wider.scene.camera.clip_end == widened(room.camera, RAYS).clip_end
-    other = replace(room)
-    result_of(shared_plan(other, RAYS, 0.1))
-    assert result_of(shared_plan(room, RAYS, 0.1)) is not wider  # the last one alone is kept
-    gone = weakref.ref(other)
-    del other
-    gc.collect()
-    assert gone() is None
 
 
 def test_its_rays_meet_what_those_of_a_plan_of_their_own_do(room):

@@ -15,6 +15,7 @@ import bpy
 from ....causes.case import MOST_VARIANTS, WHOLE, Variant
 from ....errors import EXPECTED
 from ....pictures.palette import VIEWPORT, Palette
+from ...evaluating import export_for_render
 from ...temporary import everything, temporary_scene
 from . import cameras, frames, layers, matrices, meshes
 from .origin import Origin
@@ -52,7 +53,7 @@ def variants(
     scene.view_layers[layer].update()  # the world matrices of its objects
     with temporary_scene(scene, layer, ignored, palette) as tmp, everything(tmp):
         try:
-            origin = Origin.of(scene, layer, tmp, palette)
+            origin = Origin(scene, layer, tmp, export_for_render(tmp)[0], palette)
         except EXPECTED:
             return
         yield Variant(WHOLE, origin.exported)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any
 
 from ....pictures.palette import Palette
 from ....scene import Scene
@@ -19,12 +19,6 @@ class Origin:
     tmp: Any  # a temporary copy of it
     exported: Scene  # with all that the view leaves out
     palette: Palette  # its colours
-
-    @classmethod
-    def of(cls, scene: Any, layer: str, tmp: Any, palette: Palette) -> Self:
-        """Export a temporary scene, as a render has it."""
-        exported, _, _ = export_for_render(tmp)
-        return cls(scene, layer, tmp, exported, palette)
 
     def again(self) -> Scene:
         """Export the temporary scene as it is now."""
