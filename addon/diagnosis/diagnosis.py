@@ -51,7 +51,8 @@ class Told:
     @property
     def sentence(self) -> str:
         """The fault in words, without a full stop."""
-        return self.fault.sentence_of(self.guess)
+        then = f"; its colours then agree by one transform: {self.colors}" if self.colors else ""
+        return self.fault.sentence_of(self.guess) + then
 
     def effect(self) -> str:
         """Say what putting it right does."""
@@ -84,8 +85,6 @@ class Told:
         """Yield it as lines of text."""
         yield f"diagnosis: {'or, as likely, ' if self.alternative else ''}{self.sentence}"
         yield f"           {self.effect()}"
-        if self.colors:
-            yield f"           its colours then agree by one transform: {self.colors}"
         if enclosed := self.enclosed():
             yield f"           as many pixels agree with {enclosed}"
         if self.also:
@@ -108,7 +107,6 @@ class Told:
             "object": g.object,
             "numbers": numbers,
             "alternative": self.alternative,
-            "colors": self.colors,
             "also": list(self.also),
             "unexplained": self.unexplained,
             "settled": self.settled,

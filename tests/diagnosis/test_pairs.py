@@ -63,7 +63,7 @@ def test_a_turned_picture_in_reversed_channels_is_both(scene, name):
     first, *others = found.diagnosis.told
     assert first.fault.name == name and found.diagnosis.left == 0
     # The colours are told as a fault, or excused by their transform once the picture is turned.
-    assert "red and blue swapped" in (others[0].sentence if others else first.colors)
+    assert "red and blue swapped" in (others[0] if others else first).sentence
 
 
 @pytest.mark.slow

@@ -84,8 +84,8 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         "Blender's row 0 is at the bottom, that of most files at the top. A picture whose camera "
         "is shifted up tells this from a camera that is mirrored",
         _upside_down,
-        effort=Effort.VIEW,  # with the mirrored camera, which shows the same
         turns=True,
+        effort=Effort.VIEW,  # with the mirrored camera, which shows the same
         examples=(Example("rows", "the picture's rows from top to bottom"),),
         witness="glium/glium#1526",
     ),
