@@ -21,6 +21,7 @@ from .surfaces import Surfaces, surfaces
 ALL = 0.8  # of the surfaces, at least, that are wrong
 SEVERAL = 3  # surfaces, at least
 RECOLORED = 0.3  # of white, coded: a surface that is off by more has another colour
+GREY = 0.01  # of white, coded: between the channels of a picture without hues
 ALIKE = 0.8  # the least correlation of the surfaces' colours with the traced ones
 # Of white, coded: by how much most pixels, and nearly all, may differ from their surface's colour.
 # (A JPEG of quality 75 has 0.05 and 0.15, as it blurs edges.)
@@ -54,10 +55,14 @@ def _find(evidence: Evidence) -> list[Processed]:
 
 def shades_apart(traced: Colors, shown: Colors) -> float | None:
     """Return how far k colours are apart as a file codes them; None if some are other colours."""
-    pair = [encoded(v.astype(np.float64))[:, :3] for v in (traced, shown)]
-    apart = float(np.abs(pair[0] - pair[1]).max())
-    like = np.corrcoef(pair[0].ravel(), pair[1].ravel())[0, 1] if np.ptp(pair[1]) else 0.0
-    return apart if apart <= RECOLORED and like >= ALIKE else None
+    first, second = (encoded(v.astype(np.float64))[:, :3] for v in (traced, shown))
+    apart = float(np.abs(first - second).max())
+    if (
+        second.max(axis=1) - second.min(axis=1) <= GREY
+    ).all():  # without hues, brightness is compared (Rec. 709)
+        first = np.repeat(first @ np.array((0.2126, 0.7152, 0.0722))[:, None], 3, axis=1)
+    like = np.corrcoef(first.ravel(), second.ravel())[0, 1] if np.ptp(second) else 0.0
+    return apart if np.abs(first - second).max() <= RECOLORED and like >= ALIKE else None
 
 
 def _mapped(colors: Colors, found: Surfaces) -> Colors:
