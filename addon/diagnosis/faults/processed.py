@@ -56,7 +56,8 @@ def shades_apart(traced: Colors, shown: Colors) -> float | None:
     """Return how far k colours are apart as a file codes them; None if some are other colours."""
     pair = [encoded(v.astype(np.float64))[:, :3] for v in (traced, shown)]
     apart = float(np.abs(pair[0] - pair[1]).max())
-    like = np.corrcoef(pair[0].ravel(), pair[1].ravel())[0, 1] if np.ptp(pair[1]) else 0.0
+    vary = all(np.ptp(colors) for colors in pair)
+    like = np.corrcoef(pair[0].ravel(), pair[1].ravel())[0, 1] if vary else 0.0
     return apart if apart <= RECOLORED and like >= ALIKE else None
 
 
