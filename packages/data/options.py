@@ -66,6 +66,8 @@ def data_from(given: Namespace) -> GivenData | None:
     for option, kinds in _OF.items():
         if kind not in kinds:
             refuse(given, (option,), f"is for {', '.join(kinds)}")
+    if given.against.suffix.lower() in (".exr", ".png"):
+        refuse(given, ("first_row",), "is for .npy, .npz: a picture's file has the topmost first")
     if given.self_check:
         raise SceneError(f"--self-check is for a picture of colours, not for {kind}")
     return GivenData(
