@@ -93,7 +93,7 @@ def read(
             views = _seen_to_be(source, convention).read(source)
         if not views:
             raise SceneError("it has no camera")
-    except (ValueError, ArithmeticError) as error:  # no camera has such numbers
+    except (ValueError, ArithmeticError, RecursionError) as error:  # no camera has such numbers
         raise SceneError(f"'{path}' cannot be read as a camera: {error}") from error
     return views
 

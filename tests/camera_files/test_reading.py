@@ -91,6 +91,25 @@ def test_what_is_wrong_is_named(name, change, said, tmp_path):
         read(path)
 
 
+@pytest.mark.parametrize("name", ["opencv", "opengl", "nerf"])
+@pytest.mark.parametrize(
+    ("key", "bent", "straight"),
+    [
+        ("k1", 0.1, 0),
+        ("D", [0, -0.1], [0.0]),
+        ("dist_coeffs", [[0.1, 0, 0, 0, 0]], [[0.0] * 5]),
+        ("distortion", {"k1": 0.1}, {"k1": 0.0}),
+        ("distCoeffs", [0, 0.1], None),
+    ],
+)
+def test_a_lens_that_bends_lines_is_refused(name, key, bent, straight, tmp_path):
+    _, path = changed(tmp_path, name, lambda c: c.update({key: straight}))
+    assert read(path)
+    _, path = changed(tmp_path, name, lambda c: c.update({key: bent}))
+    with pytest.raises(SceneError, match=f"lens distortion .*{key} = "):
+        read(path)
+
+
 @pytest.mark.parametrize("text", ["{}", "[", "[" * 5000, "[1]", "null", '{"frames": 3}', "solid"])
 def test_what_is_no_camera_is_refused(text, tmp_path):
     path = tmp_path / "file.json"
