@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 from reference_tracer.scene import SceneError
 from reference_tracer_conformance.report import NAMES
+from reference_tracer_processes.sandbox import sandbox
 
 PROJECT = Path(__file__).parents[2]
 RENDERER = PROJECT / "packages" / "conformance" / "examples" / "embreex_obj.py"
@@ -192,6 +193,16 @@ def test_what_contradicts_itself_is_refused(words, said, exit_code, capsys, tmp_
     assert exit_code(["conform", *words]) == 4
     assert said in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command", ["judge --subject plane --run", "conform"])
+def test_a_program_that_the_sandbox_does_not_show_is_refused(command, exit_code, capsys, tmp_path):
+    """And is not judged to fail: as of an environment in /tmp, whose Python is a link."""
+    (tmp_path / "python").symlink_to(Path(sys.executable).resolve())
+    out = tmp_path / "report"
+    words = [*command.split(), f"{tmp_path}/python -c 1 {{scene}} {{out}}", "--out", str(out)]
+    assert (exit_code(words) == 4 and not out.exists()) == bool(sandbox())
+    assert (f"does not show '{tmp_path}/python'" in capsys.readouterr().err) == bool(sandbox())
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
