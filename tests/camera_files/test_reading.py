@@ -118,6 +118,15 @@ def test_what_is_no_camera_is_refused(text, tmp_path):
         read(path)
 
 
+@pytest.mark.parametrize("named", [None, "opencv"])
+@pytest.mark.parametrize("text", ['{"camera_matrix": [], "rvec": [], "tvec": []}', "%YAML:1.0"])
+def test_what_opencvs_own_functions_write_is_told_what_is_needed(text, named, tmp_path):
+    path = tmp_path / "file.yml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(SceneError, match=r"OpenCV's is JSON with K, R and t"):
+        read(path, named)
+
+
 MODELS = {
     "SIMPLE_PINHOLE 640 480 500 320 240": True,
     "SIMPLE_RADIAL 640 480 500 320 240 0": True,
