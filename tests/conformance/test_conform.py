@@ -168,7 +168,10 @@ def test_a_picture_of_another_size_fails(conform, out, tmp_path):
     text = RENDERER.read_text(encoding="utf-8").replace(".save(out)", ".resize((32, 24)).save(out)")
     script.write_text(text, encoding="utf-8")
     code, _, found = conform(rendered(script), "camera-plain")
-    assert code == 4 and "32 x 24" in found["camera-plain"]["wrong"]
+    assert code == 4
+    assert found["camera-plain"]["wrong"] == (
+        "The picture has 32 x 24 pixels, the traced one 64 x 48. Render it at that size"
+    )
 
 
 @pytest.mark.parametrize(
