@@ -115,6 +115,7 @@ def test_grey_depths_may_have_nan_where_nothing_is(judged, traced):
         (["depth", "range=unit"], "--holds range is for normals"),
         (["ids", "scale=1"], "--holds scale is for depth, distance, positions"),
         (["depths"], "--holds kind: depths is none of depth, distance"),
+        (["depth", "layel=a"], "not 'layel=a'; the names are layer, scale"),
         (["depth", "--excuse", "dither=1"], "--excuse dither is for colours, and depth has none"),
         (["depth", "--self-check"], "--self-check is for a picture of colours"),
         (["depth", "--excuse", "filter=0.6"], "cannot be compared: it is sampled up to 0.6 px"),
