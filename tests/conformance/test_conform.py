@@ -86,6 +86,7 @@ def test_what_is_wrong_is_named(name, conform, out, tmp_path):
     scene = OF.get(name, "camera-plain")
     code, told, found = conform(rendered(path), scene)
     assert code == 2 and said in found[scene]["wrong"] and said in told
+    assert "0 of 1 scene agrees" in told
     page = (out / scene / "page.html").read_text(encoding="utf-8")
     assert "diagnosis" in page
     index = (out / "index.html").read_text(encoding="utf-8")
