@@ -21,6 +21,7 @@ _ROWS = (
         one_of(*KINDS),
         "depth, along the view axis; distance, along the ray; normals, of faces; "
         "positions; ids, of objects: in .exr, .npy, .npz or .png",
+        alone=True,
     ),
     Setting("layer", "NAME", str, "the array of a .npz, or the layer of an .exr"),
     Setting("scale", "METRES", POSITIVE, "what 1 is, such as 0.001 (default 1; integers need it)"),
