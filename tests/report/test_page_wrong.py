@@ -10,6 +10,7 @@ import jsonschema
 import numpy as np
 import pytest
 from reference_tracer.causes.cause import UNEXPLAINED
+from reference_tracer.comparison.comparing import compare
 from reference_tracer.comparison.comparing import diagnosed as find_diagnosis
 from reference_tracer.diagnosis.diagnosis import Diagnosis, Told
 from reference_tracer.diagnosis.faults.fault import Fault, Numbers, of_camera
@@ -144,6 +145,26 @@ def test_agreement_opens_on_the_pictures_without_a_frame(show, wrong):
     assert (state(tab, "left"), state(tab, "right")) == ("traced", "blender")
     assert not tab.locator("#regions").is_visible()
     assert not tab.locator("#diagnosis").is_visible() and not tab.locator("#told").is_visible()
+
+
+@pytest.mark.browser
+def test_colours_that_are_changed_as_a_whole_are_what_is_wrong(show, compared, room):
+    """And both pictures are seen, not the marks that would cover them."""
+
+    def brighter(picture):
+        picture[..., :3] *= 1.25
+
+    plain = compared(room(), brighter)
+    comparison = result_of(compare(replace(plain.case, curves=()), plain.frame))
+    assert comparison.causes.transform and not comparison.counts.unexplained
+    tab = show(comparison)
+    said = tab.locator("#told").inner_text()
+    assert said.startswith(f"Diagnosis: the picture's colours: {comparison.causes.transform}. ")
+    assert "check the colour space of each file" in said
+    glance = tab.locator("header").inner_text()
+    assert "are explained" not in glance and "as it should be" not in glance
+    shown = [state(tab, k) for k in ("left", "right", "mode", "marks")]
+    assert shown == ["traced", "blender", "pair", False]
 
 
 @pytest.mark.browser

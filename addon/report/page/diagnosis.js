@@ -39,16 +39,21 @@ function settledBy({ settled, unexplained: all, broken }) {
 }
 
 function drawDiagnosis() {
+  const { transform, advice } = page.comparison;
   byId("diagnosis").hidden = !diagnosis;
-  byId("told").hidden = !diagnosis;
+  byId("told").hidden = !diagnosis && !advice;
+  byId("told").replaceChildren(
+    element("strong", {}, "Diagnosis: "),
+    advice && `the picture's colours: ${transform}. What to do: ${advice}.`,
+  );
   if (!diagnosis) return;
   const { told, guesses, regions, untried, silent } = diagnosis;
   const names = untried.map((name) => name.replaceAll("_", " ")).join(", ");
   const work =
     `${count(guesses)} guesses were tried in ${seconds(diagnosis.seconds)}` +
     (names ? `; a limit of work ended the search for: ${names}.` : ".");
-  byId("told").replaceChildren(
-    element("strong", {}, "Diagnosis: "),
+  byId("told").append(
+    advice && " And ",
     told.length ? "" : element("a", { href: "#diagnosis" }, unknown(diagnosis)),
     ...told.flatMap(({ sentence, alternative }, k) => [
       alternative ? ", or, as likely, " : k ? ", and " : "",

@@ -90,14 +90,15 @@ function connect() {
 function firstSight() {
   if (!linked() && isAccounted()) return { ...putRightSides(), mode: "pair", marks: false };
   const { unexplained: many, total } = page.comparison.pixels;
-  if (!linked() && many > WALL * total) return { mode: "pair", marks: false };
+  if (!linked() && (many > WALL * total || page.comparison.advice))
+    return { mode: "pair", marks: false };
   return { right: "causes", split: 0 }; // its map covers the stage, and the slider uncovers
 }
 
 /** Look at what the address names, else the first example, else the middle of the picture. */
 function begin() {
   const wrong = page.comparison.verdict === "differences" && page.comparison.pixels.unexplained;
-  if (wrong) change(firstSight());
+  if (wrong || page.comparison.advice) change(firstSight());
   const first = wrong ? closeUp() : shownExamples()[0];
   const [x, y] = linked() ?? first ?? [Math.floor(WIDTH / 2), Math.floor(HEIGHT / 2)];
   goTo(linked() ? visit : select, x, y);
