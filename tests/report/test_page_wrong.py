@@ -91,8 +91,11 @@ def test_a_real_diagnosis_is_on_the_page(compared, room):
     comparison = result_of(find_diagnosis(compared(room(), flipped)))
     held = json.loads(page.json_text(content(comparison)))
     validator().validate(held)
-    told = [one["fault"] for one in held["comparison"]["diagnosis"]["told"]]
+    found = held["comparison"]["diagnosis"]["told"]
+    told = [one["fault"] for one in found]
     assert set(told) == {"mirrored_y", "rows"}
+    rows = found[told.index("rows")]
+    assert rows["sentence"] == "the picture is upside down" and "first-row=top" in rows["advice"]
     pictures = {p["id"]: p for p in held["pictures"]}
     for fault, of, other in (("rows", "blender", "traced"), ("mirrored_y", "traced", "blender")):
         right = pictures[f"put_right_{told.index(fault)}"]
