@@ -88,7 +88,7 @@ function connect() {
 
 /** What is unexplained is what one came for: how it is seen best. */
 function firstSight() {
-  if (!linked() && isAccounted()) return { ...putRightSides(), mode: "pair", marks: false };
+  if (!linked() && isAccounted()) return { left: lastPutRight(), mode: "pair", marks: false };
   const { unexplained: many, total } = page.comparison.pixels;
   if (!linked() && (many > WALL * total || page.comparison.advice))
     return { mode: "pair", marks: false };
