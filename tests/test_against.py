@@ -133,7 +133,9 @@ def test_a_student_who_forgot_the_curve_and_cut_off(scene, against):
     assert code == 1 and found["pixels"]["unexplained"] == 0
     assert found["transform"].startswith("sRGB's curve left out")
     assert found["pixels"]["by_cause"]["color"] > 250
-    assert f"colours: {found['transform']}" in text
+    first = text.index(f"diagnosis: the picture's colours: {found['transform']}")
+    assert text.index(f"what to do: {found['advice']}") < text.index("interior and")
+    assert first < text.index(found["advice"])
 
 
 def test_a_png_without_alpha(scene, against):

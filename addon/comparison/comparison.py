@@ -22,6 +22,7 @@ from ..certainty import Certainty
 from ..certified.rounding import rounding
 from ..diagnosis.fault_rows import FaultRow, table
 from ..manifest import Effect, Manifest
+from ..pictures.curves import ADVICE
 from ..pictures.identity import Identity
 from ..pictures.metrics import Metrics
 from ..scene import Scene
@@ -142,6 +143,7 @@ class Comparison:
             "excused": self.excused.to_dict(),
             "causes": {c.key: c.to_dict() for c in CAUSES},
             "transform": self.causes.transform,
+            "advice": self._advice,
             "shades": [shade._asdict() for shade in self.causes.shades],
             "background": self.background and self.background.to_dict(),
             "hidden": [h._asdict() for h in self.causes.hidden],
@@ -180,6 +182,7 @@ class Comparison:
         return [
             f"{counts.agree:,} of {counts.total:,} pixels agree with "
             f"{self.case.picture.source}, {counts.differ:,} differ",
+            *self._of_transform(),
             *self._of_causes(),
             *self._evidence(),
             *(self.diagnosis.lines() if self.diagnosis else ()),
@@ -204,6 +207,19 @@ class Comparison:
         elif presumed := self.case.picture.presumed:
             why = (presumed,)
         return f" ({'; '.join(why)})" if why else ""
+
+    def _of_transform(self) -> Iterator[str]:
+        """Say which transform of all colours is what is wrong, and what to do about it."""
+        if self._advice:
+            yield f"diagnosis: the picture's colours: {self.causes.transform}"
+            yield f"           what to do: {self._advice}"
+        elif self.causes.transform:
+            yield f"colours: {self.causes.transform}"
+
+    @property
+    def _advice(self) -> str:
+        """What to do about a transform of all colours; empty if there is none."""
+        return ADVICE if self.causes.made_by else ""
 
     def _of_causes(self) -> Iterator[str]:
         """Say how many pixels have each cause, and where the first of them are."""
@@ -248,8 +264,6 @@ class Comparison:
         if self.empty:
             yield "the picture is empty: no ray meets anything"
         yield from self.not_judged()
-        if causes.transform:
-            yield f"colours: {causes.transform}"
         yield from (shade.line() for shade in causes.shades)
         yield from (f"only one side shows {h}" for h in dict.fromkeys(causes.hidden))
         shows = self.counts.unexplained_shows

@@ -15,6 +15,8 @@ from .picture import MAJORITY, Curve, Transform
 
 FITTED_SHARE = 0.9  # the share of pixels for a curve with a number that was fitted to them
 LEAST_CHANGE = 0.01  # an exposure or gamma nearer to 1 than this would be one of rounding
+# What to do about a transform that was found.
+ADVICE = "check the colour space of each file, and what is applied when it is saved or loaded"
 FIT = 0.02  # values below this, or above 1 less this, say little of a curve
 
 CURVES = (

@@ -144,8 +144,9 @@ def _pictures(directory: Path, rows: Sequence[FrameRow]) -> Iterator[str]:
 
 
 def _linked(row: FrameRow, content: str) -> str:
-    name = comparison.JSON if row.error else page.NAME
-    return f'<a href="{folder_of("", row.frame).as_posix()}/{name}">{content}</a>'
+    if row.error:  # what is in its folder is of an earlier run
+        return content
+    return f'<a href="{folder_of("", row.frame).as_posix()}/{page.NAME}">{content}</a>'
 
 
 def _curves(frames: range, rows: Sequence[FrameRow]) -> Plot:

@@ -78,8 +78,8 @@ def written(
     """Compare, find what else the page shows, and write; then diagnose, and write again.
 
     Who ends it in the midst of the diagnosis has the comparison in the folder without it. If the
-    work fails, the folder says why. `told` hears of the comparison before the diagnosis. The page
-    has the literal textbook's picture if that is wanted.
+    work fails, a folder without results says why. `told` hears of the comparison before the
+    diagnosis. The page has the literal textbook's picture if that is wanted.
     """
     extras: Extras | None = None
 
@@ -180,16 +180,15 @@ def differing_regions(comparison: Comparison) -> list[Region]:
 def failure_written(directory: str | Path) -> Iterator[None]:
     """Write a `comparison.json` that says why there is no comparison, if what is done here fails.
 
-    The results of an earlier run are removed, as they would pass for this run's. Files of the same
-    names without a `comparison.json` beside them are no results, and stay.
+    Results that are in the folder stay as they are: a misspelt name must not cost them.
     """
     try:
         yield
     except Exception as error:
         said = {"type": type(error).__name__, "message": str(error)}
         content = {"schema": SCHEMA, "verdict": Verdict.FAILED, "error": said}
-        # Where the folder cannot be written, that may be what the error is.
-        names = NAMES if Path(directory, JSON).exists() else (JSON,)
-        with suppress(OSError), replacing(Path(directory), names) as new:
-            write_json(new / JSON, content)
+        if not all(Path(directory, name).exists() for name in (page.NAME, JSON)):
+            # Where the folder cannot be written, that may be what the error is.
+            with suppress(OSError), replacing(Path(directory), (JSON,)) as new:
+                write_json(new / JSON, content)
         raise

@@ -266,7 +266,9 @@ def test_differences_and_failures_are_worse_than_warnings(moving, run, out, monk
     assert [row["frame"] for row in table(out)["frames"]] == [4, 2, 3, 1]
     error = table(out)["frames"][0]["error"]
     assert "Camera" in error and f"frame 4: {error}" in capsys.readouterr().err
-    assert error in (out / "frame_0004" / "comparison.json").read_text()
+    kept = out / "frame_0004"
+    assert error not in (kept / "comparison.json").read_text()  # its earlier results stay
+    assert not (kept / "made_by.json").exists()
     assert table(out)["verdict"] == "failed"
 
 

@@ -109,6 +109,7 @@ def test_json_has_what_is_promised(scene):
         "verdict",
         "causes",
         "transform",
+        "advice",
         "shades",
         "background",
         "hidden",

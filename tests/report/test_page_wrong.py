@@ -10,6 +10,7 @@ import jsonschema
 import numpy as np
 import pytest
 from reference_tracer.causes.cause import UNEXPLAINED
+from reference_tracer.comparison.comparing import compare
 from reference_tracer.comparison.comparing import diagnosed as find_diagnosis
 from reference_tracer.diagnosis.diagnosis import Diagnosis, Told
 from reference_tracer.diagnosis.faults.fault import Fault, Numbers, of_camera
@@ -90,8 +91,11 @@ def test_a_real_diagnosis_is_on_the_page(compared, room):
     comparison = result_of(find_diagnosis(compared(room(), flipped)))
     held = json.loads(page.json_text(content(comparison)))
     validator().validate(held)
-    told = [one["fault"] for one in held["comparison"]["diagnosis"]["told"]]
+    found = held["comparison"]["diagnosis"]["told"]
+    told = [one["fault"] for one in found]
     assert set(told) == {"mirrored_y", "rows"}
+    rows = found[told.index("rows")]
+    assert rows["sentence"] == "the picture is upside down" and "first-row=top" in rows["advice"]
     pictures = {p["id"]: p for p in held["pictures"]}
     for fault, of, other in (("rows", "blender", "traced"), ("mirrored_y", "traced", "blender")):
         right = pictures[f"put_right_{told.index(fault)}"]
@@ -144,6 +148,26 @@ def test_agreement_opens_on_the_pictures_without_a_frame(show, wrong):
     assert (state(tab, "left"), state(tab, "right")) == ("traced", "blender")
     assert not tab.locator("#regions").is_visible()
     assert not tab.locator("#diagnosis").is_visible() and not tab.locator("#told").is_visible()
+
+
+@pytest.mark.browser
+def test_colours_that_are_changed_as_a_whole_are_what_is_wrong(show, compared, room):
+    """And both pictures are seen, not the marks that would cover them."""
+
+    def brighter(picture):
+        picture[..., :3] *= 1.25
+
+    plain = compared(room(), brighter)
+    comparison = result_of(compare(replace(plain.case, curves=()), plain.frame))
+    assert comparison.causes.transform and not comparison.counts.unexplained
+    tab = show(comparison)
+    said = tab.locator("#told").inner_text()
+    assert said.startswith(f"Diagnosis: the picture's colours: {comparison.causes.transform}. ")
+    assert "check the colour space of each file" in said
+    glance = tab.locator("header").inner_text()
+    assert "are explained" not in glance and "as it should be" not in glance
+    shown = [state(tab, k) for k in ("left", "right", "mode", "marks")]
+    assert shown == ["traced", "blender", "pair", False]
 
 
 @pytest.mark.browser
@@ -218,7 +242,7 @@ def test_a_diagnosis_is_a_card_with_its_figures(show, wrong):
 def test_its_slider_uncovers_the_picture_put_right(show, wrong, side):
     comparison, [right] = diagnosed(wrong(*BLOCKS), side=side)
     tab = show(comparison, held=content(comparison))
-    ends = ["put_right_0", "blender"] if side == "traced" else ["traced", "put_right_0"]
+    ends = ["put_right_0", "blender"]  # theirs as it is, whichever side is put right
     assert [state(tab, k) for k in ("left", "right", "mode", "marks")] == [*ends, "pair", False]
     said = tab.locator("#regions")
     assert "41 of 45 unexplained" in said.inner_text() and not said.locator("button").count()

@@ -191,7 +191,7 @@ def compare_open_file(
     Nothing is written if the directory is empty. With `trade` and `extremes`, these are measured
     for the page, too. `told` hears of the comparison before the diagnosis, if there is one. The
     page has the literal textbook's picture, if that is wanted. The choices are the fields of
-    :class:`Choices`. On failure the folder's JSON says why.
+    :class:`Choices`. On failure the JSON of a folder without results says why.
 
     Raises
     ------

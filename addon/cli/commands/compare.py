@@ -53,7 +53,7 @@ def add(parser: Parser) -> None:
 
 
 def compare(options: CompareOptions) -> int:
-    """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
+    """Compare; the exit code is the verdict's, and a folder without results says why."""
     if options.only_colors:
         return _only_colors(options, options.only_colors)
     results = [folders.place_of(options.out / name) for name in comparison_report.NAMES]

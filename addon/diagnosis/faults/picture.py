@@ -79,10 +79,11 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
     ),
     Fault(
         "rows",
-        "the picture's rows are from top to bottom, or were turned once too often",
+        "the picture is upside down",
         "Blender and OpenGL begin with the lowest row, most files with the topmost.",
-        "Blender's row 0 is at the bottom, that of most files at the top. A picture whose camera "
-        "is shifted up tells this from a camera that is mirrored",
+        "turn its rows over: the first row of a .png or .exr is the topmost. Of a .npy or .npz in "
+        "which it is so, too, say --holds KIND first-row=top. A picture whose camera is shifted up "
+        "tells this from a camera that is mirrored",
         _upside_down,
         turns=True,
         effort=Effort.VIEW,  # with the mirrored camera, which shows the same

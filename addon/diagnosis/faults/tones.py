@@ -10,7 +10,7 @@ import numpy as np
 from ...arrays import Array
 from ...causes.case import Case
 from ...causes.checks.color import find_transform
-from ...pictures.curves import FITTED_SHARE, KEYS, ROUNDED, ROUNDED_ONCE
+from ...pictures.curves import ADVICE, FITTED_SHARE, KEYS, ROUNDED, ROUNDED_ONCE
 from ...pictures.picture import Curve
 from ...tracer.progress import Work
 from ..evidence import Evidence
@@ -129,7 +129,7 @@ def _colors(key: str) -> Fault[OfCurve]:
         key,
         "the picture's colours: {words}",
         why,
-        "check the colour space of each file, and what is applied when it is saved or loaded",
+        ADVICE,
         _through,
         _find_curve(key),
         examples=EXAMPLES.get(key, ()),

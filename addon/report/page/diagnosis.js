@@ -12,12 +12,10 @@ const isAccounted = () =>
   diagnosis?.told.length > 0 &&
   diagnosis.left <= (1 - NEARLY_ALL) * page.comparison.pixels.unexplained;
 
-/** The two pictures, each with all put right that is told of it. */
-function putRightSides() {
-  const sides = { traced: "traced", blender: "blender" };
-  for (const { id, of } of page.pictures)
-    if (of && !diagnosis.told[id.slice(PUT_RIGHT.length)].alternative) sides[of] = id;
-  return { left: sides.traced, right: sides.blender };
+/** The last picture with all put right that is told; the traced one where nothing changes one. */
+function lastPutRight() {
+  const isTold = ({ id, of }) => of && !diagnosis.told[id.slice(PUT_RIGHT.length)].alternative;
+  return page.pictures.findLast(isTold)?.id ?? "traced";
 }
 
 /** What is wrong where no fault is known: how many pixels, and where most of them are. */
@@ -39,16 +37,21 @@ function settledBy({ settled, unexplained: all, broken }) {
 }
 
 function drawDiagnosis() {
+  const { transform, advice } = page.comparison;
   byId("diagnosis").hidden = !diagnosis;
-  byId("told").hidden = !diagnosis;
+  byId("told").hidden = !diagnosis && !advice;
+  byId("told").replaceChildren(
+    element("strong", {}, "Diagnosis: "),
+    advice && `the picture's colours: ${transform}. What to do: ${advice}.`,
+  );
   if (!diagnosis) return;
   const { told, guesses, regions, untried, silent } = diagnosis;
   const names = untried.map((name) => name.replaceAll("_", " ")).join(", ");
   const work =
     `${count(guesses)} guesses were tried in ${seconds(diagnosis.seconds)}` +
     (names ? `; a limit of work ended the search for: ${names}.` : ".");
-  byId("told").replaceChildren(
-    element("strong", {}, "Diagnosis: "),
+  byId("told").append(
+    advice && " And ",
     told.length ? "" : element("a", { href: "#diagnosis" }, unknown(diagnosis)),
     ...told.flatMap(({ sentence, alternative }, k) => [
       alternative ? ", or, as likely, " : k ? ", and " : "",

@@ -88,16 +88,17 @@ function connect() {
 
 /** What is unexplained is what one came for: how it is seen best. */
 function firstSight() {
-  if (!linked() && isAccounted()) return { ...putRightSides(), mode: "pair", marks: false };
+  if (!linked() && isAccounted()) return { left: lastPutRight(), mode: "pair", marks: false };
   const { unexplained: many, total } = page.comparison.pixels;
-  if (!linked() && many > WALL * total) return { mode: "pair", marks: false };
+  if (!linked() && (many > WALL * total || page.comparison.advice))
+    return { mode: "pair", marks: false };
   return { right: "causes", split: 0 }; // its map covers the stage, and the slider uncovers
 }
 
 /** Look at what the address names, else the first example, else the middle of the picture. */
 function begin() {
   const wrong = page.comparison.verdict === "differences" && page.comparison.pixels.unexplained;
-  if (wrong) change(firstSight());
+  if (wrong || page.comparison.advice) change(firstSight());
   const first = wrong ? closeUp() : shownExamples()[0];
   const [x, y] = linked() ?? first ?? [Math.floor(WIDTH / 2), Math.floor(HEIGHT / 2)];
   goTo(linked() ? visit : select, x, y);

@@ -62,7 +62,7 @@ function headline(score) {
     parts.push(
       `${count(score.unexplained)} have no excuse: one of the two pictures is wrong there.`,
     );
-  else if (score.differ)
+  else if (score.differ && !page.comparison.advice)
     parts.push(
       score.differ === 1
         ? "The one that differs is explained."
@@ -96,14 +96,15 @@ function headline(score) {
 function tiles(score) {
   const { certainty } = page.comparison.tracer;
   const proven = certainty.bound + certainty.exact;
+  const good = !score.unexplained && !page.comparison.advice;
   const found = [
     ["Agree", score.agree, percent(score.agree, score.total)],
     ["Explained", score.explained, `of ${count(score.differ)} that differ`],
     [
       "Unexplained",
       score.unexplained,
-      score.unexplained ? "one picture is wrong" : "as it should be",
-      score.unexplained ? "bad" : "good",
+      score.unexplained ? "one picture is wrong" : good ? "as it should be" : "",
+      score.unexplained ? "bad" : good ? "good" : "",
     ],
   ];
   if (score.not_decidable)
