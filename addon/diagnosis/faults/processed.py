@@ -57,7 +57,7 @@ def shades_apart(traced: Colors, shown: Colors) -> float | None:
     """Return how far k colours are apart as a file codes them; None if some are other colours."""
     first, second = (encoded(v.astype(np.float64))[:, :3] for v in (traced, shown))
     apart = float(np.abs(first - second).max())
-    if np.ptp(second, axis=1).max() <= GREY:
+    if float(np.max(np.ptp(second, axis=1))) <= GREY:
         # Without hues, brightness is compared (Rec. 709).
         first = np.repeat(first @ np.array((0.2126, 0.7152, 0.0722))[:, None], 3, axis=1)
     vary = np.ptp(first) and np.ptp(second)
