@@ -95,8 +95,7 @@ NOT_DECIDABLE = Cause(
     4,
     "not_decidable",
     "not decidable",
-    "float32 may move Blender's surfaces by {figure:.3g} px there "
-    "(decidable up to {allowed:.3g} px)",
+    "float32 may move surfaces by {figure:.3g} px there (decidable up to {allowed:.3g} px)",
     "px",
     (0.25, 0.3, 0.6),
     warns=True,

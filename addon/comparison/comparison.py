@@ -97,11 +97,12 @@ class Comparison:
                 yield (cause == COLOR and self.causes.transform) or cause.label
         if self.counts.not_judged.pixels:
             yield "a part cannot be judged"
-        if self.excused.too_much:
-            yield "much rests on rounding alone"
         if unjudged := self.excused.objects:
-            more = f" and {len(unjudged) - 1:,} other objects" if len(unjudged) > 1 else ""
-            yield f"'{unjudged[0].object}'{more} rests on rounding alone"
+            others = count_of(len(unjudged) - 1, "other object")
+            rest = f" and {others} rest" if len(unjudged) > 1 else " rests"
+            yield f"'{unjudged[0].object}'{rest} on rounding alone"
+        elif self.excused.too_much:
+            yield "much rests on rounding alone"
         if self.empty:
             yield "the picture is empty"
         if any(row.missed for row in self.self_check):
@@ -194,19 +195,20 @@ class Comparison:
             *(row.line() for row in self.methods),
             *self.required,
             *table(self.self_check),
-            f"verdict: {self.verdict.in_words(self.counts).lower()}{self._but()}",
+            self._ended(),
         ]
 
-    def _but(self) -> str:
-        """Return why it is no better than a warning, or what it leaves out, for its own line."""
+    def _ended(self) -> str:
+        """Return the verdict, and why it is no better than a warning, or what it leaves out."""
+        said = f"verdict: {self.verdict.in_words(self.counts).lower()}"
         why: Iterable[str] = ()
         if self.verdict in (Verdict.WARNINGS, Verdict.NOT_COMPARABLE):
-            why = dict.fromkeys(self._doubts())
+            why = [doubt for doubt in dict.fromkeys(self._doubts()) if doubt not in said]
         elif self.background and not self.background.transparent:
             why = (self.background.unjudged(),)
         elif presumed := self.case.picture.presumed:
             why = (presumed,)
-        return f" ({'; '.join(why)})" if why else ""
+        return f"{said} ({'; '.join(why)})" if why else said
 
     def _of_transform(self) -> Iterator[str]:
         """Say which transform of all colours is what is wrong, and what to do about it."""

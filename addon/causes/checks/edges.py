@@ -27,8 +27,8 @@ EDGE = Cause(
     1,
     "edge",
     "edge",
-    "{figure:.3g} px from the centre the tracer sees what Blender shows "
-    "(float32 and its rasteriser may be off by {allowed:.3g} px)",
+    "{figure:.3g} px from the centre the tracer sees what the picture shows "
+    "(its renderer's rounding may be off by {allowed:.3g} px)",
     "px",
     (1.0, 0.3, 0.0),
     explains=True,
