@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from reference_tracer.causes import hull
 from reference_tracer.causes.checks import color as coloring
-from reference_tracer.causes.checks import coverage, probe
+from reference_tracer.causes.checks import coverage, parts, probe
 from reference_tracer.causes.explain import explain
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.sampling import Sampling
@@ -49,10 +49,11 @@ def work(monkeypatch):
     for module in (candidates, probe):
         monkeypatch.setattr(module, "PAIRS", BOUNDS["pairs"])
     monkeypatch.setattr(hull, "STEP", BOUNDS["numbers"] // 4)
-    monkeypatch.setattr(probe, "BLOCK", BOUNDS["pixels"])
+    for module in (parts, probe):
+        monkeypatch.setattr(module, "BLOCK", BOUNDS["pixels"])
     monkeypatch.setattr(coloring, "ENOUGH", BOUNDS["pixels"])
     monkeypatch.setattr(rendering, "ROWS", 8)
-    monkeypatch.setattr(probe, "FEW", 64)
+    monkeypatch.setattr(parts, "FEW", 64)
     return done
 
 
