@@ -21,6 +21,8 @@ from .opengl import OPENGL
 
 _WHOLE = re.compile(r"-?\d{1,18}")  # what more digits say is a name
 
+_OPENCV = ": OpenCV's is JSON with K, R and t; `cv2.Rodrigues(rvec)[0]` is R, and tvec is t"
+
 
 def _all() -> Iterator[Convention]:
     """Yield the conventions of the add-on, then those of packages beside it."""
@@ -93,7 +95,7 @@ def read(
             views = _seen_to_be(source, convention).read(source)
         if not views:
             raise SceneError("it has no camera")
-    except (ValueError, ArithmeticError) as error:  # no camera has such numbers
+    except (ValueError, ArithmeticError, RecursionError) as error:  # no camera has such numbers
         raise SceneError(f"'{path}' cannot be read as a camera: {error}") from error
     return views
 
@@ -103,9 +105,10 @@ def _seen_to_be(source: Source, named: str | None) -> Convention:
     for name, own in CONVENTIONS.items():
         if named in (None, name) and own.is_of(source):
             return own
+    why = f"it is of none of {', '.join(CONVENTIONS)}"
     if named:
-        raise SceneError(f"its content is not that of {CONVENTIONS[named].title}")
-    raise SceneError(f"it is of none of {', '.join(CONVENTIONS)}")
+        why = f"its content is not that of {CONVENTIONS[named].title}"
+    raise SceneError(why + (_OPENCV if named in (None, OPENCV.name) else ""))
 
 
 def is_seen_to_be(path: Path) -> bool:

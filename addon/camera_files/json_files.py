@@ -15,6 +15,24 @@ from ..scene import Camera, SceneError
 from .convention import CENTERS, FIRST, HALF, Files, Source, View
 
 CENTERS_KEY = "pixel_centers"
+_DISTORTIONS = (  # by the names of OpenCV, and of those who use its lenses
+    "k1",
+    "k2",
+    "k3",
+    "k4",
+    "k5",
+    "k6",
+    "p1",
+    "p2",
+    "is_fisheye",
+    "D",
+    "dist",
+    "dist_coeffs",
+    "distCoeffs",
+    "distortion",
+    "distortion_coefficients",
+    "distortion_params",
+)
 
 
 def first_center(content: Mapping[str, Any], default: str = HALF) -> float:
@@ -65,6 +83,30 @@ def has(source: Source, *keys: str) -> bool:
     if isinstance(content, dict) and isinstance(many := content.get("frames"), list):
         content = many[0] if many else None
     return isinstance(content, dict) and content.keys() >= {*keys}
+
+
+def refuse_lens(body: Content, where: str, others: Sequence[str] = ()) -> None:
+    """Refuse an object that says a lens' distortion; `others` are its keys of other projections.
+
+    Raises
+    ------
+    SceneError
+        If it does, or there are others.
+    """
+    bent = [key for key in _DISTORTIONS if _is_any(body.get(key))] + [*others]
+    if bent:
+        raise SceneError(
+            f"{where.removesuffix('.') or 'it'} has lens distortion or another projection "
+            f"({bent[0]} = {body[bent[0]]!r}), which is not modelled: undistort the "
+            "pictures, and write the camera of these"
+        )
+
+
+def _is_any(value: Any) -> bool:
+    """Return whether something is not 0, in lists and objects, too."""
+    if isinstance(value, dict):
+        value = list(value.values())
+    return any(map(_is_any, value)) if isinstance(value, list) else bool(value)
 
 
 def bodies(content: Content) -> list[tuple[Content, str]]:

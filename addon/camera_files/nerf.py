@@ -32,9 +32,9 @@ from .json_files import (
     objects,
     offset_of,
     radians_of,
+    refuse_lens,
 )
 
-_DISTORTIONS = "k1", "k2", "k3", "k4", "p1", "p2", "is_fisheye"
 # Of another projection if they are there at all, also as 0 or false.
 _OTHER_PROJECTIONS = {"ftheta_p0", "latlong"} | PROJECTIONS.keys() - {PERSPECTIVE.name}
 _MODELS = "OPENCV", "PINHOLE", "SIMPLE_PINHOLE"
@@ -94,15 +94,10 @@ def _read(source: Source) -> list[View]:
 
 def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> View:
     size = source.whole_size(body, ("w", "h"), where)
-    model = body.get("camera_model", _MODELS[0])
-    bent = [key for key in _DISTORTIONS if body.get(key)]
-    bent += [key for key in sorted(_OTHER_PROJECTIONS) if key in body]
-    if model not in _MODELS or bent:
-        what = f"{bent[0]} = {body[bent[0]]}" if bent else f"camera_model = {model!r}"
-        raise SceneError(
-            f"{where.removesuffix('.')} has lens distortion or another projection ({what}), "
-            "which is not modelled: undistort the pictures, and write the camera of these"
-        )
+    others = [key for key in sorted(_OTHER_PROJECTIONS) if key in body]
+    if body.get("camera_model", _MODELS[0]) not in _MODELS:
+        others.append("camera_model")
+    refuse_lens(body, where, others)
     center = first_center(body)
     fx, fy = _focal_lengths(body, where, size)
     middle = [

@@ -30,6 +30,7 @@ from .json_files import (
     flat,
     has,
     offset_of,
+    refuse_lens,
     view_of,
     written,
 )
@@ -82,6 +83,7 @@ def _read(source: Source) -> list[View]:
 
 
 def _view(body: Content, where: str, center: float, source: Source) -> View:
+    refuse_lens(body, where)
     k = numbers(body, "K", where, (3, 3))
     matrix = frame.pose(numbers(body, "R", where, (3, 3)), flat(body, "t", where, 3))
     if _named(body, "up", where, ("z", "y")) == "y":

@@ -20,7 +20,7 @@ from ..scene import Camera, SceneError, ViewWindow
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import ASPECT, MIRRORED, PARALLEL, SHEARED, SHIFT
-from .json_files import bodies, has, view_of, written
+from .json_files import bodies, has, refuse_lens, view_of, written
 
 _FORMULA = (
     "clip = projection view (X, 1); (clip0 / clip3, clip1 / clip3) is from -1 to 1 in the picture, "
@@ -71,10 +71,11 @@ def _is_of(source: Source) -> bool:
 
 
 def _read(source: Source) -> list[View]:
-    return [_view(body, where, source) for body, where in bodies(source.json)]
+    return [_view(source.json | body, where, source) for body, where in bodies(source.json)]
 
 
 def _view(body: Content, where: str, source: Source) -> View:
+    refuse_lens(body, where)
     p = numbers(body, "projection", where, (4, 4))
     world = frame.inverse(numbers(body, "view", where, (4, 4)))
     parallel = bool(np.array_equal(p[3], (0, 0, 0, 1)))

@@ -184,7 +184,11 @@ def _views(given: Namespace, mesh: Path | None, of_frames: bool) -> list[View]:
             return []
         file, which = mesh, given.camera
         if mesh.suffix.lower() not in (".glb", ".gltf"):
-            raise SceneError(f"--camera {which} is no file, and '{mesh}' has no cameras")
+            kinds = ", ".join(_ENDINGS)
+            raise SceneError(
+                f"--camera {which} is no file of cameras ({kinds}; `reftrace camera` writes that "
+                f"of a .blend), and '{mesh}' has no cameras"
+            )
         if given.up == "z":
             raise SceneError("--set up=z is for the meshes alone: a camera of glTF has Y up")
     views = read(file, given.camera_convention, size)

@@ -27,6 +27,7 @@ class Setting:
     read: Callable[[str], object]  # a ValueError or an ArgumentTypeError says what is wrong
     help: str
     dest: str = ""  # where the value is kept; '' for the name itself, with _ for -
+    alone: bool = False  # typed without its name
 
     @property
     def kept(self) -> str:
@@ -35,8 +36,9 @@ class Setting:
 
     def lines(self) -> list[str]:
         """Return its lines of the help."""
+        typed = self.form if self.alone else f"{self.name}={self.form}"
         return wrap(
-            f"{self.name}={self.form}: {self.help}",
+            f"{typed}: {self.help}",
             _WIDTH,
             subsequent_indent="    ",
             break_on_hyphens=False,
@@ -65,7 +67,7 @@ class Named(Action):
             name, equals, text = word.partition("=")
             row = next((row for row in self.rows if row.name == name), None)
             if row is None or not equals:
-                names = ", ".join(row.name for row in self.rows)
+                names = ", ".join(row.name for row in self.rows if not row.alone)
                 say = f"{option} takes NAME=VALUE, not '{word}'; the names are {names}"
                 raise ArgumentError(None, say if equals else f"{say} (files come before it)")
             try:

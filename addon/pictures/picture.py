@@ -30,7 +30,10 @@ MAJORITY = 0.5  # the share of what a known curve changes that it must make agre
 
 
 class SizeError(ValueError):
-    """The pictures differ in size."""
+    """The pictures differ in size: how, then what else can be done where there are options."""
+
+    def __str__(self) -> str:
+        return "".join(self.args)
 
 
 def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
@@ -45,8 +48,8 @@ def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
         (height, width), (h, w) = own[:2], traced[:2]
         raise SizeError(
             f"The picture has {width} x {height} pixels, the traced one {w} x {h}. Render it at "
-            "that size, or trace a .blend or a mesh at its own: "
-            f"--set width={width} height={height}"
+            "that size",
+            f", or trace a .blend or a mesh at its own: --set width={width} height={height}",
         )
 
 

@@ -60,7 +60,7 @@ def wrong_in(found: Comparison) -> str:
         return (
             f"{count_of(unexplained, 'pixel differs', 'pixels differ')}, and no cause explains it"
         )
-    return found.lines()[-1]
+    return found.lines()[-1].removeprefix(f"verdict: {found.verdict}").lstrip(": ") or found.verdict
 
 
 def of_comparison(name: str, found: Comparison, seconds: float = 0.0) -> Judged:

@@ -1,6 +1,6 @@
-"""Writes scenes of the kit as .blend: a process of its own, which has bpy, started as a script.
+"""Writes scenes of the kit as .blend: a process of its own, which has bpy.
 
-    python blend_child.py FOLDER...
+    python -m reference_tracer_conformance.blend_child FOLDER...
 
 A folder bears the name of its scene; in it comes scene.blend.
 """

@@ -17,7 +17,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.wording import count_of, say, show
 from reference_tracer_meshes import FORMATS
 from reference_tracer_processes.running import SECONDS, Limits, check_starts, words_of
-from reference_tracer_processes.sandbox import sandbox
+from reference_tracer_processes.sandbox import check_shown, sandbox
 
 from . import report
 from .judging import OUT, PICTURES, Program, conform
@@ -135,6 +135,8 @@ def _program(given: Namespace) -> Program:
             raise SceneError(f"the command names {{{name}}}; {{{near[0]}}} is the nearest")
     try:
         check_starts(words[0])
+        if not given.no_sandbox:
+            check_shown(words, ", or add --no-sandbox")
     except ValueError as error:
         raise SceneError(f"the command {given.command!r}: {error}") from error
     memory = int((given.memory_limit or 4) * 2**30)

@@ -20,7 +20,7 @@ from reference_tracer.opened import file_manifest
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.given import Making, picture_of_array, picture_of_file
 from reference_tracer.pictures.palette import GivenColors
-from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.picture import Picture, SizeError
 from reference_tracer.rendering import render
 from reference_tracer.report.junit import Judged, of_comparison
 from reference_tracer.scene import Scene, SceneError
@@ -115,7 +115,9 @@ def _judged(program: Program, kit: KitScene, folder: Path) -> Work[Result]:
         case = Case(scene, manifest, Settings(), shown, curves=())
         found = yield from compared(case, diagnose=True)
     except (ProgramError, ValueError, *EXPECTED) as error:
-        why = words(error).replace(f"{folder}/", "")
+        # There are no options of a kit's scene.
+        why = error.args[0] if isinstance(error, SizeError) else words(error)
+        why = why.replace(f"{folder}/", "")
         judged = Judged(kit.name, why, why, time.monotonic() - began)
         return Result(kit, judged, Verdict.FAILED)
     return Result(kit, of_comparison(kit.name, found, seconds), found.verdict, found)

@@ -31,7 +31,6 @@ FILES = {  # what stands for a file of a scene in a command: the file, and what 
     "colors": ("colors.json", "the colours of all objects, linear and sRGB"),
 }
 CAMERA_Y_UP = "camera_y_up.json"
-_BLEND_CHILD = Path(__file__).with_name("blend_child.py")
 
 
 def write_kit(folder: Path, scenes: Sequence[KitScene], blends: bool | None = None) -> None:
@@ -92,7 +91,7 @@ def opencv(camera: Camera, y_up: bool = False) -> dict[str, Any]:
 
 def _write_blends(folders: Sequence[Path]) -> None:
     """Write a .blend beside each .npz, in a process of its own: Blender keeps what it has open."""
-    words = [sys.executable, str(_BLEND_CHILD), *map(str, folders)]
+    words = [sys.executable, "-P", "-m", f"{__package__}.blend_child", *map(str, folders)]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     if done.returncode:
         why = (done.stderr.strip().splitlines() or ["no reason is said"])[-1]

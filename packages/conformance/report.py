@@ -71,7 +71,8 @@ def verdict(results: Sequence[Result]) -> Verdict:
 
 def summary(results: Sequence[Result]) -> str:
     """Return how many scenes agree, in words."""
-    return f"{agreeing(results)} of {count_of(len(results), 'scene')} agree"
+    scenes = count_of(len(results), "scene agrees", "scenes agree")
+    return f"{agreeing(results)} of {scenes}"
 
 
 def agreeing(results: Sequence[Result]) -> int:

@@ -21,6 +21,7 @@ _ROWS = (
         one_of(*KINDS),
         "depth, along the view axis; distance, along the ray; normals, of faces; "
         "positions; ids, of objects: in .exr, .npy, .npz or .png",
+        alone=True,
     ),
     Setting("layer", "NAME", str, "the array of a .npz, or the layer of an .exr"),
     Setting("scale", "METRES", POSITIVE, "what 1 is, such as 0.001 (default 1; integers need it)"),
@@ -66,6 +67,8 @@ def data_from(given: Namespace) -> GivenData | None:
     for option, kinds in _OF.items():
         if kind not in kinds:
             refuse(given, (option,), f"is for {', '.join(kinds)}")
+    if given.against.suffix.lower() in (".exr", ".png"):
+        refuse(given, ("first_row",), "is for .npy, .npz: a picture's file has the topmost first")
     if given.self_check:
         raise SceneError(f"--self-check is for a picture of colours, not for {kind}")
     return GivenData(

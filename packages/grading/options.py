@@ -11,6 +11,7 @@ from reference_tracer.cli.arguments import refuse
 from reference_tracer.cli.camera_options import CAMERA_OPTIONS, choice_from
 from reference_tracer.framing import Choice
 from reference_tracer.scene import SceneError
+from reference_tracer_processes.sandbox import check_shown
 
 from .external import Run
 
@@ -99,6 +100,7 @@ def _runs(given: Namespace) -> list[Run]:
     for command in dict.fromkeys(given.programs or ()):
         try:
             runs.append(Run.parsed(command, given.exchange or "csv"))
+            check_shown(runs[-1].words)
         except ValueError as error:
             raise SceneError(f"--run {command!r}: {error}") from error
     return runs

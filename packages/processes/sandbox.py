@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import shlex
 import shutil
 import subprocess
 from collections.abc import Iterator, Sequence
@@ -94,6 +95,24 @@ def kept_in(
     seen = [*libraries, *named, *(path if path.is_dir() else path.parent for path in named)]
     options = _seen([*seen, start or Path.cwd()], folder, own)
     return [*kept, *options, "--chdir", str(start or Path.cwd()), "--", *words]
+
+
+def check_shown(words: Sequence[str], otherwise: str = "") -> None:
+    """Raise a ValueError if a command's program is here, but not in the sandbox.
+
+    Parameters
+    ----------
+    words : sequence of str
+    otherwise : str
+        What else can be done, in words, begun by a comma.
+    """
+    found = shutil.which(words[0])
+    if found and sandbox():
+        probe = ["sh", "-c", f"test -x {shlex.quote(found)}", *words]
+        if subprocess.run(kept_in(probe, None, {}), capture_output=True, check=False).returncode:
+            folders = " or ".join(map(str, _HIDDEN))
+            do = f"use one that is not in {folders}{otherwise}"
+            raise ValueError(f"the sandbox does not show '{found}': {do}")
 
 
 def _seen(paths: list[Path], folder: Path | None, environment: dict[str, str]) -> Iterator[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from pathlib import Path
+from zipfile import ZipFile
 
 from reference_tracer.cli.parser import AGREE, COUNT, DIFFERENCES, INPUT_ERROR, Parser
 from reference_tracer.cli.running import meanwhile
@@ -13,7 +14,7 @@ from reference_tracer.wording import show
 _CODES = f"""exit codes:
   {AGREE}  every pixel that was checked sees what the file says
   {DIFFERENCES}  one does not; the file has what the checker does not know; or it is damaged
-  {INPUT_ERROR}  there is no such file
+  {INPUT_ERROR}  there is no such file, or it is no certificate
   130  interrupted by Ctrl-C"""
 
 
@@ -39,12 +40,16 @@ def verify(given: Namespace) -> int:
     Raises
     ------
     SceneError
-        If there is no such file.
+        If there is no such file, or it is no certificate.
     """
     from .verify import RefusedError, verified
 
     if not given.file.is_file():
         raise SceneError(f"there is no file '{given.file}'")
+    if not _is_one(given.file):
+        raise SceneError(
+            f"'{given.file}' is no certificate: `reftrace trace --certificate FILE` writes one"
+        )
     try:
         with meanwhile("checking"):
             show(f"{given.file}: {verified(given.file, given.sample)}")
@@ -52,3 +57,14 @@ def verify(given: Namespace) -> int:
         show(f"{given.file}: refused: {error}")
         return DIFFERENCES
     return AGREE
+
+
+def _is_one(path: Path) -> bool:
+    """Return whether a file is a certificate, or an archive too damaged to tell."""
+    with path.open("rb") as file:
+        is_archive = file.read(2) == b"PK"
+    try:
+        with ZipFile(path) as archive:
+            return "certificate.npy" in archive.namelist()
+    except Exception:  # a damaged one has many ways to say no
+        return is_archive

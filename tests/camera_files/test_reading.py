@@ -91,12 +91,40 @@ def test_what_is_wrong_is_named(name, change, said, tmp_path):
         read(path)
 
 
+@pytest.mark.parametrize("name", ["opencv", "opengl", "nerf"])
+@pytest.mark.parametrize(
+    ("key", "bent", "straight"),
+    [
+        ("k1", 0.1, 0),
+        ("D", [0, -0.1], [0.0]),
+        ("dist_coeffs", [[0.1, 0, 0, 0, 0]], [[0.0] * 5]),
+        ("distortion", {"k1": 0.1}, {"k1": 0.0}),
+        ("distCoeffs", [0, 0.1], None),
+    ],
+)
+def test_a_lens_that_bends_lines_is_refused(name, key, bent, straight, tmp_path):
+    _, path = changed(tmp_path, name, lambda c: c.update({key: straight}))
+    assert read(path)
+    _, path = changed(tmp_path, name, lambda c: c.update({key: bent}))
+    with pytest.raises(SceneError, match=f"lens distortion .*{key} = "):
+        read(path)
+
+
 @pytest.mark.parametrize("text", ["{}", "[", "[" * 5000, "[1]", "null", '{"frames": 3}', "solid"])
 def test_what_is_no_camera_is_refused(text, tmp_path):
     path = tmp_path / "file.json"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(SceneError, match="cannot be read as a camera: it is of none of opencv"):
         read(path)
+
+
+@pytest.mark.parametrize("named", [None, "opencv"])
+@pytest.mark.parametrize("text", ['{"camera_matrix": [], "rvec": [], "tvec": []}', "%YAML:1.0"])
+def test_what_opencvs_own_functions_write_is_told_what_is_needed(text, named, tmp_path):
+    path = tmp_path / "file.yml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(SceneError, match=r"OpenCV's is JSON with K, R and t"):
+        read(path, named)
 
 
 MODELS = {

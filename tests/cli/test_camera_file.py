@@ -118,8 +118,9 @@ def test_a_glbs_own_camera_is_chosen_by_name(own, glb):
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--camera", "Side"], "--camera Side is no file, and .* has no cameras"),
+        (["--camera", "Side"], "--camera Side is no file of cameras .*, and .* has no cameras"),
         (["--camera", "missing.json"], "missing.json"),
+        (["--camera", __file__], r"test_camera_file.py is no file of cameras \(\.json, "),
         (["--set", "camera-view=3"], "--set camera-view is for a file of --camera"),
         (["--set", "camera-convention=bop"], "--set camera-convention is for a file of --camera"),
     ],

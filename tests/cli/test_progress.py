@@ -33,7 +33,7 @@ class Clock:
 def test_an_estimate_never_grows_by_more_than_a_tenth(capsys):
     """Of what slows down, or of what nobody knows, no seconds are said."""
     clock = Clock()
-    shares = (0.25, Share(0.26, "a"), 0.5, Share(0.9, "trying the lens, 3 of 8", known=False))
+    shares = (0.25, Share(0.26, "a"), 0.5, Share(0.9, "3/8: trying the lens", known=False))
     with running.progress_bar(clock) as show:
         for share in shares:
             clock.now += 10.0
@@ -42,7 +42,7 @@ def test_an_estimate_never_grows_by_more_than_a_tenth(capsys):
         " 25 % (10 s, 30 s left)",
         " 26 %, a (20 s)",
         " 50 % (30 s, 30 s left)",
-        " 90 %, trying the lens, 3 of 8 (40 s)",
+        " 90 %, 3/8: trying the lens (40 s)",
     ]
 
 
@@ -91,7 +91,7 @@ def test_the_verdict_is_said_before_what_is_wrong_is_looked_for(
     before = "\n".join(said[:verdict])
     after = [line for line in said[verdict + 1 :] if "trying" in line]
     assert "looking for causes" in before and "trying" not in before
-    assert any("one object, 3 of 8" in line for line in after)
+    assert any("3/8: trying one object" in line for line in after)
     assert not [line for line in after if "left" in line]
 
 

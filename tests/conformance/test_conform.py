@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 from reference_tracer.scene import SceneError
 from reference_tracer_conformance.report import NAMES
+from reference_tracer_processes.sandbox import sandbox
 
 PROJECT = Path(__file__).parents[2]
 RENDERER = PROJECT / "packages" / "conformance" / "examples" / "embreex_obj.py"
@@ -85,6 +86,7 @@ def test_what_is_wrong_is_named(name, conform, out, tmp_path):
     scene = OF.get(name, "camera-plain")
     code, told, found = conform(rendered(path), scene)
     assert code == 2 and said in found[scene]["wrong"] and said in told
+    assert "0 of 1 scene agrees" in told
     page = (out / scene / "page.html").read_text(encoding="utf-8")
     assert "diagnosis" in page
     index = (out / "index.html").read_text(encoding="utf-8")
@@ -167,7 +169,10 @@ def test_a_picture_of_another_size_fails(conform, out, tmp_path):
     text = RENDERER.read_text(encoding="utf-8").replace(".save(out)", ".resize((32, 24)).save(out)")
     script.write_text(text, encoding="utf-8")
     code, _, found = conform(rendered(script), "camera-plain")
-    assert code == 4 and "32 x 24" in found["camera-plain"]["wrong"]
+    assert code == 4
+    assert found["camera-plain"]["wrong"] == (
+        "The picture has 32 x 24 pixels, the traced one 64 x 48. Render it at that size"
+    )
 
 
 @pytest.mark.parametrize(
@@ -192,6 +197,16 @@ def test_what_contradicts_itself_is_refused(words, said, exit_code, capsys, tmp_
     assert exit_code(["conform", *words]) == 4
     assert said in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command", ["judge --subject plane --run", "conform"])
+def test_a_program_that_the_sandbox_does_not_show_is_refused(command, exit_code, capsys, tmp_path):
+    """And is not judged to fail: as of an environment in /tmp, whose Python is a link."""
+    (tmp_path / "python").symlink_to(Path(sys.executable).resolve())
+    out = tmp_path / "report"
+    words = [*command.split(), f"{tmp_path}/python -c 1 {{scene}} {{out}}", "--out", str(out)]
+    assert (exit_code(words) == 4 and not out.exists()) == bool(sandbox())
+    assert (f"does not show '{tmp_path}/python'" in capsys.readouterr().err) == bool(sandbox())
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")

@@ -66,7 +66,7 @@ def test_what_a_file_lacks_counts_with_another_camera_too(scene, tmp_path):
     save_scene(path, scene, manifest)
     color = render(scene).color
     for camera in (None, scene.camera):
-        with pytest.raises(AssertionError, match=r"lost\.bin"):
+        with pytest.raises(AssertionError, match=r"what the camera sees: \(.*lost\.bin"):
             check(path, color, camera=camera)
 
 

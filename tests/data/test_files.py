@@ -114,7 +114,12 @@ def test_grey_depths_may_have_nan_where_nothing_is(judged, traced):
         (["depth", "space=camera"], "--holds space is for normals, positions"),
         (["depth", "range=unit"], "--holds range is for normals"),
         (["ids", "scale=1"], "--holds scale is for depth, distance, positions"),
+        (
+            ["depth", "first-row=bottom", "--against", "d.exr"],
+            "--holds first-row is for .npy, .npz",
+        ),
         (["depths"], "--holds kind: depths is none of depth, distance"),
+        (["depth", "layel=a"], "not 'layel=a'; the names are layer, scale"),
         (["depth", "--excuse", "dither=1"], "--excuse dither is for colours, and depth has none"),
         (["depth", "--self-check"], "--self-check is for a picture of colours"),
         (["depth", "--excuse", "filter=0.6"], "cannot be compared: it is sampled up to 0.6 px"),
@@ -126,8 +131,8 @@ def test_options_without_effect_are_refused(
     monkeypatch.chdir(tmp_path)
     save_scene("scene.npz", solids)
     np.save("d.npy", traced.t)
-    compare = ["compare", "scene.npz", "--out", "out", "--holds", *options]
-    assert exit_code([*compare, "--against", "d.npy"]) == 4
+    compare = ["compare", "scene.npz", "--out", "out", "--against", "d.npy"]
+    assert exit_code([*compare, "--holds", *options]) == 4
     assert words in capsys.readouterr().err
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.rendering import render
+from reference_tracer.scene import Plane
 
 from .conftest import SOME
 
@@ -128,6 +129,13 @@ def test_no_name_for_what_is_none_of_these(told, placed, seen, rng):
     noise = rng.normal(0, 0.05, seen["normals"]["world"].shape)
     for kind in ("normals", "positions"):
         assert told(kind, seen[kind]["world"] + noise, placed, faults=SOME) == []
+
+
+def test_a_plane_has_no_matrix_that_its_normals_lack(told, placed):
+    """Where there are no instances either."""
+    floor = Plane(0, (0, 0, -1), (0.1, 0, 1))
+    scene = replace(placed, meshes=(), instances=(), planes=(floor,))
+    assert told("normals", -render(scene).normal, scene, faults=SOME)[0] == "normal_facing"
 
 
 def test_ids_may_be_any_numbers_or_colours(judged, placed, seen, rng):

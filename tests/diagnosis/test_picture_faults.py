@@ -26,7 +26,7 @@ from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.scene import Instance, Mesh, Region
+from reference_tracer.scene import GREY, Instance, Mesh, Region
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import case_of
@@ -322,6 +322,14 @@ def test_a_sentence_and_its_advice_have_their_numbers(fault):
     guess = Numbers(tuple(1.5 + n for n in range(len(fault.numbers))), object="Ball", words="words")
     for text in (fault.sentence_of(guess), fault.advice_of(guess)):
         assert text and "{" not in text and "}" not in text
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_scene_that_is_grey_has_other_colours_in_the_picture(quads):
+    """As a mesh has, of which nobody knows the colours."""
+    grey = np.array([GREY], np.float32)
+    scene = replace(quads, instances=tuple(replace(i, colors=grey) for i in quads.instances))
+    assert "color_source" in told(scene, render(quads).color)
 
 
 @pytest.mark.slow

@@ -198,6 +198,12 @@ def test_a_focal_length_is_not_taken_for_the_last_pixel(few):
     assert list(told(scene, color, "last_pixel", "focal_length")) == ["focal_length"]
 
 
+def test_rows_of_what_is_symmetric_may_be_a_turned_picture(make):
+    same = "rows", "mirrored_y", "picture_turned"
+    scene = make.scene(make.camera(32, 24, half=0.3), make.quad(-0.4, 0.4, 0.3, 0.9, -4))
+    assert set(told(scene, render(scene).color[::-1], *same)) == {*same}
+
+
 @pytest.mark.slow
 def test_a_square_picture_may_be_turned_by_a_quarter(few):
     """Also a roll turns what is shown, about the shifted window's axis."""

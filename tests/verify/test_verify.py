@@ -457,8 +457,9 @@ def test_the_command(tmp_path, exit_code, capsys):
     np.savez(out, **answers)
     assert exit_code(["verify", str(out)]) == DIFFERENCES
     assert "refused: pixel (30, 20)" in capsys.readouterr().out
-    assert exit_code(["verify", scene]) == DIFFERENCES
-    assert "is damaged, or not of" in capsys.readouterr().out
+    for other in (scene, __file__):
+        assert exit_code(["verify", other]) == INPUT_ERROR
+        assert f"'{other}' is no certificate" in capsys.readouterr().err
     assert exit_code(trace) == INPUT_ERROR
     assert exit_code([*trace, "--certificate", str(out), "--method", "textbook"]) == INPUT_ERROR
     said = capsys.readouterr().err

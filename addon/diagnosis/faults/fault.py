@@ -114,10 +114,10 @@ class Effort(IntEnum):
 # The step of the search, in words, and its cost.
 TRIED = {
     Effort.NOTHING: (
-        "colours, rows, and what Blender says of the scene",
+        "colours, and what Blender says of the scene",
         "each is put in, and tried in a few hundred pixels; it has no numbers",
     ),
-    Effort.VIEW: ("a camera's conventions", "likewise"),
+    Effort.VIEW: ("a camera's conventions, and rows", "likewise"),
     Effort.FILM: (
         "the lens",
         "one or two numbers are fitted to edges that are found in the picture, then to a thousand "

@@ -115,6 +115,7 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
         "check the order of its rows and columns: both are reversed, or one is taken for the other",
         lambda case, guess: _quarter_turned(case, -guess.number),
         always(*(Option(n, words=words) for n, words in _QUARTERS.items())),
+        effort=Effort.VIEW,  # with turned rows, which show the same of what is symmetric
         turns=True,
         examples=(
             Example(

@@ -57,11 +57,11 @@ def shades_apart(traced: Colors, shown: Colors) -> float | None:
     """Return how far k colours are apart as a file codes them; None if some are other colours."""
     first, second = (encoded(v.astype(np.float64))[:, :3] for v in (traced, shown))
     apart = float(np.abs(first - second).max())
-    if (
-        second.max(axis=1) - second.min(axis=1) <= GREY
-    ).all():  # without hues, brightness is compared (Rec. 709)
+    if float(np.max(np.ptp(second, axis=1))) <= GREY:
+        # Without hues, brightness is compared (Rec. 709).
         first = np.repeat(first @ np.array((0.2126, 0.7152, 0.0722))[:, None], 3, axis=1)
-    like = np.corrcoef(first.ravel(), second.ravel())[0, 1] if np.ptp(second) else 0.0
+    vary = np.ptp(first) and np.ptp(second)
+    like = np.corrcoef(first.ravel(), second.ravel())[0, 1] if vary else 0.0
     return apart if np.abs(first - second).max() <= RECOLORED and like >= ALIKE else None
 
 

@@ -83,16 +83,21 @@ def _facing(evidence: Evidence, data: Data) -> Iterator[Turned]:
 
 def _object_space(made: Floats, seen: Seen) -> Floats:
     """Return normals as the objects' own vertices have them, untransformed."""
-    m = seen.scene.instance_matrices[:3, :3, seen.instance % max(len(seen.scene.instances), 1)]
-    own = (m * seen.normals.T[:, None]).sum(axis=0)  # M^T (M^-T n)
+    own = (_axes(seen) * seen.normals.T[:, None]).sum(axis=0)  # M^T (M^-T n)
     return _unit(own.T)
 
 
 def _as_points(made: Floats, seen: Seen) -> Floats:
     """Return normals transformed as points are, by M in place of its inverse transpose."""
-    m = seen.scene.instance_matrices[:3, :3, seen.instance % max(len(seen.scene.instances), 1)]
     own = _object_space(made, seen).T
-    return _unit((m * own[None]).sum(axis=1).T)
+    return _unit((_axes(seen) * own[None]).sum(axis=1).T)
+
+
+def _axes(seen: Seen) -> Floats:
+    """Return the axes of the object of each surface, (3, 3, n); a plane has the world's."""
+    of_planes = np.repeat(np.eye(3)[..., None], len(seen.scene.planes), axis=2)
+    every = np.concatenate((seen.scene.instance_matrices[:3, :3], of_planes), axis=2)
+    return every[..., seen.instance]
 
 
 def _unit(vectors: Floats) -> Floats:
