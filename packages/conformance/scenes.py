@@ -23,8 +23,9 @@ from .shapes import Shape, ball, box, bracket, in_two, needles, prism, sheet, tr
 from .shapes import with_zero_areas as zero_areas
 
 SIZE = 64, 48
-_NUMBERS = [str(k) for k in range(12)]
-PALETTE: list[Colors] = list(clear_palette(_NUMBERS).colors.values())  # (3,) linear RGB each
+_CLEAR = clear_palette([str(k) for k in range(14)]).colors.values()
+# (3,) linear RGB each. Those of 0 and 1 alone would look the same without sRGB's curve.
+PALETTE: list[Colors] = [color for color in _CLEAR if not np.isin(color, (0, 1)).all()]
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from reference_tracer.projections import PERSPECTIVE
 from reference_tracer.rendering import render
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer_conformance.kit import CAMERA_Y_UP, opencv, write_kit
-from reference_tracer_conformance.scenes import kit_scenes
+from reference_tracer_conformance.scenes import PALETTE, kit_scenes
 from reference_tracer_meshes.load import load_meshes, scene_of_meshes
 
 SCENES = kit_scenes()
@@ -32,6 +32,11 @@ def kit(tmp_path_factory):
 def owners(scene):
     names = np.array([*scene.objects, ""])
     return names[render(scene).object_index]
+
+
+def test_no_colour_is_the_same_without_srgbs_curve():
+    """Else a picture that lacks the curve would agree."""
+    assert not any(np.isin(color, (0, 1)).all() for color in PALETTE)
 
 
 def test_there_are_forty_small_ones(kit):
