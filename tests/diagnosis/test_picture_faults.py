@@ -332,6 +332,13 @@ def test_a_scene_that_is_grey_has_other_colours_in_the_picture(quads):
     assert "color_source" in told(scene, render(quads).color)
 
 
+def test_what_shows_no_surface_has_no_other_source_of_colours(quads):
+    """As of a camera that looks the other way: all that is there is the background."""
+    scene = replace(quads, background=np.array((0.25, 0.35, 0.5, 1.0), np.float32))
+    color = np.broadcast_to(scene.background, render(scene).color.shape).copy()
+    assert "color_source" not in told(scene, color)
+
+
 @pytest.mark.slow
 def test_one_objects_colour_is_no_processing(quads):
     instances = list(quads.instances)

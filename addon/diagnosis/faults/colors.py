@@ -22,6 +22,7 @@ from ..evidence import NEAR, Evidence
 from .climbing import values_of
 from .fault import (
     AnyFault,
+    Effort,
     Example,
     Fault,
     Key,
@@ -223,6 +224,8 @@ def _other_source(evidence: Evidence) -> list[Painted]:
         return out
     if np.average(shown.alike, weights=shown.pixels) < FITTED_SHARE:
         return out
+    if np.abs(shown.colors - scene.background).max() <= NEAR:
+        return out  # no surface is shown
     if shades_apart(scene.color_table[shown.rows], shown.colors) is not None:
         return out  # these are the same, processed
     table = scene.color_table.copy()
@@ -269,6 +272,7 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
         of_object(_in_color),
         _shown_color,
         ("red", "green", "blue"),
+        effort=Effort.PIXELS,  # after what is missing: the one behind it is shown
         examples=(
             Example("one_shade", "one object half as bright", _recolored(lambda c: c * 0.5)),
             Example(
