@@ -10,7 +10,7 @@ from argparse import (
     Namespace,
     _ActionsContainer,
 )
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 from typing import Any
@@ -67,8 +67,9 @@ class Named(Action):
             name, equals, text = word.partition("=")
             row = next((row for row in self.rows if row.name == name), None)
             if row is None or not equals:
-                names = ", ".join(row.name for row in self.rows if not row.alone)
-                say = f"{option} takes NAME=VALUE, not '{word}'; the names are {names}"
+                names = [row.name for row in self.rows if not row.alone]
+                say = f"{option} takes NAME=VALUE, not '{word}'{nearest(name, names)}"
+                say += f"; the names are {', '.join(names)}"
                 raise ArgumentError(None, say if equals else f"{say} (files come before it)")
             try:
                 value = row.read(text)
@@ -77,6 +78,13 @@ class Named(Action):
             setattr(given, row.kept, value)
             given.typed = {**given.typed, row.kept: f"{option} {name}"}
         setattr(given, self.dest, [*getattr(given, self.dest), *words])
+
+
+def nearest(word: str, names: Iterable[str]) -> str:
+    """Return which of some names a word may be a misspelling of, for a message; '' for none."""
+    from difflib import get_close_matches
+
+    return "".join(f"; {name} is the nearest" for name in get_close_matches(word, names, 1))
 
 
 def add_named(

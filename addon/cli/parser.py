@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 from ..wording import show
+from .named import nearest
 
 Number = TypeVar("Number", int, float)
 
@@ -82,13 +83,10 @@ class Parser(ArgumentParser):
     def _unknown(self, word: str) -> str:
         if not word.startswith("-"):
             return f"'{word}' is one word too many: put a name that holds spaces in quotes"
-        from difflib import get_close_matches
-
         for action in self._actions:
             if any(row.name == word.lstrip("-") for row in getattr(action, "rows", ())):
                 return f"there is no option {word}: {action.option_strings[0]} {word[2:]}=VALUE"
-        near = get_close_matches(word, self._option_string_actions, 1)
-        return f"there is no option {word}" + "".join(f"; {name} is the nearest" for name in near)
+        return f"there is no option {word}{nearest(word, self._option_string_actions)}"
 
     def runs(self, run: Callable[[Namespace], int], example: str, codes: str = DONE_HELP) -> None:
         """Set what this parser's command does and returns, and the end of its help."""

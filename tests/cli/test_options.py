@@ -33,7 +33,7 @@ BAD = {
         ["ball.ply", "--set", "eye=0,0,5", "ortho-scale=2", "angle=40"],
         "--set angle is for a camera that is not orthographic",
     ),
-    "no name": (["ball.ply", "--set", "wide=5"], "--set takes NAME=VALUE, not 'wide=5'; the names"),
+    "no name": (["ball.ply", "--set", "wide=5"], "--set takes NAME=VALUE, not 'wide=5'; width is"),
     "a file behind the names": (["--set", "up=y", "ball.ply"], "not 'ball.ply'; the names are wid"),
     "two numbers": (["ball.ply", "--set", "eye=1,2"], "--set eye: 1,2 is not X,Y,Z"),
     "no such axis": (["ball.ply", "--set", "up=x"], "--set up: x is none of y, z"),
