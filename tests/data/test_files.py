@@ -119,7 +119,7 @@ def test_grey_depths_may_have_nan_where_nothing_is(judged, traced):
             "--holds first-row is for .npy, .npz",
         ),
         (["depths"], "--holds kind: depths is none of depth, distance"),
-        (["depth", "layel=a"], "not 'layel=a'; the names are layer, scale"),
+        (["depth", "layel=a"], "not 'layel=a'; layer is the nearest; the names are layer, scale"),
         (["depth", "--excuse", "dither=1"], "--excuse dither is for colours, and depth has none"),
         (["depth", "--self-check"], "--self-check is for a picture of colours"),
         (["depth", "--excuse", "filter=0.6"], "cannot be compared: it is sampled up to 0.6 px"),
