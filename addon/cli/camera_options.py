@@ -82,7 +82,7 @@ CAMERA_OPTIONS = "camera", *(row.kept for row in (*_SIZES, *_EYES, *_PARTS))
 
 
 def add_camera(parser: Parser, sizes: Sequence[Setting] = _SIZES) -> None:
-    """Add the options for what is looked at, through which camera, in a picture of which size."""
+    """Add the options that choose the scene, the camera and the size of the picture."""
     group = _add(parser, (*sizes, *_EYES, *_PARTS))
 
     def name_or_path(text: str) -> str:

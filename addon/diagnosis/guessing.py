@@ -267,7 +267,7 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
     """Try how the picture may be turned if all of its colours are wrong, too.
 
-    No pixel says so then, but surfaces do, of which one transform makes the colours agree.
+    No pixel says so then, but surfaces do: one transform makes their colours agree.
     """
     case, picture, out = replace(evidence.case, curves=None), evidence.picture, []
     known = picture.transform or picture.lit or not picture.has_colors

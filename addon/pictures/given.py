@@ -65,7 +65,7 @@ class GivenPicture(Protocol):
 
 @dataclass(frozen=True)
 class GivenFile:
-    """A picture file, whose header was read."""
+    """A picture file and its header."""
 
     file: PictureFile
 

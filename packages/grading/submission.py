@@ -79,10 +79,13 @@ class Submission(ABC):
         question = self.form.question(given)
         table = np.full((len(question), self.form.numbers), -np.inf)
         self.raised = np.zeros(len(question), bool)
+        before = self.unasked
         for whole in self._raising(question, table, range(len(question))):
             first, error = self._halved(question, table, whole)
             self.raised = np.isneginf(table[:, 0])
-            if self.raised.mean() > MOST and not self._has_answered:
+            untried = self.unasked - before  # which says nothing of them
+            raising = self.raised.sum() - untried
+            if raising > MOST * (len(question) - untried) and not self._has_answered:
                 raise error
             self.first = self.first or (error, tuple(a[first.start] for a in given))
             self.raises += int(self.raised.sum())

@@ -221,6 +221,20 @@ def test_one_case_of_many_is_found_in_few_starts(written, monkeypatch):
     assert len(starts) < 30
 
 
+@pytest.mark.slow
+def test_who_dies_here_and_there_is_no_one_who_always_dies(written):
+    """Groups that are not asked one by one say nothing of how many raise: the rest counts."""
+    text = "lines = open(sys.argv[1]).read()\nassert '4321' not in lines\n"
+    text += "open(sys.argv[2], 'w').write('inf\\n' * lines.count('\\n'))"
+    rays = np.zeros((2000, 3)), np.ones((2000, 3)), np.ones((2000, 3, 3))
+    dies = np.random.default_rng(7).random(2000) < 0.05
+    rays[0][dies] = 4321
+    own = program(written, text)
+    own.ask(*rays)
+    assert own.raised[dies].all() and 0 < own.unasked
+    assert (~own.raised).mean() > 0.1
+
+
 def test_a_program_has_the_name_of_its_authors_folder_or_file(tmp_path):
     for name in ("anna", "bob"):
         (tmp_path / name).mkdir()

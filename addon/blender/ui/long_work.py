@@ -177,7 +177,7 @@ class LongWork(Mixin):
 
     def _say(self, context: Any, what: str, rest: str = "") -> None:
         """Say where the user looks what is done, how far it is, and how to end it."""
-        what = ": ".join(map(rpt_, what.split(": ")))  # of which frame, besides
+        what = ": ".join(map(rpt_, what.split(": ")))  # the frame, too
         said = ", ".join(filter(None, (rpt_(self.bl_label), what))) + rest
         LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"
         LongWork._told.add(context.workspace.as_pointer())

@@ -67,7 +67,7 @@ def add(parser: Parser) -> None:
         "width",
         "PIXELS",
         COUNT,
-        "of the largest picture, whose height follows "
+        "of the largest picture; its height follows "
         f"(default {tradeoff.WIDTH}, or the scene's own width where that is less)",
         "largest",
     )

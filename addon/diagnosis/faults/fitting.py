@@ -40,7 +40,7 @@ FINER = 1 / 8  # pixels: the first step of a refinement
 ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
 MOVES = 3  # with steps of one length, at most: a right start is off by a pixel or two
 BETTER = 0.03  # the least gain of a start in the share of right pixels
-ENCLOSED = 3  # numbers, at most, whose range is searched
+ENCLOSED = 3  # numbers, at most, that get ranges
 FITTED = 1024  # sampled pixels of each kind for more numbers
 WIDER = 2.0  # times the reach of a fit of more numbers, which pulls at several
 

@@ -70,7 +70,7 @@ def _without(case: Case, guess: Several) -> Case:
 
 @at_once
 def _not_shown(evidence: Evidence) -> list[Several]:
-    """Guess that all instances are left out of which most pixels are unexplained."""
+    """Guess that each instance is left out if most of its pixels are unexplained."""
     scene, index = evidence.case.scene, evidence.frame.instance_index
     count = len(scene.instances)
     seen, wrong = (

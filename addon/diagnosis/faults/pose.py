@@ -173,7 +173,7 @@ def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
             return None if changed is None else (yield from looked.right(changed))
 
         starts, step, axes = pose.starts, FIRST * looked.width, pose.axes
-        if axes.shape[1] == 1:  # of which more are looked at on each side
+        if axes.shape[1] == 1:  # a single number: in finer steps
             step /= 4
         if pose.camera and not kept:
             found, moves = _matched(looked, pose), _matched(looked, _placed(looked))
