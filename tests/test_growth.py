@@ -156,3 +156,21 @@ def test_what_is_done_for_each_pair_is_noticed():
 
     assert of_each_pair(by_python, MANY)[0] > 0.9
     assert of_each_pair(by_numpy, MANY)[1] * MANY**2 > LEAST
+
+
+def test_what_others_left_counts_for_nobody():
+    """A collection, which comes at any time, runs the last lines of what is freed."""
+
+    class Left:
+        def __init__(self):
+            self.itself = self
+
+        def __del__(self):
+            for _ in range(MANY**2):
+                pass
+
+    def work_of(n):
+        Left()
+        return lambda: [[] for _ in range(n * 1000)]  # which makes Python collect
+
+    assert of_each_pair(work_of, 1)[0] == 0
