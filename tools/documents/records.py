@@ -97,14 +97,14 @@ def _list(*lines: tuple[str, str]) -> str:
 
 
 def order_of_faults() -> str:
-    """Return a table of what is tried, in which order, and at which cost."""
+    """Return a table of the steps of the search, in their order."""
     rows = [
-        f"| {words} | {cost} | {number} | {1 + IN_PLACES.index(effort)} | "
+        f"| {words} | {number} | {1 + IN_PLACES.index(effort)} | "
         f"{sum(f.effort == effort for f in FAULTS)} |"
-        for number, (effort, (words, cost)) in enumerate(TRIED.items(), 1)
+        for number, (effort, words) in enumerate(TRIED.items(), 1)
     ]
-    head = "| tried | at which cost | place | where most of the picture agrees | faults |"
-    return "\n".join(("", head, "|---|---|---|---|---|", *rows, ""))
+    head = "| tried | place | where most of the picture agrees | faults |"
+    return "\n".join((head, "|---|---|---|---|", *rows))
 
 
 def faults_by_family() -> str:
