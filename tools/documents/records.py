@@ -11,8 +11,7 @@ import reference_tracer_data.faults
 from reference_tracer.camera_files.features import FEATURES
 from reference_tracer.camera_files.files import CONVENTIONS
 from reference_tracer.causes.cause import Cause
-from reference_tracer.causes.checks import unmodelled
-from reference_tracer.causes.explain import CAUSES, CHECKS
+from reference_tracer.causes.explain import CAUSES
 from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault
@@ -33,7 +32,6 @@ def values() -> dict[str, str]:
     parts = {
         "camera_conventions": camera_conventions(),
         "causes": causes(),
-        "checks": checks(),
         "faults": faults_by_family(),
         "order": order_of_faults(),
         "methods": methods(),
@@ -56,16 +54,6 @@ def methods() -> str:
     for method in Method:
         of = method.record
         rows.append(f"| `{method}`, *{of.label}* | {of.description} | {of.guarantees} |")
-    return "\n".join(rows)
-
-
-def checks() -> str:
-    """Return the checks in their order, a line each: what they say of the pixels that they find."""
-    rows = []
-    for check in (unmodelled.check_in_place, *(check for check, _ in CHECKS)):
-        said = (inspect.getdoc(check) or "").split("\n")[0].removeprefix("Find open pixels ")
-        file = check.__module__.split(".")[-1] + ".py"
-        rows.append(f"1. {said.rstrip('.')} ([{file}](../addon/causes/checks/{file}))")
     return "\n".join(rows)
 
 

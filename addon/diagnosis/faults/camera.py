@@ -125,8 +125,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "camera_turned",
         "the camera is turned by {words}",
-        "Angles are read in another order than the camera's rotation mode, or without its "
-        "parents and constraints, such as Track To.",
+        "Angles are read in another order than the camera's rotation mode, or without "
+        "its parents and constraints.",
         "compare its world matrix with the one that the scene has, and the order of its angles",
         of_camera(TURNED.camera),
         _PANNED.find,

@@ -99,8 +99,7 @@ GIVEN_FAULTS = (
     _given(
         "parent_scale",
         "the parent's scale is left out: {words}",
-        "The chain of parents is rebuilt from locations and rotations alone, as rigid bodies "
-        "and bones have them.",
+        "The chain of parents is rebuilt from locations and rotations alone.",
         "use matrix_world: the parent's scale moves and scales what is parented to it",
         witness="Nusiq/mcblend#62",
     ),
@@ -145,8 +144,7 @@ GIVEN_FAULTS = (
     _given(
         "subdivision",
         "subdivision at another level: {words}",
-        "A subdivision has one level for the viewport and one for renders, and Simplify limits "
-        "both.",
+        "A subdivision has one level for the viewport and one for renders.",
         "use the render levels of the modifier",
         witness="Bforartists/Bforartists#3645",
     ),

@@ -192,8 +192,8 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "other_diagonal",
         "quads are cut along their other diagonal",
-        "OBJ keeps quads, and each reader cuts them in its own way. Where a quad is not flat, "
-        "the two ways give two surfaces.",
+        "OBJ keeps quads, and each reader cuts them in its own way, which shows where a "
+        "quad is not flat.",
         "cut each quad as Blender's loop triangles do",
         of_meshes(_other_diagonal),
         witness="bonjorno7/SourceOps#43",

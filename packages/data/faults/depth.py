@@ -163,10 +163,9 @@ DEPTH_FAULTS = (
     data_fault(
         "depth_normalised",
         ("depth", "distance"),
-        "Depths are stretched to some range to be looked at, and often reversed, so that"
-        " near surfaces are bright.",
-        "A picture of depths to look at is stretched to some range, such as that of what is seen, "
-        "and often reversed, so that what is near is bright.",
+        "the values are normalised: 0 is at {zero:.6g} m, full scale at {one:.6g} m",
+        "Depths are stretched to some range to be looked at, and often reversed, so that near "
+        "surfaces are bright.",
         "save the depths themselves, before they are normalised to be looked at",
         normalised,
         ("zero", "one"),
@@ -176,10 +175,9 @@ DEPTH_FAULTS = (
         data_fault(
             "background_value",
             ("depth", "distance"),
-            "An emptied depth buffer has the value of the far plane, which may be "
-            "another than the scene's.",
-            "An emptied depth buffer has the far plane's value, which is another than the scene's, "
-            "or a depth is cut off at some value.",
+            "where nothing is seen the values are {value:.6g}",
+            "An emptied depth buffer has the value of the far plane, which may be another than the "
+            "scene's.",
             "save 0, an infinity or NaN where nothing is seen, or clip both at one depth",
             _background,
             ("value",),

@@ -159,10 +159,9 @@ VECTOR_FAULTS = (
     data_fault(
         "normal_transform",
         ("normals",),
-        "A normal is transformed by the inverse transposed of the object's matrix, not "
-        "by the matrix.",
-        "A normal is transformed by the inverse transposed; with a scale that is the same along "
-        "all axes the matrix itself gives the same direction.",
+        "the normals are {words}",
+        "A normal is transformed by the inverse transposed of the object's matrix, not by the "
+        "matrix.",
         "transform normals by the inverse transposed of the object's matrix, and normalise them",
         _untransformed,
         words="not transformed, or by the wrong matrix",
