@@ -126,7 +126,7 @@ class Guessing:
         order = Effort if is_everywhere(evidence) else IN_PLACES
         for number, effort in enumerate(order, 1):
             some = [fault for fault in faults if fault.effort == effort]
-            words = f"{number}/{len(order)}: trying {TRIED[effort][0]}"
+            words = f"{number}/{len(order)}: trying {TRIED[effort]}"
             scored = yield from called(self._scored(evidence, some), words, known=False)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
             known = [one for one in scored if one[1].sampled or not one[1].vague]
