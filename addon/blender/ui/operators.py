@@ -14,9 +14,10 @@ from bpy_extras.io_utils import ExportHelper
 from ...tracer.progress import Work, mapped
 from ...wording import count_of, say
 from ..drawing.judges import OF_ONE_FRAME, STILLS
-from . import results
+from . import blocks, results
+from .areas import redraw
 from .long_work import Answer, LongWork, named, with_ending
-from .results import Kind, redraw
+from .results import Kind
 from .shown import open_as_render, show_where_shown
 
 
@@ -61,7 +62,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         yield from mapped(results.keep_comparison(comparison), lambda _: share)
         if not self._is_shown:
             show = open_as_render if self.pressed else show_where_shown
-            show(context, results.ours(results.TRACED))
+            show(context, blocks.ours(blocks.TRACED))
             self._is_shown = True
             self.kind = None
 
