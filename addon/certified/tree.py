@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 WIDE = 8  # triangles of a leaf, and children of a node: a cache line of float64
 RAYS = 1 << 14  # that go down the tree together
-_TOGETHER = 1 << 12  # nodes that are looked at together: their temporaries stay in a core's cache
+_TOGETHER = 1 << 12  # nodes that are tested together: their temporaries stay in a core's cache
 _LOOSE = 16 * U
 _OFF = 16 * U
 _TINY = 2.0**-1060
@@ -243,7 +243,7 @@ def _neighbours(corners: Floats) -> Index:
 
 
 def _cuts(leaves: int) -> list[int]:
-    """Return how parts are cut, so that there are at least so many leaves, and few more."""
+    """Return how parts are cut, so that there are at least `leaves`, and few more."""
     sizes = []
     for threes in range(6):
         twos = max(0, math.ceil(math.log2(max(leaves, 1) / 3**threes)))

@@ -20,7 +20,7 @@ EACH = 8  # nodes or items in a node
 BITS = 10  # of a Morton code, an axis
 SLACK = 1e-9  # of the coordinates, by which a box is larger; of t, by which it is left later
 TINY = 1e-300  # in place of a direction's zero: its inverse is finite
-TOGETHER = 1 << 15  # pairs of a ray and a box that are looked at together
+TOGETHER = 1 << 15  # pairs of a ray and a box that are tested together
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +34,7 @@ class Nodes:
 
 
 class Crossed(NamedTuple):
-    """Pairs of a ray and an item whose box it crosses, (p,)."""
+    """Pairs of a ray and an item, where the ray crosses the item's box, (p,)."""
 
     ray: Places
     item: Places
