@@ -84,7 +84,7 @@ class Guessing:
         self.limit = limit
         self.steps = 0
         self.guesses = 0
-        self.untried: set[str] = set()  # names of faults whose search was not finished
+        self.untried: set[str] = set()  # names of faults with a search that was not finished
         self._done, self._of = 0, 1  # faults searched so far, and the total of this round
 
     @property
@@ -113,7 +113,7 @@ class Guessing:
     def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
         """Return guesses tried on the whole picture, the best first.
 
-        Faults without numbers to fit are looked at before the others: where one of them does it
+        Faults without numbers to fit are tried before the others: where one of them does it
         all, a fit that does as well says no more. What may be anything, and cannot be sampled,
         comes last: it takes most work, and is not told where something exact does as well.
         """

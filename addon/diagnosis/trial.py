@@ -137,7 +137,7 @@ def same_shapes(one: Scene, other: Scene) -> bool:
 
 
 def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
-    """Return whether a guess settles enough pixels by colour alone to be looked at further.
+    """Return whether a guess settles enough pixels by colour alone to be compared further.
 
     The others are left to the checks, which take long where whole pictures differ.
     """

@@ -60,7 +60,7 @@ LEVEL_SLACK = 0.02
 # nothing.
 DECIDABLE = 0.5
 
-_ROWS = 64  # looked at together, at least, so that a step is short in large pictures
+_ROWS = 64  # bounded together, at least, so that a step is short in large pictures
 
 
 def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:

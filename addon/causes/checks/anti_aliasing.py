@@ -62,7 +62,7 @@ NEAR = 2.0**-7
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels whose colour is a mix of what is seen within the filter's radius.
+    """Find open pixels with a colour that is a mix of the colours within the filter's radius.
 
     Their figure is the radius of the smallest ring that is enough.
     """

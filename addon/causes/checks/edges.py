@@ -34,7 +34,7 @@ EDGE = Cause(
     explains=True,
     rounding=True,
     place="at edges",
-    why="Float32 and the rasteriser move corners a little, so a pixel whose centre is very "
+    why="Float32 and the rasteriser move corners a little, so a pixel with its centre very "
     "close to an edge may fall on its other side.",
     check="The tracer sees the shown colour, and the shown object, at a distance from the "
     "pixel's centre that the other side's error allows: a rasteriser's snapping of corners, and "
@@ -207,7 +207,7 @@ def _closed(scene: Scene, beside: list[Hits], asks: Bools) -> Floats:
 
     It is infinite where there is none. Triangles that share an edge, or a corner all around it,
     leave no gap between them, as a rasteriser rounds what they share alike. But a clipped triangle
-    gets corners of its own. Only the pixels that ask are looked at.
+    gets corners of its own. Only these pixels are tested.
     """
     instance = np.stack([h.instance for h in beside])
     triangle = np.stack([h.triangle for h in beside])

@@ -134,7 +134,7 @@ def _nearest_rotation(axes: Floats) -> Floats:
 
 @at_once
 def _sheared(evidence: Evidence) -> list[Option]:
-    """Guess both options for each suspect whose axes are not orthogonal."""
+    """Guess both options for each suspect with axes that are not orthogonal."""
     scene = evidence.case.scene
     found = []
     for name in evidence.suspects:

@@ -30,7 +30,7 @@ GRAIN = {0.9: 0.06, 0.98: 0.2}
 
 @dataclass(frozen=True, eq=False)
 class Processed(Numbers):
-    """A picture whose surfaces' colours were processed."""
+    """A picture with processed colours."""
 
     made: Colors = None  # type: ignore[assignment]
 

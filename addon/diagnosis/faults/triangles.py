@@ -121,7 +121,7 @@ PIXELS_PER_TRIANGLE = 4  # else any shape is a sum of triangles
 def _missing_triangles(evidence: Evidence) -> Work[list[Triangles]]:
     """Guess the missing triangles of each suspect, layer by layer.
 
-    Of its instances, those with the most unexplained pixels are looked at.
+    Its instances with the most unexplained pixels are tried.
     """
     seen = evidence.frame.instance_index[evidence.unexplained]
     count = np.bincount(seen[seen >= 0], minlength=len(evidence.case.scene.instance_objects))
