@@ -41,7 +41,7 @@ class Trees:
         """Return the nearest hit of each of n rays, as :func:`..tracer.nearest.trace_rays`."""
         hits = Hits.none(rays.count)
         test_planes(scene, rays, hits)
-        yield 0.0
+        yield None
         if scene.instances:
             self._prepare(scene)
             together = int(np.clip(PAIRS // len(scene.instances), 64, RAYS))
@@ -127,7 +127,7 @@ def _test(
     through[:, flat] = 0
     for pairs in crossed(nodes, nodes.roots[scene.instance_meshes[instance]], o, through):
         _test_triangles(scene, rays, ray, instance, pairs, hits)
-        yield 0.0
+        yield None
 
 
 def _test_triangles(
