@@ -73,8 +73,11 @@ ELSEWHERE = {
     "test_rounding.py holds their bounds against fractions",
     "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "
     "is left out is held to be met by no ray, in fractions, by test_dropped.py",
-    "tree": "which triangles any rays may meet, argued by hand at its head: what is found is held "
-    "to be what every pair has by test_tree.py",
+    **dict.fromkeys(
+        ("tree", "triangle_tree"),
+        "which triangles any rays may meet, argued by hand at its head: what is found is held to "
+        "be what every pair has by test_tree.py",
+    ),
     "measures": "of barycentrics, whose bound is argued by hand: below it, integers divide",
 }
 

@@ -22,7 +22,7 @@ LEAST = "the least or the largest of numbers, which are not changed"
 SORTS = "sorts what is looked at first: any order is right"
 FLOAT32 = "float32 and a matrix product: Trees.v has no word for it (test_dropped.py)"
 BOXES = "boxes of whole instances, argued by hand: test_ends_of_float64.py, test_dropped.py"
-BOXES_BY_HAND = "bounds on what a ray misses, argued at the head of tree.py (test_tree.py)"
+BOXES_BY_HAND = "bounds on what a ray misses, argued at the heads of both trees (test_tree.py)"
 WEIGHTS = "barycentrics, whose bound is argued by hand in measures.py (test_barycentrics.py)"
 BEFORE = "the roundings before the proof: test_rounding.py holds their bounds against fractions"
 
@@ -67,10 +67,15 @@ LEFT_OUT = {
     },
     "ties.py": {EXACT: "_ways _lines _reduced _by_angle"},
     "tree.py": {
-        BOXES_BY_HAND: "_Seen.of _children _triangles Tree.pairs",
-        WHICH: "Tree.of",
-        LEAST: "_joined",
-        SORTS: "_neighbours _cuts _some",
+        BOXES_BY_HAND: "BoxRays.of Tree.crossed Tree._entered",
+        WHICH: "Tree.of Tree.joined",
+        LEAST: "around",
+        SORTS: "neighbours _cuts",
+    },
+    "triangle_tree.py": {
+        BOXES_BY_HAND: "_Sheared.of _triangles TriangleTree.pairs",
+        WHICH: "TriangleTree.of",
+        LEAST: "_boxes",
     },
     "sweep/boxes.py": {
         BOXES: "_corners_with_room",
