@@ -60,7 +60,7 @@ LEVEL_SLACK = 0.02
 # nothing.
 DECIDABLE = 0.5
 
-_ROWS = 64  # looked at together, at least, so that a step is short in large pictures
+_ROWS = 64  # bounded together, at least, so that a step is short in large pictures
 
 
 def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
@@ -250,7 +250,7 @@ def spread_error(own: Floats, least: float = SNAPPING) -> Work[Floats]:
                 largest = largest_within(np.where(ring, around, 0.0), reach)[y - first :]
                 here = band[y : y + together]
                 np.maximum(here, largest[: len(here)], out=here)
-            yield 1.0
+            yield None
         if reach >= most:
             return band
         reach *= 2

@@ -111,7 +111,7 @@ class Picture:
 
     color: Colors  # (..., 4) linear RGBA, alpha premultiplied
     source: Source = Source()
-    owners: Owners | None = None  # whose surface each pixel shows, if that is known of any
+    owners: Owners | None = None  # of each pixel, if that is known of any
     sampling: Sampling = AT_CENTRES
     storage: Storage = FLOATS
     lit: bool = False  # by a light that the tracer does not have: colours prove nothing
@@ -177,7 +177,7 @@ class Picture:
         return self.color is other.color
 
     def measured_with(self, frame: Frame) -> tuple[Colors, Array, Array]:
-        """Return a frame's colours, and those of both sides whose difference is measured.
+        """Return a frame's colours, and the colours of both sides that are measured.
 
         An opaque picture says nothing of alpha.
         """

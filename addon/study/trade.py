@@ -217,7 +217,7 @@ def advice(rows: Sequence[TradeRow]) -> str:
     by = {(r.method, r.precision): r for r in whole(rows)}
     float32, float64 = (by[Method.TEXTBOOK.value, p.value] for p in Precision)
     certified = by[Method.CERTIFIED.value, Precision.FLOAT64.value]
-    # Nobody would choose the literal textbook: it is there to be looked at.
+    # Nobody would choose the literal textbook: it is there to be seen.
     unfit = Method.CERTIFIED.value, Method.TEXTBOOK_LITERAL.value
     fastest = _fastest([r for r in by.values() if r.method not in unfit])
     return (

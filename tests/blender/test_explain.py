@@ -162,21 +162,6 @@ def test_no_picture_has_a_ray_that_was_put_elsewhere(suzanne, compare):
     np.testing.assert_array_equal(drawn.picture, clean.picture)
 
 
-def test_no_picture_has_the_ray(suzanne, compare):
-    clean = compare()
-    ops.explain(**PIXEL, draw_ray=True)
-    drawn = compare()
-    np.testing.assert_array_equal(drawn.frame.color, clean.frame.color)
-    np.testing.assert_array_equal(drawn.picture, clean.picture)
-    assert drawn.verdict == "agree"
-    entries = {e.name: e for e in drawn.manifest.objects}
-    for obj in bpy.data.collections[ray_objects.NAME].objects:  # not dropped without a word
-        assert not entries[obj.name].exported and entries[obj.name].reason
-    first = document.document_markdown(latest())
-    ops.explain(**PIXEL)
-    assert document.document_markdown(latest()) == first
-
-
 def test_undo_takes_the_ray_and_leaves_the_text(suzanne):
     bpy.ops.ed.undo_push(message="before")
     ops.explain("EXEC_DEFAULT", True, **PIXEL, draw_ray=True)

@@ -1,4 +1,4 @@
-"""Draws the user's scene again, to find whose surface each pixel of Blender's picture shows.
+"""Draws the user's scene again, to find the owner of each pixel of Blender's picture.
 
 For that, each object has a colour of its own. What is instanced shows the colour of the object that
 instances it, and counts as that object. Where hair and the like are drawn is found by a picture
@@ -42,7 +42,7 @@ class Plan:
     layer: str
     judge: Judge
     like_for_like: bool = True
-    view_shading: Any = None  # of the 3D view whose shading is used
+    view_shading: Any = None  # the 3D view's shading that is used
     palette: Palette = VIEWPORT
     left_out: tuple[Unmodelled, ...] = ()  # objects that are never drawn
 
@@ -112,7 +112,7 @@ class Drawn(NamedTuple):
     drawing: Drawing
     scene: Scene  # what was exported, its planes in the colours drawn
     pixels: Colors
-    owners: Owners | None  # whose surface each pixel shows, if requested and known
+    owners: Owners | None  # of each pixel, if requested and known
 
 
 # Exports an evaluated depsgraph, given the temporary scene and the settings that it is drawn with.
@@ -159,7 +159,7 @@ def _owner_names(drawing: Drawing, tmp: Any) -> dict[str, str]:
 
 
 def _owners(drawing: Drawing, tmp: Any, owners: Mapping[str, str]) -> Turns[Owners]:
-    """Draw a temporary scene again, in a colour for each owner, and return whose each pixel is."""
+    """Draw a temporary scene again, in a colour for each owner, and return each pixel's owner."""
     names = tuple(dict.fromkeys(owners.values()))
     colors = dict(zip(names, colors_of(len(names)), strict=True))
     prepare_scene(tmp, drawing.judge, True)

@@ -28,7 +28,7 @@ from ..versions import DITHER
 from .against import gather_against
 from .open_file import Choices
 
-_MOST = 256  # colours of a picture that are looked at
+_MOST = 256  # colours of a picture that are compared
 _UNSEEN = (
     "which engine rendered it is not known, so only the rounding of rays excuses it: render again "
     "with F12 while the add-on is enabled, or choose Made By"

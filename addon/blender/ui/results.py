@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ...tracer.progress import Work, by_rows, scaled
+from ...tracer.progress import Work, by_rows
 from . import blocks
 
 if TYPE_CHECKING:
@@ -53,23 +53,23 @@ def _kept(comparison: Comparison) -> Work[Result]:
     traced = comparison.frame.color
     cause = comparison.causes.cause
     blocks.show(blocks.TRACED, traced)
-    yield 0.1
+    yield None
     blocks.show(blocks.BLENDER, comparison.picture)
-    yield 0.2
+    yield None
     pair = traced, comparison.picture
-    apart = yield from scaled(by_rows(difference_map, *pair), 0.2, 0.3)
-    yield 0.5
+    apart = yield from by_rows(difference_map, *pair)
+    yield None
     blocks.show(blocks.DIFFERENCE, apart)
-    yield 0.6
-    causes = yield from scaled(by_rows(cause_map, traced, cause), 0.6, 0.2)
+    yield None
+    causes = yield from by_rows(cause_map, traced, cause)
     blocks.show(blocks.CAUSES, causes)
-    yield 0.9
+    yield None
     regions = tuple(differing_regions(comparison))
-    yield 0.95
+    yield None
     right = {}
     for number, _, color in pictures_put_right(comparison):
         right[number] = color
-        yield 1.0
+        yield None
     blocks.remove(blocks.PUT_RIGHT)
     found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
     _latest[Kind.COMPARISON] = replace(found, regions=regions, put_right=right)

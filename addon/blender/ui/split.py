@@ -122,7 +122,7 @@ def _draw_marks(context: Any, at: Place, scale: float) -> None:
 
 
 def _draw_names(context: Any, at: Place, scale: float) -> None:
-    """Say on each side of the line whose picture it is."""
+    """Name the picture on each side of the line."""
     import blf
 
     from ..live.layers import draw_outlined
