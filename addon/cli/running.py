@@ -48,7 +48,7 @@ def run(work: Callable[[], int], program: str) -> int:
 def _failed(error: Exception, program: str) -> int:
     """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
     from ..errors import EXPECTED, show_traceback, words
-    from ..pictures.picture import SizeError
+    from ..pictures.source import SizeError
     from .parser import INPUT_ERROR, SIZES_DIFFER
 
     said = words(error)

@@ -11,7 +11,8 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
-from ..pictures.bounds import differing_pixels, largest_within
+from ..pictures.bounds import largest_within
+from ..pictures.storage import differing_pixels
 from ..rendering import steps
 from ..scene import Scene, SceneError
 from ..tracer import shading

@@ -10,7 +10,7 @@ from reference_tracer import compare
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.files import exr
 from reference_tracer.files.scenes import save_scene
-from reference_tracer.pictures.picture import SizeError
+from reference_tracer.pictures.source import SizeError
 from reference_tracer.scene import SceneError
 from reference_tracer_data.depth import DEPTH
 from reference_tracer_data.files import read

@@ -16,7 +16,8 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...pictures.given import Making, picture_of_array, picture_of_file
 from ...pictures.palette import APART, By, eight_bits
-from ...pictures.picture import Picture, Source
+from ...pictures.picture import Picture
+from ...pictures.source import Source
 from ...scene import Scene
 from ..drawing.drawings import Drawing
 from ..drawing.judge import Judge

@@ -14,10 +14,10 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Array, Bools, Floats, Index, Places
-from ...pictures.bounds import difference
 from ...pictures.curves import FIT, FITTED_SHARE, candidates
 from ...pictures.metrics import boundary
 from ...pictures.picture import MAJORITY, Curve, Picture, straight
+from ...pictures.storage import difference
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
