@@ -15,7 +15,7 @@ from reference_tracer.pictures.picture import Picture, Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
 from reference_tracer.tracer.camera import pixel_size
-from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.progress import Progress, result_of
 from reference_tracer.tracer.settings import Settings
 
 MANIFEST = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")
@@ -73,6 +73,16 @@ def shifted(camera, dx, dy):
     (w, h), v = pixel_size(camera), camera.window
     window = ViewWindow(v.left + dx * w, v.right + dx * w, v.bottom + dy * h, v.top + dy * h)
     return replace(camera, window=window)
+
+
+def rising(work):
+    """Run work whose share never falls; return its shares, and its result."""
+    events = []
+    found = result_of(work, events.append)
+    shares = [e.share for e in events if isinstance(e, Progress) and e.share is not None]
+    assert (np.diff(shares) > -1e-12).all()  # but for the rounding of a sum
+    assert 0 <= shares[0] and shares[-1] <= 1 + 1e-12
+    return shares, found
 
 
 def count(found, cause) -> int:

@@ -36,7 +36,7 @@ def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
     weight = np.zeros(points.shape[:2])
     weight[nearest, left] = 1
     for _ in range(ITERATIONS):
-        yield 0.0
+        yield None
         way = target[left] - at
         length = np.sqrt((way**2).sum(axis=-1))
         near = length <= allowed[left]
@@ -57,7 +57,7 @@ def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
     for n in left:
         distinct = np.unique(all_points[:, n], axis=0)[:DISTINCT]
         found[n] = distance_to_triangles(target[n], distinct) <= allowed[n]
-        yield 0.0
+        yield None
     return found
 
 

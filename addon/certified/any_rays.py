@@ -16,7 +16,7 @@ from ..scene import Scene
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics
 from ..tracer.nearest import every_pair
-from ..tracer.progress import Work, result_of
+from ..tracer.progress import Progress, Work, result_of
 from ..tracer.settings import Settings
 from ..tracer.vector import occurring, parts
 from .arithmetic import sound, sound_steps
@@ -68,12 +68,12 @@ def nearest_hits(
         ladder = Ladder(rays, surfaces, clip)
         for pairs in every_pair(scene, rays, statistics):
             ladder.test(pairs)
-            yield 0.0
+            yield None
         return (yield from ladder.hits(statistics))
     tree = TriangleTree.of(scene)
     found = []
     for some in parts(rays.count, _RAYS):
-        yield some.start / rays.count
+        yield Progress(some.start / rays.count)
         own = rays.take(np.arange(rays.count)[some])
         ladder = Ladder(own, surfaces, clip)
         for pairs in tree.pairs(own, *clip):

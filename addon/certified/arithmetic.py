@@ -282,11 +282,11 @@ def sound_steps(function: Callable[P, Work[T]]) -> Callable[P, Work[T]]:
         while True:
             _check_modes()
             try:
-                share = next(work)
+                event = next(work)
             except StopIteration as stop:
                 _check_modes()
                 return stop.value
             _check_modes()
-            yield share
+            yield event
 
     return checked

@@ -117,7 +117,7 @@ class Ladder:
         self._surfaces += len(used)
 
     def hits(self, statistics: Statistics, nearest: Nearest | None = None) -> Work[Hits]:
-        """Decide which surface is nearest to each ray, in small steps that all yield 1.
+        """Decide which surface is nearest to each ray, in small steps.
 
         Counts in the statistics why bounds did not decide. `nearest` finds the nearest of
         candidates by their order; `one_by_one` is the default.
@@ -129,17 +129,17 @@ class Ladder:
         decisions = Decisions(hits, self._rays, surfaces, self._clip, self._around)
         some = found.take(np.flatnonzero(clear))
         for _ in decisions.by_bound(some.ray, some.surface):
-            yield 1.0
+            yield None
         for part in found.take(np.flatnonzero(~clear)).by_ray(BY_ORDER):
             with np.errstate(all="ignore"):
                 rest = decisions.by_order(part, nearest or one_by_one)
-            yield 1.0
+            yield None
             for some in rest.by_ray(BY_INTEGERS):
                 with np.errstate(all="ignore"):
                     met, first = decisions.by_integers(some)
                     why = reasons(some, met, first, self._rays, surfaces)
                 statistics.reasons += why
-                yield 1.0
+                yield None
         hits.ties = Ties.joined(decisions.ties)
         statistics.reasons += decisions.reasons
         return hits

@@ -44,7 +44,7 @@ class Trees:
         """Return the nearest hit of each of n rays, as :func:`..tracer.nearest.trace_rays`."""
         hits = Hits.none(rays.count)
         test_planes(scene, rays, hits)
-        yield 0.0
+        yield None
         if scene.instances:
             self._prepare(scene)
             together = int(np.clip(PAIRS // len(scene.instances), 64, RAYS))
@@ -144,7 +144,7 @@ def _test(
     for pairs in meshes.crossed(of_object, np.arange(len(ray)), meshes.roots[mesh]):
         for part in parts(len(pairs), TOGETHER):
             _test_triangles(scene, rays, ray, instance, pairs.take(part), hits)
-            yield 0.0
+            yield None
 
 
 def _test_triangles(

@@ -87,15 +87,15 @@ class SampleBand:
             pixel, place = np.unique(around, return_inverse=True)
             largest = self._own(pixel)[place].reshape(9, -1).max(axis=0)
             self.values[row[part], column[part]] = np.maximum(largest, self._least())
-            yield part.start / len(row)
+            yield None
 
     def _find_all(self) -> Work[None]:
         own = np.zeros(self.values.shape)
         for _ in self._frame.measures.steps(slice(None)):
-            yield 0.0
+            yield None
         for part in parts(own.size, _TOGETHER):
             own.flat[part] = self._own(np.arange(own.size)[part])
-            yield part.start / own.size
+            yield None
         smallest = float(np.min(own, where=own > 0, initial=SNAPPING))
         self.values[:] = yield from spread_error(own, self._least(smallest))
 

@@ -250,7 +250,7 @@ def spread_error(own: Floats, least: float = SNAPPING) -> Work[Floats]:
                 largest = largest_within(np.where(ring, around, 0.0), reach)[y - first :]
                 here = band[y : y + together]
                 np.maximum(here, largest[: len(here)], out=here)
-            yield 1.0
+            yield None
         if reach >= most:
             return band
         reach *= 2

@@ -7,7 +7,6 @@ converged one.
 
 from __future__ import annotations
 
-import time
 import tracemalloc
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -20,7 +19,7 @@ from ..methods import Method
 from ..rendering import steps
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Progress, Work, scaled
 from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 from .trade import Trade, TradeRow, advice, mark
 from .truth import largest_t_error
@@ -134,17 +133,17 @@ def measure(
     k = max(2 * samples, min(CONVERGED, int((CONVERGED_RAYS / pixels) ** 0.5)))
     rays = k * k * pixels
     first = rays / (rays + 6 * each)
-    converging = called(converged(choices[0].scene, k), f"tracing {k} × {k} rays a pixel")
-    truth = yield from scaled(converging, 0.0, first)
+    words = f"tracing {k} × {k} rays a pixel"
+    truth = yield from scaled(converged(choices[0].scene, k), 0.0, first, words)
     rows = mark((yield from scaled((every or rows_of)(choices, truth), first, 1 - first)))
     return Trade(name, rows, advice(rows), k)
 
 
 def rows_of(choices: list[Choice], truth: Floats) -> Work[list[TradeRow]]:
     """Measure choices; of a width the certified ones are what the others are held against."""
-    looking = called(_look_at_all(choices, truth), "looking at errors and memory")
-    yield from scaled(looking, 0.0, 1 / 3)
-    yield from scaled(called(_time_all(choices), "taking times"), 1 / 3, 2 / 3)
+    looking = _look_at_all(choices, truth)
+    yield from scaled(looking, 0.0, 1 / 3, "looking at errors and memory")
+    yield from scaled(_time_all(choices), 1 / 3, 2 / 3, "taking times")
     return [choice.row() for choice in choices]
 
 
@@ -190,8 +189,7 @@ def converged(scene: Scene, samples: int) -> Work[Floats]:
         band = replace(scene.camera, width=samples * width, height=samples * height, region=region)
         part = replace(scene, camera=band)
         frame = Frame.empty(part)
-        for share in steps(part, settings, frame):
-            yield (y + share * (end - y)) / height
+        yield from scaled(steps(part, settings, frame), y / height, (end - y) / height)
         blocks = frame.color.reshape(end - y, samples, width, samples, 4)
         out[y:end] = blocks.mean(axis=(1, 3), dtype=np.float64)
     return out
@@ -231,10 +229,10 @@ def _look(choice: Choice) -> Work[Frame]:
         before = tracemalloc.get_traced_memory()[0]
         frame = Frame.empty(choice.scene)
         # A scene keeps tables once they are made: each row makes its own.
-        for share in steps(replace(choice.scene), choice.settings, frame):
+        for event in steps(replace(choice.scene), choice.settings, frame):
             held, peak = tracemalloc.get_traced_memory()
             choice.peak_bytes = max(choice.peak_bytes, peak - before)
-            yield share
+            yield event
             before += tracemalloc.get_traced_memory()[0] - held  # what others took meanwhile
             tracemalloc.reset_peak()
         return frame
@@ -254,16 +252,11 @@ def _time_all(choices: list[Choice]) -> Work[None]:
         for choice in some if number % 2 == 0 else reversed(some):
             yield from scaled(_repeat(choice), done, choice.cost / total)
             done += choice.cost / total
-    yield 1.0
+    yield Progress(1.0)
 
 
 def _repeat(choice: Choice) -> Work[None]:
     """Render once; only the steps count, not what happens between them."""
-    work = steps(choice.scene, choice.settings, Frame.empty(choice.scene))
-    seconds, share = 0.0, 0.0
-    while share < 1:
-        began = time.perf_counter()
-        share = next(work)
-        seconds += time.perf_counter() - began
-        yield share
-    choice.rounds.append(seconds)
+    frame = Frame.empty(choice.scene)
+    yield from steps(choice.scene, choice.settings, frame)
+    choice.rounds.append(frame.statistics.seconds)

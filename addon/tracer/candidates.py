@@ -168,7 +168,7 @@ def cull(
     reach: float,
     settings: Settings | None = None,
 ) -> Work[Plan]:
-    """Find the batches that are in view, and their rows; yields 0, as nothing is traced yet."""
+    """Find the batches that are in view, and their rows."""
     found = []
     rows = []
     kept: list[_Bounded] = []
@@ -184,7 +184,7 @@ def cull(
                 kept.append(bounded)
             found.append(batch)
             rows.append((int(y0[seen].min()), int(y1[seen].max())))
-        yield 0.0
+        yield None
     return Plan(scene, dtype, memory, reach, found, rows, refused, settings, kept)
 
 

@@ -20,7 +20,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import cross, dot
 
 from ..cases import find_causes
-from ..tracer.rational import rational
+from ..oracle import rational
 
 F = np.float32
 FOREIGN = Source(file="theirs.exr")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import tracemalloc
 from dataclasses import replace
 
@@ -16,6 +17,8 @@ from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Precision
+
+from ..cases import rising
 
 pytestmark = pytest.mark.slow
 
@@ -111,10 +114,8 @@ def test_tiny_pictures(ball, width):
 
 
 def test_progress_never_goes_back(ball):
-    shares = []
-    result_of(measure(ball, 8, 2), shares.append)
-    assert (np.diff(shares) > -1e-12).all()  # but for the rounding of a sum
-    assert 0 <= shares[0] < 0.1 and shares[-1] == pytest.approx(1)
+    shares, _ = rising(measure(ball, 8, 2))
+    assert shares[0] < 0.1 and shares[-1] == pytest.approx(1)
 
 
 def stopped_after(work, seen):
@@ -150,17 +151,13 @@ def test_what_happens_between_the_steps_takes_no_time(ball, monkeypatch):
         clock[0] += 1.0  # each look at the clock; so each step takes one second
         return clock[0]
 
-    monkeypatch.setattr(tradeoff.time, "perf_counter", perf_counter)
-    work, steps = measure(ball, 8, 1), 0
-    while True:
-        try:
-            next(work)
-        except StopIteration as stop:
-            trade = stop.value
-            break
-        clock[0] += 1000.0
-        steps += 1
-    assert all(r.seconds < steps for r in trade.rows)
+    monkeypatch.setattr(time, "perf_counter", perf_counter)
+
+    def others(event):
+        clock[0] += 1e6
+
+    trade = result_of(measure(ball, 8, 1), others)
+    assert all(r.seconds < 1e6 for r in trade.rows)
 
 
 @pytest.mark.parametrize(

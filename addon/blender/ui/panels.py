@@ -51,7 +51,7 @@ class _Main(Part):
         if context.scene.camera is None:
             button(layout, context, operators.REFERENCE_TRACER_OT_frame_all, "CAMERA_DATA")
         if LongWork.running:
-            layout.progress(factor=LongWork.share)
+            layout.progress(factor=LongWork.meter.share)
             wrapped(layout, context, LongWork.said)
         else:
             row = layout.row()

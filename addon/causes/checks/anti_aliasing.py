@@ -19,7 +19,7 @@ from ...arrays import Array, Bools, Floats, Places
 from ...tracer import shading
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from .. import hull
 from ..cause import Cause
 from .coverage import coverage
@@ -70,10 +70,9 @@ def check(pixels: OpenPixels) -> Work[None]:
     if not pixels.open.any() or radius <= 0 or pixels.picture.lit:
         return
     made = yield from plan(pixels.case.scene, SOUND, reach=np.sqrt(2) * radius)
-    share = 1 / len(DENSITIES)
-    for number, density in enumerate(DENSITIES):
+    for density in DENSITIES:
         look = partial(_look, radius=radius, density=density)
-        yield from scaled(by_parts(pixels, made, look), number * share, share)
+        yield from by_parts(pixels, made, look)
 
 
 def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
@@ -88,7 +87,7 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
         for x, y in _ring(ring, density, radius):
             hits = yield from part.probe.trace(x, y)
             mixed.append(picture.made_of(shading.colors(part.scene, hits)))
-            yield 0.0
+            yield None
         seen = np.stack(mixed)
         rest = np.flatnonzero(~found & owner & (seen != seen[0]).any(axis=(0, 2)))
         seen = seen[:, rest]
@@ -160,7 +159,7 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
             across[: 2 * len(pairs)] = np.roll(across[: 2 * len(pairs)], len(pairs))
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
             [found[n]] = yield from is_mix(color, near[:, None], picture.storage.sums, across)
-        yield 0.0
+        yield None
     return found
 
 
@@ -187,7 +186,7 @@ def is_mix(
             if opposite is not None:
                 points = (1 - OPPOSITE) * points + OPPOSITE * points[opposite]
             found[rest] = yield from hull.in_hull(of(color[rest]), points, slack * allowed[rest])
-        yield 0.0
+        yield None
     return found
 
 

@@ -77,7 +77,7 @@ def check(pixels: OpenPixels) -> Work[None]:
         else:
             same = ~picture.other_color(color) & ~picture.other_object(instance)
             pixels.give(pixels.open[rows] & same, COLOR, *picture.difference(color), rows)
-        yield 1.0
+        yield None
 
 
 def find_transform(
@@ -106,7 +106,7 @@ def find_transform(
         of_group = np.bincount(group, agree) / np.bincount(group)
         # Of the pixels, or of their groups if that is less.
         share = min(float(agree.mean()), float((of_group > MAJORITY).mean()))
-        yield 0.0
+        yield None
         if share > named.share:
             found.append((share, named))
     for _, named in sorted(found, key=lambda pair: -pair[0]):
@@ -156,7 +156,7 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
                 name = pixels.case.scene.objects[number]
                 how = found.name if found else ""
                 pixels.out.shades.append(Shade(name, int(count[number]), how))
-        yield 1.0
+        yield None
 
 
 def _is_its_own(frame: Frame, picture: Picture, where: Bools) -> bool:

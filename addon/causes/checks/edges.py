@@ -16,7 +16,7 @@ from ...pictures.picture import Picture
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ...tracer.vector import transform_points
 from ..cause import Cause
 from .coverage import coverage
@@ -76,7 +76,7 @@ OFFSETS = (
 def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels at depth ties and at edges."""
     if pixels.open.any():
-        yield from scaled(pixels.band.find(pixels.open), 0.0, 0.0)
+        yield from pixels.band.find(pixels.open)
         reach = float(np.max(pixels.bands(places(pixels.open))))
         yield from near_surfaces(pixels, pixels.case.scene, reach, _look)
 
@@ -131,7 +131,7 @@ def _beside(part: Part, asked: _Asked) -> Work[None]:
         np.minimum(found, _sides(part.scene, part.picture, hits, distance), out=found)
         off = np.where(asked.lost, np.where(other, distance, np.inf), found.max(axis=0))
         part.give(off < np.inf, EDGE, off, part.band)
-        yield 0.0
+        yield None
         if part.done:
             return
 
@@ -176,7 +176,7 @@ def _mixed(part: Part, asked: _Asked) -> Work[None]:
         color |= tied & picture.same_color(scene, hits)
         owner = owner | (tied & ~picture.other_object(hits.instance))
         part.give(tied & color & owner, DEPTH_TIE, gap, asked.resolution)
-        yield 0.0
+        yield None
 
 
 def _covering(part: Part, asked: _Asked) -> Work[None]:

@@ -62,7 +62,7 @@ def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bool
     out = np.zeros(shape, bool)
     for rows in blocks(shape):
         out[rows] = of(rows)
-        yield 0.0
+        yield None
     return out
 
 
@@ -120,15 +120,12 @@ class Probe:
 
     @classmethod
     def of(cls, made: Plan, tile: Region, wanted: Bools, settings: Settings = SOUND) -> Work[Probe]:
-        """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
-
-        Yields the share of the work done; returns the probe.
-        """
+        """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True."""
         chunks = []
-        for share, some in candidates(made, tile, wanted):
+        for _, some in candidates(made, tile, wanted):
             if some is not None and len(some.pixel):
                 chunks.append(some)
-            yield share
+            yield None
         px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
         return cls(made.scene, px, py, _together(chunks), settings)
 
@@ -167,7 +164,7 @@ class Probe:
         test_planes(self.scene, rays, hits, after)
         for some in self.chunks:
             test_pairs(self.scene, self.settings, rays, some, hits, after)
-            yield 0.0
+            yield None
         return hits
 
 

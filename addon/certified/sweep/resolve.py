@@ -16,7 +16,7 @@ from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
 from ...tracer.frame_measures import PIXELS
 from ...tracer.hits import NOTHING, Hits, Statistics
-from ...tracer.progress import Steps, mapped
+from ...tracer.progress import Steps
 from ...tracer.ties import Ties
 from ...tracer.vector import gather, grouped, groups, parts
 from ...tracer.world import Pairs, WorldTriangles, world_corners
@@ -135,4 +135,10 @@ class Resolver:
         for part in parts(len(ray), _PAIRS):
             ladder.test(Pairs(ray[part], row[part], triangles))
             yield "ladder"
-        return (yield from mapped(ladder.hits(self.statistics, tournament), lambda _: "ladder"))
+        deciding = ladder.hits(self.statistics, tournament)
+        while True:
+            try:
+                next(deciding)
+            except StopIteration as stop:
+                return stop.value
+            yield "ladder"

@@ -16,7 +16,7 @@ from ...arrays import Floats, Index
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
-from ...tracer.progress import Steps, Work, quiet, scaled, timed
+from ...tracer.progress import Progress, Steps, Work, quiet, scaled, timed
 from ...tracer.vector import gather, parts
 from ..arithmetic import sound_steps
 from ..bounds import plane_fractions
@@ -96,14 +96,14 @@ class Sweep:
         """Sweep the scene in chunks, and decide every pixel; a `_FullError` without the memory."""
         room = max(_FRAGMENTS, memory // _BYTES_PER_FRAGMENT)
         stages = self._statistics.stages
-        yield 0.0  # allocating the depth buffer of a large picture is a step of its own
+        yield None  # allocating the depth buffer of a large picture is a step of its own
         for _ in timed(self.enter_planes(), stages):
-            yield 0.0
+            yield None
             self._make_room(room, 0.0)
         if self._scene.instances:
             yield from self._instances(max(1, memory // _BYTES_PER_TRIANGLE), room)
         end = Resolver(self._scene, self._film, self._depths, self._numbers, self._statistics)
-        return (yield from timed(end.steps(self._fragments), stages, 0.6))
+        return (yield from timed(end.steps(self._fragments), stages))
 
     def _instances(self, limit: int, room: int) -> Work[None]:
         """Sweep the instances in chunks of `limit` triangles, with room for some fragments."""
@@ -119,7 +119,7 @@ class Sweep:
                 chunk = replace(chunk, instances=chunk.instances[~hidden])
             share = 0.6 * number / len(every)
             for _ in timed(self.enter(chunk, small), self._statistics.stages):
-                yield share
+                yield Progress(share)
                 self._make_room(room, share)
 
     def _keep(self, some: Fragments) -> None:

@@ -79,7 +79,7 @@ def _shown_color(evidence: Evidence) -> Work[list[Numbers]]:
             if np.isfinite(color).all() and color[3] > 0:
                 values = values_of(color[:3])
                 out.append(Numbers(values, values, values, object=name))
-        yield 0.0
+        yield None
     return out
 
 

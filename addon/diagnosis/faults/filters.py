@@ -38,7 +38,7 @@ def _shows_mixes(evidence: Evidence) -> Work[bool]:
         colors = np.unique(evidence.case.scene.color_table, axis=0)
         for color in colors if len(colors) <= 64 else ():
             pure |= ~shown.other_color(np.broadcast_to(color, shown.color.shape))
-            yield 0.0
+            yield None
         evidence.known["mixes"] = bool(pure.mean() <= 1 - MIXED)
     return bool(evidence.known["mixes"])
 

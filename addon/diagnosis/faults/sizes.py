@@ -213,7 +213,7 @@ def _find(evidence: Evidence) -> Work[list[Small]]:
                 large = _recoded(own, _grown(small, guess, shape, at), guess)
                 if sampled_right(evidence, large):
                     out.append(guess)
-            yield 0.0
+            yield None
     return out
 
 

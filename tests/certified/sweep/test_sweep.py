@@ -25,7 +25,6 @@ from ...moved import may, touched
 from ...oracle import scene_sights
 from ...sampled import daily, sampled
 from ...tracer.hostile_scenes import brute_force, hostile_scene, offsets, scaled
-from ...tracer.rational import t_of_pixels
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 SEEDS = 125  # in a part
@@ -103,7 +102,7 @@ def test_as_the_oracle_has_it(make, every):
         found, truth = swept(scene), scene_sights(scene)
         names = list(zip(found.instance.tolist(), found.triangle.tolist(), strict=True))
         assert names == [s.seen for s in truth], seed
-        assert np.array_equal(found.t, t_of_pixels(scene, names)), seed
+        assert np.array_equal(found.t, [s.rounded_t for s in truth]), seed
         assert sorted(found.ties) == [k for k, s in enumerate(truth) if len(touched(s)) > 1], seed
         for k, ties in found.ties.items():
             assert names[k] in ties and may(truth[k]) <= ties <= touched(truth[k]), seed
