@@ -24,6 +24,7 @@ from reference_tracer.causes.explain import (
 )
 from reference_tracer.comparison.comparing import compare as compare_traced
 from reference_tracer.rendering import render
+from reference_tracer.report.lines import lines
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 
@@ -202,7 +203,7 @@ def test_a_person_is_told_which_object_is_in_another_shade(subjects):
     case = replace(made.case, self_check=False)
     found = result_of(compare_traced(case, made.frame))
     assert found.verdict == "differences", name
-    told = [line for line in found.lines() if f"'{made.object}' is shown in another shade" in line]
+    told = [line for line in lines(found) if f"'{made.object}' is shown in another shade" in line]
     assert len(told) == 1
 
 

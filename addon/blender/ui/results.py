@@ -58,42 +58,33 @@ _made: dict[str, int] = {}  # from these: the latest one's `session_uid`
 _seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
 
 
-def _kept(comparison: Comparison) -> Work[Result]:
-    """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
+def keep_comparison(comparison: Comparison) -> Work[Result]:
+    """Remember a comparison, and show its pictures; ended in between, there is none."""
     from ...causes.maps import cause_map, difference_map
     from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
+    from ...report.lines import lines
 
-    traced = comparison.frame.color
-    cause = comparison.causes.cause
-    show(TRACED, traced)
-    yield None
-    show(BLENDER, comparison.picture)
-    yield None
-    pair = traced, comparison.picture
-    apart = yield from by_rows(difference_map, *pair)
-    yield None
-    show(DIFFERENCE, apart)
-    yield None
-    causes = yield from by_rows(cause_map, traced, cause)
-    show(CAUSES, causes)
-    yield None
-    regions = tuple(differing_regions(comparison))
-    yield None
-    right = {}
-    for number, _, color in pictures_put_right(comparison):
-        right[number] = color
-        yield None
-    remove(PUT_RIGHT)
-    found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
-    _latest[Kind.COMPARISON] = replace(found, regions=regions, put_right=right)
-    return _latest[Kind.COMPARISON]
-
-
-def keep_comparison(comparison: Comparison) -> Work[Result]:
-    """Remember a comparison, and show its pictures; ended in between, there is none."""
+    traced, picture = comparison.frame.color, comparison.picture
     try:
-        return (yield from _kept(comparison))
+        show(TRACED, traced)
+        yield None
+        show(BLENDER, picture)
+        yield None
+        show(DIFFERENCE, (yield from by_rows(difference_map, traced, picture)))
+        yield None
+        show(CAUSES, (yield from by_rows(cause_map, traced, comparison.causes.cause)))
+        yield None
+        regions = tuple(differing_regions(comparison))
+        yield None
+        right = {}
+        for number, _, color in pictures_put_right(comparison):
+            right[number] = color
+            yield None
+        remove(PUT_RIGHT)
+        kept = keep(Kind.COMPARISON, comparison, lines(comparison), comparison.manifest.scene)
+        _latest[Kind.COMPARISON] = replace(kept, regions=regions, put_right=right)
+        return _latest[Kind.COMPARISON]
     finally:
         found = _latest.get(Kind.COMPARISON)
         if found is None or found.content.causes is not comparison.causes:
