@@ -9,9 +9,10 @@ from reference_tracer.causes import explain as causes
 from reference_tracer.causes.case import Case
 from reference_tracer.causes.explain import AGREE, DEPTH_TIE, EDGE, NOT_DECIDABLE, UNEXPLAINED
 from reference_tracer.manifest import Manifest
-from reference_tracer.pictures.bounds import differing
 from reference_tracer.pictures.identity import Owners
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import Source
+from reference_tracer.pictures.storage import differing
 from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
 from reference_tracer.tracer.camera import pixel_size

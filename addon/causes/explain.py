@@ -84,7 +84,7 @@ class Explained(NamedTuple):
 def explain(case: Case, frame: Frame, at_most: int | None = None) -> Work[Explained]:
     """Find out why the pixels of a traced frame differ, as a comparison and its self-check do.
 
-    With `at_most`, no more differing pixels are looked at: see :func:`find_causes`.
+    With `at_most`, no more differing pixels are checked: see :func:`find_causes`.
     """
     background = None
     if case.curves is not None and not frame.cancelled:
@@ -111,7 +111,7 @@ def _before(case: Case, frame: Frame) -> Work[Frame]:
 def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Causes]:
     """Give every pixel of a traced frame its cause.
 
-    With `at_most`, no more differing pixels are looked at, spread over the picture. The others keep
+    With `at_most`, no more differing pixels are checked, spread over the picture. The others keep
     AGREE, and are in `Causes.passed_over`; no objects in another shade are named.
 
     Where very many differ, some are asked first. If nearly none of these has a cause, something is

@@ -18,7 +18,7 @@ import numpy as np
 from ..arrays import Array, Bools, Floats, Places
 from ..tracer.progress import Work
 
-DISTINCT = 16  # the most colours of which all triples are tried
+DISTINCT = 16  # colours, at most, for all triples to be tried
 ITERATIONS = 400  # of Frank and Wolfe: two colours need one, three a few, some very many
 STEP = 1 << 18  # numbers, of all points, that one iteration takes
 

@@ -29,7 +29,7 @@ from ..tracer.vector import Arrays, parts
 from .bounds import U
 
 WIDE = 8  # children of a node: a cache line of float64
-TOGETHER = 1 << 12  # nodes that are looked at together: their temporaries stay in a core's cache
+TOGETHER = 1 << 12  # nodes that are tested together: their temporaries stay in a core's cache
 _MANY = 1 << 20  # pairs of a ray and a node that are listed together, at most
 _LOOSE = 16 * U
 TINY = 2.0**-1060
@@ -204,7 +204,7 @@ def neighbours(boxes: Floats) -> Index:
 
 
 def _cuts(leaves: int) -> list[int]:
-    """Return how parts are cut, so that there are at least so many leaves, and few more."""
+    """Return how parts are cut, so that there are at least `leaves`, and few more."""
     sizes = []
     for threes in range(6):
         twos = max(0, math.ceil(math.log2(max(leaves, 1) / 3**threes)))

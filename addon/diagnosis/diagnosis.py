@@ -123,7 +123,7 @@ class Diagnosis:
     guesses: int = 0  # that were tried on the sample
     steps: int = 0  # of work
     seconds: float = 0.0
-    untried: tuple[str, ...] = ()  # faults whose search was not finished: it took too many
+    untried: tuple[str, ...] = ()  # faults with a search that was not finished: it took too many
     left: int = 0  # pixels that nothing accounts for
     regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
     silent: str = ""  # why there was no search, without a full stop

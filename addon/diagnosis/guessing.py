@@ -109,7 +109,7 @@ class Guessing:
     def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
         """Return guesses tried on the whole picture, the best first.
 
-        Faults without numbers to fit are looked at before the others: where one of them does it
+        Faults without numbers to fit are tried before the others: where one of them does it
         all, a fit that does as well says no more. What may be anything, and cannot be sampled,
         comes last: it takes most work, and is not told where something exact does as well.
         """
@@ -121,7 +121,7 @@ class Guessing:
         order = Effort if is_everywhere(evidence) else IN_PLACES
         for number, effort in enumerate(order, 1):
             some = [fault for fault in faults if fault.effort == effort]
-            yield Progress(None, f"{number}/{len(order)}: trying {TRIED[effort][0]}")
+            yield Progress(None, f"{number}/{len(order)}: trying {TRIED[effort]}")
             scored = yield from self._scored(evidence, some)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
             known = [one for one in scored if one[1].sampled or not one[1].vague]

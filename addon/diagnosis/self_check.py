@@ -17,7 +17,7 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.cause import AGREE, UNEXPLAINED, Causes
 from ..causes.explain import CAUSES, explain
-from ..pictures.bounds import differing_pixels
+from ..pictures.storage import differing_pixels
 from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled

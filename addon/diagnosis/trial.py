@@ -11,7 +11,8 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
-from ..pictures.bounds import differing_pixels, largest_within
+from ..pictures.bounds import largest_within
+from ..pictures.storage import differing_pixels
 from ..rendering import steps
 from ..scene import Scene, SceneError
 from ..tracer import shading
@@ -137,7 +138,7 @@ def same_shapes(one: Scene, other: Scene) -> bool:
 
 
 def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
-    """Return whether a guess settles enough pixels by colour alone to be looked at further.
+    """Return whether a guess settles enough pixels by colour alone to be compared further.
 
     The others are left to the checks, which take long where whole pictures differ.
     """

@@ -23,8 +23,8 @@ from ..tracer.world import depth_ranges
 from .bounds import DECIDABLE, SNAPPING, pixel_error, spread_error
 from .renderers import RASTER, Renderer
 
-_TOGETHER = 1 << 15  # pixels looked at in one step
-_FEW = 16  # fewer than one in 16 pixels are few: they are looked at by themselves
+_TOGETHER = 1 << 15  # pixels bounded in one step
+_FEW = 16  # fewer than one in 16 pixels are few: each is bounded by itself
 _REACH = 1.0  # pixels: a band up to this comes from the 3 x 3 pixels around alone
 _ENDS = 4  # one of so many pixels is few enough to be asked for a bound of the others
 _SLACK = 1 + 2.0**-10  # far above what rounding adds to a bound

@@ -48,7 +48,7 @@ class Metrics:
         }
 
 
-_ROWS, _COLUMNS = 32, 64  # looked at together, so that a step is short
+_ROWS, _COLUMNS = 32, 64  # compared together, so that a step is short
 
 
 def rmse(first: Array, second: Array) -> float:

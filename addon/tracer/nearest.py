@@ -15,9 +15,10 @@ from ..arrays import Bools, Floats, Index, Places
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import PAIRS, Plan, Sampled, candidates, cull
+from .candidates import PAIRS, Plan, candidates, cull
 from .hits import Hits, Statistics
 from .progress import Progress, Work
+from .sampled import Sampled
 from .settings import Settings
 from .triangle import TESTS, sum_is_1
 from .world import Pairs, batches, world_triangles

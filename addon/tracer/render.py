@@ -208,7 +208,7 @@ def tiles(camera: Camera) -> list[Region]:
 def bands(camera: Camera, settings: Settings) -> list[Region]:
     """Split the camera's region into bands that are traced together, from the lowest.
 
-    The higher they are, the less often a triangle is looked at. They are limited by memory, and by
+    The higher they are, the less often a triangle is read. They are limited by memory, and by
     the wish to see the picture grow where a pixel has many samples or every triangle is tested.
     """
     pixels = settings.memory // BYTES_PER_PIXEL

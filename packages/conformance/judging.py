@@ -20,7 +20,8 @@ from reference_tracer.opened import file_manifest
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.given import Making, picture_of_array, picture_of_file
 from reference_tracer.pictures.palette import GivenColors
-from reference_tracer.pictures.picture import Picture, SizeError
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import SizeError
 from reference_tracer.rendering import render
 from reference_tracer.report import comparison as comparison_report
 from reference_tracer.report.junit import Judged, of_comparison

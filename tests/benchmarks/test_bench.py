@@ -9,9 +9,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Settings
 from reference_tracer_benchmarks import commands, field, measure, memory, peers, scenes
 from reference_tracer_benchmarks.blender_peer import BlenderPeer
 from reference_tracer_benchmarks.peers import Embreex, MissingPeerError, Rtree, Timed
@@ -50,33 +48,7 @@ def tiny(*names: str, cameras=("perspective",), peers=frozenset(), sizes=((WIDTH
     return Plan(tuple(cases), True, repeats=2, budget=0.5, slow=0.05)
 
 
-def interior(frame):
-    """Pixels whose neighbours see the same triangle: no rounding takes them elsewhere."""
-    seen = frame.triangle_index
-    same = np.ones_like(seen, bool)
-    for shift in (1, -1):
-        for axis in (0, 1):
-            same &= np.roll(seen, shift, axis) == seen
-    return same
-
-
 # ---- peers
-
-
-@pytest.mark.parametrize("camera", scenes.CAMERAS)
-@pytest.mark.parametrize("name", ["cube", "icosphere_5k", "inside_soup", "soup_10k"])
-def test_embreex_sees_what_certified_sees(name, camera, tmp_path):
-    mesh = scenes.mesh_of(name, tmp_path)
-    scene = scenes.build(mesh, 160, 90, camera)
-    frame = render(scene, Settings("certified"))
-    seconds, found = Embreex(mesh).trace(rays_of(scene.camera))
-    ids = found["primID"].reshape(90, 160)
-    assert seconds > 0
-    assert (ids == frame.triangle_index)[interior(frame)].all()
-    assert (ids != frame.triangle_index).mean() < 1e-3
-    same = (ids == frame.triangle_index) & (ids >= 0)
-    t = found["tfar"].reshape(90, 160) + scene.camera.clip_start
-    assert np.allclose(t[same], frame.t[same], rtol=1e-5, atol=1e-5)
 
 
 def test_rtree_traces_a_sample(tmp_path):

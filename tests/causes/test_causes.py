@@ -20,7 +20,7 @@ from reference_tracer.causes.explain import (
 )
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.pictures.bands import band_of
-from reference_tracer.pictures.bounds import differing
+from reference_tracer.pictures.storage import differing
 from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
 from reference_tracer.tracer import render as rendering

@@ -18,8 +18,9 @@ from reference_tracer.comparison.comparing import compared as driver
 from reference_tracer.comparison.comparison import SCHEMA
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.manifest import ObjectEntry, Unmodelled
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.report.lines import lines
 from reference_tracer.scene import SceneError

@@ -11,7 +11,8 @@ import pytest
 import trimesh
 from reference_tracer.methods import Method
 from reference_tracer.study import tradeoff
-from reference_tracer.study.tradeoff import coverage_error, measure
+from reference_tracer.study.converged import coverage_error
+from reference_tracer.study.tradeoff import measure
 from reference_tracer.study.truth import largest_t_error
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING

@@ -19,7 +19,8 @@ from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.files.images import to_display
 from reference_tracer.manifest import Manifest
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import Scene, ViewWindow
 from reference_tracer.tracer.progress import result_of

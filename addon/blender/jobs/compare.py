@@ -16,12 +16,13 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
-from ...pictures.bounds import Storage
 from ...pictures.certificate import CameraCertificate
 from ...pictures.palette import VIEWPORT, By
-from ...pictures.picture import Picture, Source
+from ...pictures.picture import Picture
 from ...pictures.renderers import EMBREE, RASTER
 from ...pictures.sampling import Sampling
+from ...pictures.source import Source
+from ...pictures.storage import Storage
 from ...report import comparison as comparison_report
 from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory, give_back

@@ -139,7 +139,7 @@ def _summary(causes: Causes) -> str:
     passed = len(causes.passed_over)
     found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c != AGREE]
     if passed:
-        found.append(f"{passed:,} not looked at (white)")
+        found.append(f"{passed:,} not checked (white)")
     differ = sum(n for c, n in counts.items() if c.explains or c == UNEXPLAINED) + passed
     line = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
     return f"{line}: {', '.join(found)}" if found else line

@@ -21,8 +21,9 @@ from ...wording import say
 from ..slowest import announced
 from ..temporary import is_temporary
 from ..versions import RELATIVE
+from .areas import redraw, redraw_said
 from .preferences import default_folder
-from .results import Kind, drop, redraw
+from .results import Kind, drop
 
 if TYPE_CHECKING:
     from bpy.stub_internal.rna_enums import OperatorReturnItems
@@ -37,9 +38,6 @@ T = TypeVar("T", bound=type)
 SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
-
-# Types of areas that show progress, and of regions in them.
-_SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
 
 OPERATORS: list[type] = []  # to be registered
 
@@ -191,7 +189,7 @@ class LongWork(Mixin):
         LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"
         LongWork._told.add(context.workspace.as_pointer())
         context.workspace.status_text_set(LongWork.said)
-        redraw_said(context)
+        redraw_said()
 
     def cancel(self, context: Any) -> None:
         """Stop, as Blender itself asks for at quitting or loading a file."""
@@ -208,7 +206,7 @@ class LongWork(Mixin):
             if workspace.as_pointer() in LongWork._told:
                 workspace.status_text_set(None)
         LongWork._told.clear()
-        redraw_said(context)
+        redraw_said()
 
     def _end(self, context: Any, result: Any) -> Answer:
         """Show the result, and report it."""
@@ -217,15 +215,6 @@ class LongWork(Mixin):
         kind: Any = {level}
         self.report(kind, text)
         return {"FINISHED"}
-
-
-def redraw_said(context: Any) -> None:
-    """Have what says how far the work is drawn again, and nothing that costs more."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            for region in area.regions:
-                if (area.type, region.type) in _SAID_IN:
-                    region.tag_redraw()
 
 
 def failed(operator: Any, error: Exception) -> Answer:

@@ -39,12 +39,10 @@ ANTI_ALIASING = Cause(
     place="by anti-aliasing",
     why="The picture was filtered, which mixes the colours at an edge; the tracer shows what "
     "the pixel's centre sees.",
-    check="The colour lies in the convex hull of the several colours that the tracer sees within "
-    "the filter's radius: linear ones, or Workbench's logarithms log2(1 + c), before Blender 5.0 "
-    "log2(1/2 + c). Each sample has at least a tenth of the weight of the one opposite. A known "
-    "object must be seen at the centre, or within its error. At an edge a triangle within the "
-    "radius may show through a crack, with no more weight than the centre's colour. The figure is "
-    "the radius that suffices.",
+    check="The colour lies in the convex hull of the colours that the tracer sees within the "
+    "filter's radius, linear or as Workbench mixes them, each with no less than a tenth of the "
+    "weight of the sample opposite. A known object must be seen at the centre, or within its "
+    "error. The figure is the radius that suffices.",
     never="An object that is not seen there; another shade of a surface of one colour; a colour "
     "outside the range of those that are mixed.",
     advice="compare like for like, or render one sample in each pixel's centre",
@@ -64,7 +62,7 @@ NEAR = 2.0**-7
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels whose colour is a mix of what is seen within the filter's radius.
+    """Find open pixels with a colour that is a mix of the colours within the filter's radius.
 
     Their figure is the radius of the smallest ring that is enough.
     """

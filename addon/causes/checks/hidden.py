@@ -33,8 +33,7 @@ HIDDEN = Cause(
     why="One side hides an object, by a flag or a collection of the scene, or shows another frame.",
     check="Blender's picture shows such an object. For another program's picture, the scene is "
     "traced with the object hidden or shown, and must give what the picture shows in 97 % "
-    "of the pixels that this changes, within rounding at its edges. Flags are tried one by one, "
-    "and all together.",
+    "of the pixels that this changes.",
     never="An object that nothing hides; one that is there in part; any other damage.",
     advice="show the object to both sides, or hide it from both",
 )

@@ -1,4 +1,4 @@
-"""Parts of the open pixels, each looked at with its own rays, and what lies near them."""
+"""Parts of the open pixels, each with its own rays, and the surfaces near them."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def by_parts(
     """Have `look` give causes to the open pixels of a whole picture, a part of it at a time.
 
     The plan `made` has the scene that is asked, perhaps with another clip range than the case's.
-    Only the pixels `asked` (h, w) are looked at, if given.
+    Only the pixels `asked` (h, w) are tested, if given.
     """
     r = made.scene.camera.region
     asked = pixels.open & asked

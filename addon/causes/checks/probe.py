@@ -31,10 +31,10 @@ from ..case import Case
 from ..cause import AGREE, Cause, Causes
 from .plans import SOUND
 
-LAYERS = 4  # surfaces behind one another that are looked at
-FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
+LAYERS = 4  # surfaces behind one another that are tested
+FEW = 1 << 11  # pixels tested together, so that a step is short where whole pictures differ
 FEW_COLORS = 64  # of a scene: a picture's pixels are held against each of them
-BLOCK = 1 << 15  # pixels looked at in one step, where that needs no rays
+BLOCK = 1 << 15  # pixels tested in one step, where that needs no rays
 
 Some = tuple[Places, ...] | slice  # rows and columns of pixels, or rows
 

@@ -28,7 +28,7 @@ from .film import Film
 from .tournament import tournament
 
 _PAIRS = 1 << 15  # pairs that a ladder tests at a time
-_FRAGMENTS = 1 << 17  # fragments looked at together: a step of some milliseconds
+_FRAGMENTS = 1 << 17  # fragments tested together: a step of some milliseconds
 _RAYS = 1 << 14  # rays of a ladder, at most
 _CANDIDATES = 1 << 15  # candidates of a ladder, at most
 
@@ -52,7 +52,7 @@ class Resolver:
         yield "resolve"
         open_ = np.zeros(count, bool)
         pairs = []
-        # Fragments are freed as soon as they are looked at.
+        # Fragments are freed as soon as they are tested.
         every = (fragments.pop(0) for _ in range(len(fragments)))
         for some in Fragments.together(every, _FRAGMENTS):
             some = some.take(self.depths.not_hidden(some))

@@ -156,8 +156,8 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "filter_radius",
         "the picture is filtered: its pixels mix what is within {radius:g} px",
-        "Renderers weight samples by a filter that reaches beyond the pixel: that of Cycles "
-        "is 1.5 px wide by default.",
+        "Renderers weight samples by a filter that reaches beyond the pixel: Cycles' is "
+        "1.5 px wide by default.",
         "render one sample in each pixel's centre, or compare with --excuse filter={radius:g}",
         _filtered,
         _find_filter,

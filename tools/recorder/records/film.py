@@ -10,7 +10,8 @@ from unittest import mock
 
 import numpy as np
 from reference_tracer.certified.sweep import film
-from reference_tracer.certified.sweep.film import Film, Vertices
+from reference_tracer.certified.sweep.film import Film
+from reference_tracer.certified.sweep.vertices import Vertices
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 
 from ..arrays import holds, most
