@@ -21,7 +21,7 @@ from ..evidence import WORTH, Evidence, shows_colors, spread
 from .fault import instances_named
 from .matching import in_front
 
-AROUND = 6  # pixels around the object, on both sides, that are looked at, too
+AROUND = 6  # pixels around the object, on both sides, that are compared, too
 
 
 @dataclass(frozen=True, eq=False)
