@@ -219,13 +219,13 @@ class Measured:
         rest = np.flatnonzero((instance != NOTHING) & ~given)
         for part in parts(len(rest), PIXELS):
             at = rest[part]
-            surfaces, surface = _surfaces(self.scene, gather(instance, at), gather(triangle, at))
+            surfaces, surface = surfaces_of(self.scene, gather(instance, at), gather(triangle, at))
             for _ in Prepared(around, surfaces).enter(hits, at, surface, rays_at):
                 pass
         return hits.values
 
 
-def _surfaces(scene: Scene, instance: Names, triangle: Names) -> tuple[Surfaces, Index]:
+def surfaces_of(scene: Scene, instance: Names, triangle: Names) -> tuple[Surfaces, Index]:
     """Return the surfaces of these names, (n,) each, and which of them each is."""
     planes = Surfaces.planes_of(scene)
     first = planes.first_plane

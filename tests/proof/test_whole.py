@@ -48,7 +48,7 @@ LEFT_OUT = {
         "by whatever order.py says: Tournament.v has a model of it": "one_by_one",
     },
     "measures.py": {
-        WHICH: "Known.none _surfaces _different",
+        WHICH: "Known.none surfaces_of _different",
         CALLS: "Prepared.__init__ Prepared.enter Measured.__call__ "
         "Measured.__call__.<locals>.rays_at",
         WEIGHTS: "Prepared._weights _edges _least",
