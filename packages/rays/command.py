@@ -10,7 +10,7 @@ import numpy as np
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.any_rays import nearest_hits
 from reference_tracer.certified.arithmetic import check_assumptions
-from reference_tracer.certified.tree import Tree
+from reference_tracer.certified.triangle_tree import TriangleTree
 from reference_tracer.cli.camera_options import add_parts, choice_from
 from reference_tracer.cli.opening import SOURCES, open_file
 from reference_tracer.cli.parser import AGREE, Parser, number
@@ -20,7 +20,7 @@ from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
-from reference_tracer.tracer.progress import Work, called, result_of
+from reference_tracer.tracer.progress import Work, result_of, scaled
 from reference_tracer.tracer.world import refused
 from reference_tracer.wording import count_of, show
 
@@ -109,7 +109,7 @@ def rays(options: RaysOptions) -> int:
         show(*opened.manifest.lines())
         statistics = Statistics(refused=refused(scene))
         with progress_bar() as progress:
-            work = called(_work(options, scene, given, statistics), "tracing")
+            work = scaled(_work(options, scene, given, statistics), 0.0, 1.0, "tracing")
             found = result_of(work, progress)
         with folders.replacing_file(options.out) as new:
             save(new, scene, given.count, found)
@@ -127,7 +127,7 @@ def _work(
     if options.what == "parity":
         return places(scene, given)
     if options.what == "every":
-        return all_hits(scene, given, clip, Tree.of(scene))
+        return all_hits(scene, given, clip, TriangleTree.of(scene))
     statistics.method = "certified"
     return nearest_hits(scene, given, clip, statistics, options.what == "first")
 

@@ -19,16 +19,17 @@ from reference_tracer.certified.arithmetic import sound_steps
 from reference_tracer.certified.exact import gap, sign_of_difference
 from reference_tracer.certified.integers import cross, dot, integers
 from reference_tracer.certified.ladder import Ladder
-from reference_tracer.certified.measures import Prepared, surfaces_of
-from reference_tracer.certified.surfaces import Surfaces
-from reference_tracer.certified.tree import RAYS, Tree
+from reference_tracer.certified.measures import Prepared
+from reference_tracer.certified.surfaces import Surfaces, surfaces_of
+from reference_tracer.certified.triangle_tree import TriangleTree
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.hits import Hits, Names, Statistics
-from reference_tracer.tracer.progress import Work, result_of
+from reference_tracer.tracer.progress import Progress, Work, result_of
 from reference_tracer.tracer.vector import Arrays, Vectors, parts
 
 Clip = tuple[float, float]
+RAYS = 1 << 14  # that go down the tree together
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +70,14 @@ class Crossings(Arrays):
 
 
 @sound_steps
-def all_hits(scene: Scene, rays: Rays, clip: Clip, tree: Tree) -> Work[Crossings]:
+def all_hits(scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree) -> Work[Crossings]:
     """Find all hits of n finite rays with start <= t <= end, the clip range, with proof, in steps.
 
     `tree` is the scene's.
     """
     found = []
     for some in parts(rays.count, RAYS) or [slice(0, 0)]:
-        yield some.start / max(rays.count, 1)
+        yield Progress(some.start / max(rays.count, 1))
         part = _crossings(scene, rays.take(np.arange(rays.count)[some]), clip, tree)
         found.append(replace(part, ray=part.ray + some.start))
     every = Crossings.joined(found)
@@ -85,7 +86,7 @@ def all_hits(scene: Scene, rays: Rays, clip: Clip, tree: Tree) -> Work[Crossings
     return replace(every, enters=every.enters != np.isin(every.instance, mirrored))
 
 
-def _crossings(scene: Scene, rays: Rays, clip: Clip, tree: Tree) -> Crossings:
+def _crossings(scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree) -> Crossings:
     """Return all hits of some rays; `enters` as if no instance were mirrored."""
     none = np.zeros(0, np.int32)
     found: list[tuple[Index, Index, Index, Bools, Index]] = [(none, none, none, none > 0, none)]
@@ -141,4 +142,4 @@ def _in_order(rays: Rays, hits: Crossings, surfaces: Surfaces, surface: Index) -
 def every_hit(scene: Scene, rays: Rays) -> Crossings:
     """Find all hits of finite rays in the camera's clip range."""
     clip = scene.camera.clip_start, scene.camera.clip_end
-    return result_of(all_hits(scene, rays, clip, Tree.of(scene)))
+    return result_of(all_hits(scene, rays, clip, TriangleTree.of(scene)))

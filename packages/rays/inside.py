@@ -20,7 +20,7 @@ from reference_tracer.arrays import Bytes, Floats, Integers
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.arithmetic import sound_steps
 from reference_tracer.certified.exact import IntegerBatch
-from reference_tracer.certified.tree import RAYS, Tree
+from reference_tracer.certified.triangle_tree import TriangleTree
 from reference_tracer.scene import Mesh, Scene, SceneError, finite
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
@@ -28,7 +28,7 @@ from reference_tracer.tracer.vector import parts, transform_points
 from reference_tracer.tracer.world import Pairs, refused
 from reference_tracer.wording import count_of
 
-from .every import all_hits
+from .every import RAYS, all_hits
 from .every import every_hit as every_hit
 
 OUTSIDE, INSIDE, ON = range(3)
@@ -71,7 +71,7 @@ def places(scene: Scene, rays: Rays) -> Work[Inside]:
         If a mesh is not closed; the message has its name, and the length of its boundary.
     """
     notes = require_closed(scene)
-    tree = Tree.of(scene)
+    tree = TriangleTree.of(scene)
     hits = yield from all_hits(scene, rays, (0.0, np.inf), tree)
     name, times = np.unique((hits.ray, hits.instance), axis=1, return_counts=True)
     place = np.zeros(rays.count, np.uint8)

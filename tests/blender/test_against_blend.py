@@ -137,14 +137,6 @@ def test_an_object_that_only_the_viewport_hides(scene, drawn, judged):
     assert code == 1 and "only one side shows 'Green': hidden in the viewport" in text
 
 
-def test_an_object_that_renders_do_not_have(scene, drawn, judged):
-    drawn(view_transform="Standard")
-    bpy.data.objects["Green"].hide_render = True
-    _, found, _ = judged()
-    assert found["hidden"] == [{"object": "Green", "reason": "hidden in renders"}]
-    assert found["pixels"]["unexplained"] == 0
-
-
 def test_objects_before_one_another_that_renders_do_not_have(scene, drawn, judged):
     """Neither alone is what the picture shows."""
     front = bpy.data.objects["Green"].copy()
@@ -181,13 +173,6 @@ def test_the_wrong_frame(scene, drawn, judged):
         "the picture is of frame 2, the scene is at 1"
     ]
     assert found["pixels"]["unexplained"] == 0 and code == 1
-
-
-def test_a_picture_of_another_size(scene, drawn, judged):
-    drawn(view_transform="Standard")
-    scene.render.resolution_x = 100
-    code, found, _ = judged()
-    assert code == 3 and found["verdict"] == "failed"
 
 
 def test_the_file_is_read_as_blender_shows_it(scene, drawn, tmp_path):

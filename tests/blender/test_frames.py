@@ -11,7 +11,6 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from PIL import Image
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.jobs.cameras import cameras
 from reference_tracer.blender.reading.camera import export_camera
@@ -361,13 +360,6 @@ def test_each_frame_is_traced_as_it_is_by_itself(moving, tmp_path, capsys):
     moving.frame_set(1)
     named = [camera.view.name for camera in cameras([2, 4])]
     assert named == ["0002.png", "0004.png"]
-
-
-def test_frames_are_seen_by_their_own_cameras(moving, tmp_path, seen_by):
-    given = ["--camera", seen_by("r_1.png", "r_2.png", "r_4.png"), "--frames", "2-4:2"]
-    assert in_blender.run(["trace", *given, "--out", str(tmp_path / "all/####.png")]) == 0
-    pictures = [Image.open(tmp_path / f"all/000{frame}.png") for frame in (2, 4)]
-    assert [picture.size[0] for picture in pictures] == [28, 32]
 
 
 @pytest.mark.parametrize(

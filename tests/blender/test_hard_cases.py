@@ -177,17 +177,6 @@ def test_leaves_the_users_data_and_simulation_alone(make, judge, build, compare)
     np.testing.assert_array_equal(again.picture, found.picture)
 
 
-@pytest.mark.parametrize("make", hard.SIMULATIONS, ids=name_of)
-def test_simulations_have_moved(make, build):
-    """The picture is neither that of the first frame, nor is anything at rest in it."""
-    make(build)
-    case = gather_case(bpy.context, judge="WORKBENCH", identity=False)
-    bpy.context.scene.frame_set(1)
-    first = gather_case(bpy.context, judge="WORKBENCH", identity=False)
-    changed = np.abs(case.picture.color - first.picture.color).max(axis=-1) > 0.02
-    assert changed.sum() > SEEN
-
-
 def own_picture() -> np.ndarray:
     """The user's own scene, not a copy of it, as Workbench draws it in constant colours."""
     scene = bpy.context.scene
@@ -266,14 +255,6 @@ def test_no_copy_simulates_the_second_frame_of_rigid_bodies(now, build):
         bpy.app.handlers.frame_change_pre.remove(noted)
     assert (False, 2, False) in stepped and (False, 2, True) not in stepped
     assert scene.rigidbody_world.enabled and scene.frame_current == now
-
-
-def test_upset_particles_are_seen_here(build):
-    """Colouring an emitter resets what is not baked: the test above would find that."""
-    hard.particles(build)
-    geometry = evaluated_geometry()
-    bpy.data.objects["Emitter"].color = (1, 0, 0, 1)
-    assert evaluated_geometry() != geometry
 
 
 @pytest.mark.parametrize("make", hard.EDIT_MODE, ids=name_of)

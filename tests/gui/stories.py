@@ -245,18 +245,6 @@ def compare_another_file():
     noted["comparison"] = result().content.to_dict()
 
 
-def compare_error():
-    """A scene that cannot be traced: an error, and everything as before."""
-    window().scene.camera.data.type = "PANO"
-    yield
-    before = settings(), data_blocks()
-    press_compare()
-    yield
-    noted["running"] = running()
-    noted["same"] = before == (settings(), data_blocks())
-    noted["message"] = reports()
-
-
 def no_camera():
     """The buttons say what is missing; one adds it, and the next one compares; undo takes it."""
     bpy.data.objects.remove(window().scene.camera)
@@ -311,7 +299,6 @@ STORIES = (
     compare_as_is,
     compare_escape,
     compare_another_file,
-    compare_error,
     no_camera,
     scenes,
 )

@@ -79,12 +79,6 @@ def test_a_camera_is_added_by_a_button_and_taken_away_by_undo(noted):
     assert noted["undo"] == ["FINISHED"] and noted["cameras"] == []
 
 
-@pytest.mark.story("compare_error")
-def test_error_is_reported_and_changes_nothing(noted):
-    assert "fisheye_equisolid" in noted["message"]
-    assert noted["same"] and not noted["running"]
-
-
 @pytest.mark.story("f12")
 def test_f12_shows_the_traced_picture(noted):
     assert noted["result"]

@@ -9,9 +9,10 @@ import pytest
 import trimesh
 from reference_tracer.causes.explain import AGREE, CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
 from reference_tracer.files import exr, images
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.renderers import RASTER, RAYS, renderer_of
 from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.camera import Rays
@@ -20,7 +21,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import cross, dot
 
 from ..cases import find_causes
-from ..tracer.rational import rational
+from ..oracle import rational
 
 F = np.float32
 FOREIGN = Source(file="theirs.exr")

@@ -107,17 +107,6 @@ def is_nearest_float(value: float, exact: Fraction) -> bool:
     return True
 
 
-def test_what_is_nearest_float():
-    third = Fraction(1, 3)
-    assert is_nearest_float(1 / 3, third)
-    assert not is_nearest_float(np.nextafter(1 / 3, 1), third)
-    assert is_nearest_float(1.0, 1 + Fraction(1, 2**53))  # a tie, to even
-    assert not is_nearest_float(np.nextafter(1, 2), 1 + Fraction(1, 2**53))
-    assert is_nearest_float(np.inf, Fraction(2) ** 1024)
-    assert not is_nearest_float(np.inf, Fraction(2) ** 1023)
-    assert is_nearest_float(5e-324, Fraction(1, 2**1074))
-
-
 def test_the_clip_range_is_exact_at_its_ends(rng):
     """Limits at the float nearest to t and beside it: those that t itself is within decide."""
     told = 0
