@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from reference_tracer.arrays import Bytes, Floats, Integers
+from reference_tracer.arrays import Bytes, Floats, Integers, parts
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.arithmetic import sound_steps
 from reference_tracer.certified.exact import IntegerBatch
@@ -24,7 +24,7 @@ from reference_tracer.certified.triangle_tree import TriangleTree
 from reference_tracer.scene import Mesh, Scene, SceneError, finite
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
-from reference_tracer.tracer.vector import parts, transform_points
+from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import Pairs, refused
 from reference_tracer.wording import count_of
 
