@@ -28,7 +28,7 @@ from reference_tracer_grading.page import MARK_COLORS, marked
 from reference_tracer_grading.picture import Mark
 from reference_tracer_grading.report import student
 from reference_tracer_grading.subjects.triangle import TRIANGLE
-from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, VERDICTS, class_table, lines
+from reference_tracer_grading.tables import MARKS, VERDICTS, class_table, lines
 from reference_tracer_processes.running import Limits
 
 TEXT = """
@@ -204,27 +204,6 @@ def test_class_table(judged):
     assert table[1].split() == ["right.py", "100.0", "all", "right"]
     assert table[2].split()[2:] == ["wrong", "s2_s3_swapped"]
     assert table[5].split()[1:] == ["0.0", "failed", "exception"]
-
-
-def test_the_page_says_the_same_in_the_same_words(written, judged):
-    right = class_table([student(judged["right.py"])])[1].split("  ")[-1]
-    text = (written / "students" / "right.py.html").read_text(encoding="utf-8")
-    assert right == "all right" and f">{right}</span>" in text
-    assert f">{right}</span>" in (written / "judge.html").read_text(encoding="utf-8")
-    # No pixel of this scene lies on a boundary, and both say what the dash there means.
-    assert not judged["right.py"].looks[0].judged.boundary.any()
-    assert NO_BOUNDARY in text and NO_BOUNDARY in lines(judged["right.py"])
-
-
-def test_words_are_flush_left(written):
-    text = (written / "judge.html").read_text(encoding="utf-8")
-    table = text[text.index("<thead>") : text.index("</table>")]
-    for head in ("file", "verdict", "what is wrong"):
-        assert f'<th scope="col" class="words">{head}</th>' in table
-    assert '<th scope="col">score</th>' in table
-    assert table.count('<td class="words">') == 3 * len(FILES) and "<td>100.0</td>" in table
-    css = " ".join(text[text.index("<style>") : text.index("</style>")].split())
-    assert ".words { text-align: left; }" in css
 
 
 def test_every_mark_has_its_words_and_color():
