@@ -29,7 +29,7 @@ from .tracer.camera import Rays
 from .tracer.frame import Frame
 from .tracer.hits import Hits, Statistics
 from .tracer.nearest import TraceBand
-from .tracer.progress import Work, at_once, result_of
+from .tracer.progress import Meter, Work, at_once, result_of
 from .tracer.render import Tracer, bands
 from .tracer.settings import Precision, Settings
 from .tracer.world import refused
@@ -94,10 +94,12 @@ def render(
         If the method is `certified`, and this process's arithmetic allows no proof.
     """
     frame = Frame.empty(scene)
-    for share in steps(scene, settings or Settings(), frame, tracer):
+    meter = Meter()
+    for event in steps(scene, settings or Settings(), frame, tracer):
+        meter.read(event)
         if progress:
-            progress(share)
-        if share < 1 and cancelled and cancelled():
+            progress(meter.share)
+        if meter.share < 1 and cancelled and cancelled():
             frame.cancel()
             break
     return frame

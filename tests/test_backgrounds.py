@@ -12,8 +12,8 @@ from reference_tracer.causes.explain import UNEXPLAINED
 from reference_tracer.comparison.comparing import compare, trace_and_compare
 from reference_tracer.files import images
 from reference_tracer.manifest import Manifest
-from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.storage import Storage
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings

@@ -170,7 +170,7 @@ def part(camera: Camera) -> Camera:
 
 
 def centred(camera: Camera) -> Camera:
-    """Return an orthographic camera whose shift is in its place: it has the same rays."""
+    """Return an orthographic camera with its shift in its place: it has the same rays."""
     x, y = camera.window.centre
     matrix = camera.world_from_camera.copy()
     matrix[:3, 3] += x * camera.right + y * camera.up

@@ -184,7 +184,7 @@ def _local(node: Content, where: str, notes: dict[str, None]) -> Floats:
     if "matrix" in node:
         matrix: Floats = numbers(node, "matrix", where, (16,)).reshape(4, 4).T.copy()
         if (np.abs(matrix[3] - (0, 0, 0, 1)) > _ROUNDING).any():
-            raise SceneError(f"{where}has a matrix whose fourth row is not 0 0 0 1")
+            raise SceneError(f"{where}has a matrix with a fourth row that is not 0 0 0 1")
         if not {"translation", "rotation", "scale"}.isdisjoint(node):
             notes["Nodes have a matrix, and parts of one beside it, which are not used."] = None
         matrix[3] = 0, 0, 0, 1

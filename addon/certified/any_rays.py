@@ -1,7 +1,7 @@
 """Decides rays that are not a camera's: with every triangle, or pair by pair.
 
 They share nothing that could say which triangles they come near: where there are many, a tree of
-boxes does (`tree.py`).
+boxes does (`triangle_tree.py`).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ..scene import Scene
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics
 from ..tracer.nearest import every_pair
-from ..tracer.progress import Work, result_of
+from ..tracer.progress import Progress, Work, result_of
 from ..tracer.settings import Settings
 from ..tracer.vector import occurring, parts
 from .arithmetic import sound, sound_steps
@@ -25,9 +25,10 @@ from .exact import IntegerBatch
 from .ladder import Ladder, in_range, sides
 from .many import hits as hits_of
 from .surfaces import SURE, Surfaces
-from .tree import RAYS, Tree
+from .triangle_tree import TriangleTree
 
 _FEW = 1 << 20  # pairs that are tested faster than a tree is made
+_RAYS = 1 << 14  # that go down the tree together
 
 
 def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
@@ -67,12 +68,12 @@ def nearest_hits(
         ladder = Ladder(rays, surfaces, clip)
         for pairs in every_pair(scene, rays, statistics):
             ladder.test(pairs)
-            yield 0.0
+            yield None
         return (yield from ladder.hits(statistics))
-    tree = Tree.of(scene)
+    tree = TriangleTree.of(scene)
     found = []
-    for some in parts(rays.count, RAYS):
-        yield some.start / rays.count
+    for some in parts(rays.count, _RAYS):
+        yield Progress(some.start / rays.count)
         own = rays.take(np.arange(rays.count)[some])
         ladder = Ladder(own, surfaces, clip)
         for pairs in tree.pairs(own, *clip):

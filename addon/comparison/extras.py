@@ -19,7 +19,7 @@ from ..rendering import steps
 from ..study import extremes, tradeoff
 from ..study.trade import Trade
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Progress, Work, scaled
 from ..tracer.settings import Precision, Settings
 from .comparison import Comparison
 
@@ -45,31 +45,29 @@ def extras(
     measure_extremes: bool = False,
     literal: bool = True,
 ) -> Work[Extras]:
-    """Find out what a page shows beside a comparison; yields the share of the work done.
+    """Find out what a page shows beside a comparison.
 
     Without `literal`, as in an animation, the literal textbook's picture is left out.
     """
     left_out: list[str] = []
-    tracing = called(_literal(comparison, left_out), "tracing by the textbook, literally")
-    derivations = called(_derivations(comparison, left_out), "deriving examples")
-    # Of each field, with its share of the work, roughly.
-    works: dict[str, tuple[Work[object], float]] = {
-        "literal": (tracing, 1.0),
-        "derivations": (derivations, 0.5),
-    }
-    if not literal:
-        del works["literal"]
+    # Of each field, with its share of the work, roughly, and what is done meanwhile.
+    works: dict[str, tuple[Work[object], float, str]] = {}
+    if literal:
+        tracing = _literal(comparison, left_out)
+        works["literal"] = tracing, 1.0, "tracing by the textbook, literally"
+    else:
         left_out.append("The literal textbook's picture: the pages of frames do without it.")
+    works["derivations"] = _derivations(comparison, left_out), 0.5, "deriving examples"
     if measure_trade:
         measuring = tradeoff.measure(comparison.scene, name=comparison.manifest.file)
-        works["trade"] = measuring, 6.0
+        works["trade"] = measuring, 6.0, ""
     if measure_extremes:
-        works["extremes"] = extremes.measure(), 12.0
-    total = sum(share for _, share in works.values())
+        works["extremes"] = extremes.measure(), 12.0, ""
+    total = sum(share for _, share, _ in works.values())
     done = 0.0
     found: dict[str, Any] = {}
-    for name, (work, share) in works.items():
-        found[name] = yield from scaled(work, done / total, share / total)
+    for name, (work, share, words) in works.items():
+        found[name] = yield from scaled(work, done / total, share / total, words)
         done += share
     return Extras(**found, left_out=tuple(left_out))
 
@@ -106,5 +104,5 @@ def _derivations(
     wanted = [p for some in comparison.counts.examples.values() for p in some[:DERIVED]]
     for number, (x, y) in enumerate(wanted):
         found[x, y] = derive(scene, x, y, source=comparison.manifest.file)
-        yield number / len(wanted)
+        yield Progress(number / len(wanted))
     return found

@@ -30,7 +30,7 @@ from ..causes.case import PRECISE
 from ..causes.checks.color import find_transform
 from ..pictures.metrics import boundary
 from ..scene import SceneError
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Progress, Work
 from .evidence import FEW, Evidence, Score
 from .faults import FAULTS
 from .faults.fault import TRIED, AnyFault, Effort, Guess
@@ -85,7 +85,6 @@ class Guessing:
         self.steps = 0
         self.guesses = 0
         self.untried: set[str] = set()  # names of faults whose search was not finished
-        self._done, self._of = 0, 1  # faults searched so far, and the total of this round
 
     @property
     def ended(self) -> bool:
@@ -93,10 +92,7 @@ class Guessing:
         return self.steps >= self.limit
 
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
-        """Run work that looks for a fault; None if it, or all work, reaches its limit of steps.
-
-        Yields the share of the faults searched before: nobody knows how long one takes.
-        """
+        """Run work that looks for a fault; None if it, or all work, reaches its limit of steps."""
         last = self.steps + self.limit / PART
         while not self.ended and self.steps < last:
             try:
@@ -105,7 +101,7 @@ class Guessing:
                 found: T = stop.value
                 return found
             self.steps += 1
-            yield self._done / self._of
+            yield None
         work.close()
         self.untried.add(fault.name)
         return None
@@ -113,7 +109,7 @@ class Guessing:
     def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
         """Return guesses tried on the whole picture, the best first.
 
-        Faults without numbers to fit are looked at before the others: where one of them does it
+        Faults without numbers to fit are tried before the others: where one of them does it
         all, a fit that does as well says no more. What may be anything, and cannot be sampled,
         comes last: it takes most work, and is not told where something exact does as well.
         """
@@ -122,26 +118,22 @@ class Guessing:
         pool: list[tuple[float, AnyFault, Guess]] = []
         unknown: list[tuple[float, AnyFault, Guess]] = []
         out: list[Trial] = []
-        self._done, self._of = 0, len(faults)
         order = Effort if is_everywhere(evidence) else IN_PLACES
         for number, effort in enumerate(order, 1):
             some = [fault for fault in faults if fault.effort == effort]
-            words = f"{number}/{len(order)}: trying {TRIED[effort][0]}"
-            scored = yield from called(self._scored(evidence, some), words, known=False)
+            yield Progress(None, f"{number}/{len(order)}: trying {TRIED[effort]}")
+            scored = yield from self._scored(evidence, some)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
             known = [one for one in scored if one[1].sampled or not one[1].vague]
             pool += [one for one in known if one[0] < NEARLY * unexplained]
             sure = [one for one in known if one[0] >= NEARLY * unexplained]
-            trying = self._trials_of(evidence, of, sure, MOST_SURE)
-            out += yield from called(trying, words, known=False)
+            out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
             if _is_enough(of, out):
                 break
         else:
-            trying = self._trials_of(evidence, of, pool, MOST_UNSURE)
-            out += yield from called(trying, words, known=False)
+            out += yield from self._trials_of(evidence, of, pool, MOST_UNSURE)
             if not _is_enough(of, out):
-                trying = self._trials_of(evidence, of, unknown, MOST_SURE)
-                out += yield from called(trying, words, known=False)
+                out += yield from self._trials_of(evidence, of, unknown, MOST_SURE)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
     def _scored(
@@ -160,7 +152,6 @@ class Guessing:
                     score = (yield from again) or NONE
                 if score.gain >= _least(evidence):
                     out.append((score.gain, made, guess))
-            self._done += 1
         return out
 
     def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
@@ -242,8 +233,7 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
     Of two, the first one alone must lose few pixels, and with the second one more must agree.
     """
-    part = 0.5  # of the work that is left: most ends with the first guesses
-    trials = yield from scaled(guessing.trials(evidence, evidence), 0.0, part)
+    trials = yield from guessing.trials(evidence, evidence)
     if best := _best(evidence, trials):
         return [best]
     for first in trials[:STARTS]:
@@ -251,14 +241,11 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
             continue
         if first.broken > LOST * first.settled or first.own < COMPLETE:
             continue
-        looking = guessing.trials(carried(evidence, first), evidence)
-        seconds = yield from scaled(looking, 1 - part, part / 2)
-        part /= 2
+        seconds = yield from guessing.trials(carried(evidence, first), evidence)
         if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
             return [[first], best]
-    for first in (yield from scaled(_turned(guessing, evidence), 1 - part, 0.0)):
-        looking = guessing.trials(carried(evidence, first), evidence)
-        seconds = yield from scaled(looking, 1 - part, part / 2)
+    for first in (yield from _turned(guessing, evidence)):
+        seconds = yield from guessing.trials(carried(evidence, first), evidence)
         if best := _best(evidence, seconds):
             return [[first], best]
     return []

@@ -104,7 +104,7 @@ class StoredPicture:
 
 @dataclass(frozen=True)
 class PictureFile:
-    """A picture file of which the header was read, but no pixel."""
+    """A picture file: its header was read, but no pixel."""
 
     path: Path
     width: int
@@ -177,7 +177,7 @@ def _png_of(path: Path) -> StoredPicture:
 
 @contextmanager
 def _damage_named(path: Path) -> Iterator[None]:
-    """Say of which file a PNG's damage is."""
+    """Add the file's name to the message of a damaged PNG."""
     try:
         yield
     except PngError as error:

@@ -15,9 +15,10 @@ from ..arrays import Bools, Floats, Index, Places
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import PAIRS, Plan, Sampled, candidates, cull
+from .candidates import PAIRS, Plan, candidates, cull
 from .hits import Hits, Statistics
-from .progress import Work
+from .progress import Progress, Work
+from .sampled import Sampled
 from .settings import Settings
 from .triangle import TESTS, sum_is_1
 from .world import Pairs, batches, world_triangles
@@ -94,7 +95,7 @@ def trace_tile(
                 own = np.flatnonzero(sum_is_1(found.s))
                 _keep_nearest(printed, None, some.pixel[seen[own]], found.take(own))
                 statistics.seconds -= time.perf_counter() - began
-        yield share
+        yield Progress(share)
     if literally:
         began = time.perf_counter()
         literally(tile, printed)
@@ -108,7 +109,7 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
     test_planes(scene, rays, hits)
     for pairs in every_pair(scene, rays, statistics):
         test_pairs(scene, settings, rays, pairs, hits)
-        yield 0.0
+        yield None
     return hits
 
 

@@ -15,7 +15,7 @@ from .vector import groups, spread
 Name = tuple[int, int]  # instance and triangle
 
 
-_TOGETHER = 1 << 17  # rows of ties looked at together
+_TOGETHER = 1 << 17  # rows of ties compared together
 
 
 @dataclass(frozen=True, eq=False)

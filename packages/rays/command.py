@@ -17,7 +17,7 @@ from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.hits import NOTHING, Statistics
-from reference_tracer.tracer.progress import called, result_of
+from reference_tracer.tracer.progress import result_of, scaled
 from reference_tracer.tracer.world import refused
 from reference_tracer.wording import count_of, show
 
@@ -99,7 +99,7 @@ def rays(options: RaysOptions) -> int:
         clip = options.start, options.end
         with progress_bar() as progress:
             work = nearest_hits(scene, given, clip, found, culled=not options.every_pair)
-            hits = result_of(called(work, "tracing"), progress)
+            hits = result_of(scaled(work, 0.0, 1.0, "tracing"), progress)
         with folders.replacing_file(options.out) as new:
             save_hits(new, scene, hits)
     met = count_of(int((hits.instance != NOTHING).sum()), "hit")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from reference_tracer.causes.case import Case
 from reference_tracer.manifest import Manifest, ObjectEntry
-from reference_tracer.pictures.bounds import Storage
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.pictures.source import Source
+from reference_tracer.pictures.storage import Storage
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Instance, Mesh, Region, Scene, ViewWindow
 from reference_tracer.tracer.settings import Settings

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.blender.ui import ray_objects, results
-from reference_tracer.blender.ui.results import MARK, Kind
+from reference_tracer.blender.ui.blocks import MARK
+from reference_tracer.blender.ui.results import Kind
 from reference_tracer.derivation import document, reproducer
 from reference_tracer.derivation.candidates import gather_pixel
 from reference_tracer.derivation.derivation import derive

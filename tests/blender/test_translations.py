@@ -77,7 +77,7 @@ def test_a_language_has_each_text_and_no_other(table):
     drawn, held = sources()
     computed = {*CERTAINTY_SENTENCES.values(), *(v.capitalize() for v in Verdict)}
     computed |= {cause.place or cause.label for cause in CAUSES[1:]} | {BUT, ASKING, *stages()}
-    computed |= {f"trying {what}" for what, _ in TRIED.values()}
+    computed |= {f"trying {what}" for what in TRIED.values()}
     shown = {*declared(), *drawn, *computed} - {""}
     shown -= {"Presets"}  # Blender's own name for a menu of presets of which one was removed
     assert {"Trace and Compare", "Watertight", "Needles", "{} differ, {} open"} < shown

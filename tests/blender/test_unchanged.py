@@ -8,7 +8,7 @@ import pytest
 import reference_tracer
 from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.jobs import compare as compare_module
-from reference_tracer.blender.ui.results import BLENDER, CAUSES, DIFFERENCE, TRACED
+from reference_tracer.blender.ui.blocks import BLENDER, CAUSES, DIFFERENCE, TRACED
 
 OURS = {TRACED, BLENDER, DIFFERENCE, CAUSES}
 # 4.2 itself counts a scene's collections once more for every copy of it that comes and goes.

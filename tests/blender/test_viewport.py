@@ -13,7 +13,7 @@ from reference_tracer.blender.drawing import shading, viewport
 from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.temporary import temporary_scene
-from reference_tracer.pictures.picture import SizeError
+from reference_tracer.pictures.source import SizeError
 from reference_tracer.scene import SceneError
 
 from .scenes import HALF_FLOAT

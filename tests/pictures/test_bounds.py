@@ -9,18 +9,8 @@ import pytest
 from reference_tracer.causes.explain import AGREE
 from reference_tracer.files.images import decoded, encoded
 from reference_tracer.pictures import bounds
-from reference_tracer.pictures.bounds import (
-    HALF_UNITS,
-    LEAST_STEP,
-    SNAPPING,
-    U32,
-    Storage,
-    depth_step,
-    difference,
-    differing,
-    pixel_error,
-    view_error,
-)
+from reference_tracer.pictures.bounds import SNAPPING, U32, depth_step, pixel_error, view_error
+from reference_tracer.pictures.storage import HALF_UNITS, LEAST_STEP, Storage, difference, differing
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of

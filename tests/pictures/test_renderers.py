@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from reference_tracer.causes.explain import AGREE, CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
 from reference_tracer.files import exr, images
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.renderers import RASTER, RAYS, renderer_of
 from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.camera import Rays

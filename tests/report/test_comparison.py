@@ -12,7 +12,8 @@ from reference_tracer.comparison.comparing import compare
 from reference_tracer.comparison.comparison import SCHEMA
 from reference_tracer.files.images import to_display
 from reference_tracer.manifest import Manifest
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.report.comparison import (
     failure_written,

@@ -17,7 +17,8 @@ from reference_tracer.report.trade import (
     text_cells,
     write,
 )
-from reference_tracer.study.trade import COLUMNS, Trade, TradeRow, mark
+from reference_tracer.study.advice import mark
+from reference_tracer.study.trade import COLUMNS, Trade, TradeRow
 from reference_tracer.tracer.settings import Precision
 
 pytestmark = pytest.mark.slow

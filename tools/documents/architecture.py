@@ -66,9 +66,8 @@ blender/ui/long_work.py LongWork.invoke
           comparison/comparing.py diagnosed
             diagnosis/diagnosis.py diagnose
               diagnosis/guessing.py accounting
-      blender/ui/operators.py REFERENCE_TRACER_OT_compare._showing
-        blender/ui/operators.py REFERENCE_TRACER_OT_compare._show
-          blender/ui/results.py keep_comparison
+    blender/ui/operators.py REFERENCE_TRACER_OT_compare.show
+      blender/ui/results.py keep_comparison
 blender/ui/long_work.py LongWork.modal
   blender/ui/long_work.py LongWork._end
     blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish

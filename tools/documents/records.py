@@ -11,8 +11,7 @@ import reference_tracer_data.faults
 from reference_tracer.camera_files.features import FEATURES
 from reference_tracer.camera_files.files import CONVENTIONS
 from reference_tracer.causes.cause import Cause
-from reference_tracer.causes.checks import unmodelled
-from reference_tracer.causes.explain import CAUSES, CHECKS
+from reference_tracer.causes.explain import CAUSES
 from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault
@@ -33,7 +32,6 @@ def values() -> dict[str, str]:
     parts = {
         "camera_conventions": camera_conventions(),
         "causes": causes(),
-        "checks": checks(),
         "faults": faults_by_family(),
         "order": order_of_faults(),
         "methods": methods(),
@@ -56,16 +54,6 @@ def methods() -> str:
     for method in Method:
         of = method.record
         rows.append(f"| `{method}`, *{of.label}* | {of.description} | {of.guarantees} |")
-    return "\n".join(rows)
-
-
-def checks() -> str:
-    """Return the checks in their order, a line each: what they say of the pixels that they find."""
-    rows = []
-    for check in (unmodelled.check_in_place, *(check for check, _ in CHECKS)):
-        said = (inspect.getdoc(check) or "").split("\n")[0].removeprefix("Find open pixels ")
-        file = check.__module__.split(".")[-1] + ".py"
-        rows.append(f"1. {said.rstrip('.')} ([{file}](../addon/causes/checks/{file}))")
     return "\n".join(rows)
 
 
@@ -97,14 +85,14 @@ def _list(*lines: tuple[str, str]) -> str:
 
 
 def order_of_faults() -> str:
-    """Return a table of what is tried, in which order, and at which cost."""
+    """Return a table of the steps of the search, in their order."""
     rows = [
-        f"| {words} | {cost} | {number} | {1 + IN_PLACES.index(effort)} | "
+        f"| {words} | {number} | {1 + IN_PLACES.index(effort)} | "
         f"{sum(f.effort == effort for f in FAULTS)} |"
-        for number, (effort, (words, cost)) in enumerate(TRIED.items(), 1)
+        for number, (effort, words) in enumerate(TRIED.items(), 1)
     ]
-    head = "| tried | at which cost | place | where most of the picture agrees | faults |"
-    return "\n".join(("", head, "|---|---|---|---|---|", *rows, ""))
+    head = "| tried | place | where most of the picture agrees | faults |"
+    return "\n".join((head, "|---|---|---|---|", *rows))
 
 
 def faults_by_family() -> str:

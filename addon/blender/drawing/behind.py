@@ -38,7 +38,7 @@ def behind(
     made : callable
         Makes the picture of its pixels.
     identity : bool
-        Whether whose surface each pixel shows is found, too.
+        Whether to find each pixel's owner, too.
     """
     if TRANSPARENCY in drawing.judge.ignores:
         return None

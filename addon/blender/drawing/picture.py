@@ -14,10 +14,11 @@ import bpy
 import numpy as np
 
 from ...arrays import Colors
-from ...pictures.picture import SizeError
+from ...pictures.source import SizeError
 from ...scene import Camera
-from ..evaluating import Turns, evaluated
+from ..evaluating import evaluated
 from ..temporary import made_for
+from ..turns import Turns
 from ..versions import set_format
 from .judge import Judge
 

@@ -219,7 +219,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _drivers(blocks: Iterable[Any]) -> Iterator[Unmodelled]:
-    """Yield the drivers whose Python Blender has not run, as scripts are off."""
+    """Yield the drivers with Python that Blender has not run, as scripts are off."""
     for block in blocks:
         animation = getattr(block, "animation_data", None)
         drivers = animation.drivers if animation else ()

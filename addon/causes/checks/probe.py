@@ -31,10 +31,10 @@ from ..case import Case
 from ..cause import AGREE, Cause, Causes
 from .plans import SOUND
 
-LAYERS = 4  # surfaces behind one another that are looked at
-FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
+LAYERS = 4  # surfaces behind one another that are tested
+FEW = 1 << 11  # pixels tested together, so that a step is short where whole pictures differ
 FEW_COLORS = 64  # of a scene: a picture's pixels are held against each of them
-BLOCK = 1 << 15  # pixels looked at in one step, where that needs no rays
+BLOCK = 1 << 15  # pixels tested in one step, where that needs no rays
 
 Some = tuple[Places, ...] | slice  # rows and columns of pixels, or rows
 
@@ -62,7 +62,7 @@ def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bool
     out = np.zeros(shape, bool)
     for rows in blocks(shape):
         out[rows] = of(rows)
-        yield 0.0
+        yield None
     return out
 
 
@@ -120,15 +120,12 @@ class Probe:
 
     @classmethod
     def of(cls, made: Plan, tile: Region, wanted: Bools, settings: Settings = SOUND) -> Work[Probe]:
-        """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
-
-        Yields the share of the work done; returns the probe.
-        """
+        """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True."""
         chunks = []
-        for share, some in candidates(made, tile, wanted):
+        for _, some in candidates(made, tile, wanted):
             if some is not None and len(some.pixel):
                 chunks.append(some)
-            yield share
+            yield None
         px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
         return cls(made.scene, px, py, _together(chunks), settings)
 
@@ -167,7 +164,7 @@ class Probe:
         test_planes(self.scene, rays, hits, after)
         for some in self.chunks:
             test_pairs(self.scene, self.settings, rays, some, hits, after)
-            yield 0.0
+            yield None
         return hits
 
 

@@ -15,8 +15,9 @@ from ...arrays import Bools, Floats, Index, Integers, Places
 from ...scene import Mesh, Scene
 from ...tracer.progress import Steps
 from ...tracer.vector import Vectors, gather, groups, occurring, parts, transform_points
-from .film import Film, Vertices
+from .film import Film
 from .small_triangles import SmallTriangles
+from .vertices import Vertices
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
 

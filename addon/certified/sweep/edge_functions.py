@@ -38,7 +38,8 @@ import numpy as np
 from ...arrays import Bools, Floats, Index
 from ...tracer.vector import Arrays, gather, largest
 from ..bounds import U
-from .film import Film, Vertices
+from .film import Film
+from .vertices import Vertices
 
 _MORE = 1.01  # covers the roundings of the bounds themselves
 # Far above what gradual underflow may lose, and far below where it matters: values as small as this

@@ -23,7 +23,7 @@ from ...report import cryptomatte, folders, masks
 from ...scene import Scene, SceneError
 from ...tracer.coloring import Color
 from ...tracer.frame import Frame
-from ...tracer.progress import Share
+from ...tracer.progress import Progress
 from ...tracer.settings import Settings
 from ...wording import count_of, show
 from ..arguments import (
@@ -216,7 +216,7 @@ def _traced(options: TraceOptions, scene: Scene, stored: Settings, place: dict[s
     if options.rows:
         scene = _rows_alone(scene, settings, *options.rows)
     with progress_bar() as progress:
-        frame = render(scene, settings, lambda s: progress(Share(s, "tracing")), **place)
+        frame = render(scene, settings, lambda s: progress(Progress(s, "tracing")), **place)
     for path in options.files:
         with folders.replacing_file(path) as new:
             if path == options.certificate:

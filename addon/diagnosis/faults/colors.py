@@ -79,7 +79,7 @@ def _shown_color(evidence: Evidence) -> Work[list[Numbers]]:
             if np.isfinite(color).all() and color[3] > 0:
                 values = values_of(color[:3])
                 out.append(Numbers(values, values, values, object=name))
-        yield 0.0
+        yield None
     return out
 
 
@@ -253,8 +253,8 @@ COLOR_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "color_source",
         "all colours come from another source than the scene's: {words}",
-        "Blender has a colour in each material, one for the viewport, one of each object, a random "
-        "one, and attributes; a mesh has several material slots, and a face the number of one.",
+        "Blender has a colour in each material, one for the viewport, one of each "
+        "object, and attributes; a mesh has several material slots.",
         "check which colour is read (material, object, attribute), and that a face's material "
         "index counts the object's slots from 0",
         _painted,

@@ -38,7 +38,7 @@ def _shows_mixes(evidence: Evidence) -> Work[bool]:
         colors = np.unique(evidence.case.scene.color_table, axis=0)
         for color in colors if len(colors) <= 64 else ():
             pure |= ~shown.other_color(np.broadcast_to(color, shown.color.shape))
-            yield 0.0
+            yield None
         evidence.known["mixes"] = bool(pure.mean() <= 1 - MIXED)
     return bool(evidence.known["mixes"])
 
@@ -156,8 +156,8 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "filter_radius",
         "the picture is filtered: its pixels mix what is within {radius:g} px",
-        "Renderers weight samples by a filter that reaches beyond the pixel: that of Cycles "
-        "is 1.5 px wide by default.",
+        "Renderers weight samples by a filter that reaches beyond the pixel: Cycles' is "
+        "1.5 px wide by default.",
         "render one sample in each pixel's centre, or compare with --excuse filter={radius:g}",
         _filtered,
         _find_filter,

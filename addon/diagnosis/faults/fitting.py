@@ -186,7 +186,7 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
         if score > least:
             scores.append((score, values))
         if number % 32 == 0:
-            yield 0.0
+            yield None
     best: list[Values] = []
     for _, values in sorted(scores, key=lambda pair: -pair[0]):
         apart = [np.abs(units @ np.subtract(values, b)).max() > REACH for b in best]

@@ -220,8 +220,8 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "sensor_fit",
         "the lens is fitted to the other side of the picture (sensor fit)",
-        "The exporter takes the sensor's width for the picture's width in every case, which "
-        "is wrong for portraits. Exporters for Mitsuba, LuxCore and Arnold had this fault.",
+        "The exporter takes the sensor's width for the picture's width in every case, "
+        "which is wrong for portraits.",
         "with sensor fit Auto, the sensor's width spans the longer side of the picture, pixel "
         "aspect included",
         *_FIT,
@@ -272,8 +272,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
         "last_pixel",
         "the picture is spanned from the first pixel's centre to the last one's: by width - 1 and "
         "height - 1",
-        "`numpy.linspace(-1, 1, width)` puts the outer pixels' centres on the edge of the film:"
-        " its steps are 2 / (width - 1).",
+        "`numpy.linspace(-1, 1, width)` puts the outer pixels' centres on the edge of the film.",
         "the edge of the view is the edge of the outer pixels: u = (i + 1/2) / width",
         *_SPANNED,
         examples=(
@@ -284,8 +283,7 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "pixel_aspect_left_out",
         "the pixel aspect is left out: pixels are taken for squares",
-        "The renderer has square pixels only, or the exporter takes the ratio of the "
-        "resolution for the ratio of the picture's sides.",
+        "The renderer has square pixels only, or the exporter heeds the resolution alone.",
         "a pixel is pixel aspect Y / X as high as it is wide",
         *_SQUARE,
         witness="ImageEngine/cortex#330",
@@ -327,8 +325,8 @@ LENS_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "border",
         "the render border is not the part of the picture that is shown",
-        "Blender counts a border's rows from the lowest, image files and many renderers from "
-        "the topmost. Or the whole view is rendered at the border's size.",
+        "Blender counts a border's rows from the lowest, image files from the topmost. "
+        "Or the whole view is rendered at the border's size.",
         "a border's rows count from the lowest, and its pixels are those of the whole picture",
         *_BORDER,
         witness="GPUOpen-LibrariesAndSDKs/BlenderUSDHydraAddon#74",

@@ -20,7 +20,7 @@ from ...tracer.progress import Work
 from ..evidence import WORTH, Evidence, shows_colors, spread
 from .fault import instances_named
 
-AROUND = 6  # pixels around the object, on both sides, that are looked at, too
+AROUND = 6  # pixels around the object, on both sides, that are compared, too
 
 
 @dataclass(frozen=True, eq=False)

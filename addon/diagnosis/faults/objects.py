@@ -134,7 +134,7 @@ def _nearest_rotation(axes: Floats) -> Floats:
 
 @at_once
 def _sheared(evidence: Evidence) -> list[Option]:
-    """Guess both options for each suspect whose axes are not orthogonal."""
+    """Guess both options for each suspect with axes that are not orthogonal."""
     scene = evidence.case.scene
     found = []
     for name in evidence.suspects:
@@ -225,8 +225,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "object_missing",
         "'{object}' is missing",
-        "Exporters skip what is not a mesh (curves, texts, metaballs), instances, or what is "
-        "hidden in the viewport only; some of them say nothing.",
+        "Exporters skip objects that are no meshes (curves, texts, metaballs), "
+        "instances, or objects that are hidden in the viewport only.",
         "check why it was not exported, or is hidden",
         of_object(lambda instance: None),
         suspects(),
@@ -248,8 +248,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "transform_left_out",
         "the transform of '{object}' is left out",
-        "Vertices are stored in the object's own coordinates. STL and PLY have no transforms, "
-        "so it must be applied to the vertices.",
+        "Vertices are stored in the object's own coordinates. STL and PLY have no "
+        "transforms to go with them.",
         "multiply its vertices by its world matrix",
         of_object(lambda instance: replace(instance, world_from_object=np.eye(4))),
         suspects(),
@@ -268,8 +268,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "rotation_transposed",
         "the rotation of {words} is transposed",
-        "numpy and Blender's Python store a matrix row by row, OpenGL, glTF and FBX column by "
-        "column; vectors are rows in some programs, and columns in others.",
+        "numpy and Blender's Python store a matrix row by row, OpenGL, glTF and FBX "
+        "column by column.",
         "the object's axes are the columns of its world matrix",
         _with_axes(lambda axes, lengths: axes.T * lengths),
         _transposed,
@@ -360,8 +360,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "object_twice",
         "'{object}' is there twice: again at ({x:+.4g}, {y:+.4g}, {z:+.4g}) m from its place",
-        "Blender doesn't draw the object itself where its parent instances it on vertices or "
-        "faces. An exporter that writes both has it twice.",
+        "Blender doesn't draw the object itself where its parent instances it on "
+        "vertices or faces; an exporter writes both.",
         "look for a second export of it, as an instance or a duplicate",
         copied,
         TWICE.find,

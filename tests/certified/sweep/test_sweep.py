@@ -11,6 +11,7 @@ from reference_tracer.certified import ladder, measures
 from reference_tracer.certified.sweep import (
     boxes,
     chunks,
+    depth_bins,
     depth_buffer,
     rasterise,
     resolve,
@@ -119,8 +120,8 @@ DIVISIONS = {
     "triangles by ones": [(sweep, "_TRIANGLES", 1)],
     "boxes by twos": [(boxes, "_TOGETHER", 2)],
     "triangles by threes": [(sweep, "_TRIANGLES", 3)],
-    "one depth bin": [(boxes, "BINS", 2)],
-    "few depth bins": [(boxes, "BINS", 5)],
+    "one depth bin": [(depth_bins, "BINS", 2)],
+    "few depth bins": [(depth_bins, "BINS", 5)],
     "pairs by ones": [(resolve, "_PAIRS", 1), (rasterise, "_BOXES", 1)],
     "pairs by sevens": [(resolve, "_PAIRS", 7), (rasterise, "_BOXES", 7)],
     "cells by ones": [(rasterise, "_CELLS", 1)],
@@ -140,7 +141,7 @@ DIVISIONS = {
     "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
     "chunks of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
     "all small": [
-        (sweep, "_TRIANGLES", 2), (boxes, "BINS", 3), (resolve, "_PAIRS", 5),
+        (sweep, "_TRIANGLES", 2), (depth_bins, "BINS", 3), (resolve, "_PAIRS", 5),
         (rasterise, "_CELLS", 2),
         (rasterise, "_BOXES", 2), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
         *sizes(2, 4),
