@@ -19,7 +19,6 @@ from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading import command
 from reference_tracer_grading.class_folder import ClassFolder
-from reference_tracer_grading.external import Run
 from reference_tracer_grading.extremes import extreme_scenes
 from reference_tracer_grading.formats import FORMATS
 from reference_tracer_grading.judged_scene import prepare
@@ -327,17 +326,6 @@ def test_a_name_is_no_formula(judged):
     said = student(replace(judged["right.py"], name="=1+1.py"))
     [(_, text)] = FORMATS["csv"]([(said, "students/x.html")])
     assert "\n'=1+1.py," in text.replace("\r", "")
-
-
-def test_a_program_that_is_compiled_anew_is_judged_again(judged, tmp_path):
-    (tmp_path / "Own.class").write_bytes(b"1")
-    runs = {"own": Run.parsed(f"java -cp {tmp_path} Own")}
-    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(runs), key=KEY)
-    kept.keep(runs["own"], replace(judged["right.py"], name="own"))
-    kept.save()
-    assert kept.kept_of(runs)
-    (tmp_path / "Own.class").write_bytes(b"2")
-    assert not kept.kept_of(runs)
 
 
 def test_files_of_students_have_names_of_their_own(tmp_path):
