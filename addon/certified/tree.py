@@ -23,9 +23,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index, Places
+from ..arrays import Bools, Floats, Index, Places, parts
 from ..tracer.camera import Rays
-from ..tracer.vector import Arrays, parts
+from ..tracer.vector import Arrays
 from .bounds import U
 
 WIDE = 8  # children of a node: a cache line of float64

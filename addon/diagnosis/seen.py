@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Places
+from ..arrays import Bools, Floats, Places, parts
 from ..causes.checks.probe import SOUND
 from ..certified.tree import BoxRays, Crossed, Tree, neighbours
 from ..scene import Mesh, Scene
@@ -21,7 +21,6 @@ from ..tracer.camera import Rays
 from ..tracer.hits import Hits
 from ..tracer.nearest import test_pairs, test_planes
 from ..tracer.progress import Work
-from ..tracer.vector import parts
 from ..tracer.world import Pairs, WorldTriangles, world_corners
 
 RAYS = 1 << 12  # traced together
@@ -49,7 +48,7 @@ class Trees:
             self._prepare(scene)
             together = int(np.clip(PAIRS // len(scene.instances), 64, RAYS))
             for part in parts(rays.count, together):
-                some = np.arange(rays.count)[part]
+                some = np.arange(part.start, part.stop)
                 yield from _enter(scene, rays, some, self._meshes, self._instances, hits)
         return hits
 

@@ -37,8 +37,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Index
-from ...tracer.vector import gather, groups, largest
+from ...arrays import Bools, Floats, Index, groups
+from ...tracer.vector import gather, largest
 from ..bounds import U
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
