@@ -339,6 +339,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         of_object(_whole),
         always(*(Numbers((factor,)) for factor in UNITS)),
         ("factor",),
+        effort=Effort.VIEW,  # with what shows nothing: all that is left of it may be a few pixels
         witness="thodan/obj_pose_eval#1",
     ),
     Fault(
