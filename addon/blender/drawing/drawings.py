@@ -139,7 +139,7 @@ def _turns(tmp: Any, used: dict[str, Any], export: Export, identity: bool) -> Tu
 
 
 def _owner_names(drawing: Drawing, tmp: Any) -> dict[str, str]:
-    """Return whose surface each object of a temporary scene shows, by their names.
+    """Return the owner that each object of a temporary scene shows, by the objects' names.
 
     There is none if there are more objects than colours can tell apart.
     """
