@@ -89,6 +89,7 @@ class Decision:
 
     crossed: Bools  # by the ray, moved infinitesimally by the rule, in the clip range
     edge: Bools  # the ray as it is meets its edge or corner exactly
+    along: Bools  # of what is crossed: the ray runs along its normal, D > 0
     exact: Bools  # integers decided
 
 
@@ -115,13 +116,14 @@ def decide(
     """
     every = np.arange(corners.shape[2] if row is None else len(row))
     row = every if row is None else row
-    crossed, edge, undecided = np.zeros((3, len(every)), bool)
+    crossed, edge, along, undecided = np.zeros((4, len(every)), bool)
     with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
         prepared = FromPoint(rays.origins, np.abs(rays.directions), corners.take(row, axis=2))
         sure, possible = sides(prepared, every, rays)
         fractions = prepared.fractions(possible, rays.take(possible))
         _, _, outside, doubt = in_range(fractions, sure, start, end)
     crossed[possible] = ~outside & (doubt == SURE)
+    along[possible] = fractions.denominator > 0
     undecided[possible] = ~outside & (doubt != SURE)
     rest = np.flatnonzero(undecided)
     for part in (rest[some] for some in parts(len(rest), 4096)):
@@ -131,4 +133,5 @@ def decide(
         for pair, hit in zip(part.tolist(), found, strict=True):
             if hit:
                 crossed[pair], edge[pair] = hit.is_crossed(), hit.on_edge
-    return Decision(crossed, edge, undecided)
+                along[pair] = hit.denominator > 0
+    return Decision(crossed, edge, along, undecided)

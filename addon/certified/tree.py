@@ -39,7 +39,7 @@ _LEAST = 2.0**-500  # of |d| along an axis, the largest being 1 to 2
 
 @dataclass(frozen=True, eq=False)
 class Crossed(Arrays):
-    """Pairs of a ray and an item whose box it may cross, (p,)."""
+    """Pairs of a ray and an item, where the ray may cross the item's box, (p,)."""
 
     ray: Index
     item: Index

@@ -2,7 +2,7 @@
 
 Each mesh has a tree of its triangles' boxes in object space, which is kept for as long as the mesh
 is: scenes that share it, and its instances, share the tree. The triangles that are left are tested
-as by any unproven method. Nothing here is proven: what is told was traced again, with proof.
+as by any unproven method. Nothing here is proven: reported faults were traced again, with proof.
 """
 
 from __future__ import annotations
@@ -128,7 +128,7 @@ def _enter(
 def _test(
     scene: Scene, rays: Rays, ray: Places, instance: Places, meshes: Tree, hits: Hits
 ) -> Work[None]:
-    """Test each of p rays with one instance: with the triangles whose boxes it crosses."""
+    """Test each of p rays with one instance: with the triangles of all boxes that it crosses."""
     own = rays.take(ray)
     used, number = np.unique(instance, return_inverse=True)
     inverse, regular = _object_from_world(scene.instance_matrices[:3, :, used])

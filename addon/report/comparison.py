@@ -144,7 +144,7 @@ class _Deflated:
         self._work: Any = zlib.compressobj(_LEVEL, zlib.DEFLATED, -15)
 
     def compress(self, data: Any) -> bytes:
-        """Return the next part of what is made."""
+        """Return the next part."""
         if self._work is None:
             return b""
         self._made.append(self._work.compress(data))

@@ -1,4 +1,4 @@
-"""Traces a picture with so many rays a pixel that its coverage is the truth for the others."""
+"""Traces a picture with enough rays a pixel that its coverage is the truth for the others."""
 
 from __future__ import annotations
 

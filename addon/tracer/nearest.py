@@ -168,7 +168,7 @@ def within_clip(camera: Camera, t: Floats) -> Bools:
 
 
 def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
-    """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
+    """Enter hits where they are nearer than those before; a pixel may occur more than once."""
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))
         pixel, found = pixel[behind], found.take(behind)

@@ -43,7 +43,7 @@ def gather(values: NDArray[D], index: Index) -> NDArray[D]:
 
 @dataclass(frozen=True, eq=False)
 class Arrays:
-    """A record of arrays whose last axis counts the same things."""
+    """A record of arrays; the last axis of each counts the same things."""
 
     def arrays(self) -> list[Array]:
         """Return the arrays in the order of the record's fields."""

@@ -48,7 +48,8 @@ def camera_of(lens: Lens, film: Film, matrix: np.ndarray, name: str = "Camera") 
 
 def mesh_of(item: Item, shape: Shape) -> Mesh:
     """Return an item's triangles in object space."""
-    return Mesh(shape.vertices, shape.triangles(), name=item.name)
+    slots = shape.slots(len(item.colors))
+    return Mesh(shape.vertices, shape.triangles(), slots, name=item.name)
 
 
 def scene_of(description: Description, frame: float | None = None) -> Scene:
@@ -59,7 +60,7 @@ def scene_of(description: Description, frame: float | None = None) -> Scene:
     return Scene(
         camera,
         tuple(mesh_of(item, item.shape) for item in shown),
-        tuple(Instance(n, n, item.world(frame), [item.color]) for n, item in enumerate(shown)),
+        tuple(Instance(n, n, item.world(frame), [*item.colors]) for n, item in enumerate(shown)),
         background=premultiplied(description.background),
         objects=tuple(item.name for item in shown),
     )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -51,11 +52,36 @@ class Fault:
     make: Change
     numbers: dict[str, Any] = field(default_factory=dict)
     only: tuple[int, ...] = (1, 2, 3, 4, 5, 6)  # the scenes in which it makes sense
+    parts: tuple[Fault, ...] = ()  # those of a pair
 
     @property
     def name(self) -> str:
         """The key and the label."""
         return f"{self.key} ({self.label})" if self.label else self.key
+
+
+def together(first: Fault, second: Fault) -> Fault:
+    """Return two faults at once: the second one's change of the picture comes last."""
+
+    def make(scene: Description, made: Made) -> Made | None:
+        one = first.make(scene, made)
+        both = one and second.make(scene, replace(one, after=None))
+        if one is None or both is None:
+            return None
+        changes = [m.after for m in (one, both) if m.after]
+        return replace(both, after=partial(in_turn, changes) if changes else None)
+
+    only = tuple(n for n in first.only if n in second.only)
+    key = f"{first.key} and {second.key}"
+    label = f"{first.label} and {second.label}"
+    return Fault(key, label, make, only=only, parts=(first, second))
+
+
+def in_turn(changes: Iterable[Callable[[np.ndarray], np.ndarray]], p: np.ndarray) -> np.ndarray:
+    """Change a picture by one after the other."""
+    for change in changes:
+        p = change(p)
+    return p
 
 
 def right(scene: Description) -> Made:

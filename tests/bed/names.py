@@ -146,7 +146,25 @@ def _of_solids(scene: Description, made: Made) -> list[tuple[str, str]]:
         by = other.vertices - own.vertices
         if np.allclose(by, by[0], atol=1e-9):
             return [("object_moved", f"'{name}' moved by {np.round(by[0], 6).tolist()} m")]
+        return _of_nearer(made, own, other)
     return []
+
+
+def _of_nearer(made: Made, own: Solid, other: Solid) -> list[tuple[str, str]]:
+    """Return that a larger object is one that is moved towards a pinhole, if all see it so.
+
+    Scaled about the camera, back to its own size, it covers the same pixels: only what stands
+    before or behind it may tell.
+    """
+    factor = np.sqrt(np.var(other.vertices, axis=0).sum() / np.var(own.vertices, axis=0).sum())
+    center = made.camera.center
+    back = replace(other, vertices=center + (other.vertices - center) / factor)
+    by = back.vertices - own.vertices
+    if made.camera.parallel or made.after or made.draw or not np.allclose(by, by[0], atol=1e-6):
+        return []
+    moved = replace(made, solids=tuple(back if s is other else s for s in made.solids))
+    text = f"'{own.name}' moved by {np.round(by[0], 6).tolist()} m, the same picture"
+    return [("object_moved", text)] if same(made.stored(), moved.stored()) else []
 
 
 def _corners(solid: Solid) -> set[bytes]:

@@ -57,12 +57,18 @@ class Camera:
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """Triangles of one colour in world space."""
+    """Triangles in world space."""
 
     name: str
     vertices: np.ndarray  # (v, 3) float64, metres
     triangles: np.ndarray  # (n, 3) indices
     color: tuple[float, float, float, float]  # linear RGBA
+    paint: np.ndarray | None = None  # of each triangle, (n, 4), where it has several
+
+    @property
+    def colors(self) -> np.ndarray:
+        """The colour of each triangle, (n, 4)."""
+        return np.tile(self.color, (len(self.triangles), 1)) if self.paint is None else self.paint
 
 
 def render(
@@ -73,12 +79,13 @@ def render(
     Each pixel shows the colour of the nearest surface between `near` and `far`.
     """
     seen = Tracer(camera, solids)
-    colors = np.array([*(s.color for s in solids), background], np.float32)
+    every = [*(s.colors for s in solids), np.array([background])]
+    colors = np.concatenate(every).astype(np.float32)
     places = (np.arange(samples) + 0.5) / samples
     total = np.zeros((camera.height, camera.width, 4))
     for dy in places:
         for dx in places:
-            total += colors[seen.owners(dx, dy)]
+            total += colors[seen.triangles(dx, dy)]
     return (total / samples**2).astype(np.float32)
 
 
@@ -101,6 +108,10 @@ class Tracer:
 
     def owners(self, dx: float = 0.5, dy: float = 0.5) -> np.ndarray:
         """Return which solid each pixel sees at (dx, dy) from its upper left corner; -1: none."""
+        return self._owner[self.triangles(dx, dy)]
+
+    def triangles(self, dx: float = 0.5, dy: float = 0.5) -> np.ndarray:
+        """Return which triangle of them all each pixel sees there; -1: none."""
         c = self._camera
         v, u = (n.ravel() for n in np.mgrid[: c.height, : c.width])
         triangle = np.full(len(u), -1)
@@ -108,4 +119,4 @@ class Tracer:
             origins, directions = (a.astype(np.float32) for a in c.rays(u + dx, v + dy))
             reach = np.full(len(u), min(c.far - c.near, 1e30), np.float32)
             triangle = self._scene.run(origins, directions.copy(), reach)
-        return self._owner[triangle].reshape(c.height, c.width)
+        return triangle.reshape(c.height, c.width)

@@ -109,7 +109,7 @@ def measured(cell: str) -> Row:
     useful = wrong is not None and set(shown) & changed(scene, wrong)
     silent = "useful" if useful else "silent"
     return {
-        "answer": ("named" if _are_right(every, fault, scene) else "wrong") if every else silent,
+        "answer": _judged(every, fault, scene) if every else silent,
         "compare": between - began,
         "both": ended - began,
         "told": [transform] * bool(transform) + [t.sentence for t in told],
@@ -118,11 +118,15 @@ def measured(cell: str) -> Row:
     }
 
 
-def _are_right(names: set[str], fault: Fault | None, scene: Description) -> bool:
-    """Return whether names are right: only others than the fault's own take long to judge."""
-    if fault is None:
-        return False
-    return names <= {fault.key, spoken(fault)} or names <= right_names(fault, scene).keys()
+def _judged(names: set[str], fault: Fault | None, scene: Description) -> str:
+    """Judge names: only others than the fault's own take long. Of a pair, both must be named."""
+    parts = () if fault is None else fault.parts or (fault,)
+    own = [{part.key, spoken(part)} for part in parts]
+    if not names <= set().union(*own):
+        own = [set(right_names(part, scene)) for part in parts]
+    if not names <= set().union(*own):
+        return "wrong"
+    return "named" if all(names & some for some in own) else "useful"
 
 
 def changed(scene: Description, made: Made) -> set[str]:

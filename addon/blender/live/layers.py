@@ -102,7 +102,7 @@ class Textures:
         return False
 
     def draw(self, shader: Any, width: int, height: int) -> None:
-        """Draw what is there over a region of this size."""
+        """Draw the layers over a region of this size."""
         from gpu_extras.batch import batch_for_shader
 
         left, bottom, across, up = np.multiply(self._place, (width, height) * 2)

@@ -105,7 +105,7 @@ def small_pairs(
 
 
 def _blocks(shape: Index) -> Iterator[Block]:
-    """Yield the blocks of triangles whose boxes have these shapes (k,), which are sorted."""
+    """Yield the blocks of triangles with boxes of these shapes (k,), which are sorted."""
     starts = np.flatnonzero(shape[1:] != shape[:-1]) + 1
     for start, end in pairwise([0, *starts.tolist(), len(shape)]):
         h, w = divmod(int(shape[start]), SIDE + 1)

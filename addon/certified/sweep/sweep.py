@@ -16,7 +16,7 @@ from ...arrays import Floats, Index, parts
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
-from ...tracer.progress import Progress, Steps, Work, quiet, scaled, timed
+from ...tracer.progress import Progress, Steps, Work, scaled, timed
 from ...tracer.vector import gather
 from ..arithmetic import sound_steps
 from ..bounds import plane_fractions
@@ -57,10 +57,9 @@ def sweep(
     statistics = statistics or Statistics()
     pairs = statistics.pairs_tested
     culling = statistics.culling.copy()
-    with np.errstate(all="ignore"):
-        work = Sweep(scene, Film(scene.camera, dx, dy), region, statistics).steps(memory)
+    whole = Sweep(scene, Film(scene.camera, dx, dy), region, statistics)
     try:
-        return (yield from quiet(work))
+        return (yield from whole.steps(memory))
     except _FullError as full:
         share = full.share
     statistics.pairs_tested = pairs  # each pair counts once
