@@ -118,7 +118,7 @@ def seen_from(
     name: str,
     projection: Projection = PERSPECTIVE,
 ) -> Camera:
-    """Return a camera whose axes may have a scale, which is taken into its window and clip range.
+    """Return a camera; a scale of its axes is taken into its window and clip range.
 
     A ray x right + y up + forward passes the same points if it is divided by forward's length.
 

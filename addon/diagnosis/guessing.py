@@ -337,6 +337,6 @@ def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     told: dict[str, Trial] = {}
     table = [fault.name for fault in FAULTS]
     place = {t: table.index(t.fault.name) if t.guess.object else 0 for t in alike}
-    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, place[t], -t.gain)):
+    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, t.cost, place[t], -t.gain)):
         told.setdefault(trial.fault.name, trial)
     return list(told.values())

@@ -1,7 +1,7 @@
 """Faults that mix neighbouring colours: several samples a pixel, and any filter.
 
 A mean of samples is what it is: it is traced, and held against the picture. Of any other filter no
-more is known than how far it reaches, so it is told if no mean does as well.
+more is known than how far it reaches, so it is reported if no mean does as well.
 """
 
 from __future__ import annotations
