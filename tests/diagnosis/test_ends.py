@@ -57,7 +57,7 @@ def _salted(scene):
 
 @pytest.mark.parametrize("steps", [1, 20, 150])
 def test_it_ends_inside_a_guess_and_says_what_was_not_looked_for(pair, steps):
-    moved = pictured(pair, "pixel_offset", Numbers((0.4, 0.2)))
+    moved = pictured(pair, "pixel_offset", Numbers((2.4, 1.2)))
     before = result_of(trace_and_compare(case_of(pair, Picture(moved), curves=())))
     found = within(before, steps).diagnosis
     assert found.steps == steps and "pixel_offset" in found.untried
