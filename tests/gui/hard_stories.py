@@ -75,7 +75,7 @@ PLAYED = (
 DAILY = (
     hard.particles,
     hard.cloth,
-    hard.explode,
+    hard.textured,
     hard.edited,
     hard.edited_shared,
     hard.particle_hair,

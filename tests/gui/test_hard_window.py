@@ -9,7 +9,7 @@ EACH_PART = pytest.mark.parametrize(
     "agreeing",
     [
         pytest.param(
-            {"particles", "cloth", "explode", "edited", "edited_shared"},
+            {"particles", "cloth", "edited", "edited_shared"},
             marks=pytest.mark.story("hard_scenes"),
         ),
         pytest.param(
