@@ -29,6 +29,7 @@ __all__ = [  # noqa: F822  # each is imported on first use
     "compare",
     "explain",
     "inside",
+    "lines",
     "load_scene",
     "read_camera",
     "render",

@@ -30,6 +30,7 @@ from .pictures.given import GivenPicture, Making, picture_of_array, picture_of_f
 from .rendering import render as render
 from .rendering import trace as trace
 from .report.cameras import SceneCamera, write_cameras
+from .report.lines import lines as lines
 from .scene import Camera as Camera
 from .scene import Instance as Instance
 from .scene import Mesh as Mesh
@@ -137,8 +138,8 @@ def compare(
     Returns
     -------
     Comparison
-        ``verdict``, ``counts``, ``metrics``, ``causes`` of each pixel, ``diagnosis``; ``lines()``
-        is what the command prints, ``to_dict()`` what ``comparison.json`` holds.
+        ``verdict``, ``counts``, ``metrics``, ``causes`` of each pixel, ``diagnosis``; ``to_dict()``
+        is what ``comparison.json`` holds. ``lines`` has the sentences that the command prints.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Makes cameras for scenes that have none: one that frames what is there, or one that is placed."""
+"""Makes cameras for scenes that have none: one that frames all objects, or one that is placed."""
 
 from __future__ import annotations
 

@@ -137,10 +137,15 @@ class Sight:
     @property
     def rounded_t(self) -> float:
         """The float nearest to t; inf for nothing, and for what is above all floats."""
-        try:
-            return np.inf if self.t is None else float(self.t)
-        except OverflowError:
-            return np.inf
+        return np.inf if self.t is None else rounded(self.t)
+
+
+def rounded(t: Fraction) -> float:
+    """Return the float nearest to a t, the even one of two."""
+    try:
+        return float(t)
+    except OverflowError:
+        return np.inf
 
 
 def scene_sights(scene: Scene, pixels: Index | None = None) -> list[Sight]:

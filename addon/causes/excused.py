@@ -2,7 +2,7 @@
 
 An edge, a depth tie, a clip plane is a reason why float32 *may* show something else. Each pixel
 that rests on one could hide a fault. A few do in every picture; where many do, nobody knows whether
-the two sides agree. So it is of each object: one most of whose pixels do was not judged.
+the two sides agree. So it is of each object: one with most of its pixels excused was not judged.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index
+from ..arrays import Bools, Floats, Index, parts
 from ..certainty import Certainty
 from ..scene import Scene
 from ..tracer.camera import Rays
@@ -18,7 +18,7 @@ from ..tracer.hits import Hits, Statistics
 from ..tracer.nearest import every_pair
 from ..tracer.progress import Progress, Work, result_of
 from ..tracer.settings import Settings
-from ..tracer.vector import occurring, parts
+from ..tracer.vector import occurring
 from .arithmetic import sound, sound_steps
 from .bounds import FromPoint
 from .exact import IntegerBatch
@@ -74,7 +74,7 @@ def nearest_hits(
     found = []
     for some in parts(rays.count, _RAYS):
         yield Progress(some.start / rays.count)
-        own = rays.take(np.arange(rays.count)[some])
+        own = rays.take(np.arange(some.start, some.stop))
         ladder = Ladder(own, surfaces, clip)
         for pairs in tree.pairs(own, *clip):
             statistics.pairs_tested += len(pairs.pixel)
@@ -125,7 +125,8 @@ def decide(
     crossed[possible] = ~outside & (doubt == SURE)
     along[possible] = fractions.denominator > 0
     undecided[possible] = ~outside & (doubt != SURE)
-    for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
+    rest = np.flatnonzero(undecided)
+    for part in (rest[some] for some in parts(len(rest), 4096)):
         used, number = occurring(row[part], corners.shape[2])
         batch = IntegerBatch(rays.take(part), corners.take(used, axis=2), (), start, end)
         found = hits_of(batch, np.arange(len(part)), number)

@@ -181,7 +181,10 @@ def sound(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def sound_steps(function: Callable[P, Work[T]]) -> Callable[P, Work[T]]:
-    """Have each step of work begin and end so: between two steps, others may do what they like."""
+    """Have each step of work begin and end so: between two steps, others may do what they like.
+
+    A step looks for overflow and NaN itself, without numpy's warnings.
+    """
 
     @wraps(function)
     def checked(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
@@ -190,7 +193,8 @@ def sound_steps(function: Callable[P, Work[T]]) -> Callable[P, Work[T]]:
         while True:
             _check_modes()
             try:
-                event = next(work)
+                with np.errstate(all="ignore"):
+                    event = next(work)
             except StopIteration as stop:
                 _check_modes()
                 return stop.value

@@ -23,12 +23,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Bools, Floats, Index
+from ..arrays import Bools, Floats, Index, parts
 from ..scene import Region, Scene
 from ..tracer.camera import Rays, camera_rays, corner_rays, film_positions
 from ..tracer.frame_measures import PIXELS
 from ..tracer.hits import NOTHING, Hits, Measures, Names
-from ..tracer.vector import Arrays, Vectors, cross, gather, largest, parts
+from ..tracer.vector import Arrays, Vectors, cross, gather, largest
 from .arithmetic import sound
 from .quotient import Quotients
 from .surfaces import Surfaces, surfaces_of

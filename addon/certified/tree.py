@@ -23,9 +23,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index, Places
+from ..arrays import Bools, Floats, Index, Places, parts
 from ..tracer.camera import Rays
-from ..tracer.vector import Arrays, parts
+from ..tracer.vector import Arrays
 from .bounds import U
 
 WIDE = 8  # children of a node: a cache line of float64
@@ -39,7 +39,7 @@ _LEAST = 2.0**-500  # of |d| along an axis, the largest being 1 to 2
 
 @dataclass(frozen=True, eq=False)
 class Crossed(Arrays):
-    """Pairs of a ray and an item whose box it may cross, (p,)."""
+    """Pairs of a ray and an item, where the ray may cross the item's box, (p,)."""
 
     ray: Index
     item: Index

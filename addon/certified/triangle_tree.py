@@ -20,9 +20,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays import Bools, Bytes, Floats, Index
+from ..arrays import Bools, Bytes, Floats, Index, parts
 from ..tracer.camera import Rays
-from ..tracer.vector import parts
 from ..tracer.world import Pairs, WorldTriangles, batches, world_triangles
 from .bounds import U
 from .tree import TINY, TOGETHER, WIDE, BoxRays, Tree, around, neighbours

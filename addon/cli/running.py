@@ -11,14 +11,14 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, redirect_stdout, suppress
-from typing import TYPE_CHECKING, TextIO
+from contextlib import contextmanager, nullcontext, redirect_stdout, suppress
+from typing import TYPE_CHECKING, Any, TextIO
 
 from ..tracer.signals import check, ended, heard
 from ..wording import show, shown
 
 if TYPE_CHECKING:
-    from ..tracer.progress import Event
+    from ..tracer.progress import Event, Meter
 
 LINE_EVERY = 10.0  # seconds between two lines that say how much is done
 
@@ -142,46 +142,43 @@ def progress_bar(
     from ..tracer.progress import Found, Meter
 
     check()
-    began, meter = clock(), Meter()
+    began, meter, bar = clock(), Meter(), _bar()
+    lines = 1  # the number of the next one
 
     def read(event: Event) -> None:
+        nonlocal lines
         check()
         meter.read(event)
+        past = clock() - began
         if isinstance(event, Found) and event.words:
-            with suppress(OSError):  # nobody reads it
-                show(event.words, file=sys.stderr)
+            _tell(event.words)
+        if bar is not None:
+            bar.set_postfix_str(f"{shown(meter.words)}{_rest(meter, past)}", refresh=False)
+            bar.update(meter.share - bar.n)
+        elif past >= lines * LINE_EVERY:
+            lines = int(past / LINE_EVERY) + 1
+            said = ", ".join(filter(None, (f"{100 * meter.share:3.0f} %", meter.words)))
+            _tell(f"{said} ({past:.0f} s{_rest(meter, past)})")
 
-    def rest() -> str:
-        seconds = meter.seconds(clock() - began)
-        return "" if seconds is None else f", {seconds:.0f} s left"
+    with nullcontext() if bar is None else bar:
+        yield read
 
+
+def _bar() -> Any:
+    """Return a bar on a terminal; None where there is no terminal, or no tqdm."""
     try:
         from tqdm import tqdm
     except ImportError:
-        is_bar = False
-    else:
-        is_bar = sys.stderr.isatty()
-    if not is_bar:
-        lines = 1  # the number of the next one
-
-        def tell(event: Event) -> None:
-            nonlocal lines
-            read(event)
-            past = clock() - began
-            if past >= lines * LINE_EVERY:
-                lines = int(past / LINE_EVERY) + 1
-                said = ", ".join(filter(None, (f"{100 * meter.share:3.0f} %", meter.words)))
-                with suppress(OSError):
-                    show(f"{said} ({past:.0f} s{rest()})", file=sys.stderr)
-
-        yield tell
-        return
+        return None
     layout = "{percentage:3.0f} %|{bar}| {elapsed}{postfix}"
-    with tqdm(total=1.0, bar_format=layout, leave=False) as bar:
+    return tqdm(total=1.0, bar_format=layout, leave=False) if sys.stderr.isatty() else None
 
-        def move(event: Event) -> None:
-            read(event)
-            bar.set_postfix_str(shown(meter.words) + rest(), refresh=False)
-            bar.update(meter.share - bar.n)
 
-        yield move
+def _rest(meter: Meter, past: float) -> str:
+    seconds = meter.seconds(past)
+    return "" if seconds is None else f", {seconds:.0f} s left"
+
+
+def _tell(line: str) -> None:
+    with suppress(OSError):  # nobody reads it
+        show(line, file=sys.stderr)

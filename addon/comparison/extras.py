@@ -39,6 +39,13 @@ class Extras:
     left_out: tuple[str, ...] = ()  # sentences: what the page does not have, and why
 
 
+# The words for the work on a field, where the work has none of its own.
+MEANWHILE = {
+    "literal": "tracing by the textbook, literally",
+    "derivations": "deriving examples",
+}
+
+
 def extras(
     comparison: Comparison,
     measure_trade: bool = False,
@@ -50,23 +57,22 @@ def extras(
     Without `literal`, as in an animation, the literal textbook's picture is left out.
     """
     left_out: list[str] = []
-    # Of each field, with its share of the work, roughly, and what is done meanwhile.
-    works: dict[str, tuple[Work[object], float, str]] = {}
+    works: dict[str, tuple[Work[object], float]] = {}  # each field's, and its share, roughly
     if literal:
-        tracing = _literal(comparison, left_out)
-        works["literal"] = tracing, 1.0, "tracing by the textbook, literally"
+        works["literal"] = _literal(comparison, left_out), 1.0
     else:
         left_out.append("The literal textbook's picture: the pages of frames do without it.")
-    works["derivations"] = _derivations(comparison, left_out), 0.5, "deriving examples"
+    works["derivations"] = _derivations(comparison, left_out), 0.5
     if measure_trade:
         measuring = tradeoff.measure(comparison.scene, name=comparison.manifest.file)
-        works["trade"] = measuring, 6.0, ""
+        works["trade"] = measuring, 6.0
     if measure_extremes:
-        works["extremes"] = extremes.measure(), 12.0, ""
-    total = sum(share for _, share, _ in works.values())
+        works["extremes"] = extremes.measure(), 12.0
+    total = sum(share for _, share in works.values())
     done = 0.0
     found: dict[str, Any] = {}
-    for name, (work, share, words) in works.items():
+    for name, (work, share) in works.items():
+        words = MEANWHILE.get(name, "")
         found[name] = yield from scaled(work, done / total, share / total, words)
         done += share
     return Extras(**found, left_out=tuple(left_out))

@@ -124,7 +124,7 @@ def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
 def _boxes(scene: Scene) -> tuple[Scene, Places, Places]:
     """Return a scene of all instances' bounding boxes as one mesh, and the instance of each.
 
-    At last the instances whose boxes are not finite in the world, as they overflow.
+    At last the instances with boxes that are not finite in the world, as they overflow.
     """
     local = np.array([np.meshgrid(*mesh.bounds.T, indexing="ij") for mesh in scene.meshes])
     local = local.reshape(-1, 3, 8)[scene.instance_meshes].swapaxes(0, 1)

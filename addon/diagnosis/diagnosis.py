@@ -181,7 +181,7 @@ def diagnose(
     """Look for what accounts for the unexplained pixels.
 
     The frame was traced of the case, and the causes were found of it, all before the picture's own
-    background. If nothing is unexplained, nothing is done. No guess is begun after so many steps.
+    background. If nothing is unexplained, nothing is done. No guess is begun after `steps`.
     """
     evidence = in_its_colors(Evidence(case, frame, causes))
     if not evidence.unexplained.any() or frame.cancelled:

@@ -2,7 +2,7 @@
 
 Each mesh has a tree of its triangles' boxes in object space, which is kept for as long as the mesh
 is: scenes that share it, and its instances, share the tree. The triangles that are left are tested
-as by any unproven method. Nothing here is proven: what is told was traced again, with proof.
+as by any unproven method. Nothing here is proven: reported faults were traced again, with proof.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Places
+from ..arrays import Bools, Floats, Places, parts
 from ..causes.checks.probe import SOUND
 from ..certified.tree import BoxRays, Crossed, Tree, neighbours
 from ..scene import Mesh, Scene
@@ -21,7 +21,6 @@ from ..tracer.camera import Rays
 from ..tracer.hits import Hits
 from ..tracer.nearest import test_pairs, test_planes
 from ..tracer.progress import Work
-from ..tracer.vector import parts
 from ..tracer.world import Pairs, WorldTriangles, world_corners
 
 RAYS = 1 << 12  # traced together
@@ -49,7 +48,7 @@ class Trees:
             self._prepare(scene)
             together = int(np.clip(PAIRS // len(scene.instances), 64, RAYS))
             for part in parts(rays.count, together):
-                some = np.arange(rays.count)[part]
+                some = np.arange(part.start, part.stop)
                 yield from _enter(scene, rays, some, self._meshes, self._instances, hits)
         return hits
 
@@ -129,7 +128,7 @@ def _enter(
 def _test(
     scene: Scene, rays: Rays, ray: Places, instance: Places, meshes: Tree, hits: Hits
 ) -> Work[None]:
-    """Test each of p rays with one instance: with the triangles whose boxes it crosses."""
+    """Test each of p rays with one instance: with the triangles of all boxes that it crosses."""
     own = rays.take(ray)
     used, number = np.unique(instance, return_inverse=True)
     inverse, regular = _object_from_world(scene.instance_matrices[:3, :, used])

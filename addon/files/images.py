@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Array, Bytes, Colors, Floats, by_runs
+from ..arrays import Array, Bytes, Colors, Floats, by_runs, parts
 from . import exr, png
 from .file_kinds import mistaken
 from .png.samples import PngError
@@ -37,8 +37,7 @@ def to_display(color: Floats) -> Bytes:
 
     flat = np.reshape(color, (-1, 4))
     out = np.empty(flat.shape, np.uint8)
-    for start in range(0, len(flat), _TOGETHER):  # temporaries of whole pictures take longer
-        some = slice(start, start + _TOGETHER)
+    for some in parts(len(flat), _TOGETHER):  # temporaries of whole pictures take longer
         out[some] = by_runs(shown, flat[some])
     return out.reshape(np.shape(color))
 

@@ -10,7 +10,7 @@ from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index, places
+from ..arrays import Bools, Floats, Index, parts, places
 from ..certainty import Certainty
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions, pixel_size
@@ -18,7 +18,6 @@ from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work
 from ..tracer.shading import positions
-from ..tracer.vector import parts
 from ..tracer.world import depth_ranges
 from .bounds import DECIDABLE, SNAPPING, pixel_error, spread_error
 from .renderers import RASTER, Renderer

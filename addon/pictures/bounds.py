@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..arrays import Array, Floats, run_starts
+from ..arrays import Array, Floats, parts, run_starts
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
 from ..tracer.hits import Hits
@@ -138,15 +138,15 @@ def spread_error(own: Floats, least: float = SNAPPING) -> Work[Floats]:
     reach = 1
     while True:
         together = max(_ROWS, 2 * reach)
-        for y in range(0, height, together):
-            first = max(0, y - reach)
-            around = own[first : y + together + reach]
+        for part in parts(height, together):
+            first = max(0, part.start - reach)
+            around = own[first : part.stop + reach]
             # Errors that reach this far. Those up to half of it were spread before.
             ring = around > (reach / 2 if reach > 1 else 0)
             ring &= (around <= reach) | (reach >= most)
             if ring.any():
-                largest = largest_within(np.where(ring, around, 0.0), reach)[y - first :]
-                here = band[y : y + together]
+                largest = largest_within(np.where(ring, around, 0.0), reach)[part.start - first :]
+                here = band[part]
                 np.maximum(here, largest[: len(here)], out=here)
             yield None
         if reach >= most:

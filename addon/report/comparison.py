@@ -12,7 +12,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 
-from ..arrays import Array, Colors
+from ..arrays import Array, Colors, parts
 from ..causes.case import Case
 from ..causes.cause import UNEXPLAINED
 from ..causes.explain import CAUSES
@@ -26,7 +26,6 @@ from ..diagnosis.regions import Region, regions, sides
 from ..files import images, png
 from ..tracer.frame import PASSES
 from ..tracer.progress import Progress, Work, scaled
-from ..tracer.vector import parts
 from . import page
 from .folders import replacing, write_json
 
@@ -145,7 +144,7 @@ class _Deflated:
         self._work: Any = zlib.compressobj(_LEVEL, zlib.DEFLATED, -15)
 
     def compress(self, data: Any) -> bytes:
-        """Return the next part of what is made."""
+        """Return the next part."""
         if self._work is None:
             return b""
         self._made.append(self._work.compress(data))

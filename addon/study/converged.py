@@ -1,4 +1,4 @@
-"""Traces a picture with so many rays a pixel that its coverage is the truth for the others."""
+"""Traces a picture with enough rays a pixel that its coverage is the truth for the others."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Floats, parts
 from ..methods import Method
 from ..rendering import steps
 from ..scene import Region, Scene
@@ -37,16 +37,15 @@ def converged(scene: Scene, samples: int) -> Work[Floats]:
     settings = Settings(Method.CERTIFIED if is_linear else Method.WATERTIGHT)
     width, height = scene.camera.width, scene.camera.height
     out = np.empty((height, width, 4))
-    rows = max(1, BAND // (samples * samples * width))
-    for y in range(0, height, rows):
-        end = min(y + rows, height)
+    for rows in parts(height, max(1, BAND // (samples * samples * width))):
+        y, end = rows.start, rows.stop
         region = Region(0, samples * y, samples * width, samples * end)
         band = replace(scene.camera, width=samples * width, height=samples * height, region=region)
         part = replace(scene, camera=band)
         frame = Frame.empty(part)
         yield from scaled(steps(part, settings, frame), y / height, (end - y) / height)
         blocks = frame.color.reshape(end - y, samples, width, samples, 4)
-        out[y:end] = blocks.mean(axis=(1, 3), dtype=np.float64)
+        out[rows] = blocks.mean(axis=(1, 3), dtype=np.float64)
     return out
 
 

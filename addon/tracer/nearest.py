@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index, Places
+from ..arrays import Bools, Floats, Index, Places, parts
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
@@ -120,8 +120,8 @@ def every_pair(scene: Scene, rays: Rays, statistics: Statistics) -> Iterator[Pai
         triangles = world_triangles(scene, batch, dtype)
         triangles = triangles.take(np.flatnonzero(triangles.finite))
         total = rays.count * len(triangles)
-        for start in range(0, total, PAIRS):
-            number = np.arange(start, min(start + PAIRS, total))
+        for part in parts(total, PAIRS):
+            number = np.arange(part.start, part.stop)
             statistics.pairs_tested += len(number)
             yield Pairs(*np.divmod(number, len(triangles)), triangles)
 
@@ -168,7 +168,7 @@ def within_clip(camera: Camera, t: Floats) -> Bools:
 
 
 def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
-    """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
+    """Enter hits where they are nearer than those before; a pixel may occur more than once."""
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))
         pixel, found = pixel[behind], found.take(behind)

@@ -141,16 +141,3 @@ def timed(steps: Steps[T], stages: MutableMapping[str, float]) -> Work[T]:
             return stop.value
         stages[stage] = stages.get(stage, 0.0) + time.perf_counter() - began
         yield None
-
-
-def quiet(work: Work[T]) -> Work[T]:
-    """Run work without numpy's warnings: it looks for overflow and NaN itself."""
-    import numpy as np  # late: Blender registers the add-on without numpy
-
-    while True:
-        try:
-            with np.errstate(all="ignore"):
-                event = next(work)
-        except StopIteration as stop:
-            return stop.value
-        yield event

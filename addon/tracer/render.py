@@ -16,7 +16,7 @@ from itertools import accumulate
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Floats
+from ..arrays import Floats, parts
 from ..scene import Camera, Region, Scene
 from .camera import Rays, camera_rays, film_positions
 from .coloring import Color
@@ -26,7 +26,6 @@ from .nearest import TraceBand
 from .nearest import tracer as unproven_tracer
 from .progress import Event, Progress, Steps, Work, scaled, timed
 from .settings import Settings
-from .vector import parts
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32

@@ -9,8 +9,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Bools, Index
-from .vector import groups, spread
+from ..arrays import Bools, Index, groups
+from .vector import spread
 
 Name = tuple[int, int]  # instance and triangle
 

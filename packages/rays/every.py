@@ -12,7 +12,7 @@ from functools import cmp_to_key
 from typing import Any
 
 import numpy as np
-from reference_tracer.arrays import Bools, Bytes, Floats, Index, Places, run_starts
+from reference_tracer.arrays import Bools, Bytes, Floats, Index, Places, parts, run_starts
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.arithmetic import sound_steps
@@ -26,7 +26,7 @@ from reference_tracer.scene import Scene
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.hits import Hits, Names, Statistics
 from reference_tracer.tracer.progress import Progress, Work, result_of
-from reference_tracer.tracer.vector import Arrays, Vectors, parts
+from reference_tracer.tracer.vector import Arrays, Vectors
 
 Clip = tuple[float, float]
 RAYS = 1 << 14  # that go down the tree together

@@ -86,15 +86,6 @@ def test_frames_are_written_and_checked(name, scene, tmp_path, reftrace):
     assert ": 3 cameras agree: " in done.stdout
 
 
-def test_one_view_is_checked_at_another_frame(scene, tmp_path, reftrace):
-    out = tmp_path / "sparse"
-    reftrace("camera", scene, "--out", out, "--convention", "colmap", "--frames", "1-5:2")
-    one = reftrace("camera", scene, "--check", out, "--view", "3", "--set", "frame=3")
-    assert one.returncode == 0 and one.stdout.count("agree") == 1
-    other = reftrace("camera", scene, "--check", out, "--view", "3", "--set", "frame=5")
-    assert other.returncode == 2 and "the camera is moved by" in other.stdout
-
-
 def test_what_else_a_file_has_is_told_in_lines(scene, tmp_path, reftrace):
     out = tmp_path / "camera.json"
     reftrace("camera", scene, "--out", out)

@@ -125,14 +125,6 @@ def test_4_an_exception_of_its_own(kind, saved, out, monkeypatch, capsys):
     assert verdict(out)["error"]["type"] == kind.__name__
 
 
-@pytest.mark.parametrize("argv", [["--help"], ["-h"], ["compare", "--help"]], ids=str)
-def test_help(argv, saved, capsys):
-    assert in_blender.run(argv) == 0
-    text = capsys.readouterr().out
-    assert "exit codes:" in text
-    assert "blender FILE --command reference_tracer" in text
-
-
 @pytest.mark.parametrize(
     ("options", "section", "key", "value"),
     [

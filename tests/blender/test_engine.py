@@ -152,14 +152,6 @@ def test_two_view_layers(solids, build, rendered, export):
     assert (layers["ViewLayer"]["Combined"] != layers[other.name]["Combined"]).any()
 
 
-def test_the_passes_are_declared_to_the_compositor(solids, build):
-    solids.view_layers[0].update_render_passes()
-    _, node = build.compositor()
-    # Blender's own name for Combined is Image, and Alpha is part of it.
-    shown = {output.name for output in node.outputs if output.enabled}
-    assert shown - {"Image", "Alpha"} == LABELS - {"Combined"}
-
-
 def test_what_a_layer_has_not_chosen_is_neither_computed_nor_declared(
     solids, build, rendered, monkeypatch, capfd
 ):

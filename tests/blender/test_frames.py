@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
-import sys
 from dataclasses import replace
 
 import bpy
@@ -316,27 +314,6 @@ def test_the_operator_goes_back_to_the_users_frame(moving, out):
         assert not before.items() & done(out).items() and len(done(out)) == 4
     path, rows = results.latest(Kind.FRAMES, moving).content
     assert path == out / "animation.html" and rows[0].frame == 3
-
-
-def test_reftrace_goes_on_where_it_ended(moving, out, reftrace):
-    """As a user's shell runs it; where the work is done makes no other frames."""
-    argv = ["compare", bpy.data.filepath, "--out", str(out), "--no-identity", "--frames"]
-
-    def elsewhere(*argv):
-        command = [sys.executable, "-m", "reference_tracer.cli.main", *argv]
-        command += "--scheduler", "local:1"
-        return subprocess.run(command, capture_output=True, text=True, timeout=300)
-
-    for frames, run, told in (
-        ("2", reftrace, [2]),
-        ("1-3", elsewhere, [1, 3]),
-        ("1-3", reftrace, []),
-    ):
-        ended = run(*argv, frames)
-        assert ended.returncode == (frames != "2"), ended.stderr
-        assert [int(n) for n in re.findall(r"^frame (\d):", ended.stderr, re.M)] == told
-    assert not (out / "comparison.json").exists()
-    assert [row["frame"] for row in table(out)["frames"]] == [3, 1, 2]
 
 
 def test_each_frame_is_traced_as_it_is_by_itself(moving, tmp_path, capsys):

@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from reference_tracer.causes.counts import Counts
 from reference_tracer.causes.explain import (
-    CAUSES,
     EDGE,
     UNEXPLAINED,
 )
 from reference_tracer.comparison.comparing import compare, trace_and_compare
 from reference_tracer.comparison.comparing import compared as driver
-from reference_tracer.comparison.comparison import SCHEMA
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
+from reference_tracer.report.lines import lines
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
@@ -83,7 +81,7 @@ def test_what_is_not_decidable_is_not_comparable(make):
     )
     found = compared(far, render(far).color)
     assert found.verdict == "not comparable" and found.counts.not_decidable == 48
-    assert any(line.startswith("100 % of this picture is not decidable") for line in found.lines())
+    assert any(line.startswith("100 % of this picture is not decidable") for line in lines(found))
 
 
 def test_cancelled(scene):
@@ -94,48 +92,6 @@ def test_cancelled(scene):
     assert found.counts.not_traced == found.counts.total
 
 
-def test_json_has_what_is_promised(scene):
-    found = mixed(scene)
-    held = json.loads(json.dumps(found.to_dict(), allow_nan=False))
-    assert held["schema"] == SCHEMA
-    assert set(held) == {
-        "schema",
-        "scene",
-        "blender",
-        "tracer",
-        "pixels",
-        "excused",
-        "metrics",
-        "methods",
-        "verdict",
-        "causes",
-        "transform",
-        "advice",
-        "shades",
-        "background",
-        "hidden",
-        "identity",
-        "certificate",
-        "diagnosis",
-        "self_check",
-    }
-    assert held["causes"]["edge"] == {
-        "number": 1,
-        "label": EDGE.label,
-        "sentence": EDGE.sentence,
-        "unit": "px",
-    }
-    assert set(held["causes"]) == {c.key for c in CAUSES}
-    assert held["identity"] is held["certificate"] is None and held["self_check"] == []
-    assert held["blender"] == BLENDER and held["pixels"] == found.counts.to_dict()
-    assert held["scene"]["unmodelled"][0]["object"] == "Hair"
-    tracer = held["tracer"]
-    named = tracer["method"], tracer["precision"], tracer["samples"]
-    assert named == ("certified", "float64", 1)
-    assert tracer["triangles"] == 4 and tracer["pairs_tested"] > 0 and tracer["seconds"] >= 0
-    assert set(held["metrics"]) == {"rmse", "psnr", "ssim", "largest_difference"}
-
-
 def test_a_verdict_says_what_it_leaves_out(scene):
     cause = np.zeros((4, 5), np.uint8)
     assert Verdict.AGREE.in_words(Counts.of(cause)) == "Agree"
@@ -144,7 +100,7 @@ def test_a_verdict_says_what_it_leaves_out(scene):
     cause[1] = UNEXPLAINED  # which no agreement leaves out
     said = "Differences: 5 px unexplained, 3 px at edges"
     assert Verdict.DIFFERENCES.in_words(Counts.of(cause)) == said
-    assert mixed(scene).lines()[-1].startswith("verdict: differences: ")
+    assert lines(mixed(scene))[-1].startswith("verdict: differences: ")
 
 
 @pytest.mark.parametrize(

@@ -11,13 +11,14 @@ import trimesh
 from reference_tracer.causes.case import MOST_VARIANTS, WHOLE, Variant
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.colors import Painted
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
+from reference_tracer.diagnosis.faults.painted import Painted
 from reference_tracer.diagnosis.faults.picture import Rolled
 from reference_tracer.diagnosis.faults.triangles import Triangles
 from reference_tracer.diagnosis.variants import ASKING
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
+from reference_tracer.report.lines import lines
 from reference_tracer.tracer.progress import Progress, result_of
 
 from ..cases import case_of
@@ -89,7 +90,7 @@ def test_a_fault_gets_its_name_and_its_numbers(solids, name, guess):
         [low], [high] = told.guess.low, told.guess.high
         assert low <= guess.values[0] <= high
     assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["diagnosis"]["told"]
-    assert any(line.startswith("diagnosis: ") for line in found.lines())
+    assert any(line.startswith("diagnosis: ") for line in lines(found))
 
 
 @pytest.mark.torture

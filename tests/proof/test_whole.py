@@ -119,7 +119,7 @@ LEFT_OUT_OF_THE_CHECKER = {
             "only film shown Certificate.__init__ Certificate.set_surfaces verified main"
         ),
         "the stored rays' roundings: test_verify.py": "Certificate.rays sine",
-        "which pixels come into which square: test_forms.py, test_brute.py": "left",
+        "which pixels come into which square: test_forms.py": "left",
         "moves integers, transcribed by hand in Leaf.v: test_mutations.py": "check",
         "which other surfaces are ties: without a model, test_verify.py": "ways",
         "looks whether floats are IEEE 754's": "check_arithmetic",

@@ -53,8 +53,7 @@ blender/ui/long_work.py LongWork.invoke
           blender/drawing/drawings.py Plan.drawn
             blender/drawing/drawings.py Plan._drawn
               blender/drawing/drawings.py _turns
-                blender/drawing/drawings.py _picture
-                  blender/drawing/picture.py picture
+                blender/drawing/picture.py picture
         comparison/comparing.py compared
           comparison/comparing.py trace_and_compare
             rendering.py steps
@@ -89,7 +88,7 @@ cli/main.py main
                   report/comparison.py write
                     report/page/__init__.py write
               cli/commands/compare.py _told_comparison
-                comparison/comparison.py Comparison.lines
+                report/lines.py lines
                 cli/commands/compare.py _told
                   comparison/verdict.py Verdict.exit_code
 """,

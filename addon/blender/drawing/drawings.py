@@ -8,7 +8,7 @@ without them. The user's objects are drawn, never copies of them: those have no 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeAlias
 
@@ -132,22 +132,14 @@ def _turns(tmp: Any, used: dict[str, Any], export: Export, identity: bool) -> Tu
     gone = {(u.object, u.feature) for u in drawing.left_out}
     identity &= all((u.object, u.feature) in gone for u in separable(manifest))
     names = _owner_names(drawing, tmp) if identity else {}
-    pixels = yield from _picture(drawing, tmp, depsgraph, drawing.like_for_like, not names)
+    by = drawing.layer, drawing.judge, drawing.exported.camera, depsgraph
+    pixels = yield from picture(tmp, *by, drawing.like_for_like, not names)
     owners = (yield from _owners(drawing, tmp, names)) if names else None
     return Drawn(drawing, scene, pixels, owners)
 
 
-def _picture(
-    drawing: Drawing, tmp: Any, depsgraph: Any, like_for_like: bool, is_last: bool = True
-) -> Turns[Colors]:
-    """Have a temporary scene drawn as its judge does it."""
-    judge = drawing.judge
-    set_up = judge.set_up(tmp, drawing.layer, depsgraph) if like_for_like else nullcontext()
-    return (yield from picture(tmp, judge, drawing.exported.camera, set_up, is_last))
-
-
 def _owner_names(drawing: Drawing, tmp: Any) -> dict[str, str]:
-    """Return whose surface each object of a temporary scene shows, by their names.
+    """Return the owner that each object of a temporary scene shows, by the objects' names.
 
     There is none if there are more objects than colours can tell apart.
     """
@@ -164,7 +156,8 @@ def _owners(drawing: Drawing, tmp: Any, owners: Mapping[str, str]) -> Turns[Owne
     prepare_scene(tmp, drawing.judge, True)
     depsgraph = yield False
     show_in(tmp, depsgraph, {name: colors[owner] for name, owner in owners.items()})
-    pixels = yield from _picture(drawing, tmp, depsgraph, True)
+    by = drawing.layer, drawing.judge, drawing.exported.camera, depsgraph
+    pixels = yield from picture(tmp, *by)
     return Owners.of(names, decode(pixels, len(names)), drawing.manifest.owners)
 
 

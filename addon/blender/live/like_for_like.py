@@ -80,8 +80,7 @@ def _turns(
     certificate = certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
     planes = [scene.objects[p.object] for p in scene.planes]
     traced = replace(stand_ins(tmp, layer, scene, planes), background=exported.background)
-    set_up = VIEWPORT.set_up(tmp, layer, depsgraph)
-    pixels = yield from picture(tmp, VIEWPORT, scene.camera, set_up)
+    pixels = yield from picture(tmp, layer, VIEWPORT, scene.camera, depsgraph)
     return traced, manifest, certificate, pixels
 
 

@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from ...arrays import Bools, Colors
+from ...arrays import Bools, Colors, parts
 from ...causes.cause import AGREE, UNEXPLAINED, Causes
 from ...causes.explain import CAUSES, explain
 from ...causes.maps import WRONG, cause_map, certainty_map, dimmed, ringed
@@ -24,7 +24,6 @@ from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Event, Work
 from ...tracer.settings import Settings
-from ...tracer.vector import parts
 from . import like_for_like
 
 ROWS = 64  # entered together, in some milliseconds

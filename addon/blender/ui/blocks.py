@@ -75,7 +75,7 @@ def remove(name: str) -> None:
 
 
 def _give_up(name: str, successor: Any = None) -> None:
-    """Remove ours, whose users take another one; if the user has saved it to a file, it is his."""
+    """Remove a block of ours, and give its users another; one that was saved to a file stays."""
     old = ours(name)
     if old and old.filepath and _file(old.filepath) != _file(_files[name][0]):
         del old[MARK]

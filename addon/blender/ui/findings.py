@@ -47,7 +47,7 @@ class _OfFinding:
         own: Any = cls
         comparison = results.content(Kind.COMPARISON, context.scene)
         if not (comparison and comparison.diagnosis and comparison.diagnosis.told):
-            own.poll_message_set(rpt_("There is no comparison whose diagnosis has found something"))
+            own.poll_message_set(rpt_("No diagnosis has found something yet"))
             return False
         if cls.in_object_mode and context.mode != "OBJECT":
             own.poll_message_set(rpt_(OBJECT_MODE))

@@ -234,7 +234,7 @@ def failed(operator: Any, error: Exception) -> Answer:
 
 
 def with_ending(filepath: str, *endings: str) -> Path:
-    """Return the path of a file whose name must have one of these endings.
+    """Return the path of a file with one of these endings.
 
     // is beside the .blend.
 

@@ -52,9 +52,11 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Print the comparison; report its first line."""
-        lines = result.lines()  # of the comparison: the context's scene may be another one by now
-        say(*result.manifest.lines(), *lines)
-        return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
+        from ...report.lines import lines
+
+        said = lines(result)  # of the comparison: the context's scene may be another one by now
+        say(*result.manifest.lines(), *said)
+        return "INFO" if result.verdict == "agree" else "WARNING", said[0]
 
 
 @named

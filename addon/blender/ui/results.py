@@ -44,42 +44,33 @@ class Result:
 _latest: dict[Kind, Result] = {}
 
 
-def _kept(comparison: Comparison) -> Work[Result]:
-    """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
+def keep_comparison(comparison: Comparison) -> Work[Result]:
+    """Remember a comparison, and show its pictures; ended in between, there is none."""
     from ...causes.maps import cause_map, difference_map
     from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
+    from ...report.lines import lines
 
-    traced = comparison.frame.color
-    cause = comparison.causes.cause
-    blocks.show(blocks.TRACED, traced)
-    yield None
-    blocks.show(blocks.BLENDER, comparison.picture)
-    yield None
-    pair = traced, comparison.picture
-    apart = yield from by_rows(difference_map, *pair)
-    yield None
-    blocks.show(blocks.DIFFERENCE, apart)
-    yield None
-    causes = yield from by_rows(cause_map, traced, cause)
-    blocks.show(blocks.CAUSES, causes)
-    yield None
-    regions = tuple(differing_regions(comparison))
-    yield None
-    right = {}
-    for number, _, color in pictures_put_right(comparison):
-        right[number] = color
-        yield None
-    blocks.remove(blocks.PUT_RIGHT)
-    found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
-    _latest[Kind.COMPARISON] = replace(found, regions=regions, put_right=right)
-    return _latest[Kind.COMPARISON]
-
-
-def keep_comparison(comparison: Comparison) -> Work[Result]:
-    """Remember a comparison, and show its pictures; ended in between, there is none."""
+    traced, picture = comparison.frame.color, comparison.picture
     try:
-        return (yield from _kept(comparison))
+        blocks.show(blocks.TRACED, traced)
+        yield None
+        blocks.show(blocks.BLENDER, picture)
+        yield None
+        blocks.show(blocks.DIFFERENCE, (yield from by_rows(difference_map, traced, picture)))
+        yield None
+        blocks.show(blocks.CAUSES, (yield from by_rows(cause_map, traced, comparison.causes.cause)))
+        yield None
+        regions = tuple(differing_regions(comparison))
+        yield None
+        right = {}
+        for number, _, color in pictures_put_right(comparison):
+            right[number] = color
+            yield None
+        blocks.remove(blocks.PUT_RIGHT)
+        kept = keep(Kind.COMPARISON, comparison, lines(comparison), comparison.manifest.scene)
+        _latest[Kind.COMPARISON] = replace(kept, regions=regions, put_right=right)
+        return _latest[Kind.COMPARISON]
     finally:
         found = _latest.get(Kind.COMPARISON)
         if found is None or found.content.causes is not comparison.causes:

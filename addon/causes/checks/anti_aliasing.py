@@ -15,7 +15,7 @@ from functools import partial
 
 import numpy as np
 
-from ...arrays import Array, Bools, Floats, Places
+from ...arrays import Array, Bools, Floats, Places, parts
 from ...tracer import shading
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
@@ -177,8 +177,8 @@ def is_mix(
     bright = color.min(axis=-1, initial=0) >= -allowed
     found = np.zeros(count, bool)
     together = max(1, hull.STEP * count // max(mixed.size, 1))
-    for first in range(0, count, together):
-        some = first + np.flatnonzero(bright[first : first + together])
+    for part in parts(count, together):
+        some = part.start + np.flatnonzero(bright[part])
         older = partial(_logarithm, offset=0.5, channels=4)
         for of, slack in ((lambda v: v, 1), (_logarithm, 2), (older, 4)):
             rest = some[~found[some]]

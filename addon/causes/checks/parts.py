@@ -8,14 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Bools, Floats, Index, Places, places
+from ...arrays import Bools, Floats, Index, Places, groups, parts, places
 from ...pictures.picture import Picture
 from ...scene import Region, Scene
 from ...tracer.candidates import Plan
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Progress, Work
 from ...tracer.shading import interpolated
-from ...tracer.vector import groups, parts
 from ..cause import Cause
 from .plans import shared_plan
 from .probe import BLOCK, FEW, FEW_COLORS, OpenPixels, Probe

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Array, Bools, Floats, Index, Places
+from ...arrays import Array, Bools, Floats, Index, Places, groups, parts
 from ...pictures.bands import SampleBand
 from ...pictures.picture import Picture
 from ...scene import Region, Scene
@@ -25,7 +25,6 @@ from ...tracer.nearest import test_pairs, test_planes
 from ...tracer.progress import Work
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import positions
-from ...tracer.vector import groups
 from ...tracer.world import Pairs, WorldTriangles
 from ..case import Case
 from ..cause import AGREE, Cause, Causes
@@ -41,8 +40,7 @@ Some = tuple[Places, ...] | slice  # rows and columns of pixels, or rows
 
 def blocks(shape: tuple[int, ...]) -> list[slice]:
     """Split a picture (h, w, ...) into whole rows of about BLOCK pixels."""
-    rows = max(1, BLOCK // shape[1])
-    return [slice(y, min(y + rows, shape[0])) for y in range(0, shape[0], rows)]
+    return parts(shape[0], max(1, BLOCK // shape[1]))
 
 
 def other_color(picture: Picture, colors: Array, ramp: Bools | bool = False) -> Work[Bools]:

@@ -119,7 +119,7 @@ def check_in_place(pixels: OpenPixels) -> Work[None]:
 
 
 def check_otherwise(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels that show what is seen past an object, or one drawn in front of others."""
+    """Find open pixels that show the scene without an object, or one drawn in front of others."""
     case, picture = pixels.case, pixels.picture
     unseen = case.feature_of(Effect.UNSEEN)
     holes = case.feature_of(Effect.HOLDOUT)
@@ -137,7 +137,7 @@ def check_otherwise(pixels: OpenPixels) -> Work[None]:
 
 
 def _see(pixels: OpenPixels, picture: Picture, left: Bools, feature: Integers) -> Work[None]:
-    """Find open pixels that show what is seen of the instances and planes `left` (k + 1,) alone."""
+    """Find open pixels that show the instances and planes `left` (k + 1,) alone."""
     scene = pixels.case.scene
     count = len(scene.instances)
     instances = _some(scene.instances, left[:count])

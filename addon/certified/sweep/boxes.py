@@ -12,10 +12,10 @@ from functools import reduce
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Index, Integers
+from ...arrays import Bools, Floats, Index, Integers, parts
 from ...scene import Region, Scene
 from ...tracer.candidates import pixel_bounds
-from ...tracer.vector import Vectors, gather, largest, parts, transform_points
+from ...tracer.vector import Vectors, gather, largest, transform_points
 from ...tracer.world import world_corners
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
@@ -167,7 +167,7 @@ def _mend(scene: Scene, film: Film, expanded: Expanded, low: Index, high: Index)
     finite = vertices.finite.take(corners).all(axis=0)
     high[:, ~finite] = -1
     some = np.flatnonzero(finite & ~vertices.ahead.take(corners).all(axis=0))
-    for part in np.split(some, range(_TOGETHER, len(some), _TOGETHER)):
+    for part in (some[chosen] for chosen in parts(len(some), _TOGETHER)):
         world = world_corners(scene, *expanded.names.of(part))
         x0, x1, y0, y1 = pixel_bounds(whole, world, reach=1.0)
         low[:, part] = x0, y0

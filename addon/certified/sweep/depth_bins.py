@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...arrays import Bytes, Floats, Index
-from ...tracer.vector import gather, grouped, parts
+from ...arrays import Bytes, Floats, Index, parts
+from ...tracer.vector import gather, grouped
 
 BINS = 256  # intervals of nearness that the depth bins are made of
 _GROWTH = 1.2  # by how much each depth bin is larger than the one before

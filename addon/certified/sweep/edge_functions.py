@@ -192,7 +192,7 @@ def _parallel(
 
 
 def _with_both_signs(found: EdgeFunctions, unsure: Index) -> EdgeFunctions:
-    """Duplicate the triangles whose orientation is uncertain, once for each sign of T.
+    """Duplicate the triangles of uncertain orientation, once for each sign of T.
 
     Nothing is known of their nearness.
     """

@@ -136,7 +136,7 @@ class Film:
         return np.stack((p, q, w, depth)), size
 
     def nearest(self, depth: Floats, size: Floats) -> Floats:
-        """Bound the nearness of what is seen of vertices from above, (n,)."""
+        """Bound the nearness of the visible part of vertices from above, (n,)."""
         if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
             return (constant + slope * size) - depth

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...arrays import Bools, Index
+from ...arrays import Bools, Index, groups, parts
 from ...certainty import Certainty
 from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
@@ -18,7 +18,7 @@ from ...tracer.frame_measures import PIXELS
 from ...tracer.hits import NOTHING, Hits, Statistics
 from ...tracer.progress import Steps
 from ...tracer.ties import Ties
-from ...tracer.vector import gather, grouped, groups, parts
+from ...tracer.vector import gather, grouped
 from ...tracer.world import Pairs, WorldTriangles, world_corners
 from ..ladder import Ladder
 from ..measures import Known, Measured

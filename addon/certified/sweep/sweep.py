@@ -12,12 +12,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Floats, Index
+from ...arrays import Floats, Index, parts
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
-from ...tracer.progress import Progress, Steps, Work, quiet, scaled, timed
-from ...tracer.vector import gather, parts
+from ...tracer.progress import Progress, Steps, Work, scaled, timed
+from ...tracer.vector import gather
 from ..arithmetic import sound_steps
 from ..bounds import plane_fractions
 from .boxes import Boxed, InstanceBoxes, boxes_of
@@ -57,10 +57,9 @@ def sweep(
     statistics = statistics or Statistics()
     pairs = statistics.pairs_tested
     culling = statistics.culling.copy()
-    with np.errstate(all="ignore"):
-        work = Sweep(scene, Film(scene.camera, dx, dy), region, statistics).steps(memory)
+    whole = Sweep(scene, Film(scene.camera, dx, dy), region, statistics)
     try:
-        return (yield from quiet(work))
+        return (yield from whole.steps(memory))
     except _FullError as full:
         share = full.share
     statistics.pairs_tested = pairs  # each pair counts once
@@ -148,10 +147,10 @@ class Sweep:
         start = self._numbers.enter(Names(instances, count, NOTHING))
         film = self._film
         region = self._depths.region
-        every = np.arange(region.width * region.height)
         for surface, infinite in enumerate(planes, start):
             at = infinite.point[:, None], infinite.normal[:, None]
-            for pixel in (every[part] for part in parts(len(every), _PIXELS)):
+            for part in parts(region.width * region.height, _PIXELS):
+                pixel = np.arange(part.start, part.stop)
                 rays = camera_rays(film.camera, *film_positions(region, film.dx, film.dy, pixel))
                 ends = plane_fractions(rays, *at).interval()
                 low, high = (np.broadcast_to(v, pixel.shape) for v in ends)

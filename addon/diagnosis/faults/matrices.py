@@ -67,7 +67,7 @@ def _transposed(matrix: Array) -> Array:
 
 
 def _all_transposed(world: Array) -> Array:
-    """Transpose the whole matrix, whose last row is not read: the camera is at the origin."""
+    """Transpose the whole matrix; its last row is not read: the camera is at the origin."""
     return pose(world[:3, :3].T, np.zeros(3))
 
 

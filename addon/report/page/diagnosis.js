@@ -64,7 +64,7 @@ function drawDiagnosis() {
       "p",
       { class: "muted" },
       told.length
-        ? `${work} What is told was traced and compared again, pixel by pixel. The verdict stays.`
+        ? `${work} These faults were traced and compared again, pixel by pixel. The verdict stays.`
         : silent
           ? `${silent}.`
           : `${work} None accounts for the unexplained pixels.`,
