@@ -28,6 +28,8 @@ __all__ = [  # noqa: F822  # each is imported on first use
     "camera_rays",
     "compare",
     "explain",
+    "inside",
+    "lines",
     "load_scene",
     "read_camera",
     "render",

@@ -8,11 +8,11 @@ from __future__ import annotations
 import warnings
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Array
 from .camera_files.files import CONVENTIONS, chosen, read
 from .camera_files.frame import part
 from .causes.case import Case
@@ -22,15 +22,15 @@ from .comparison.verdict import Verdict as Verdict
 from .derivation.candidates import LIMIT
 from .derivation.derivation import derive
 from .derivation.document import document_markdown
-from .files.exr import MissingLibraryError
 from .files.images import open_picture
 from .files.scenes import Account
 from .files.scenes import save_scene as save_scene
-from .opened import beside, file_manifest, open_scene
+from .opened import file_manifest, only, open_scene
 from .pictures.given import GivenPicture, Making, picture_of_array, picture_of_file
 from .rendering import render as render
 from .rendering import trace as trace
 from .report.cameras import SceneCamera, write_cameras
+from .report.lines import lines as lines
 from .scene import Camera as Camera
 from .scene import Instance as Instance
 from .scene import Mesh as Mesh
@@ -138,8 +138,8 @@ def compare(
     Returns
     -------
     Comparison
-        ``verdict``, ``counts``, ``metrics``, ``causes`` of each pixel, ``diagnosis``; ``lines()``
-        is what the command prints, ``to_dict()`` what ``comparison.json`` holds.
+        ``verdict``, ``counts``, ``metrics``, ``causes`` of each pixel, ``diagnosis``; ``to_dict()``
+        is what ``comparison.json`` holds. ``lines`` has the sentences that the command prints.
 
     Raises
     ------
@@ -168,7 +168,8 @@ def compare(
         scene, manifest = scene.seen_by(camera), replace(manifest, camera=camera.name)
     if kind:
         source = Path(picture) if isinstance(picture, (str, Path)) else np.asarray(picture)
-        shown = _given_data(kind, source, scale).picture(scene, making)
+        data: GivenPicture = only("data", "comparisons of data").given_data(kind, source, scale)
+        shown = data.picture(scene, making)
     elif isinstance(picture, (str, Path)):
         shown = picture_of_file(open_picture(picture), scene.camera, making)
     else:
@@ -177,22 +178,38 @@ def compare(
     return result_of(compared(case, diagnose))
 
 
-def _given_data(kind: str, source: Path | Array, scale: float | None = None) -> GivenPicture:
-    """Return a file or an array of data; a package beside the add-on reads it.
+def inside(scene: Scene, points: ArrayLike) -> Any:
+    r"""Say which points lie inside the closed meshes of a scene, exactly.
+
+    Parameters
+    ----------
+    scene : Scene
+    points : (n, 3) array
+        World space, metres; taken as float64.
+
+    Returns
+    -------
+    Inside
+        `place`, (n,): 0 outside of all meshes, 1 inside of one at least, 2 on the surface of one;
+        `winding`, (n,): how often all of them wind about each point. ``docs/every.md`` has more.
 
     Raises
     ------
-    MissingLibraryError
-        If there is no such package, as in Blender.
-    ValueError
-        If there is no such kind, or it has no scale.
+    SceneError
+        If a mesh is not closed; the message has its name, and the length of its boundary.
+
+    Examples
+    --------
+    >>> from reference_tracer import inside, load_scene
+    >>> corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+    >>> faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    >>> _ = Path("closed.obj").write_text(corners + faces)
+    >>> scene = load_scene("closed.obj")
+    >>> found = inside(scene, scene.meshes[0].vertices * 0.9 + 0.1)
+    >>> found.place.tolist(), found.winding.tolist()
+    ([1, 0, 0, 0], [1, 0, 0, 0])
     """
-    for package in beside("data"):
-        given: GivenPicture = package.given_data(kind, source, scale)
-        return given
-    raise MissingLibraryError(
-        f"{kind}: data are compared by reference_tracer_data, which is not part of the extension"
-    )
+    return only("rays", "points inside meshes").inside(scene, points)
 
 
 def explain(scene: Scene, x: int, y: int, limit: int = LIMIT) -> str:

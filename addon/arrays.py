@@ -1,4 +1,4 @@
-"""Short names for the types of arrays, and runs of equal items.
+"""Short names for the types of arrays, runs of equal items, and parts to work on at a time.
 
 The types of vectors are in `tracer/vector.py`. A picture in constant colours has some thousand
 runs, and millions of pixels: what follows from a pixel alone is computed once a run.
@@ -6,7 +6,7 @@ runs, and millions of pixels: what follows from a pixel alone is computed once a
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -56,3 +56,22 @@ def by_runs(of: Callable[..., Array], *values: Array) -> Array:
     if 2 * len(first) > count:
         return of(*values)
     return np.repeat(of(*(v[first] for v in values)), np.diff(first, append=count), axis=0)
+
+
+def parts(count: int, size: int) -> list[slice]:
+    """Split `count` items into parts of at most `size`."""
+    return [slice(first, min(first + size, count)) for first in range(0, count, size)]
+
+
+def groups(counts: Index, limit: int) -> Iterator[tuple[int, int]]:
+    """Yield the ends of groups of items with a sum of `counts` of at most `limit`.
+
+    An item with a larger count is a group by itself.
+    """
+    ends = np.cumsum(counts)
+    start = 0
+    while start < len(ends):
+        done = ends[start - 1] if start else 0
+        end = max(start + 1, int(np.searchsorted(ends, done + limit, side="right")))
+        yield start, end
+        start = end

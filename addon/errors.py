@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from .certified.arithmetic import AssumptionError
 from .files.exr import MissingLibraryError
-from .pictures.picture import SizeError
+from .pictures.source import SizeError
 from .scene import SceneError
 from .tracer.memory import PictureTooLargeError
 from .wording import show, shown

@@ -1,4 +1,4 @@
-"""Makes cameras for scenes that have none: one that frames what is there, or one that is placed."""
+"""Makes cameras for scenes that have none: one that frames all objects, or one that is placed."""
 
 from __future__ import annotations
 
@@ -216,5 +216,5 @@ def axes_of(backward: ArrayLike) -> Floats:
     axes = np.stack((right, np.cross(back, right), back), axis=1)
     lengths = np.linalg.norm(axes, axis=0)
     if not (lengths.all() and np.isfinite(lengths).all()):
-        raise SceneError(f"{back}, from what is looked at to the eye, is zero or not finite.")
+        raise SceneError(f"{back}, from the target to the eye, is zero or not finite.")
     return axes / lengths

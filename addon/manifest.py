@@ -75,7 +75,7 @@ class Unmodelled:
     detail: str = ""
     bounds: Floats | None = None  # (2, 3) metres, a box in world space; None: anywhere
     effect: Effect = Effect.DRAWN
-    by: tuple[str, ...] = ()  # objects whose geometry nodes draw the object, too
+    by: tuple[str, ...] = ()  # objects with geometry nodes that draw the object, too
 
     def __post_init__(self) -> None:
         if self.bounds is not None and not np.isfinite(self.bounds).all():

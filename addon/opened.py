@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from .files.exr import MissingLibraryError
 from .files.scenes import Account, load_account, load_scene
 from .framing import Choice
 from .manifest import Manifest, ObjectEntry
@@ -36,6 +37,13 @@ def beside(group: str) -> Iterator[Any]:
 
     for found in entry_points(group=f"reference_tracer.{group}"):
         yield found.load()
+
+
+def only(group: str, what: str) -> Any:
+    """Return the one package beside the add-on for a use; raises MissingLibraryError without it."""
+    for package in beside(group):
+        return package
+    raise MissingLibraryError(f"{what} are no part of the extension: install reference_tracer")
 
 
 def open_scene(path: Path, choice: Choice | None = None) -> Opened:

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -22,14 +23,15 @@ from .certified.rounding import rounding
 from .certified.samples import traced_together
 from .certified.sweep.sweep import sweep
 from .methods import UNPROVEN, Method
+from .opened import only
 from .scene import Scene, SceneError
 from .tracer import nearest
 from .tracer import render as loop
-from .tracer.camera import Rays
+from .tracer.camera import Rays, camera_rays, film_positions
 from .tracer.frame import Frame
 from .tracer.hits import Hits, Statistics
 from .tracer.nearest import TraceBand
-from .tracer.progress import Work, at_once, result_of
+from .tracer.progress import Meter, Work, at_once, result_of
 from .tracer.render import Tracer, bands
 from .tracer.settings import Precision, Settings
 from .tracer.world import refused
@@ -94,10 +96,12 @@ def render(
         If the method is `certified`, and this process's arithmetic allows no proof.
     """
     frame = Frame.empty(scene)
-    for share in steps(scene, settings or Settings(), frame, tracer):
+    meter = Meter()
+    for event in steps(scene, settings or Settings(), frame, tracer):
+        meter.read(event)
         if progress:
-            progress(share)
-        if share < 1 and cancelled and cancelled():
+            progress(meter.share)
+        if meter.share < 1 and cancelled and cancelled():
             frame.cancel()
             break
     return frame
@@ -125,8 +129,12 @@ def steps(
 
 
 def trace(
-    scene: Scene, settings: Settings, statistics: Statistics | None = None, rays: Rays | None = None
-) -> Hits:
+    scene: Scene,
+    settings: Settings | None = None,
+    statistics: Statistics | None = None,
+    rays: Rays | None = None,
+    every: bool = False,
+) -> Hits | Any:
     """Return what the rays through the centres of the region's pixels meet, and nothing else.
 
     Row by row from the lowest.
@@ -140,6 +148,8 @@ def trace(
     rays : Rays, optional
         Any rays to trace instead. The camera's clip range applies to t, in lengths of a direction.
         Where there are many, a tree of boxes says which triangles each may meet.
+    every : bool
+        Whether to return all that the rays meet, certified: see ``docs/every.md``.
 
     Raises
     ------
@@ -147,11 +157,15 @@ def trace(
         If a ray is not finite: nothing is proven of it.
     """
     statistics = statistics or Statistics()
-    settings = resolved(settings, statistics)
+    settings = resolved(settings or Settings(), statistics)
     method = Method(settings.method)
+    if every and not rays:
+        rays = camera_rays(scene.camera, *film_positions(scene.camera.region))
     if rays:
         if not (np.isfinite(rays.origins).all() and np.isfinite(rays.directions).all()):
             raise SceneError("a ray's origin or direction is not finite")
+        if every:
+            return only("rays", "all hits of rays").every_hit(scene, rays)
         o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
         rays = replace(rays, origins=o, directions=d)
         return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))

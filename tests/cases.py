@@ -9,13 +9,14 @@ from reference_tracer.causes import explain as causes
 from reference_tracer.causes.case import Case
 from reference_tracer.causes.explain import AGREE, DEPTH_TIE, EDGE, NOT_DECIDABLE, UNEXPLAINED
 from reference_tracer.manifest import Manifest
-from reference_tracer.pictures.bounds import differing
 from reference_tracer.pictures.identity import Owners
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import Source
+from reference_tracer.pictures.storage import differing
 from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
 from reference_tracer.tracer.camera import pixel_size
-from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.progress import Progress, result_of
 from reference_tracer.tracer.settings import Settings
 
 MANIFEST = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")
@@ -73,6 +74,16 @@ def shifted(camera, dx, dy):
     (w, h), v = pixel_size(camera), camera.window
     window = ViewWindow(v.left + dx * w, v.right + dx * w, v.bottom + dy * h, v.top + dy * h)
     return replace(camera, window=window)
+
+
+def rising(work):
+    """Run work whose share never falls; return its shares, and its result."""
+    events = []
+    found = result_of(work, events.append)
+    shares = [e.share for e in events if isinstance(e, Progress) and e.share is not None]
+    assert (np.diff(shares) > -1e-12).all()  # but for the rounding of a sum
+    assert 0 <= shares[0] and shares[-1] <= 1 + 1e-12
+    return shares, found
 
 
 def count(found, cause) -> int:

@@ -67,7 +67,6 @@ LONGEST = (
     "tests/blender/test_attacks.py",
     "tests/blender/test_hard_cases.py",
     "tests/blender/test_digests.py",
-    "tests/suites/test_exact.py",
     "tests/certified/sweep/test_sweep.py",
     "tests/farms/",
     "tests/test_docs.py",

@@ -36,6 +36,7 @@ from .moved_rays import (
 )
 
 OUTSIDE, EDGE, INSIDE = -1, 0, 1
+rational = np.vectorize(Fraction, otypes=[object])
 AT_ONCE = 1 << 16  # pairs: some hundred MiB of integers
 
 
@@ -93,6 +94,14 @@ def intersect_pairs(origins: Vectors, directions: Vectors, corners: Vectors) -> 
     return Intersections(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
+def barycentrics(
+    origins: Vectors, directions: Vectors, corners: Vectors
+) -> tuple[NDArray[np.object_], NDArray[np.object_]]:
+    """Return the barycentrics (3, n) of n lines on n triangles' planes, and what they share."""
+    det, u, v, _ = meet(*map(rational, (origins, directions)), *rational(corners))
+    return np.stack((det - u - v, u, v)) / det, det
+
+
 def scaled_integers(values: Vectors) -> tuple[NDArray[np.object_], Index]:
     """Return floats (k, n) as integers and the exponent of each column: float = integer * 2^e."""
     mantissa, exponent = np.frexp(values)
@@ -124,6 +133,19 @@ class Sight:
     # those that the ray meets at an edge before it.
     front: tuple[Surface, ...]
     covered: bool  # whether something is seen however the ray is moved
+
+    @property
+    def rounded_t(self) -> float:
+        """The float nearest to t; inf for nothing, and for what is above all floats."""
+        return np.inf if self.t is None else rounded(self.t)
+
+
+def rounded(t: Fraction) -> float:
+    """Return the float nearest to a t, the even one of two."""
+    try:
+        return float(t)
+    except OverflowError:
+        return np.inf
 
 
 def scene_sights(scene: Scene, pixels: Index | None = None) -> list[Sight]:

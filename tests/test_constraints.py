@@ -40,8 +40,3 @@ def test_no_pin_contradicts_another(python):
     pins = pinned(python)
     assert len(pins) > 50
     assert not list(contradictions(pins, python))
-
-
-def test_a_contradiction_is_found():
-    pins = pinned("3.13")
-    assert list(contradictions(pins | {"numpy": "1.0"}, "3.13"))

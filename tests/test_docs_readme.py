@@ -51,26 +51,6 @@ def test_the_index_names_every_document():
         assert path.name == "README.md" or f"({path.name})" in index, path.name
 
 
-UNUSUAL = re.compile(
-    r"like for like|boundary pixel|\bowners?\b|camera certificate|\bulp\b|\bthe sweep\b|\bliteral|"
-    r"\bexercise's?\b|\berrat|\bmanifest\b",
-    re.I,
-)
-
-
-@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.stem)
-def test_the_first_unusual_word_leads_to_the_glossary(path):
-    """Each page says where its words are explained, no later than it needs it."""
-    no_prose = r"^ *```.*?^ *```|`[^`\n]*`|<!--.*?-->|!\[[^\]]*\]"
-    text = re.sub(no_prose, "", DOCUMENTS[path], flags=re.M | re.S)
-    first = UNUSUAL.search(
-        re.sub(r"\]\([^)]*\)", lambda link: "]" + " " * (len(link[0]) - 1), text)
-    )
-    if first and path.stem != "glossary":
-        end = text.find("\n", first.end())
-        assert "glossary.md" in text[:end], first[0]
-
-
 def shown(text: str) -> list[str]:
     """Every `reftrace` line of a text, in a block or in a sentence."""
     blocks = re.findall(r"^ *(?:\$ |\.venv/bin/)?(reftrace .+)$", text, re.M)

@@ -25,7 +25,6 @@ sys.path.pop(0)
 PAGES = {
     "camera_conventions": "cameras.md",
     "causes": "causes.md",
-    "checks": "causes.md",
     "faults": "faults.md",
     "methods": "accuracy.md",
 }

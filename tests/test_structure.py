@@ -194,11 +194,6 @@ def test_blenders_part_neither_prints_nor_ends_a_command():
         assert named.isdisjoint(OF_COMMANDS), file
 
 
-def test_a_circle_is_found():
-    assert circle({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == ["b", "c", "b"]
-    assert circle({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []
-
-
 def test_the_tracer_knows_the_scene_and_nothing_of_blender():
     start = {name for name in whole_graph() if name.split(".")[0] == "tracer"}
     assert start

@@ -87,19 +87,6 @@ def test_a_line_is_one_line_that_steers_nothing(rng, capsys):
     assert capsys.readouterr().out == f"{kept}\n" and shown_by_the_checker(kept) == kept
 
 
-def test_no_message_makes_its_own_plural():
-    """An s that is multiplied by a comparison, or chosen by one."""
-    own = [
-        f"{path.name}:{node.lineno}"
-        for path in ADDON.rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.BinOp)
-        and isinstance(node.left, ast.Constant)
-        and node.left.value in ("s", "es")
-    ]
-    assert not own
-
-
 def test_where_nothing_or_one_thing_was_decided():
     assert sentences(0, {}) == ["no ray comes near a surface: there was nothing to decide"]
     assert re.match("the one pair of a ray and a surface was decided", sentences(1, {})[0])

@@ -95,23 +95,24 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     def _fill(self, frame: Frame, settings: Settings, layer: str, picture: Sequence[Pass]) -> int:
         """Trace a frame and show its picture as it grows; return how many rows are shown."""
         from ..rendering import steps
-        from ..tracer.progress import Left
+        from ..tracer.progress import Meter
 
-        began, left = time.monotonic(), Left()
+        began, meter = time.monotonic(), Meter()
         due = began + SHOW_EVERY
         shown = 0
-        for share in steps(frame.scene, settings, frame):
-            if share < 1 and self.test_break():
+        for event in steps(frame.scene, settings, frame):
+            meter.read(event)
+            if meter.share < 1 and self.test_break():
                 frame.cancel()
                 break
-            self.update_progress(share)
+            self.update_progress(meter.share)
             done = int(frame.rows_done.sum())  # they are done from the lowest upwards
             shown = min(shown, done)  # none is, if what was traced had to be withdrawn
             now = time.monotonic()
             if now > due:
-                seconds = left.seconds(now - began, share)
+                seconds = meter.seconds(now - began)
                 rest = "" if seconds is None else f", {seconds:.0f} s left"
-                self.update_stats("", f"Tracing {int(100 * share)} %{rest}")
+                self.update_stats("", f"Tracing {int(100 * meter.share)} %{rest}")
                 if done > shown:
                     self._show(frame, layer, picture, slice(shown, done))
                     shown = done

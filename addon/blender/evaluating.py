@@ -8,21 +8,22 @@ alone, before it draws.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import bpy
 
 from ..manifest import Manifest
 from ..pictures.certificate import CameraCertificate
 from ..scene import Scene, SceneError
-from ..tracer.signals import check, held
+from ..tracer.signals import held
 from .reading.camera import certify_camera
 from .reading.export import export
 from .temporary import ENGINE, remove
+from .turns import InTurns, T, Turns
 from .values import values_restored
 from .versions import ENGINES
 
@@ -30,10 +31,6 @@ if TYPE_CHECKING:
     from .drawing.judge import Judge
 
 Certified: TypeAlias = tuple[Scene, Manifest, CameraCertificate | None]
-T = TypeVar("T")
-# Work in turns: it is sent an evaluated depsgraph, and yields to have it drawn, saying whether that
-# is not the last picture; it goes on when that is written, and yields for the next evaluation.
-Turns: TypeAlias = Generator[bool, Any, T]
 
 
 def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
@@ -57,7 +54,7 @@ def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
     SceneError
         If Blender draws nothing.
     """
-    turns = _InTurns(work)
+    turns = InTurns(work)
     had_result = bool(_render_results())
     with held(), TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "picture")  # also one of work that has ended
@@ -80,58 +77,7 @@ def _render_results() -> list[Any]:
     return [image for image in bpy.data.images if image.type == "RENDER_RESULT"]
 
 
-class _InTurns(Generic[T]):
-    """Work that is done in turns with Blender.
-
-    Blender's handlers print what is raised in them, and forget it: so it is raised at the end. A
-    signal is heard at the next turn, and ends the work.
-    """
-
-    def __init__(self, work: Turns[T]) -> None:
-        self._work = work
-        self._ended: list[Callable[[], T]] = []
-        self.wants_more = False  # than the picture that is to be drawn
-        self.go_on()
-
-    def go_on(self, depsgraph: Any = None) -> bool:
-        """Do the work's next turn; return whether it has ended."""
-        self.hear()
-        return self._do(lambda: self._work.send(depsgraph))
-
-    def hear(self) -> None:
-        """Have the work end, if a signal was heard."""
-        try:
-            check()
-        except KeyboardInterrupt as interrupt:
-            self.fail(interrupt)
-
-    def fail(self, error: BaseException) -> None:
-        """Have the work fail where it is, unless it has ended."""
-        self._do(lambda: self._work.throw(error))
-
-    def result(self) -> T:
-        """Return what the work returned, or raise what it raised."""
-        return self._ended[0]()
-
-    def _do(self, turn: Callable[[], bool]) -> bool:
-        if not self._ended:
-            self.wants_more = False
-            try:
-                self.wants_more = turn()
-            except StopIteration as stop:
-                value: T = stop.value
-                self._ended.append(lambda: value)
-            except BaseException as raised:
-                error = raised
-                self._ended.append(lambda: _raise(error))
-        return bool(self._ended)
-
-
-def _raise(error: BaseException) -> Any:
-    raise error
-
-
-def _draw_in_window(turns: _InTurns[Any], scene: Any, layer: str) -> None:
+def _draw_in_window(turns: InTurns[Any], scene: Any, layer: str) -> None:
     # Adding a window, area or region to the override crashes Blender (4.3, 5.2).
     with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer]):
         while not turns.go_on(bpy.context.evaluated_depsgraph_get()):
@@ -140,7 +86,7 @@ def _draw_in_window(turns: _InTurns[Any], scene: Any, layer: str) -> None:
                 return
 
 
-def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
+def _render(turns: InTurns[Any], scene: Any, judge: Judge | None) -> None:
     """Render a scene, by the engine of a judge or without a picture.
 
     Blender's operator evaluates the context's scene at its end: it is given an empty one, unless an
@@ -172,7 +118,7 @@ def _render(turns: _InTurns[Any], scene: Any, judge: Judge | None) -> None:
 
 
 @contextmanager
-def _one_frame(turns: _InTurns[Any], scene: Any) -> Iterator[None]:
+def _one_frame(turns: InTurns[Any], scene: Any) -> Iterator[None]:
     """Have each animation that is rendered of a scene be of its one frame, for a while.
 
     It is as long as the work wants. What Blender evaluates has the scene's own range of frames: a

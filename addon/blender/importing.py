@@ -137,7 +137,7 @@ def _lacks(prim: Any, geom: Any) -> Iterator[str]:
         yield f"prim of the type {kind} that is not read"
     if kind == "Mesh":
         if geom.Mesh(prim).GetSubdivisionSchemeAttr().Get() != geom.Tokens.none:
-            yield "subdivision surface of which the cage is read"
+            yield "subdivision surface (its cage is read)"
 
 
 if __name__ == "__main__":

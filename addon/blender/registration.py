@@ -20,8 +20,9 @@ from .ui import (
     study_panels,
     swatches,
 )
+from .ui.blocks import put_back, remember_editors
 from .ui.long_work import OPERATORS, LongWork
-from .ui.results import forget, put_back, remember_editors
+from .ui.results import forget
 
 MODULES = (
     language,

@@ -56,6 +56,17 @@ def pose(rotation: Floats, translation: Floats) -> Floats:
     return out
 
 
+def of_quaternion(w: float, x: float, y: float, z: float) -> Floats:
+    """Return the rotation (3, 3) of a unit quaternion."""
+    return np.array(
+        (
+            (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
+            (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
+            (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
+        )
+    )
+
+
 def camera_from_world(camera: Camera, axes: Floats = OPENCV) -> Floats:
     """Return the matrix that takes world space to a camera space, (4, 4)."""
     return axes @ inverse(camera.world_from_camera)
@@ -118,7 +129,7 @@ def seen_from(
     name: str,
     projection: Projection = PERSPECTIVE,
 ) -> Camera:
-    """Return a camera whose axes may have a scale, which is taken into its window and clip range.
+    """Return a camera; a scale of its axes is taken into its window and clip range.
 
     A ray x right + y up + forward passes the same points if it is divided by forward's length.
 
@@ -170,7 +181,7 @@ def part(camera: Camera) -> Camera:
 
 
 def centred(camera: Camera) -> Camera:
-    """Return an orthographic camera whose shift is in its place: it has the same rays."""
+    """Return an orthographic camera with its shift in its place: it has the same rays."""
     x, y = camera.window.centre
     matrix = camera.world_from_camera.copy()
     matrix[:3, 3] += x * camera.right + y * camera.up

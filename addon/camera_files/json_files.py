@@ -155,7 +155,7 @@ def radians_of(content: Content, key: str, where: str) -> float:
 
 
 def dumped(content: Any) -> str:
-    """Return JSON whose lists of numbers have a line each."""
+    """Return JSON with a line for each list of numbers."""
     text = json.dumps(content, indent=2, allow_nan=False)
     flat = re.sub(r"\[\s+([^][{}]*?)\s+\]", lambda m: f"[{' '.join(m[1].split())}]", text)
     return flat + "\n"

@@ -105,7 +105,7 @@ class _Depths:
 def _clipped_depth(camera: Camera, renderer: Renderer, causes: Causes, where: Bools) -> Floats:
     """Return the depths of surfaces at a distance `figure` from a clip plane, (n,) metres.
 
-    Of the four places that do, it is the one whose bound is nearest to the pixel's.
+    Of the four places that do, it is the one with the bound nearest to the pixel's.
     """
     off, bound = causes.figure[where], causes.allowed[where]
     start, end = camera.clip_start, camera.clip_end

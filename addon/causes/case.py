@@ -43,7 +43,7 @@ class Variant:
     fault: str  # the name of its record in `faults/`, or WHOLE
     scene: Scene
     words: str = ""  # which camera, frame, level...
-    object: str = ""  # whose fault it is, if it is one object's
+    object: str = ""  # that has the fault, if it is one object's
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ class Behind:
 
 
 def without_colors(case: Case) -> Case:
-    """Return a case whose picture shows data: what changes colours alone changes nothing."""
+    """Return a case with a picture of data: what changes colours alone changes nothing."""
     of_colors = Effect.COLOR, Effect.LIGHT
     others = tuple(
         replace(u, effect=Effect.NONE) if u.effect in of_colors else u

@@ -100,10 +100,10 @@ NOT_DECIDABLE = Cause(
     (0.25, 0.3, 0.6),
     warns=True,
     see_through=True,
-    why="So far from the origin, or at such a scale, float32 moves Blender's surfaces by more "
-    "than half a pixel: what Blender shows there proves nothing.",
-    check="The bound of float32's error for the surfaces seen around the pixel is larger than "
-    "that. It depends on the scene, not on the picture.",
+    why="So far from the origin, or at such a scale, float32 moves surfaces by more than half a "
+    "pixel: what the picture shows there proves nothing.",
+    check="The bound of float32's error for the surfaces around the pixel is larger. It depends "
+    "on the scene, not on the picture.",
     never="Any other pixel.",
     advice="move the scene to the origin, or apply the objects' scale",
 )
@@ -114,8 +114,8 @@ UNEXPLAINED = Cause(
     "no check accounts for the difference",
     color=(1.0, 0.0, 0.0),
     why="The picture is wrong there, or it is of another scene than the one that was traced.",
-    check="No other check finds a cause. Where more than 65,536 pixels differ, 16,384 of them are "
-    "asked first; if fewer than 1 % of these have a cause, the others are not asked.",
+    check="No other check finds a cause. Where more than 65,536 pixels differ, the checks look at "
+    "16,384 of them first, and at no others if fewer than 1 % of these have a cause.",
     advice="read the diagnosis, and have one such pixel explained (`reftrace explain`, *Inspect "
     "Pixels*)",
 )

@@ -86,8 +86,8 @@ class PixelCounts(Counts):
     # Some pixels of each cause, spread over all, [x, y] of the region from its lower left.
     examples: Mapping[str, list[list[int]]]
     not_judged: NotJudged
-    behind: BehindCount | None = None  # None: it was not looked at
-    unexplained_shows: Shows | None = None  # whose surfaces unexplained pixels show, if it is known
+    behind: BehindCount | None = None  # None: it was not judged
+    unexplained_shows: Shows | None = None  # owners of unexplained pixels, if known
 
     def to_dict(self) -> dict[str, object]:
         """Return them as JSON can hold them."""

@@ -30,7 +30,7 @@ ROUNDINGS = 8
 # square of that is beyond float32 (measured in 5.2: 1.8444e19 is shown, 1.8449e19 is not).
 LARGEST = float(np.sqrt(np.finfo(np.float32).max)) * (1 - 2.0**-12)
 GROSS = 2.0**-10  # of a weight; of a ground plane of 10 km it is some 2^-19
-MOST = 64  # triangles that are looked at in every pixel, the largest
+MOST = 64  # triangles that are tested in every pixel, the largest
 
 
 def not_decidable(scene: Scene, frame: Frame, farthest: float) -> Bools:

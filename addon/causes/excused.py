@@ -2,7 +2,7 @@
 
 An edge, a depth tie, a clip plane is a reason why float32 *may* show something else. Each pixel
 that rests on one could hide a fault. A few do in every picture; where many do, nobody knows whether
-the two sides agree. So it is of each object: one most of whose pixels do was not judged.
+the two sides agree. So it is of each object: one with most of its pixels excused was not judged.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _TOLD = 3  # of such objects, those with most pixels; the others are counted
 
 
 class Unjudged(NamedTuple):
-    """An object most of whose pixels rest on rounding: it could be wrong, or missing."""
+    """An object that rests on rounding in most of its pixels: it could be wrong, or missing."""
 
     object: str
     pixels: int
@@ -158,7 +158,7 @@ def _unjudged(
 
 
 def _mostly(seen: Integers, where: Bools) -> Iterator[tuple[int, int]]:
-    """Yield each number of `seen` (h, w) most of whose pixels are in `where`, and their count."""
+    """Yield each number of `seen` (h, w) with most of its pixels in `where`, and their count."""
     is_object = seen >= 0
     total = np.bincount(seen[is_object])
     own = np.bincount(seen[is_object & where], minlength=len(total))

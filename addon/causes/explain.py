@@ -84,16 +84,15 @@ class Explained(NamedTuple):
 def explain(case: Case, frame: Frame, at_most: int | None = None) -> Work[Explained]:
     """Find out why the pixels of a traced frame differ, as a comparison and its self-check do.
 
-    With `at_most`, no more differing pixels are looked at: see :func:`find_causes`.
+    With `at_most`, no more differing pixels are checked: see :func:`find_causes`.
     """
     background = None
     if case.curves is not None and not frame.cancelled:
-        finding = find_background(frame, case.picture, case.curves)
-        background = yield from scaled(finding, 0.0, 0.1)
+        background = yield from find_background(frame, case.picture, case.curves)
     if background:
         case = case.before(np.array(background.picture, np.float32))
         frame = yield from scaled(_before(case, frame), 0.1, 0.1)
-    case = yield from scaled(identity.without_contradictions(case, frame), 0.2, 0.05)
+    case = yield from identity.without_contradictions(case, frame)
     causes = yield from scaled(find_causes(case, frame, at_most), 0.25, 0.75)
     return Explained(case, frame, background, causes)
 
@@ -110,9 +109,9 @@ def _before(case: Case, frame: Frame) -> Work[Frame]:
 
 
 def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Causes]:
-    """Give every pixel of a traced frame its cause; yields the share of the work done.
+    """Give every pixel of a traced frame its cause.
 
-    With `at_most`, no more differing pixels are looked at, spread over the picture. The others keep
+    With `at_most`, no more differing pixels are checked, spread over the picture. The others keep
     AGREE, and are in `Causes.passed_over`; no objects in another shade are named.
 
     Where very many differ, some are asked first. If nearly none of these has a cause, something is
@@ -123,14 +122,14 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     picture = unmodelled.as_known(case)
     band = band_of(case.scene, frame, picture.sampling.renderer)
     pixels = OpenPixels(case, frame, picture, out, np.zeros(frame.shape, bool), band)
-    yield from scaled(_open(pixels), 0.0, _OPENING)
-    yield from scaled(unmodelled.check_in_place(pixels), _OPENING, 0.0)
+    yield from _open(pixels)
+    yield from unmodelled.check_in_place(pixels)
     if at_most is not None:
         out.passed_over = _thin(pixels.open, at_most)
         yield from scaled(_checked(pixels, CHECKS), _OPENING, 1 - _OPENING)
     else:
         coloring, *others = CHECKS
-        yield from scaled(_checked(pixels, [coloring]), _OPENING, 0.0)
+        yield from scaled(_checked(pixels, [coloring]), 0.0, _OPENING)
         yield from scaled(_some_first(pixels, others), _OPENING, 1 - _OPENING)
     pixels.give(pixels.open, UNEXPLAINED)
     looking = wrong_behind(case, frame, find_causes)
@@ -138,9 +137,9 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     out.behind = behind if behind.any() else None
     wrong &= out.cause != NOT_TRACED
     out.cause[wrong], out.figure[wrong], out.allowed[wrong] = UNEXPLAINED, np.nan, np.nan
-    yield from scaled(unmodelled.name_drawn(pixels), 1.0, 0.0)
+    yield from unmodelled.name_drawn(pixels)
     if at_most is None:
-        yield from scaled(color.name_shades(pixels), 1.0, 0.0)
+        yield from color.name_shades(pixels)
     return out
 
 
@@ -178,7 +177,7 @@ def _open(pixels: OpenPixels) -> Work[None]:
     else:
         ramp = shading.interpolated(scene, seen)
         finding = other_color(pixels.picture, frame.color, ramp)
-    differ = yield from scaled(finding, 1.0, 0.0)
+    differ = yield from finding
     pixels.open[:] = differ | pixels.picture.other_object(seen)
     pixels.give(np.broadcast_to(~frame.rows_done[:, None], frame.shape), NOT_TRACED)
     # Not only where the pictures differ: a pixel that agrees by accident proves nothing.

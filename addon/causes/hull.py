@@ -18,7 +18,7 @@ import numpy as np
 from ..arrays import Array, Bools, Floats, Places
 from ..tracer.progress import Work
 
-DISTINCT = 16  # the most colours of which all triples are tried
+DISTINCT = 16  # colours, at most, for all triples to be tried
 ITERATIONS = 400  # of Frank and Wolfe: two colours need one, three a few, some very many
 STEP = 1 << 18  # numbers, of all points, that one iteration takes
 
@@ -36,7 +36,7 @@ def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
     weight = np.zeros(points.shape[:2])
     weight[nearest, left] = 1
     for _ in range(ITERATIONS):
-        yield 0.0
+        yield None
         way = target[left] - at
         length = np.sqrt((way**2).sum(axis=-1))
         near = length <= allowed[left]
@@ -57,7 +57,7 @@ def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
     for n in left:
         distinct = np.unique(all_points[:, n], axis=0)[:DISTINCT]
         found[n] = distance_to_triangles(target[n], distinct) <= allowed[n]
-        yield 0.0
+        yield None
     return found
 
 

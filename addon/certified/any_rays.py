@@ -1,7 +1,7 @@
 """Decides rays that are not a camera's: with every triangle, or pair by pair.
 
 They share nothing that could say which triangles they come near: where there are many, a tree of
-boxes does (`tree.py`).
+boxes does (`triangle_tree.py`).
 """
 
 from __future__ import annotations
@@ -10,24 +10,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index
+from ..arrays import Bools, Floats, Index, parts
 from ..certainty import Certainty
 from ..scene import Scene
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics
 from ..tracer.nearest import every_pair
-from ..tracer.progress import Work, result_of
+from ..tracer.progress import Progress, Work, result_of
 from ..tracer.settings import Settings
-from ..tracer.vector import occurring, parts
+from ..tracer.vector import occurring
 from .arithmetic import sound, sound_steps
 from .bounds import FromPoint
 from .exact import IntegerBatch
 from .ladder import Ladder, in_range, sides
 from .many import hits as hits_of
 from .surfaces import SURE, Surfaces
-from .tree import RAYS, Tree
+from .triangle_tree import TriangleTree
 
 _FEW = 1 << 20  # pairs that are tested faster than a tree is made
+_RAYS = 1 << 14  # that go down the tree together
 
 
 def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
@@ -67,13 +68,13 @@ def nearest_hits(
         ladder = Ladder(rays, surfaces, clip)
         for pairs in every_pair(scene, rays, statistics):
             ladder.test(pairs)
-            yield 0.0
+            yield None
         return (yield from ladder.hits(statistics))
-    tree = Tree.of(scene)
+    tree = TriangleTree.of(scene)
     found = []
-    for some in parts(rays.count, RAYS):
-        yield some.start / rays.count
-        own = rays.take(np.arange(rays.count)[some])
+    for some in parts(rays.count, _RAYS):
+        yield Progress(some.start / rays.count)
+        own = rays.take(np.arange(some.start, some.stop))
         ladder = Ladder(own, surfaces, clip)
         for pairs in tree.pairs(own, *clip):
             statistics.pairs_tested += len(pairs.pixel)
@@ -88,6 +89,7 @@ class Decision:
 
     crossed: Bools  # by the ray, moved infinitesimally by the rule, in the clip range
     edge: Bools  # the ray as it is meets its edge or corner exactly
+    along: Bools  # of what is crossed: the ray runs along its normal, D > 0
     exact: Bools  # integers decided
 
 
@@ -114,19 +116,22 @@ def decide(
     """
     every = np.arange(corners.shape[2] if row is None else len(row))
     row = every if row is None else row
-    crossed, edge, undecided = np.zeros((3, len(every)), bool)
+    crossed, edge, along, undecided = np.zeros((4, len(every)), bool)
     with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
         prepared = FromPoint(rays.origins, np.abs(rays.directions), corners.take(row, axis=2))
         sure, possible = sides(prepared, every, rays)
         fractions = prepared.fractions(possible, rays.take(possible))
         _, _, outside, doubt = in_range(fractions, sure, start, end)
     crossed[possible] = ~outside & (doubt == SURE)
+    along[possible] = fractions.denominator > 0
     undecided[possible] = ~outside & (doubt != SURE)
-    for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
+    rest = np.flatnonzero(undecided)
+    for part in (rest[some] for some in parts(len(rest), 4096)):
         used, number = occurring(row[part], corners.shape[2])
         batch = IntegerBatch(rays.take(part), corners.take(used, axis=2), (), start, end)
         found = hits_of(batch, np.arange(len(part)), number)
         for pair, hit in zip(part.tolist(), found, strict=True):
             if hit:
                 crossed[pair], edge[pair] = hit.is_crossed(), hit.on_edge
-    return Decision(crossed, edge, undecided)
+                along[pair] = hit.denominator > 0
+    return Decision(crossed, edge, along, undecided)

@@ -19,6 +19,8 @@ import numpy as np
 
 from ..arrays import Array, Floats
 from ..tracer.progress import Work
+from . import known_results as known
+from .known_results import Case, floats
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -28,94 +30,9 @@ class AssumptionError(RuntimeError):
     """The arithmetic of this thread is not the one that the proof is about."""
 
 
-# Numbers are written as their bits: decimals and powers would pass through the arithmetic that is
-# to be checked, and a comparison of floats may take subnormals for zero, too.
-_ONE, _TWO, _THREE, _INF = 0x3FF0000000000000, 0x4000000000000000, 0x4008000000000000, 0x7FF << 52
-_ABOVE_ONE = _ONE + 1  # 1 + 2^-52
-_NEAR_ONE = 0x3FF0000000400000  # 1 + 2^-30
-_HALF = 0x3FE0000000000000
-_LEAST = 0x1  # 2^-1074
-_NORMAL = 0x0010000000000000  # 2^-1022
-_MINUS = 1 << 63
-_NEAREST, _SMALL, _TINY = "rounding to nearest", "subnormal results", "subnormal operands"
-Case = tuple[str, int, int, int]  # what is checked, x, y, and their result
-
-_ADD: tuple[Case, ...] = (
-    (_NEAREST, _ONE, 0x3CA0000000000000, _ONE),  # 1 + 2^-53
-    (_NEAREST, _ONE, 0x3CB8000000000000, _ONE + 2),  # 1 + 3 2^-53
-    (_NEAREST, _ONE, 0x3CA0000008000000, _ABOVE_ONE),  # 1 + 2^-53 + 2^-78: x87 rounds it twice
-    (_SMALL, 0x0018000000000000, _NORMAL | _MINUS, 0x0008000000000000),
-    (_TINY, _LEAST, _LEAST, 0x2),
-)
-_SUBTRACT: tuple[Case, ...] = (
-    (_NEAREST, _ONE, 0x3C90000000000000, _ONE),  # 1 - 2^-54
-    (_NEAREST, _ONE, 0x3CA8000000000000, _ONE - 2),  # 1 - 3 2^-54
-    (_TINY, _LEAST, _LEAST | _MINUS, 0x2),
-    (_SMALL, 0x0018000000000000, _NORMAL, 0x0008000000000000),
-)
-_MULTIPLY: tuple[Case, ...] = (
-    (_NEAREST, _NEAR_ONE, _NEAR_ONE, 0x3FF0000000800000),
-    (_NEAREST, _ABOVE_ONE, 0x3FF8000000000000, 0x3FF8000000000002),  # 3 / 2 + 3 2^-53
-    (_SMALL, _NORMAL, _HALF, 0x0008000000000000),
-    # 2^-1046 (1 + 2^-30)^2: what has rounded to 53 digits before is a tie.
-    (_SMALL, 0x0170000000400000, 0x3D10000000400000, 0x10000001),
-    (_TINY, _LEAST, 0x43B0000000000000, 0x0090000000000000),  # 2^60
-)
-_DIVIDE: tuple[Case, ...] = (
-    (_NEAREST, _ONE, _THREE, 0x3FD5555555555555),
-    (_NEAREST, _ONE, 0x4024000000000000, 0x3FB999999999999A),  # 1 / 10
-    (_SMALL, _NORMAL, _TWO, 0x0008000000000000),
-    (_TINY, _LEAST, _NORMAL, 0x3CB0000000000000),
-)
-_LARGEST: tuple[Case, ...] = (
-    (_TINY, _LEAST, 0, _LEAST),
-    (_TINY, 0, _LEAST, _LEAST),
-    (_TINY, _LEAST, 0x2, 0x2),
-)
-_LEAST_OF: tuple[Case, ...] = (
-    (_TINY, _LEAST | _MINUS, 0, _LEAST | _MINUS),
-    (_TINY, 0, _LEAST | _MINUS, _LEAST | _MINUS),
-    (_TINY, _LEAST, 0x2, _LEAST),
-)
-_NEXT: tuple[Case, ...] = (
-    (_SMALL, 0, _INF, _LEAST),
-    (_SMALL, _NORMAL, _INF | _MINUS, _NORMAL - 1),
-    (_TINY, _LEAST, _INF, 0x2),
-    (_NEAREST, _ONE, _INF, _ABOVE_ONE),
-    (_NEAREST, _ONE | _MINUS, _INF, (_ONE - 1) | _MINUS),
-)
-_FLOOR: tuple[Case, ...] = (
-    (_TINY, _LEAST | _MINUS, 0, _ONE | _MINUS),
-    (_NEAREST, _ONE - 1, 0, 0),
-    (_NEAREST, _HALF | _MINUS, 0, _ONE | _MINUS),
-)
-_CEIL: tuple[Case, ...] = (
-    (_TINY, _LEAST, 0, _ONE),
-    (_NEAREST, _ABOVE_ONE, 0, _TWO),
-    (_NEAREST, _HALF | _MINUS, 0, _MINUS),
-)
-_LESS: tuple[Case, ...] = (
-    (_TINY, 0, _LEAST, _ONE),
-    (_TINY, _LEAST | _MINUS, 0, _ONE),
-    (_TINY, _LEAST, 0, 0),
-)
-_MANTISSA: tuple[Case, ...] = (
-    (_TINY, _LEAST, 0, _HALF),
-    (_NEAREST, _THREE, 0, 0x3FE8000000000000),
-)
-_POWER: tuple[Case, ...] = (  # of two
-    (_TINY, _LEAST, 0, 0xC090C40000000000),  # -1073
-    (_NEAREST, _THREE, 0, _TWO),
-)
-
-
-def _floats(bits: Sequence[int]) -> Floats:
-    return np.array(bits, np.uint64).view(np.float64)
-
-
 def _at(ufunc: np.ufunc, start: int) -> Callable[[Floats, Floats], Floats]:
     """Return what `ufunc.at` makes of x and y that go to the same places."""
-    first = _floats([start])
+    first = floats([start])
 
     def largest(x: Floats, y: Floats) -> Floats:
         out = first.repeat(len(x))
@@ -129,29 +46,20 @@ def _at(ufunc: np.ufunc, start: int) -> Callable[[Floats, Floats], Floats]:
 
 # By numpy, in arrays.
 _FUNCTIONS: tuple[tuple[Callable[[Floats, Floats], Array], tuple[Case, ...]], ...] = (
-    (np.add, _ADD),
-    (np.subtract, _SUBTRACT),
-    (np.multiply, _MULTIPLY),
-    (np.divide, _DIVIDE),
-    (np.maximum, _LARGEST),
-    (np.minimum, _LEAST_OF),
-    (_at(np.maximum, _INF | _MINUS), _LARGEST),
-    (_at(np.minimum, _INF), _LEAST_OF),
-    (np.nextafter, _NEXT),
-    (lambda x, _: np.floor(x), _FLOOR),
-    (lambda x, _: np.ceil(x), _CEIL),
-    (lambda x, y: np.less(x, y).astype(np.float64), _LESS),
-    (lambda x, _: np.frexp(x)[0], _MANTISSA),
-    (lambda x, _: np.frexp(x)[1].astype(np.float64), _POWER),
-)
-# By Python: an integer made a float, and quotients of integers.
-_INTEGERS: tuple[tuple[str, int, int, int], ...] = (
-    (_NEAREST, (1 << 53) + 1, 1, 0x4340000000000000),
-    (_NEAREST, (1 << 53) + 3, 1, 0x4340000000000002),
-    (_NEAREST, 1, 3, 0x3FD5555555555555),
-    (_NEAREST, 1, 10, 0x3FB999999999999A),
-    (_SMALL, 3, 1 << 1075, 0x2),
-    (_SMALL, (1 << 80) + 1, 1 << 1155, _LEAST),
+    (np.add, known.ADD),
+    (np.subtract, known.SUBTRACT),
+    (np.multiply, known.MULTIPLY),
+    (np.divide, known.DIVIDE),
+    (np.maximum, known.LARGEST),
+    (np.minimum, known.LEAST_OF),
+    (_at(np.maximum, known.INF | known.MINUS), known.LARGEST),
+    (_at(np.minimum, known.INF), known.LEAST_OF),
+    (np.nextafter, known.NEXT),
+    (lambda x, _: np.floor(x), known.FLOOR),
+    (lambda x, _: np.ceil(x), known.CEIL),
+    (lambda x, y: np.less(x, y).astype(np.float64), known.LESS),
+    (lambda x, _: np.frexp(x)[0], known.MANTISSA),
+    (lambda x, _: np.frexp(x)[1].astype(np.float64), known.POWER),
 )
 _LENGTH = 67  # longer than any vector register, and not a multiple of one
 
@@ -172,23 +80,23 @@ def _runs() -> list[_Run]:
         # Cases whose number has no factor in common with a register's reach each of its lanes.
         rows = (cases * _LENGTH)[: _LENGTH + (-_LENGTH % len(cases))]
         checked, x, y, result = zip(*rows, strict=True)
-        expected = _floats(result).tobytes()
-        both = _floats(x), _floats(y)
+        expected = floats(result).tobytes()
+        both = floats(x), floats(y)
         out.append(_Run(function, both, expected, checked))
         if isinstance(function, np.ufunc):
             gaps = tuple(v.repeat(2)[::2] for v in both)
             out.append(_Run(function, gaps, expected, checked))
     for operator, cases in (
-        (float.__add__, _ADD),
-        (float.__sub__, _SUBTRACT),
-        (float.__mul__, _MULTIPLY),
-        (float.__truediv__, _DIVIDE),
-        (int.__truediv__, _INTEGERS),
+        (float.__add__, known.ADD),
+        (float.__sub__, known.SUBTRACT),
+        (float.__mul__, known.MULTIPLY),
+        (float.__truediv__, known.DIVIDE),
+        (int.__truediv__, known.INTEGERS),
     ):
         checked, x, y, result = zip(*cases, strict=True)
         if operator is not int.__truediv__:
-            x, y = (_floats(bits).tolist() for bits in (x, y))
-        out.append(_Run(_one_by_one, (operator, x, y), _floats(result).tobytes(), checked))
+            x, y = (floats(bits).tolist() for bits in (x, y))
+        out.append(_Run(_one_by_one, (operator, x, y), floats(result).tobytes(), checked))
     return out
 
 
@@ -234,12 +142,12 @@ def check_assumptions() -> None:
 
 
 # x, y and x + y; then u, v, w and (u v) w: what is compared is normal, whatever the modes are.
-_SUMS = [_floats(case[1:]).tolist() for case in _ADD[:2]]
+_SUMS = [floats(case[1:]).tolist() for case in known.ADD[:2]]
 _PRODUCTS = [
-    _floats(bits).tolist()
+    floats(bits).tolist()
     for bits in (
-        (_LEAST, 0x43B0000000000000, _ONE, 0x0090000000000000),  # takes a subnormal
-        (_NORMAL, _HALF, _TWO, _NORMAL),  # makes one
+        (known.LEAST, 0x43B0000000000000, known.ONE, 0x0090000000000000),  # takes a subnormal
+        (known.NORMAL, known.HALF, known.TWO, known.NORMAL),  # makes one
     )
 ]
 
@@ -273,7 +181,10 @@ def sound(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def sound_steps(function: Callable[P, Work[T]]) -> Callable[P, Work[T]]:
-    """Have each step of work begin and end so: between two steps, others may do what they like."""
+    """Have each step of work begin and end so: between two steps, others may do what they like.
+
+    A step looks for overflow and NaN itself, without numpy's warnings.
+    """
 
     @wraps(function)
     def checked(*args: P.args, **kwargs: P.kwargs) -> Work[T]:
@@ -282,11 +193,12 @@ def sound_steps(function: Callable[P, Work[T]]) -> Callable[P, Work[T]]:
         while True:
             _check_modes()
             try:
-                share = next(work)
+                with np.errstate(all="ignore"):
+                    event = next(work)
             except StopIteration as stop:
                 _check_modes()
                 return stop.value
             _check_modes()
-            yield share
+            yield event
 
     return checked

@@ -236,5 +236,5 @@ def _sign(value: int, m: Integers, span: Integers, d: Integers, moves: Moves) ->
 
 
 def turning(m: Integers, span: Integers, d: Integers) -> Integers:
-    """Return the vector whose product with a move decides where the ray, not moved, does not."""
+    """Return a vector: its product with a move decides where the ray, not moved, does not."""
     return cross(span, d) if m == ZERO else m

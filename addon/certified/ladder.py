@@ -14,29 +14,23 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..arrays import Bools, Bytes, Floats, Index
-from ..certainty import Certainty, Reason
+from ..certainty import Certainty
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics
 from ..tracer.progress import Work
 from ..tracer.ties import Ties
 from ..tracer.vector import occurring
 from ..tracer.world import Pairs, WorldTriangles
-from . import exact, order
 from .bounds import Fractions, FromPoint, Parallel, plane_fractions
-from .many import hits as hits_of
-from .measures import Prepared
+from .decisions import Decisions, Nearest, one_by_one
 from .reasons import reasons
 from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
-from .ties import seen_and_ties
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -44,12 +38,6 @@ if TYPE_CHECKING:
 # Candidates that are decided at a time, which takes some ten milliseconds.
 BY_ORDER = 1 << 14
 BY_INTEGERS = 1 << 11
-
-Met = list[exact.Hit | None]
-# Whether the first of two candidates is nearer or farther than the second: codes of `order.py`.
-Compare = Callable[[Index, Index], NDArray[np.int8]]
-# Finds the nearest candidate of each ray by comparing; see `one_by_one`.
-Nearest = Callable[[Compare, Index], tuple[Index, Bools, Bools]]
 
 
 class Ladder:
@@ -117,7 +105,7 @@ class Ladder:
         self._surfaces += len(used)
 
     def hits(self, statistics: Statistics, nearest: Nearest | None = None) -> Work[Hits]:
-        """Decide which surface is nearest to each ray, in small steps that all yield 1.
+        """Decide which surface is nearest to each ray, in small steps.
 
         Counts in the statistics why bounds did not decide. `nearest` finds the nearest of
         candidates by their order; `one_by_one` is the default.
@@ -129,17 +117,17 @@ class Ladder:
         decisions = Decisions(hits, self._rays, surfaces, self._clip, self._around)
         some = found.take(np.flatnonzero(clear))
         for _ in decisions.by_bound(some.ray, some.surface):
-            yield 1.0
+            yield None
         for part in found.take(np.flatnonzero(~clear)).by_ray(BY_ORDER):
             with np.errstate(all="ignore"):
                 rest = decisions.by_order(part, nearest or one_by_one)
-            yield 1.0
+            yield None
             for some in rest.by_ray(BY_INTEGERS):
                 with np.errstate(all="ignore"):
                     met, first = decisions.by_integers(some)
                     why = reasons(some, met, first, self._rays, surfaces)
                 statistics.reasons += why
-                yield 1.0
+                yield None
         hits.ties = Ties.joined(decisions.ties)
         statistics.reasons += decisions.reasons
         return hits
@@ -206,137 +194,3 @@ def in_range(
         outside &= np.isfinite(high)
         low = np.where(np.isfinite(high), low, -np.inf)
     return low, high, outside, doubt
-
-
-@dataclass(eq=False)
-class Decisions:
-    """Writes into `hits` what each step decides; `clip` and `around` are those of a `Ladder`."""
-
-    hits: Hits
-    rays: Rays
-    surfaces: Surfaces
-    clip: tuple[float, float]
-    around: Rays
-    reasons: Counter[Reason] = field(default_factory=Counter)  # why bounds did not decide
-    ties: list[Ties] = field(default_factory=list)
-
-    def by_bound(self, ray: Index, surface: Index) -> Iterator[None]:
-        """Write the surfaces that rays certainly meet first, with t and barycentrics, in steps."""
-        surfaces, surface = self.surfaces.only(surface)
-        yield from Prepared(self.around, surfaces).enter(self.hits, ray, surface, self.rays.take)
-
-    def by_order(self, found: Candidates, nearest: Nearest) -> Candidates:
-        """Decide the rays that certainly meet all their candidates, if the order of these is known.
-
-        All candidates of a ray come together. Returns those of the other rays.
-        """
-        if not order.applies(self.around, self.clip[0]):
-            return found
-        doubtful = np.isin(found.ray, found.ray[found.doubt != SURE])
-        rest = found.take(np.flatnonzero(doubtful))
-        found = found.take(np.flatnonzero(~doubtful))
-        if not len(found):
-            return rest
-        # Sorted by name: of several in one plane, the first, which stays, has the lowest name.
-        found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], found.ray)))
-        of_ray = np.cumsum(np.diff(found.ray, prepend=-1) != 0) - 1
-        first, decided, coplanar = nearest(self._compare(found), of_ray)
-        is_decided = decided[of_ray]
-        losers = is_decided.copy()
-        losers[first] = False
-        coplanar &= is_decided
-        self._count_reasons(losers, coplanar)
-        winners = found.take(first[decided])
-        for _ in self.by_bound(winners.ray, winners.surface):
-            pass
-        self.hits.certainty[winners.ray] = Certainty.EXACT
-        has_ties = np.bincount(of_ray, coplanar) > 1
-        self._enter_ties(found.take(np.flatnonzero(coplanar & has_ties[of_ray])))
-        return Candidates.joined((rest, found.take(np.flatnonzero(~is_decided))))
-
-    def _count_reasons(self, losers: Bools, coplanar: Bools) -> None:
-        same_plane = int((losers & coplanar).sum())
-        self.reasons[Reason.COPLANAR] += same_plane
-        self.reasons[Reason.CLOSE] += int(losers.sum()) - same_plane
-
-    def _enter_ties(self, tied: Candidates) -> None:
-        """Note candidates in one plane with the nearest of their ray, sorted by ray."""
-        self.ties.append(Ties.of(tied.ray, *self.surfaces.names(tied.surface)))
-        self.hits.certainty[tied.ray] = Certainty.AMBIGUOUS
-
-    def _compare(self, found: Candidates) -> Compare:
-        """Return what compares two candidates of one ray by their depths."""
-        none = np.zeros_like(found.ray)
-        batch, _, surface = self.surfaces.integers(self.around, none, found.surface)
-
-        def compare(one: Index, other: Index) -> NDArray[np.int8]:
-            rays = self.rays.take(found.ray[other])
-            return order.order_of(self.around, rays, batch, surface[one], surface[other])
-
-        return compare
-
-    def by_integers(self, found: Candidates) -> tuple[Met, Met]:
-        """Decide rays, sorted, with all their candidates, as `definition.py` does.
-
-        Returns the exact hit on each candidate, and the hit that its ray sees.
-        """
-        batch, *pairs = self.surfaces.integers(self.rays, found.ray, found.surface, self.clip)
-        met = hits_of(batch, *pairs)
-        instance, triangle = (v.tolist() for v in self.surfaces.names(found.surface))
-        names = list(zip(instance, triangle, strict=True))
-        starts = np.flatnonzero(np.diff(found.ray, prepend=-1)).tolist()
-        firsts: Met = []
-        tied = []
-        for start, end in zip(starts, [*starts[1:], len(met)], strict=True):
-            ray = int(found.ray[start])
-            hits = [(names[k], hit) for k in range(start, end) if (hit := met[k])]
-            seen, ties = seen_and_ties(hits)
-            self.hits.certainty[ray] = Certainty.AMBIGUOUS if ties else Certainty.EXACT
-            tied += [(ray, *name) for name in sorted(ties)]
-            first = None
-            if seen >= 0:
-                name, first = hits[seen]
-                self.hits.instance[ray], self.hits.triangle[ray] = name
-                self.hits.t[ray] = batch.t(first)
-                self.hits.s[:, ray] = first.weights
-            firsts += [first] * (end - start)
-        ray_of, *name_of = np.array(tied, np.int64).reshape(-1, 3).T
-        self.ties.append(Ties.of(ray_of, *name_of))
-        return met, firsts
-
-
-def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
-    """Find the nearest of each ray's candidates by comparing them one after the other.
-
-    Parameters
-    ----------
-    compare : callable
-        Compares candidates of one ray.
-    of_ray : (c,) int
-        Which ray each candidate is of, counted from 0; they are sorted by it.
-
-    Returns
-    -------
-    first : (r,) int
-        The nearest candidate of each ray.
-    decided : (r,) bool
-        Whether that is certain.
-    tied : (c,) bool
-        Which candidates lie in one plane with the nearest of their ray, itself included.
-    """
-    count = np.bincount(of_ray)
-    begin = np.cumsum(count) - count
-    first = begin.copy()
-    decided = np.ones(len(count), bool)
-    coplanar_with = np.arange(len(of_ray))
-    for number in range(1, int(np.max(count, initial=0))):
-        ray = np.flatnonzero(count > number)
-        other = begin[ray] + number
-        result = compare(first[ray], other)
-        decided[ray[result == order.UNDECIDED]] = False
-        coplanar = result == order.COPLANAR
-        coplanar_with[other[coplanar]] = first[ray[coplanar]]
-        nearer = result == order.FARTHER  # the nearest so far is farther than this one
-        first[ray[nearer]] = other[nearer]
-    # Who was coplanar with a nearest that was beaten since is not so with the one that is left.
-    return first, decided, coplanar_with == first[of_ray]

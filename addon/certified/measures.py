@@ -18,21 +18,20 @@ below 1. Everywhere else integers divide, and each barycentric is rounded once.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Bools, Floats, Index
+from ..arrays import Bools, Floats, Index, parts
 from ..scene import Region, Scene
 from ..tracer.camera import Rays, camera_rays, corner_rays, film_positions
 from ..tracer.frame_measures import PIXELS
 from ..tracer.hits import NOTHING, Hits, Measures, Names
-from ..tracer.vector import Arrays, Vectors, cross, gather, largest, parts
-from ..tracer.world import WorldTriangles, world_corners
+from ..tracer.vector import Arrays, Vectors, cross, gather, largest
 from .arithmetic import sound
 from .quotient import Quotients
-from .surfaces import Surfaces
+from .surfaces import Surfaces, surfaces_of
 
 WITHIN = 2.0**-24  # of the exact barycentrics
 _SHARE = 2.0**-22  # of A S d: where D is less, too few of its digits are right
@@ -219,39 +218,7 @@ class Measured:
         rest = np.flatnonzero((instance != NOTHING) & ~given)
         for part in parts(len(rest), PIXELS):
             at = rest[part]
-            surfaces, surface = _surfaces(self.scene, gather(instance, at), gather(triangle, at))
+            surfaces, surface = surfaces_of(self.scene, gather(instance, at), gather(triangle, at))
             for _ in Prepared(around, surfaces).enter(hits, at, surface, rays_at):
                 pass
         return hits.values
-
-
-def _surfaces(scene: Scene, instance: Names, triangle: Names) -> tuple[Surfaces, Index]:
-    """Return the surfaces of these names, (n,) each, and which of them each is."""
-    planes = Surfaces.planes_of(scene)
-    first = planes.first_plane
-    which, row = _different(instance, triangle)
-    of_mesh = gather(instance, which) < first
-    own = which[of_mesh]
-    names = gather(instance, own), gather(triangle, own)
-    triangles = WorldTriangles(world_corners(scene, *names), *names)
-    on_mesh = len(planes.planes) - 1 + np.cumsum(of_mesh)
-    number = np.where(of_mesh, on_mesh, instance[which] - first)
-    return replace(planes, triangles=triangles), gather(number, row)
-
-
-def _different(instance: Index, triangle: Index) -> tuple[Index, Index]:
-    """Return where different names occur first, and which of these each is.
-
-    In their order: neighbours in the picture are neighbours in memory. Of names that share a place
-    in the table, some may come more than once.
-    """
-    every = np.arange(len(instance), dtype=np.int32)
-    table = np.empty(1 << (2 * len(every)).bit_length(), np.int32)
-    place = (triangle + instance * np.int32(40503)) & (len(table) - 1)
-    table[place[::-1]] = every[::-1]
-    first = gather(table, place)
-    same = (gather(instance, first) == instance) & (gather(triangle, first) == triangle)
-    first = np.where(same, first, every)
-    which = np.flatnonzero(first == every)
-    table[which] = every[: len(which)]
-    return which, gather(table, first)

@@ -16,7 +16,7 @@ import numpy as np
 from ..tracer.camera import camera_rays, corner_rays, film_positions
 from ..tracer.candidates import Plan, candidates, cull
 from ..tracer.hits import Hits, Statistics
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Progress, Work, scaled
 from .arithmetic import sound_steps
 from .ladder import Ladder
 
@@ -73,5 +73,5 @@ def _tile(plan: Plan, tile: Region, ladder: Ladder, statistics: Statistics) -> W
         if pairs is not None:  # else only progress
             statistics.pairs_tested += len(pairs.pixel)
             ladder.test(pairs)
-        yield share
+        yield Progress(share)
     return (yield from ladder.hits(statistics))

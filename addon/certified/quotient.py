@@ -42,9 +42,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index
+from ..arrays import Bools, Floats, Index, parts
 from ..tracer.camera import Rays
-from ..tracer.vector import Vectors, cross, gather, largest, parts
+from ..tracer.vector import Vectors, cross, gather, largest
 
 _CHUNK = 1 << 13  # triangles prepared at a time: their temporaries stay in a core's cache
 _DOT = 2.0**-72

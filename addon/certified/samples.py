@@ -2,7 +2,7 @@
 
 Where n is a power of two, that picture's rays have the bits of the samples' own: a film position in
 its smaller pixels is n times as large, without rounding, and a pixel's size n times as small. So
-the hits are the same, and every triangle is looked at once, not once for each sample.
+the hits are the same, and every triangle is read once, not once for each sample.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def traced_together(
         Returns the hits of a region of a scene, through the centres.
     scene : Scene
     samples : int
-        A power of two, at least 2: so many a direction.
+        Samples a direction: a power of two, at least 2.
     """
     n = samples
     camera = scene.camera

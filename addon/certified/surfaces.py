@@ -10,9 +10,9 @@ import numpy as np
 
 from ..arrays import Bytes, Floats, Index, Integers
 from ..tracer.camera import Rays
-from ..tracer.hits import NOTHING
-from ..tracer.vector import Arrays, occurring
-from ..tracer.world import WorldTriangles
+from ..tracer.hits import NOTHING, Names
+from ..tracer.vector import Arrays, gather, occurring
+from ..tracer.world import WorldTriangles, world_corners
 from . import exact
 
 if TYPE_CHECKING:
@@ -94,3 +94,35 @@ class Surfaces:
         corners = some.triangles.corners
         batch = exact.IntegerBatch(rays.take(which), corners, self.planes, *clip)
         return batch, ray, surface
+
+
+def surfaces_of(scene: Scene, instance: Names, triangle: Names) -> tuple[Surfaces, Index]:
+    """Return the surfaces of these names, (n,) each, and which of them each is."""
+    planes = Surfaces.planes_of(scene)
+    first = planes.first_plane
+    which, row = _different(instance, triangle)
+    of_mesh = gather(instance, which) < first
+    own = which[of_mesh]
+    names = gather(instance, own), gather(triangle, own)
+    triangles = WorldTriangles(world_corners(scene, *names), *names)
+    on_mesh = len(planes.planes) - 1 + np.cumsum(of_mesh)
+    number = np.where(of_mesh, on_mesh, instance[which] - first)
+    return replace(planes, triangles=triangles), gather(number, row)
+
+
+def _different(instance: Index, triangle: Index) -> tuple[Index, Index]:
+    """Return where different names occur first, and which of these each is.
+
+    In their order: neighbours in the picture are neighbours in memory. Of names that share a place
+    in the table, some may come more than once.
+    """
+    every = np.arange(len(instance), dtype=np.int32)
+    table = np.empty(1 << (2 * len(every)).bit_length(), np.int32)
+    place = (triangle + instance * np.int32(40503)) & (len(table) - 1)
+    table[place[::-1]] = every[::-1]
+    first = gather(table, place)
+    same = (gather(instance, first) == instance) & (gather(triangle, first) == triangle)
+    first = np.where(same, first, every)
+    which = np.flatnonzero(first == every)
+    table[which] = every[: len(which)]
+    return which, gather(table, first)

@@ -1,4 +1,4 @@
-"""The options that choose what is looked at in a file, and through which camera."""
+"""The options that choose the scene, the frame and the camera of a file."""
 
 from __future__ import annotations
 
@@ -98,12 +98,12 @@ def add_camera(parser: Parser, sizes: Sequence[Setting] = _SIZES) -> None:
 
 
 def add_parts(parser: Parser) -> None:
-    """Add the option for what is looked at, where no camera looks."""
+    """Add the option for the scene and the frame, where no camera is needed."""
     _add(parser, _PARTS)
 
 
 def _add(parser: Parser, rows: Sequence[Setting]) -> _ArgumentGroup:
-    group = parser.add_argument_group("what is looked at (default: as it was saved)")
+    group = parser.add_argument_group("scene, frame and camera (default: as saved)")
     group.set_defaults(**dict.fromkeys(CAMERA_OPTIONS))
     add_named(group, "--set", rows)
     return group
@@ -116,7 +116,7 @@ _OF_OTHERS = frozenset(".3ds .abc .bvh .collada .dae .dxf .fbx .svg .vrml .wrl .
 def check_kind(path: Path) -> None:
     """Raise a SceneError if there is no such file, or it is of a kind that is not read.
 
-    A .blend is not looked at: it may be open in the Blender that runs this.
+    A .blend is not read: it may be open in the Blender that runs this.
     """
     suffix = path.suffix.lower()
     if suffix == ".blend":

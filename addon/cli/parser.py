@@ -39,7 +39,7 @@ EXIT_CODES_HELP = f"""exit codes:
 
 
 class _Help(RawDescriptionHelpFormatter):
-    """Help whose first line has what is needed alone: the options are listed below it."""
+    """Help with the required arguments alone in its first line; the options are listed below it."""
 
     def add_usage(self, usage: Any, actions: Any, groups: Any, prefix: Any = None) -> None:
         """Leave out what may be left out."""

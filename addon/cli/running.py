@@ -11,11 +11,14 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, redirect_stdout, suppress
-from typing import TextIO
+from contextlib import contextmanager, nullcontext, redirect_stdout, suppress
+from typing import TYPE_CHECKING, Any, TextIO
 
 from ..tracer.signals import check, ended, heard
 from ..wording import show, shown
+
+if TYPE_CHECKING:
+    from ..tracer.progress import Event, Meter
 
 LINE_EVERY = 10.0  # seconds between two lines that say how much is done
 
@@ -45,7 +48,7 @@ def run(work: Callable[[], int], program: str) -> int:
 def _failed(error: Exception, program: str) -> int:
     """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
     from ..errors import EXPECTED, show_traceback, words
-    from ..pictures.picture import SizeError
+    from ..pictures.source import SizeError
     from .parser import INPUT_ERROR, SIZES_DIFFER
 
     said = words(error)
@@ -131,47 +134,51 @@ def meanwhile(words: str) -> Iterator[None]:
 @contextmanager
 def progress_bar(
     clock: Callable[[], float] = time.monotonic,
-) -> Iterator[Callable[[float], None]]:
-    """Show on standard error how much is done, and what is being done.
+) -> Iterator[Callable[[Event], None]]:
+    """Show on standard error how much is done, what is being done, and what is found.
 
     That is a bar on a terminal, if tqdm is there; else a line every LINE_EVERY seconds.
     """
-    from ..tracer.progress import Left, doing
+    from ..tracer.progress import Found, Meter
 
     check()
-    began, left = clock(), Left()
+    began, meter, bar = clock(), Meter(), _bar()
+    lines = 1  # the number of the next one
 
-    def rest(share: float) -> str:
-        seconds = left.seconds(clock() - began, share)
-        return "" if seconds is None else f", {seconds:.0f} s left"
+    def read(event: Event) -> None:
+        nonlocal lines
+        check()
+        meter.read(event)
+        past = clock() - began
+        if isinstance(event, Found) and event.words:
+            _tell(event.words)
+        if bar is not None:
+            bar.set_postfix_str(f"{shown(meter.words)}{_rest(meter, past)}", refresh=False)
+            bar.update(meter.share - bar.n)
+        elif past >= lines * LINE_EVERY:
+            lines = int(past / LINE_EVERY) + 1
+            said = ", ".join(filter(None, (f"{100 * meter.share:3.0f} %", meter.words)))
+            _tell(f"{said} ({past:.0f} s{_rest(meter, past)})")
 
+    with nullcontext() if bar is None else bar:
+        yield read
+
+
+def _bar() -> Any:
+    """Return a bar on a terminal; None where there is no terminal, or no tqdm."""
     try:
         from tqdm import tqdm
     except ImportError:
-        is_bar = False
-    else:
-        is_bar = sys.stderr.isatty()
-    if not is_bar:
-        lines = 1  # the number of the next one
-
-        def tell(share: float) -> None:
-            nonlocal lines
-            check()
-            past = clock() - began
-            if past >= lines * LINE_EVERY:
-                lines = int(past / LINE_EVERY) + 1
-                said = ", ".join(filter(None, (f"{100 * share:3.0f} %", doing(share))))
-                with suppress(OSError):  # nobody reads it
-                    show(f"{said} ({past:.0f} s{rest(share)})", file=sys.stderr)
-
-        yield tell
-        return
+        return None
     layout = "{percentage:3.0f} %|{bar}| {elapsed}{postfix}"
-    with tqdm(total=1.0, bar_format=layout, leave=False) as bar:
+    return tqdm(total=1.0, bar_format=layout, leave=False) if sys.stderr.isatty() else None
 
-        def move(share: float) -> None:
-            check()
-            bar.set_postfix_str(shown(doing(share)) + rest(share), refresh=False)
-            bar.update(share - bar.n)
 
-        yield move
+def _rest(meter: Meter, past: float) -> str:
+    seconds = meter.seconds(past)
+    return "" if seconds is None else f", {seconds:.0f} s left"
+
+
+def _tell(line: str) -> None:
+    with suppress(OSError):  # nobody reads it
+        show(line, file=sys.stderr)

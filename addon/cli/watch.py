@@ -22,7 +22,7 @@ def watched(wait: Callable[[float], bool] | None = None) -> Iterator[None]:
     Parameters
     ----------
     wait : callable, optional
-        Waits so many seconds, or until the block has ended; returns whether it has.
+        Waits for some seconds, or until the block has ended; returns whether it has.
     """
     end = Event()
 

@@ -1,4 +1,4 @@
-"""The result of an animation whose frames are compared one by one."""
+"""The result of an animation, compared frame by frame."""
 
 from __future__ import annotations
 

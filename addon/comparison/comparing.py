@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from ..causes.case import Case, without_colors
@@ -17,7 +16,7 @@ from ..pictures.metrics import boundary, image_metrics
 from ..rendering import steps
 from ..tracer.frame import Frame
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Found, Progress, Work, scaled
 from .comparison import Comparison
 from .mesh_diagnosis import diagnosed as with_mesh_faults
 from .methods import list_methods
@@ -26,36 +25,19 @@ from .methods import list_methods
 _TRACING, _METHODS = 0.4, 0.35
 _CHECKING = 0.8
 _CAUSES = 0.8  # of comparing: the rest is for metrics and counts
+_COMPARING = 0.6  # before a diagnosis, of which nobody knows how long it takes
 
 
-def _not_kept(comparison: Comparison) -> Work[None]:
-    yield 0.0
-
-
-def compared(
-    case: Case,
-    diagnose: bool = False,
-    told: Callable[[Comparison], object] = lambda found: None,
-    kept: Callable[[Comparison], Work[None]] = _not_kept,
-    shares: tuple[float, float] = (0.6, 0.6),
-    literally: bool = False,
-) -> Work[Comparison]:
+def compared(case: Case, diagnose: bool = False, literally: bool = False) -> Work[Comparison]:
     """Diagnose the meshes, trace, compare, check the comparison, and find what is wrong.
 
-    Yields the share of the work done; the caller stops by not asking for more, and has what was
-    kept before.
+    The comparison is found before what is wrong is looked for.
 
     Parameters
     ----------
     case : Case
     diagnose : bool
         Whether to diagnose unexplained pixels, if there are any.
-    told : callable
-        Called with the comparison before the diagnosis starts.
-    kept : callable
-        Makes the step that saves a comparison: run after comparing, and again after diagnosing.
-    shares : (float, float)
-        Shares of the work done when the comparison exists, and when it is saved.
     literally : bool
         Whether the literal textbook's picture is wanted, where it costs little.
 
@@ -64,24 +46,17 @@ def compared(
     SizeError, SceneError, PictureTooLargeError
         As :func:`trace_and_compare`.
     """
-    there, safe = shares
     manifest = yield from with_mesh_faults(case.scene, case.manifest)
     case = replace(case, manifest=manifest)
     work = trace_and_compare(case if case.picture.has_colors else without_colors(case), literally)
-    found = yield from scaled(work, 0.0, there)
-    yield from scaled(kept(found), there, safe - there)
-    if diagnose:
-        found = yield from scaled(diagnosed(found, told=told), safe, 1 - safe)
-        if found.diagnosis:
-            yield from scaled(kept(found), 1.0, 0.0)
-    return found
+    found = yield from scaled(work, 0.0, _COMPARING if diagnose else 1.0)
+    return (yield from diagnosed(found)) if diagnose else found
 
 
 def trace_and_compare(case: Case, literally: bool = False) -> Work[Comparison]:
     """Trace a scene and compare it with the picture, in small steps.
 
-    Yields the share of the work done; the caller stops by not asking for more. `literally` is as
-    :func:`compared` has it.
+    `literally` is as :func:`compared` has it.
 
     Raises
     ------
@@ -97,38 +72,34 @@ def trace_and_compare(case: Case, literally: bool = False) -> Work[Comparison]:
     frame = Frame.empty(case.scene)
     case.picture.check(frame.color.shape)
     rest = 1 - _CHECKING if case.self_check else 1.0
-    tracing = called(steps(case.scene, case.settings, frame, case.tracer), "tracing")
-    yield from scaled(tracing, 0.0, rest * _TRACING)
+    tracing = steps(case.scene, case.settings, frame, case.tracer)
+    yield from scaled(tracing, 0.0, rest * _TRACING, "tracing")
     listing = list_methods(case.scene, case.settings, frame, case.tracer, literally)
-    listing = called(listing, "tracing by the textbook")
-    methods = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
+    share = rest * _METHODS
+    methods = yield from scaled(listing, rest * _TRACING, share, "tracing by the textbook")
     done = rest * (_TRACING + _METHODS)
     found = yield from scaled(compare(case, frame), done, 1 - done)
     return replace(found, methods=methods.rows, literal=methods.literal)
 
 
-def diagnosed(
-    comparison: Comparison,
-    told: Callable[[Comparison], object] = lambda found: None,
-) -> Work[Comparison]:
+def diagnosed(comparison: Comparison, place: str = "") -> Work[Comparison]:
     """Return a comparison with what accounts for its unexplained pixels, if it has any.
 
-    Yields the share of the work done. The verdict stays. `told` hears of the comparison if it has
-    any.
+    It is found without that first, in a `place` that is said. The verdict stays.
     """
     if not comparison.counts.unexplained:
         return comparison
+    yield Found(comparison, f"verdict: {comparison.verdict}{place}; what is wrong is looked for")
     from ..diagnosis.diagnosis import diagnose  # late: the faults take long to import
 
-    told(comparison)
-    case, frame, causes = comparison.case, comparison.frame, comparison.causes
-    work = diagnose(case, frame, causes)
-    found = yield from called(work, "looking for what is wrong", over=False)
+    yield Progress(None, "looking for what is wrong")
+    work = diagnose(comparison.case, comparison.frame, comparison.causes)
+    found = yield from scaled(work, 1.0, None)
     return replace(comparison, diagnosis=found)
 
 
 def compare(case: Case, frame: Frame) -> Work[Comparison]:
-    """Compare a traced frame with the picture; yields the share of the work done.
+    """Compare a traced frame with the picture.
 
     Raises
     ------
@@ -139,20 +110,20 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     """
     case.picture.check(frame.color.shape)
     rest = 1 - _CHECKING if case.self_check else 1.0
-    explaining = called(explain(case, frame), "looking for causes")
-    found = yield from scaled(explaining, 0.0, rest * _CAUSES)
+    found = yield from scaled(explain(case, frame), 0.0, rest * _CAUSES, "looking for causes")
     traced, picture = found.frame, found.case.picture  # both before the picture's own background
     color, *pair = picture.measured_with(traced)
     traced = replace(traced, color=color)
-    measuring = called(image_metrics(*pair), "measuring differences")
-    measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
+    share = rest * (1 - _CAUSES)
+    measuring = image_metrics(*pair)
+    measured = yield from scaled(measuring, rest * _CAUSES, share, "measuring differences")
     identity = picture.identity(traced.instance_index)
-    yield rest
+    yield None
     at_boundary = boundary(traced)
-    yield rest
+    yield None
     features = [str(u) for u in case.manifest.unmodelled]
     counts = count_pixels(found.causes, at_boundary, identity, features)
-    yield rest
+    yield None
     checked: tuple[FaultRow, ...] = ()
     if case.self_check:
         from ..diagnosis.self_check import self_check

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import Colors
 from ..causes.case import Case
-from ..causes.cause import UNEXPLAINED, Causes
+from ..causes.cause import Causes
 from ..causes.checks.background import Background
 from ..causes.checks.color import COLOR
 from ..causes.checks.hidden import HIDDEN
@@ -20,7 +20,7 @@ from ..causes.excused import COMPARABLE, Excused
 from ..causes.explain import BY_NUMBER, CAUSES
 from ..certainty import Certainty
 from ..certified.rounding import rounding
-from ..diagnosis.fault_rows import FaultRow, table
+from ..diagnosis.fault_rows import FaultRow
 from ..manifest import Effect, Manifest
 from ..pictures.curves import ADVICE
 from ..pictures.identity import Identity
@@ -82,9 +82,9 @@ class Comparison:
             return Verdict.DIFFERENCES
         if max(self.counts.not_judged.share, self.excused.share) > COMPARABLE:
             return Verdict.NOT_COMPARABLE
-        return Verdict.WARNINGS if any(self._doubts()) else Verdict.AGREE
+        return Verdict.WARNINGS if any(self.doubts()) else Verdict.AGREE
 
-    def _doubts(self) -> Iterator[str]:
+    def doubts(self) -> Iterator[str]:
         """Yield why the verdict cannot be better than a warning, in a few words each."""
         for feature in self.manifest.unmodelled:
             if feature.effect in (Effect.UNPLACED, Effect.MISSING):
@@ -144,7 +144,7 @@ class Comparison:
             "excused": self.excused.to_dict(),
             "causes": {c.key: c.to_dict() for c in CAUSES},
             "transform": self.causes.transform,
-            "advice": self._advice,
+            "advice": self.advice,
             "shades": [shade._asdict() for shade in self.causes.shades],
             "background": self.background and self.background.to_dict(),
             "hidden": [h._asdict() for h in self.causes.hidden],
@@ -155,6 +155,11 @@ class Comparison:
             "metrics": self.metrics.to_dict(),
             "verdict": self.verdict,
         }
+
+    @property
+    def advice(self) -> str:
+        """What to do about a transform of all colours; empty if there is none."""
+        return ADVICE if self.causes.made_by else ""
 
     def _tracer(self) -> dict[str, object]:
         """Return how the scene was traced, as JSON can hold it."""
@@ -175,107 +180,6 @@ class Comparison:
             "certainty": {c.name.lower(): int((certainty == c).sum()) for c in Certainty},
             "cancelled": self.frame.cancelled,
         }
-
-    def lines(self) -> list[str]:
-        """Return what a person wants to know first, a fact a line."""
-        counts = self.counts
-        settings, traced = self.case.settings, self.frame.statistics
-        return [
-            f"{counts.agree:,} of {counts.total:,} pixels agree with "
-            f"{self.case.picture.source}, {counts.differ:,} differ",
-            *self._of_transform(),
-            *self._of_causes(),
-            *self._evidence(),
-            *(self.diagnosis.lines() if self.diagnosis else ()),
-            *self._of_other_colors(),
-            self._measured(),
-            f"traced {count_of(traced.triangles, 'triangle')} in {traced.seconds:.2f} s "
-            f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
-            "a pixel)",
-            *(row.line() for row in self.methods),
-            *self.required,
-            *table(self.self_check),
-            self._ended(),
-        ]
-
-    def _ended(self) -> str:
-        """Return the verdict, and why it is no better than a warning, or what it leaves out."""
-        said = f"verdict: {self.verdict.in_words(self.counts).lower()}"
-        why: Iterable[str] = ()
-        if self.verdict in (Verdict.WARNINGS, Verdict.NOT_COMPARABLE):
-            why = [doubt for doubt in dict.fromkeys(self._doubts()) if doubt not in said]
-        elif self.background and not self.background.transparent:
-            why = (self.background.unjudged(),)
-        elif presumed := self.case.picture.presumed:
-            why = (presumed,)
-        return f"{said} ({'; '.join(why)})" if why else said
-
-    def _of_transform(self) -> Iterator[str]:
-        """Say which transform of all colours is what is wrong, and what to do about it."""
-        if self._advice:
-            yield f"diagnosis: the picture's colours: {self.causes.transform}"
-            yield f"           what to do: {self._advice}"
-        elif self.causes.transform:
-            yield f"colours: {self.causes.transform}"
-
-    @property
-    def _advice(self) -> str:
-        """What to do about a transform of all colours; empty if there is none."""
-        return ADVICE if self.causes.made_by else ""
-
-    def _of_causes(self) -> Iterator[str]:
-        """Say how many pixels have each cause, and where the first of them are."""
-        for cause, count in self.counts.of_causes():
-            first = self.counts.examples.get(cause.key, ())[:3]
-            at = ", ".join(f"({x}, {y})" for x, y in first)
-            yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
-        if more := self.causes.not_asked:
-            yield f"  (nearly none of those asked first has a cause: {more:,} more were not asked)"
-
-    def _of_other_colors(self) -> Iterator[str]:
-        """Say that most surfaces differ, where no fault was found."""
-        surfaces = self.causes.cause[self.frame.object_index != NOTHING]
-        most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
-        of_colors = self.case.picture.has_colors
-        if most and of_colors and not (self.diagnosis and self.diagnosis.told):
-            yield "most surfaces are shown in other colours than the scene's"
-            yield "           Draw each flat, in those that --colors-out writes"
-
-    def _measured(self) -> str:
-        m = self.metrics
-        x, y = m.largest_difference.pixel
-        most = f"largest difference {m.largest_difference.value:.3g} at pixel ({x}, {y})"
-        if not m.rmse:
-            most = "no difference anywhere"
-        return f"{self.case.picture.measured(m)}, {most}"
-
-    def _evidence(self) -> Iterator[str]:
-        """Say what else was found out about the pixels that differ."""
-        causes, certificate = self.causes, self.case.certificate
-        inside, rim = self.counts.interior, self.counts.boundary
-        yield (
-            f"{inside.differ:,} of {inside.total:,} interior and {rim.differ:,} of "
-            f"{rim.total:,} boundary pixels differ"
-        )
-        if self.case.picture.source.file:
-            words, known = self.case.picture.sampling.renderer.words, self.case.picture.source.known
-            why = f", {known}" if known else ""
-            yield f"a pixel may differ by the rounding of {words}{why} (--excuse renderer)"
-        if self.background:
-            yield self.background.line()
-        if self.empty:
-            yield "the picture is empty: no ray meets anything"
-        yield from self.not_judged()
-        yield from (shade.line() for shade in causes.shades)
-        yield from (f"only one side shows {h}" for h in dict.fromkeys(causes.hidden))
-        shows = self.counts.unexplained_shows
-        if shows and self.counts.unexplained:
-            yield (
-                f"of the unexplained pixels {shows.same_object:,} show the same object in "
-                f"another colour, {shows.other_object:,} another object"
-            )
-        if certificate:
-            yield certificate.line()
 
     def not_judged(self) -> Iterator[str]:
         """Say what share of the picture cannot be judged, why, and what would help."""

@@ -19,7 +19,7 @@ from ..rendering import steps
 from ..study import extremes, tradeoff
 from ..study.trade import Trade
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Progress, Work, scaled
 from ..tracer.settings import Precision, Settings
 from .comparison import Comparison
 
@@ -39,27 +39,30 @@ class Extras:
     left_out: tuple[str, ...] = ()  # sentences: what the page does not have, and why
 
 
+# The words for the work on a field, where the work has none of its own.
+MEANWHILE = {
+    "literal": "tracing by the textbook, literally",
+    "derivations": "deriving examples",
+}
+
+
 def extras(
     comparison: Comparison,
     measure_trade: bool = False,
     measure_extremes: bool = False,
     literal: bool = True,
 ) -> Work[Extras]:
-    """Find out what a page shows beside a comparison; yields the share of the work done.
+    """Find out what a page shows beside a comparison.
 
     Without `literal`, as in an animation, the literal textbook's picture is left out.
     """
     left_out: list[str] = []
-    tracing = called(_literal(comparison, left_out), "tracing by the textbook, literally")
-    derivations = called(_derivations(comparison, left_out), "deriving examples")
-    # Of each field, with its share of the work, roughly.
-    works: dict[str, tuple[Work[object], float]] = {
-        "literal": (tracing, 1.0),
-        "derivations": (derivations, 0.5),
-    }
-    if not literal:
-        del works["literal"]
+    works: dict[str, tuple[Work[object], float]] = {}  # each field's, and its share, roughly
+    if literal:
+        works["literal"] = _literal(comparison, left_out), 1.0
+    else:
         left_out.append("The literal textbook's picture: the pages of frames do without it.")
+    works["derivations"] = _derivations(comparison, left_out), 0.5
     if measure_trade:
         measuring = tradeoff.measure(comparison.scene, name=comparison.manifest.file)
         works["trade"] = measuring, 6.0
@@ -69,7 +72,8 @@ def extras(
     done = 0.0
     found: dict[str, Any] = {}
     for name, (work, share) in works.items():
-        found[name] = yield from scaled(work, done / total, share / total)
+        words = MEANWHILE.get(name, "")
+        found[name] = yield from scaled(work, done / total, share / total, words)
         done += share
     return Extras(**found, left_out=tuple(left_out))
 
@@ -106,5 +110,5 @@ def _derivations(
     wanted = [p for some in comparison.counts.examples.values() for p in some[:DERIVED]]
     for number, (x, y) in enumerate(wanted):
         found[x, y] = derive(scene, x, y, source=comparison.manifest.file)
-        yield number / len(wanted)
+        yield Progress(number / len(wanted))
     return found

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from dataclasses import replace
 
 import numpy as np
 
 from ..manifest import Manifest
 from ..scene import Mesh, Scene
+from ..tracer.progress import Work
 
 
 def diagnose(mesh: Mesh) -> dict[str, int]:
@@ -30,15 +30,12 @@ def diagnose(mesh: Mesh) -> dict[str, int]:
         }
 
 
-def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manifest]:
-    """Return the manifest with a diagnosis of each object's meshes.
-
-    Yields 0 after each mesh: this is the first part of longer work.
-    """
+def diagnosed(scene: Scene, manifest: Manifest) -> Work[Manifest]:
+    """Return the manifest with a diagnosis of each object's meshes."""
     diagnoses = []
     for mesh in scene.meshes:
         diagnoses.append(diagnose(mesh))
-        yield 0.0
+        yield None
     own: dict[str, set[int]] = {}
     for instance in scene.instances:
         own.setdefault(scene.objects[instance.object], set()).add(instance.mesh)

@@ -57,7 +57,7 @@ def list_methods(
     tracer: Tracer | None = None,
     literally: bool = False,
 ) -> Work[Methods]:
-    """Trace a scene with the textbook and certified, too; yields the share of the work done.
+    """Trace a scene with the textbook and certified, too.
 
     Returns a row for the certified tracer (where numpy keeps what the proof assumes), one for the
     textbook in float64, and one for `frame`, which was traced with `settings`, if it is neither.

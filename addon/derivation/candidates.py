@@ -104,7 +104,7 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
 
 
 def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
-    """Return the triangles whose boxes on the film hold the tile's one pixel, each once."""
+    """Return the triangles with a box on the film that holds the tile's one pixel, each once."""
     found: dict[Name, NDArray[np.float64]] = {}
     boxes, boxed, others = _boxes(scene)
     for camera in _both_ways(replace(scene.camera, region=tile)):
@@ -122,9 +122,9 @@ def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
 
 
 def _boxes(scene: Scene) -> tuple[Scene, Places, Places]:
-    """Return a scene of all instances' bounding boxes as one mesh, and whose each is.
+    """Return a scene of all instances' bounding boxes as one mesh, and the instance of each.
 
-    At last the instances whose boxes are not finite in the world, as they overflow.
+    At last the instances with boxes that are not finite in the world, as they overflow.
     """
     local = np.array([np.meshgrid(*mesh.bounds.T, indexing="ij") for mesh in scene.meshes])
     local = local.reshape(-1, 3, 8)[scene.instance_meshes].swapaxes(0, 1)

@@ -74,7 +74,7 @@ def _opening(derivation: Derivation) -> list[Block]:
 
 
 def answer_sentence(derivation: Derivation) -> str:
-    """Return what is seen, in a sentence, and where its t comes from."""
+    """Return the surface that is seen, in a sentence, and where its t comes from."""
     seen, certified = derivation.seen, derivation.certified
     if seen is None:
         return _text("background")

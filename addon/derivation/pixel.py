@@ -163,7 +163,7 @@ def certified_answer(pixel: Pixel) -> Answer:
 
 
 def answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings | None = None) -> Answer:
-    """Return what is seen of these triangles and the pixel's planes, each tested with the ray.
+    """Return the nearest hit of these triangles and the pixel's planes, each tested with the ray.
 
     By default what is proven, as far as this process can prove anything.
     """

@@ -15,7 +15,7 @@ from ..arrays import Colors
 from ..causes.case import Case
 from ..causes.cause import Causes
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work
 from ..wording import count_of
 from .evidence import Evidence
 from .faults import FAULTS
@@ -123,7 +123,7 @@ class Diagnosis:
     guesses: int = 0  # that were tried on the sample
     steps: int = 0  # of work
     seconds: float = 0.0
-    untried: tuple[str, ...] = ()  # faults whose search was not finished: it took too many
+    untried: tuple[str, ...] = ()  # faults with a search that was not finished: it took too many
     left: int = 0  # pixels that nothing accounts for
     regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
     silent: str = ""  # why there was no search, without a full stop
@@ -178,10 +178,10 @@ def diagnose(
     faults: Sequence[AnyFault] | None = None,
     steps: float = STEPS,
 ) -> Work[Diagnosis]:
-    """Look for what accounts for the unexplained pixels; yields the share of the work done.
+    """Look for what accounts for the unexplained pixels.
 
     The frame was traced of the case, and the causes were found of it, all before the picture's own
-    background. If nothing is unexplained, nothing is done. No guess is begun after so many steps.
+    background. If nothing is unexplained, nothing is done. No guess is begun after `steps`.
     """
     evidence = in_its_colors(Evidence(case, frame, causes))
     if not evidence.unexplained.any() or frame.cancelled:
@@ -190,13 +190,11 @@ def diagnose(
     silent = case.picture.silent(frame)
     known = case.picture.faults_of(FAULTS) if faults is None else faults
     guessing = Guessing(() if silent else known, steps)
-    evidence = yield from scaled(with_variants(evidence), 0.0, 0.0)
+    evidence = yield from with_variants(evidence)
     at_first = evidence.unexplained
     told: list[Told] = []
-    for number in range(ROUNDS):
-        finding = accounting(guessing, evidence)
-        half = 0.5**number  # of the work that is left: most ends in the first round
-        chain = yield from scaled(finding, 1 - half, half / 2)
+    for _ in range(ROUNDS):
+        chain = yield from accounting(guessing, evidence)
         if not chain:
             break
         for trials in chain:

@@ -30,7 +30,7 @@ from ..causes.case import PRECISE
 from ..causes.checks.color import find_transform
 from ..pictures.metrics import boundary
 from ..scene import SceneError
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Progress, Work
 from .evidence import FEW, Evidence, Score
 from .faults import FAULTS
 from .faults.fault import TRIED, AnyFault, Effort, Guess
@@ -46,7 +46,7 @@ COMPLETE = 0.75  # the least recall of a guess, in the regions that it touches
 FITTED = 0.9  # that of fitted numbers: a fit of the wrong kind is nearly right in small regions
 LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 SHARE = 0.2  # of the unexplained pixels
-AS_GOOD = 0.98  # of the best gain on the sample: fits below it are not refined once one does it all
+AS_GOOD = 0.98  # of the best gain on the sample: others are not tried once a guess does it all
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
 PROMISING = 0.3  # of the best gain on the sample: guesses below it get no trial
 UNLIKELY = 0.5  # of the least gain: guesses below it in the small sample are dropped
@@ -85,7 +85,6 @@ class Guessing:
         self.steps = 0
         self.guesses = 0
         self.untried: set[str] = set()  # names of faults whose search was not finished
-        self._done, self._of = 0, 1  # faults searched so far, and the total of this round
 
     @property
     def ended(self) -> bool:
@@ -93,10 +92,7 @@ class Guessing:
         return self.steps >= self.limit
 
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
-        """Run work that looks for a fault; None if it, or all work, reaches its limit of steps.
-
-        Yields the share of the faults searched before: nobody knows how long one takes.
-        """
+        """Run work that looks for a fault; None if it, or all work, reaches its limit of steps."""
         last = self.steps + self.limit / PART
         while not self.ended and self.steps < last:
             try:
@@ -105,7 +101,7 @@ class Guessing:
                 found: T = stop.value
                 return found
             self.steps += 1
-            yield self._done / self._of
+            yield None
         work.close()
         self.untried.add(fault.name)
         return None
@@ -113,35 +109,41 @@ class Guessing:
     def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
         """Return guesses tried on the whole picture, the best first.
 
-        Faults without numbers to fit are looked at before the others: where one of them does it
+        Faults without numbers to fit are tried before the others: where one of them does it
         all, a fit that does as well says no more. What may be anything, and cannot be sampled,
-        comes last: it takes most work, and is not told where something exact does as well.
+        comes last: it takes most work, and is not told where something exact does as well. Where a
+        fault of the view accounts for most, no object's is looked for until that is put right.
         """
         unexplained = float(evidence.unexplained.sum())
-        faults = [f for f in self.faults if not (f.everywhere and evidence.of_object)]
+        most = of.unexplained.sum()
+        faults = [
+            f
+            for f in self.faults
+            if not (f.everywhere and evidence.of_object)
+            and _least_with(len(f.numbers) if f.refine else 0) <= most
+        ]
         pool: list[tuple[float, AnyFault, Guess]] = []
         unknown: list[tuple[float, AnyFault, Guess]] = []
         out: list[Trial] = []
-        self._done, self._of = 0, len(faults)
         order = Effort if is_everywhere(evidence) else IN_PLACES
         for number, effort in enumerate(order, 1):
             some = [fault for fault in faults if fault.effort == effort]
-            words = f"{number}/{len(order)}: trying {TRIED[effort][0]}"
-            scored = yield from called(self._scored(evidence, some), words, known=False)
+            of_view = [t for t in out if not t.guess.object and of is evidence]
+            if effort == Effort.OBJECT and any(_may_be_first(of, t) for t in of_view):
+                break
+            yield Progress(None, f"{number}/{len(order)}: trying {TRIED[effort]}")
+            scored = yield from self._scored(evidence, some)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
             known = [one for one in scored if one[1].sampled or not one[1].vague]
             pool += [one for one in known if one[0] < NEARLY * unexplained]
             sure = [one for one in known if one[0] >= NEARLY * unexplained]
-            trying = self._trials_of(evidence, of, sure, MOST_SURE)
-            out += yield from called(trying, words, known=False)
+            out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
             if _is_enough(of, out):
                 break
         else:
-            trying = self._trials_of(evidence, of, pool, MOST_UNSURE)
-            out += yield from called(trying, words, known=False)
+            out += yield from self._trials_of(evidence, of, pool, MOST_UNSURE)
             if not _is_enough(of, out):
-                trying = self._trials_of(evidence, of, unknown, MOST_SURE)
-                out += yield from called(trying, words, known=False)
+                out += yield from self._trials_of(evidence, of, unknown, MOST_SURE)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
     def _scored(
@@ -160,7 +162,6 @@ class Guessing:
                     score = (yield from again) or NONE
                 if score.gain >= _least(evidence):
                     out.append((score.gain, made, guess))
-            self._done += 1
         return out
 
     def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
@@ -195,7 +196,7 @@ class Guessing:
         out: list[Trial] = []
         done: dict[str, int] = {}  # faults with a guess that does it all, in so many numbers
         for gain, fault, guess in (*exact[:most], *vague[:most]):
-            worse = bool(guess.low) and gain < AS_GOOD * best
+            worse = gain < AS_GOOD * best
             longer = not guess.object and len(guess.low) > min(done.values(), default=0)
             if fault.name in done or (done and (worse or longer)):
                 continue
@@ -211,6 +212,11 @@ class Guessing:
 def _least(evidence: Evidence) -> float:
     """Return how many pixels a guess must settle, at least."""
     return float(max(LEAST_SETTLED, SHARE * evidence.unexplained.sum()))
+
+
+def _least_with(numbers: int) -> float:
+    """Return how many pixels a guess with so many fitted numbers must settle, at least."""
+    return LEAST_SETTLED * (1 + numbers / 2)
 
 
 def _may_be_finer(evidence: Evidence, score: Score) -> bool:
@@ -242,26 +248,28 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
     Of two, the first one alone must lose few pixels, and with the second one more must agree.
     """
-    part = 0.5  # of the work that is left: most ends with the first guesses
-    trials = yield from scaled(guessing.trials(evidence, evidence), 0.0, part)
+    trials = yield from guessing.trials(evidence, evidence)
     if best := _best(evidence, trials):
         return [best]
-    for first in trials[:STARTS]:
-        if first.gain < MAIN * evidence.unexplained.sum() or not first.evidence.unexplained.any():
-            continue
-        if first.broken > LOST * first.settled or first.own < COMPLETE:
-            continue
-        looking = guessing.trials(carried(evidence, first), evidence)
-        seconds = yield from scaled(looking, 1 - part, part / 2)
-        part /= 2
-        if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
-            return [[first], best]
-    for first in (yield from scaled(_turned(guessing, evidence), 1 - part, 0.0)):
-        looking = guessing.trials(carried(evidence, first), evidence)
-        seconds = yield from scaled(looking, 1 - part, part / 2)
+    for first in (yield from _turned(guessing, evidence)):
+        seconds = yield from guessing.trials(carried(evidence, first), evidence)
         if best := _best(evidence, seconds):
             return [[first], best]
+    for first in (t for t in trials[:STARTS] if _may_be_first(evidence, t)):
+        seconds = yield from guessing.trials(carried(evidence, first), evidence)
+        if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
+            return [[first], best]
     return []
+
+
+def _may_be_first(evidence: Evidence, trial: Trial) -> bool:
+    """Return whether a second fault may account for what this one leaves."""
+    return bool(
+        trial.gain >= MAIN * evidence.unexplained.sum()
+        and trial.broken <= LOST * trial.settled
+        and trial.own >= COMPLETE
+        and trial.evidence.unexplained.any()
+    )
 
 
 def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
@@ -295,7 +303,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
         t
         for t in trials
         if t.precision >= PRECISE
-        and t.settled >= LEAST_SETTLED * (1 + t.cost / 2)
+        and t.settled >= _least_with(t.cost)
         and t.settled >= SHARE * unexplained
         and min(t.recall, t.own) >= (FITTED if t.cost else COMPLETE)
         and not t.unseen
@@ -329,6 +337,6 @@ def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
     told: dict[str, Trial] = {}
     table = [fault.name for fault in FAULTS]
     place = {t: table.index(t.fault.name) if t.guess.object else 0 for t in alike}
-    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, place[t], -t.gain)):
+    for trial in sorted(alike, key=lambda t: (not t.fault.sums_up, t.cost, place[t], -t.gain)):
         told.setdefault(trial.fault.name, trial)
     return list(told.values())

@@ -2,7 +2,7 @@
 
 Each mesh has a tree of its triangles' boxes in object space, which is kept for as long as the mesh
 is: scenes that share it, and its instances, share the tree. The triangles that are left are tested
-as by any unproven method. Nothing here is proven: what is told was traced again, with proof.
+as by any unproven method. Nothing here is proven: reported faults were traced again, with proof.
 """
 
 from __future__ import annotations
@@ -13,18 +13,20 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Places
+from ..arrays import Bools, Floats, Places, parts
 from ..causes.checks.probe import SOUND
+from ..certified.tree import BoxRays, Crossed, Tree, neighbours
 from ..scene import Mesh, Scene
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits
 from ..tracer.nearest import test_pairs, test_planes
 from ..tracer.progress import Work
 from ..tracer.world import Pairs, WorldTriangles, world_corners
-from .boxes import Crossed, Nodes, crossed, inverted, together, tree
 
 RAYS = 1 << 12  # traced together
 PAIRS = 1 << 22  # of a ray and an instance that are listed together, at most
+TOGETHER = 1 << 15  # pairs of a ray and a triangle that are tested together, about
+SLACK = 1e-9  # of the coordinates, by which boxes are larger
 NEAREST = 2  # instances on a ray that are tested first; then four times as many, and so on
 
 
@@ -32,21 +34,21 @@ NEAREST = 2  # instances on a ray that are tested first; then four times as many
 class Trees:
     """The trees of some scenes: of their meshes, and of the instances of the last one."""
 
-    of_mesh: WeakKeyDictionary[Mesh, Nodes] = field(default_factory=WeakKeyDictionary)
+    of_mesh: WeakKeyDictionary[Mesh, Tree] = field(default_factory=WeakKeyDictionary)
     _last: Scene | None = None
-    _meshes: Nodes = field(default_factory=lambda: together(()))
-    _instances: Nodes = field(default_factory=lambda: together(()))
+    _meshes: Tree = field(default_factory=lambda: Tree.joined(()))
+    _instances: Tree = field(default_factory=lambda: Tree.joined(()))
 
     def trace(self, scene: Scene, rays: Rays) -> Work[Hits]:
         """Return the nearest hit of each of n rays, as :func:`..tracer.nearest.trace_rays`."""
         hits = Hits.none(rays.count)
         test_planes(scene, rays, hits)
-        yield 0.0
+        yield None
         if scene.instances:
             self._prepare(scene)
             together = int(np.clip(PAIRS // len(scene.instances), 64, RAYS))
-            for start in range(0, rays.count, together):
-                some = np.arange(start, min(start + together, rays.count))
+            for part in parts(rays.count, together):
+                some = np.arange(part.start, part.stop)
                 yield from _enter(scene, rays, some, self._meshes, self._instances, hits)
         return hits
 
@@ -58,7 +60,7 @@ class Trees:
             for mesh in scene.meshes:
                 if mesh not in self.of_mesh:
                     self.of_mesh[mesh] = _tree(mesh)
-            self._meshes = together([self.of_mesh[mesh] for mesh in scene.meshes])
+            self._meshes = Tree.joined([self.of_mesh[mesh] for mesh in scene.meshes])
         if last is None or not same or not _same(last.instances, scene.instances):
             self._instances = _instances(scene)
         self._last = scene
@@ -72,32 +74,44 @@ def _same(first: Sequence[object], second: Sequence[object]) -> bool:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def _tree(mesh: Mesh) -> Nodes:
+def _tree(mesh: Mesh) -> Tree:
     corners = mesh.vertices.astype(np.float64)[mesh.triangles]  # (m, 3, 3)
-    return tree(corners.min(axis=1).T, corners.max(axis=1).T)
+    return _tree_of(corners.min(axis=1).T, corners.max(axis=1).T)
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def _instances(scene: Scene) -> Nodes:
+def _instances(scene: Scene) -> Tree:
     """Return the tree of a scene's instances by their boxes in world space."""
     bounds = np.array([mesh.bounds for mesh in scene.meshes])[scene.instance_meshes]  # (k, 2, 3)
     middle, half = bounds.mean(axis=1).T, (bounds[:, 1] - bounds[:, 0]).T / 2
     m = scene.instance_matrices[:3, :3]
     middle = (m * middle).sum(axis=1) + scene.instance_matrices[:3, 3]
     half = (np.abs(m) * half).sum(axis=1)
-    return tree(middle - half, middle + half)
+    return _tree_of(middle - half, middle + half)
+
+
+def _tree_of(low: Floats, high: Floats) -> Tree:
+    """Build the tree of m finite boxes, (3, m) each; rays in object space are rounded."""
+    finite = np.flatnonzero(np.isfinite(low).all(axis=0) & np.isfinite(high).all(axis=0))
+    boxes = np.concatenate((low[:, finite], high[:, finite]))
+    more = SLACK * np.max(np.abs(boxes), initial=0.0)
+    order = neighbours(boxes)
+    items = np.where(order < 0, -1, np.append(finite, -1)[order])
+    boxes[:3] -= more
+    boxes[3:] += more
+    return Tree.of(boxes.take(order, axis=1), items)
 
 
 def _enter(
-    scene: Scene, rays: Rays, some: Places, nodes: Nodes, instances: Nodes, hits: Hits
+    scene: Scene, rays: Rays, some: Places, meshes: Tree, instances: Tree, hits: Hits
 ) -> Work[None]:
     """Find the nearest hits of some rays, testing the instances on each from near to far."""
-    o, d = (np.broadcast_to(v, (3, rays.count))[:, some] for v in (rays.origins, rays.directions))
-    root = np.zeros(len(some), np.intp)
-    found = list(crossed(instances, root, o, inverted(d)))
+    own = BoxRays.of(rays.take(some), -np.inf, np.inf)
+    found = list(instances.crossed(own, np.arange(len(some)), instances.roots.repeat(len(some))))
     if not found:
         return
-    ray, instance, near = (np.concatenate(v) for v in zip(*found, strict=True))
+    ray, instance, near = Crossed.joined(found).arrays()
+    near = np.ldexp(near, -own.exponent[ray])
     order = np.lexsort((near, ray))
     ray, instance, near = ray[order], instance[order], near[order]
     rank = np.arange(len(ray)) - np.searchsorted(ray, ray)
@@ -107,27 +121,29 @@ def _enter(
         if not len(now):
             return
         now = now[rank[now] < first + many]
-        yield from _test(scene, rays, some[ray[now]], instance[now], nodes, hits)
+        yield from _test(scene, rays, some[ray[now]], instance[now], meshes, hits)
         first, many = first + many, 4 * many
 
 
 def _test(
-    scene: Scene, rays: Rays, ray: Places, instance: Places, nodes: Nodes, hits: Hits
+    scene: Scene, rays: Rays, ray: Places, instance: Places, meshes: Tree, hits: Hits
 ) -> Work[None]:
-    """Test each of p rays with one instance: with the triangles whose boxes it crosses."""
+    """Test each of p rays with one instance: with the triangles of all boxes that it crosses."""
     own = rays.take(ray)
     used, number = np.unique(instance, return_inverse=True)
     inverse, regular = _object_from_world(scene.instance_matrices[:3, :, used])
     m = inverse[:, :, number]
     o = (m[:, :3] * own.origins).sum(axis=1) + m[:, 3]
     d = (m[:, :3] * own.directions).sum(axis=1)
-    flat = ~regular[number]  # all its triangles are tested
-    o[:, flat] = 0
-    through = inverted(d)
-    through[:, flat] = 0
-    for pairs in crossed(nodes, nodes.roots[scene.instance_meshes[instance]], o, through):
-        _test_triangles(scene, rays, ray, instance, pairs, hits)
-        yield 0.0
+    mesh = scene.instance_meshes[instance]
+    of_object = BoxRays.of(Rays(o, d), -np.inf, np.inf)
+    flat = ~regular[number]  # nothing is dropped: all its triangles are tested
+    of_object.steep[:, flat] = True
+    of_object.still[:, flat] = False
+    for pairs in meshes.crossed(of_object, np.arange(len(ray)), meshes.roots[mesh]):
+        for part in parts(len(pairs), TOGETHER):
+            _test_triangles(scene, rays, ray, instance, pairs.take(part), hits)
+            yield None
 
 
 def _test_triangles(

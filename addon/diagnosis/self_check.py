@@ -17,10 +17,10 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.cause import AGREE, UNEXPLAINED, Causes
 from ..causes.explain import CAUSES, explain
-from ..pictures.bounds import differing_pixels
+from ..pictures.storage import differing_pixels
 from ..scene import SceneError
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Work, scaled
 from .fault_rows import FaultRow
 from .faults import EXAMPLES
 from .faults.fault import AnyFault, Example
@@ -37,7 +37,7 @@ def self_check(
     causes: Causes,
     examples: Sequence[tuple[AnyFault, Example]] = EXAMPLES,
 ) -> Work[tuple[FaultRow, ...]]:
-    """Make every example of a fault and see what becomes of it; yields the share of the work done.
+    """Make every example of a fault and see what becomes of it.
 
     `case` is the right one, as it was given; `frame` was traced, and `causes` were found of it.
     """
@@ -45,8 +45,8 @@ def self_check(
     part = 1 / len(examples)
     for fault, example in examples:
         words = f"self-check: {example.name.replace('_', ' ')}"
-        checking = called(_checked(case, frame, causes, fault, example), words)
-        row = yield from scaled(checking, len(rows) * part, part)
+        checking = _checked(case, frame, causes, fault, example)
+        row = yield from scaled(checking, len(rows) * part, part, words)
         rows.append(row)
     return tuple(rows)
 
@@ -66,10 +66,8 @@ def _checked(
     changed = _changed(case, frame, wrong, traced)
     if not changed.any():
         return row
-    share = 0.7 / len(SAMPLES)
-    for number, most in enumerate(SAMPLES):
-        explaining = explain(wrong, traced, most)
-        found = (yield from scaled(explaining, 0.3 + number * share, share)).causes
+    for most in SAMPLES:
+        found = (yield from scaled(explain(wrong, traced, most), 0.3, 0.7)).causes
         of_fault = found.cause[changed]
         named = bool(found.transform) and found.transform != causes.transform
         if named or not len(found.passed_over) or (of_fault == UNEXPLAINED).any():

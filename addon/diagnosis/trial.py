@@ -11,12 +11,13 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
-from ..pictures.bounds import differing_pixels, largest_within
+from ..pictures.bounds import largest_within
+from ..pictures.storage import differing_pixels
 from ..rendering import steps
 from ..scene import Scene, SceneError
 from ..tracer import shading
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Work
 from .evidence import Evidence
 from .faults.fault import AnyFault, Guess
 
@@ -78,7 +79,7 @@ def trial_of(
     of: Evidence | None = None,
     promising: bool = False,
 ) -> Work[Trial | None]:
-    """Try a guess on the whole picture; yields the share of the work done.
+    """Try a guess on the whole picture.
 
     `of` is the evidence before other faults were put right, if there are any: what the trial counts
     is of that. None if the guess cannot be tried, or is not promising.
@@ -89,7 +90,7 @@ def trial_of(
         other = fault.assume(case, guess)
         if other is None:
             return None
-        traced = yield from scaled(traced_anew(other, case, frame), 0.0, 0.3)
+        traced = yield from traced_anew(other, case, frame)
         if fault.after is not None:
             color = fault.after(traced.color, guess, evidence)
             traced = replace(frame, color=color.astype(np.float32))
@@ -98,7 +99,7 @@ def trial_of(
             return None
     except (SceneError, MemoryError):  # no such camera or scene can be, or be traced here
         return None
-    explained = yield from scaled(explain(other, traced, LOOKED_AT), 0.3, 0.7)
+    explained = yield from explain(other, traced, LOOKED_AT)
     after = replace(
         evidence, case=explained.case, frame=explained.frame, causes=explained.causes, known={}
     )
@@ -137,7 +138,7 @@ def same_shapes(one: Scene, other: Scene) -> bool:
 
 
 def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
-    """Return whether a guess settles enough pixels by colour alone to be looked at further.
+    """Return whether a guess settles enough pixels by colour alone to be compared further.
 
     The others are left to the checks, which take long where whole pictures differ.
     """

@@ -14,7 +14,7 @@ from ..causes.explain import explain
 from ..rendering import steps
 from ..scene import Scene
 from ..tracer.frame import Frame
-from ..tracer.progress import Share, Work
+from ..tracer.progress import Progress, Work
 from .evidence import Evidence
 from .faults.given import Given
 from .trial import Trial
@@ -52,8 +52,8 @@ def with_variants(evidence: Evidence) -> Work[Evidence]:
     return replace(evidence, variants=others)
 
 
-def _asking(number: int) -> Share:
-    return Share(0.0, f"{number}/{MOST_VARIANTS}: {ASKING}")
+def _asking(number: int) -> Progress:
+    return Progress(None, f"{number}/{MOST_VARIANTS}: {ASKING}")
 
 
 def _look_alike(first: Frame, second: Frame) -> bool:

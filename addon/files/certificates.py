@@ -49,7 +49,7 @@ def _camera(scene: Scene) -> dict[str, Array]:
 
 
 def _surfaces(scene: Scene) -> dict[str, Array]:
-    """Return the vertices and triangles of all meshes, and which are whose."""
+    """Return the vertices and triangles of all meshes, and each instance's range of triangles."""
     vertices = np.cumsum([0, *(len(mesh.vertices) for mesh in scene.meshes)])
     triangles = np.cumsum([0, *(len(mesh.triangles) for mesh in scene.meshes)])
     used = [instance.mesh for instance in scene.instances]

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Array, Colors
+from ..arrays import Array, Colors, parts
 
 _ROWS = 64  # written at a time: several of a file's blocks
 
@@ -69,8 +69,8 @@ def save(
         spec.attribute(note, text)
     file = oiio.ImageOutput.create(str(path))
     written = file and file.open(str(path), spec)
-    for first in range(0, height, _ROWS):
-        end = min(first + _ROWS, height)
+    for some in parts(height, _ROWS):
+        first, end = some.start, some.stop
         rows = [v[height - end : height - first][::-1] for v in pictures.values()]
         part = np.concatenate(rows, axis=-1, dtype=np.float32, casting="unsafe")
         written = written and file.write_scanlines(first, end, 0, part)

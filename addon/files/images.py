@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Array, Bytes, Colors, Floats, by_runs
+from ..arrays import Array, Bytes, Colors, Floats, by_runs, parts
 from . import exr, png
 from .file_kinds import mistaken
 from .png.samples import PngError
@@ -37,8 +37,7 @@ def to_display(color: Floats) -> Bytes:
 
     flat = np.reshape(color, (-1, 4))
     out = np.empty(flat.shape, np.uint8)
-    for start in range(0, len(flat), _TOGETHER):  # temporaries of whole pictures take longer
-        some = slice(start, start + _TOGETHER)
+    for some in parts(len(flat), _TOGETHER):  # temporaries of whole pictures take longer
         out[some] = by_runs(shown, flat[some])
     return out.reshape(np.shape(color))
 
@@ -104,7 +103,7 @@ class StoredPicture:
 
 @dataclass(frozen=True)
 class PictureFile:
-    """A picture file of which the header was read, but no pixel."""
+    """A picture file: its header was read, but no pixel."""
 
     path: Path
     width: int
@@ -177,7 +176,7 @@ def _png_of(path: Path) -> StoredPicture:
 
 @contextmanager
 def _damage_named(path: Path) -> Iterator[None]:
-    """Say of which file a PNG's damage is."""
+    """Add the file's name to the message of a damaged PNG."""
     try:
         yield
     except PngError as error:

@@ -10,7 +10,7 @@ from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index, places
+from ..arrays import Bools, Floats, Index, parts, places
 from ..certainty import Certainty
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions, pixel_size
@@ -18,13 +18,12 @@ from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work
 from ..tracer.shading import positions
-from ..tracer.vector import parts
 from ..tracer.world import depth_ranges
 from .bounds import DECIDABLE, SNAPPING, pixel_error, spread_error
 from .renderers import RASTER, Renderer
 
-_TOGETHER = 1 << 15  # pixels looked at in one step
-_FEW = 16  # fewer than one in 16 pixels are few: they are looked at by themselves
+_TOGETHER = 1 << 15  # pixels bounded in one step
+_FEW = 16  # fewer than one in 16 pixels are few: each is bounded by itself
 _REACH = 1.0  # pixels: a band up to this comes from the 3 x 3 pixels around alone
 _ENDS = 4  # one of so many pixels is few enough to be asked for a bound of the others
 _SLACK = 1 + 2.0**-10  # far above what rounding adds to a bound
@@ -87,15 +86,15 @@ class SampleBand:
             pixel, place = np.unique(around, return_inverse=True)
             largest = self._own(pixel)[place].reshape(9, -1).max(axis=0)
             self.values[row[part], column[part]] = np.maximum(largest, self._least())
-            yield part.start / len(row)
+            yield None
 
     def _find_all(self) -> Work[None]:
         own = np.zeros(self.values.shape)
         for _ in self._frame.measures.steps(slice(None)):
-            yield 0.0
+            yield None
         for part in parts(own.size, _TOGETHER):
             own.flat[part] = self._own(np.arange(own.size)[part])
-            yield part.start / own.size
+            yield None
         smallest = float(np.min(own, where=own > 0, initial=SNAPPING))
         self.values[:] = yield from spread_error(own, self._least(smallest))
 

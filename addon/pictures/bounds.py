@@ -7,12 +7,10 @@ The tracer's own errors in float64 are far below these bounds.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array, Bools, Floats, by_runs, run_starts
-from ..files.images import encoded
+from ..arrays import Array, Floats, parts, run_starts
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
 from ..tracer.hits import Hits
@@ -37,30 +35,12 @@ _FILM = 4
 # A depth buffer has 24 bits; the depth itself comes from a product of 2 terms and a division.
 _DEPTH_STEPS = 5
 
-# The units in the last place, of the larger value, by which colours may differ. Blender hands its
-# viewport's colours over as half floats, 11 bits, and cuts off rather than rounds: 1 reads 0.9995.
-# Next to an edge a window copies them once more, and up to 3 units are missing (measured in 4.3).
-HALF_UNITS = 4
-
-# That copy lets a little of the neighbour through: beside a white pixel, black reads 3 * 2^-14
-# (measured in 4.3). Eight such steps are allowed.
-LEAST_STEP = 8 * 2.0**-14
-
-# The error of a dark colour, as Workbench adds up the logarithms of 1 + a colour in half floats.
-LEAST_SUM = 2.0**-12
-
-# A rasteriser interpolates a colour attribute between corners that it has rounded to 1/256 pixel,
-# by an approximate 1/w: a ramp over a few pixels is off by as much as this (measured 0.0013).
-INTERPOLATED = 2.0**-9
-
-# A writer's own rounding of sRGB's curve, on top of half a level (float32, tables).
-LEVEL_SLACK = 0.02
 
 # Pixels: where Blender's sample may lie farther than this from the centre, whatever is shown proves
 # nothing.
 DECIDABLE = 0.5
 
-_ROWS = 64  # looked at together, at least, so that a step is short in large pictures
+_ROWS = 64  # bounded together, at least, so that a step is short in large pictures
 
 
 def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
@@ -147,88 +127,6 @@ def depth_step(camera: Camera, depth: Floats) -> Floats:
     return _DEPTH_STEPS * step
 
 
-@dataclass(frozen=True)
-class Storage:
-    """How a picture's colours were rounded before they are compared."""
-
-    levels: int = 0  # above 0, of a file that stores sRGB's curve in integers: 255; 0 for floats
-    dither: float = 0.0  # noise that was added, in levels
-    sums: int = 0  # how many samples were added up in half floats; 0 for one
-    opaque: bool = False  # there is no alpha, which is not compared then
-
-
-FLOATS = Storage()
-
-
-def differing(
-    first: Array,
-    second: Array,
-    interpolated: Bools | bool = False,
-    stored: Storage = FLOATS,
-) -> Bools:
-    """Return which pixels of two (..., c) pictures differ by more than :func:`difference` allows.
-
-    What is not finite differs from everything.
-    """
-    if stored.levels:
-        alike = (first == second) & np.isfinite(first)
-    else:  # as much is always allowed, and mostly they are nearer; NaN and infinity are not less
-        with np.errstate(invalid="ignore", over="ignore"):
-            alike = np.abs(first - second) < LEAST_STEP
-    out = ~alike.all(axis=-1)
-    first, second = first[out], second[out]
-    between = np.broadcast_to(interpolated, out.shape)[out]
-    apart, allowed = difference(first, second, between, stored)
-    finite = np.isfinite(first) & np.isfinite(second)
-    out[out] = ~((apart <= allowed) & finite).all(axis=-1)
-    return out
-
-
-def differing_pixels(first: Array, second: Array) -> Bools:
-    """Return which pixels of two pictures (h, w, c) differ, as :func:`differing`: a run at once."""
-    flat = (picture.reshape(-1, picture.shape[-1]) for picture in (first, second))
-    return by_runs(differing, *flat).reshape(first.shape[:-1])
-
-
-def difference(
-    first: Array,
-    second: Array,
-    interpolated: Bools | bool = False,
-    stored: Storage = FLOATS,
-) -> tuple[Floats, Floats]:
-    """Return how far two pictures are apart, and how far rounding may have put them, (..., c).
-
-    Of floats, HALF_UNITS in a half float's last place are allowed, but at least LEAST_STEP, and
-    half a unit for each addition. Of a file with integers, half a level and the noise are allowed
-    in place of that; with 16 bits, HALF_UNITS, too.
-
-    Parameters
-    ----------
-    first, second : (..., c) float
-        Linear colours, or linear RGBA.
-    interpolated : (...) bool
-        Where a colour lies between those of corners, and INTERPOLATED more is allowed.
-    stored : Storage
-        How the second picture was rounded.
-    """
-    levels = stored.levels
-    first, second = first.astype(np.float64), second.astype(np.float64)
-    more = INTERPOLATED * np.asarray(interpolated, dtype=np.float64)[..., None]
-    if levels:
-        first, second = encoded(first), encoded(second)
-    with np.errstate(invalid="ignore"):
-        apart = np.abs(first - second)
-        if levels:  # a half float's units are of (e + 0.055) / 2.4 at most, by the curve's slope
-            halves = HALF_UNITS * 2.0**-10 / 2.4 * (np.maximum(first, second) + 0.055)
-            step = (0.5 + LEVEL_SLACK + stored.dither) / levels
-            return apart, step + (levels > 255) * halves + more
-        size = np.maximum(np.abs(first), np.abs(second))
-        unit = np.spacing(np.minimum(size, 2.0**15).astype(np.float16))  # the last binade
-        unit = unit.astype(np.float64)
-        more = more + stored.sums / 2 * np.maximum(unit, LEAST_SUM)
-        return apart, np.maximum(HALF_UNITS * unit, LEAST_STEP) + more
-
-
 def spread_error(own: Floats, least: float = SNAPPING) -> Work[Floats]:
     """Return the largest error that reaches each pixel, and at `least` that, (h, w).
 
@@ -240,17 +138,17 @@ def spread_error(own: Floats, least: float = SNAPPING) -> Work[Floats]:
     reach = 1
     while True:
         together = max(_ROWS, 2 * reach)
-        for y in range(0, height, together):
-            first = max(0, y - reach)
-            around = own[first : y + together + reach]
+        for part in parts(height, together):
+            first = max(0, part.start - reach)
+            around = own[first : part.stop + reach]
             # Errors that reach this far. Those up to half of it were spread before.
             ring = around > (reach / 2 if reach > 1 else 0)
             ring &= (around <= reach) | (reach >= most)
             if ring.any():
-                largest = largest_within(np.where(ring, around, 0.0), reach)[y - first :]
-                here = band[y : y + together]
+                largest = largest_within(np.where(ring, around, 0.0), reach)[part.start - first :]
+                here = band[part]
                 np.maximum(here, largest[: len(here)], out=here)
-            yield 1.0
+            yield None
         if reach >= most:
             return band
         reach *= 2

@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike
 from ..files.images import PictureFile
 from ..scene import Camera, Scene
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
-from .bounds import Storage
-from .picture import Picture, Source, check_size
+from .picture import Picture
 from .renderers import RENDERERS, Renderer, renderer_of
 from .sampling import Sampling
+from .source import Source, check_size
+from .storage import Storage
 
 
 @dataclass(frozen=True)

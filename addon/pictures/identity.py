@@ -77,7 +77,7 @@ class Owners:
 
     @property
     def known(self) -> Bools:
-        """The pixels whose object is known, (...)."""
+        """The pixels with a known object, (...)."""
         return self.pixels != UNKNOWN
 
     def same(self, instance: Index) -> Bools:

@@ -171,7 +171,7 @@ def automatic_note(whose: str, pair: tuple[str, str]) -> str:
 
 
 def _shown(scene: Scene, owners: Sequence[str]) -> tuple[Integers, Integers]:
-    """Return the colours that objects show, (n, 3) sRGB of 8 bits, and whose each one is, (n,)."""
+    """Return the colours that objects show, (n, 3) sRGB of 8 bits, and the owner of each, (n,)."""
     number = {name: n for n, name in enumerate(dict.fromkeys(owners))}
     found: dict[tuple[int, int, bytes], Colors] = {}
     for instance, owner in zip(scene.instances, owners, strict=False):

@@ -7,50 +7,26 @@ is looked at by itself: the right colour excuses no wrong object, an edge nearby
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import ClassVar, NamedTuple, Self, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..arrays import Array, Bools, Colors, Floats, Index, Integers, Where, by_runs
+from ..arrays import Array, Bools, Colors, Floats, Index, Where, by_runs
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.hits import Hits
-from .bounds import FLOATS, Storage, difference, differing
-from .identity import NOTHING, Identity, Owners
+from .drawn_over import DrawnOver, some
+from .identity import Identity, Owners
 from .metrics import Metrics
 from .sampling import AT_CENTRES, Sampling
+from .source import ANYBODY, Source, check_size
+from .storage import FLOATS, Storage, difference, differing
 
-D = TypeVar("D", bound=np.generic)
 F = TypeVar("F")  # a fault
 Transform = Callable[[Floats], Floats]  # of straight linear RGB
 MAJORITY = 0.5  # the share of what a known curve changes that it must make agree
-
-
-class SizeError(ValueError):
-    """The pictures differ in size: how, then what else can be done where there are options."""
-
-    def __str__(self) -> str:
-        return "".join(self.args)
-
-
-def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
-    """Refuse a picture of another size than the traced one: (h, w) each, or (h, w, c).
-
-    Raises
-    ------
-    SizeError
-        If they differ.
-    """
-    if own != traced:
-        (height, width), (h, w) = own[:2], traced[:2]
-        raise SizeError(
-            f"The picture has {width} x {height} pixels, the traced one {w} x {h}. Render it at "
-            "that size",
-            f", or trace a .blend or a mesh at its own: --set width={width} height={height}",
-        )
 
 
 class Curve(NamedTuple):
@@ -62,46 +38,6 @@ class Curve(NamedTuple):
     key: str = "view_transform"  # the name of its fault, in `faults/`
 
 
-@dataclass(frozen=True)
-class Source:
-    """Who made the picture: one of Blender's engines, or anybody (then it has a file)."""
-
-    name: str = "picture"
-    version: str | None = None
-    file: str = ""
-    known: str = ""  # of a file: how it is known what made it, in words
-    remarks: tuple[str, ...] = ()  # what a file says of its pixels that is not applied
-    settings: dict[str, object] = field(default_factory=dict)
-    what: str = "the picture"  # that its file holds
-
-    def __str__(self) -> str:
-        return f"{self.what} '{self.file}'" if self.file else f"Blender's {self.name} picture"
-
-
-@dataclass(frozen=True, eq=False)
-class DrawnOver:
-    """Features that draw themselves over surfaces, as hair does: where, and what is beneath."""
-
-    feature: Integers  # (...) its index among the unmodelled features, or NOTHING
-    beneath: Colors | None = None  # (..., 4) the colour without these; NaN: not known
-
-    @property
-    def known(self) -> Integers:
-        """The feature that each pixel shows over known surfaces, (...), or NOTHING."""
-        known = self.beneath is not None and np.isfinite(self.beneath).all(axis=-1)
-        return np.where(known, self.feature, np.int32(NOTHING))
-
-    def taken_off(self, color: Colors) -> Colors:
-        """Return colours (..., 4) with those beneath in place of them, where they are known."""
-        if self.beneath is None:
-            return color
-        return np.where((self.known != NOTHING)[..., None], self.beneath, color)
-
-    def at(self, where: Where) -> DrawnOver:
-        """Return some of the pixels."""
-        return DrawnOver(self.feature[where], some(self.beneath, where))
-
-
 @dataclass(frozen=True, eq=False)
 class Picture:
     """The pixels (...) of the other side's picture, or some of them.
@@ -110,8 +46,8 @@ class Picture:
     """
 
     color: Colors  # (..., 4) linear RGBA, alpha premultiplied
-    source: Source = Source()
-    owners: Owners | None = None  # whose surface each pixel shows, if that is known of any
+    source: Source = ANYBODY
+    owners: Owners | None = None  # of each pixel, if that is known of any
     sampling: Sampling = AT_CENTRES
     storage: Storage = FLOATS
     lit: bool = False  # by a light that the tracer does not have: colours prove nothing
@@ -177,7 +113,7 @@ class Picture:
         return self.color is other.color
 
     def measured_with(self, frame: Frame) -> tuple[Colors, Array, Array]:
-        """Return a frame's colours, and those of both sides whose difference is measured.
+        """Return a frame's colours, and the colours of both sides that are measured.
 
         An opaque picture says nothing of alpha.
         """
@@ -293,11 +229,6 @@ class Picture:
     def same_object(self, instance: Index) -> Bools:
         """Return where the object of the instances (...) is known to be shown."""
         return self.owners.same(instance) if self.owners else np.zeros(instance.shape, bool)
-
-
-def some(values: NDArray[D] | None, where: Where) -> NDArray[D] | None:
-    """Index an optional array."""
-    return None if values is None else values[where]
 
 
 def straight(colors: Array) -> Floats:

@@ -1,6 +1,6 @@
 """The base class of the types of cameras: a subclass each, in its own file, with its formulas.
 
-The defaults are those of a camera whose rays all begin in the eye, with a flat film: its picture is
+The defaults are those of a camera with all rays from the eye and a flat film: its picture is
 linear in the film position, and straight lines are straight in it.
 """
 

@@ -20,7 +20,7 @@ from . import folders
 
 
 class SceneCamera(NamedTuple):
-    """A camera of a scene, and points whose places its own program knows."""
+    """A camera of a scene, and points with the places where its own program has them."""
 
     view: View
     points: Floats  # (3, n) world space
@@ -29,7 +29,7 @@ class SceneCamera(NamedTuple):
 
     @classmethod
     def of(cls, camera: Camera, name: str) -> SceneCamera:
-        """Return one of which the tracer alone knows."""
+        """Return a camera that the tracer alone knows."""
         points = known_points(camera)
         film = np.stack(film_of(camera, points)[:2])
         return cls(View(camera, name), points, film, "the tracer's camera")

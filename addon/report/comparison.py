@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from itertools import chain
 from pathlib import Path
@@ -12,12 +12,12 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 
-from ..arrays import Array, Colors
+from ..arrays import Array, Colors, parts
 from ..causes.case import Case
 from ..causes.cause import UNEXPLAINED
 from ..causes.explain import CAUSES
 from ..causes.maps import cause_map
-from ..comparison.comparing import compared
+from ..comparison.comparing import compared, diagnosed
 from ..comparison.comparison import SCHEMA, Comparison
 from ..comparison.extras import Extras
 from ..comparison.extras import extras as find_extras
@@ -25,8 +25,7 @@ from ..comparison.verdict import Verdict
 from ..diagnosis.regions import Region, regions, sides
 from ..files import images, png
 from ..tracer.frame import PASSES
-from ..tracer.progress import Work, called, scaled
-from ..tracer.vector import parts
+from ..tracer.progress import Progress, Work, scaled
 from . import page
 from .folders import replacing, write_json
 
@@ -59,9 +58,9 @@ def write(
         for name, color in zip(PICTURES, colors, strict=True):
             stored[name] = png.encode(images.to_display(color))
             (new / f"{name}.png").write_bytes(stored[name])
-            yield 0.1
+            yield None
         height = comparison.frame.shape[0]
-        yield from scaled(_write_arrays(new / ARRAYS, height, _arrays(comparison)), 0.2, 0.4)
+        yield from _write_arrays(new / ARRAYS, height, _arrays(comparison))
         page.write(new / page.NAME, comparison, extras, stored)
         write_json(new / JSON, comparison.to_dict())
 
@@ -72,27 +71,26 @@ def written(
     diagnose: bool,
     trade: bool = False,
     extremes: bool = False,
-    told: Callable[[Comparison], object] = lambda comparison: None,
     literal: bool = True,
 ) -> Work[Comparison]:
     """Compare, find what else the page shows, and write; then diagnose, and write again.
 
     Who ends it in the midst of the diagnosis has the comparison in the folder without it. If the
-    work fails, a folder without results says why. `told` hears of the comparison before the
-    diagnosis. The page has the literal textbook's picture if that is wanted.
+    work fails, a folder without results says why. The page has the literal textbook's picture if
+    that is wanted.
     """
-    extras: Extras | None = None
-
-    def kept(comparison: Comparison) -> Work[None]:
-        nonlocal extras
-        extras = extras or (yield from find_extras(comparison, trade, extremes, literal))
-        yield from scaled(called(write(folder, comparison, extras), "writing"), 1.0, 0.0)
-
-    shares = (0.2, 0.8) if trade or extremes else (0.5, 0.6)
+    there, safe = (0.2, 0.8) if trade or extremes else (0.5, 0.6)
     with failure_written(folder):
-        comparison = yield from compared(case, diagnose, told, kept, shares, literal)
-    yield 1.0
-    return comparison
+        found = yield from scaled(compared(case, literally=literal), 0.0, there)
+        extras = find_extras(found, trade, extremes, literal)
+        more = yield from scaled(extras, there, safe - there)
+        yield from scaled(write(folder, found, more), safe, 0.0, "writing")
+        if diagnose:
+            found = yield from diagnosed(found, f" ({folder / page.NAME})")
+        if found.diagnosis:
+            yield from scaled(write(folder, found, more), 1.0, 0.0, "writing")
+    yield Progress(1.0)
+    return found
 
 
 def _arrays(comparison: Comparison) -> Iterator[tuple[str, Iterator[Array]]]:
@@ -135,7 +133,7 @@ def _write_arrays(
                 for block in chain([first], blocks):
                     for rows in parts(len(block), _ROWS):
                         file.write(np.ascontiguousarray(block[rows]))
-            yield 0.0
+            yield None
 
 
 class _Deflated:
@@ -146,7 +144,7 @@ class _Deflated:
         self._work: Any = zlib.compressobj(_LEVEL, zlib.DEFLATED, -15)
 
     def compress(self, data: Any) -> bytes:
-        """Return the next part of what is made."""
+        """Return the next part."""
         if self._work is None:
             return b""
         self._made.append(self._work.compress(data))

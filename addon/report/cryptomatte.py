@@ -1,4 +1,4 @@
-"""Writes whose surface each pixel shows as Cryptomatte has it, with the objects' own names.
+"""Writes each pixel's owner as Cryptomatte has it, with the objects' own names.
 
 An object's id is the MurmurHash3 of its name, as a float32 with the same bits; a manifest has the
 names. Each pixel has one object, that of its centre, with a coverage of 1.

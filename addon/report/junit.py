@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 from ..comparison.comparison import Comparison
 from ..comparison.verdict import Verdict
 from ..wording import count_of
+from .lines import ended, lines
 
 _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -60,9 +61,9 @@ def wrong_in(found: Comparison) -> str:
         return (
             f"{count_of(unexplained, 'pixel differs', 'pixels differ')}, and no cause explains it"
         )
-    return found.lines()[-1].removeprefix(f"verdict: {found.verdict}").lstrip(": ") or found.verdict
+    return ended(found).removeprefix(f"verdict: {found.verdict}").lstrip(": ") or found.verdict
 
 
 def of_comparison(name: str, found: Comparison, seconds: float = 0.0) -> Judged:
     """Return a comparison as a thing that was judged: only one that agrees passes."""
-    return Judged(name, wrong_in(found), "\n".join(found.lines()), seconds)
+    return Judged(name, wrong_in(found), "\n".join(lines(found)), seconds)

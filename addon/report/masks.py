@@ -1,7 +1,7 @@
 """Writes a mask of each object that is seen, as PNG and as COCO has them, with its whole extent.
 
 What is seen of an object is proven pixel by pixel, and so is what would be seen of it alone: the
-whole extent, of which other objects may hide a part. Row 0 is the topmost here.
+whole extent, which other objects may hide in part. Row 0 is the topmost here.
 
 References
 ----------

@@ -34,7 +34,7 @@ def data(value: object) -> object:
 
 
 def _drawn(derivation: Derivation) -> dict[str, object]:
-    """Return the float64 steps to what is seen, else to the first candidate; null: not finite."""
+    """Return the float64 steps to the surface seen, else to the first candidate; null: infinite."""
     test = derivation.seen_test or next(iter(derivation.tests), None)
     quantities = (*derivation.camera, *derivation.ray, *(test.quantities if test else ()))
     steps = {q.key: [*map(float, q.values[Arithmetic.FLOAT64])] for q in quantities}

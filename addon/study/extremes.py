@@ -16,7 +16,7 @@ import numpy as np
 from ..certified.definition import definition
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Progress, Work, scaled
 from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 from .scenarios.sweeps import SCENARIOS, Scenario
 from .truth import CERTIFIED, Truth, largest_t_error, pixel_rays, plain_of, sample, truth_of
@@ -110,7 +110,7 @@ def measure(
     judged: int = JUDGED,
     every: Every | None = None,
 ) -> Work[list[ExtremesRow]]:
-    """Trace every scenario at every scale by every method; yields the share of the work done.
+    """Trace every scenario at every scale by every method.
 
     Parameters
     ----------
@@ -133,9 +133,9 @@ def measure(
     rows: list[ExtremesRow] = []
     for done, (scenario, scale) in enumerate(scenes):
         words = f"{scenario.title}, {scenario.scale_name} {written(scale)}"
-        work = called(rows_of(scenario, scale, rays, judged), words)
-        rows += yield from scaled(work, done / len(scenes), 1 / len(scenes))
-    yield 1.0
+        work = rows_of(scenario, scale, rays, judged)
+        rows += yield from scaled(work, done / len(scenes), 1 / len(scenes), words)
+    yield Progress(1.0)
     return rows
 
 

@@ -7,22 +7,21 @@ converged one.
 
 from __future__ import annotations
 
-import time
 import tracemalloc
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from statistics import median
-
-import numpy as np
 
 from ..arrays import Floats
 from ..methods import Method
 from ..rendering import steps
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
-from ..tracer.progress import Work, called, scaled
+from ..tracer.progress import Progress, Work, scaled
 from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
-from .trade import Trade, TradeRow, advice, mark
+from .advice import advice, mark
+from .converged import CONVERGED, CONVERGED_RAYS, converged, coverage_error
+from .trade import Trade, TradeRow
 from .truth import largest_t_error
 
 WIDTH, SAMPLES = 160, 4  # by default: a quarter of a minute for a scene of 20,000 triangles
@@ -42,13 +41,6 @@ SHORT_REPEATS = 4
 SHORT = 0.1  # seconds
 MORE_REPEATS = 7  # where noise does show
 NOISE = 1.05  # the middle of the rounds, in the shortest of them
-
-# Samples a pixel and direction of the converged picture. With 16, a straight edge along the pixels
-# is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are
-# about CONVERGED_RAYS, but at least twice as many as what is held against it.
-CONVERGED = 16
-CONVERGED_RAYS = 4_000_000
-BAND = 1 << 18  # rays of it that are held at a time: some 40 MiB
 
 
 @dataclass(eq=False)
@@ -134,17 +126,17 @@ def measure(
     k = max(2 * samples, min(CONVERGED, int((CONVERGED_RAYS / pixels) ** 0.5)))
     rays = k * k * pixels
     first = rays / (rays + 6 * each)
-    converging = called(converged(choices[0].scene, k), f"tracing {k} × {k} rays a pixel")
-    truth = yield from scaled(converging, 0.0, first)
+    words = f"tracing {k} × {k} rays a pixel"
+    truth = yield from scaled(converged(choices[0].scene, k), 0.0, first, words)
     rows = mark((yield from scaled((every or rows_of)(choices, truth), first, 1 - first)))
     return Trade(name, rows, advice(rows), k)
 
 
 def rows_of(choices: list[Choice], truth: Floats) -> Work[list[TradeRow]]:
     """Measure choices; of a width the certified ones are what the others are held against."""
-    looking = called(_look_at_all(choices, truth), "looking at errors and memory")
-    yield from scaled(looking, 0.0, 1 / 3)
-    yield from scaled(called(_time_all(choices), "taking times"), 1 / 3, 2 / 3)
+    looking = _look_at_all(choices, truth)
+    yield from scaled(looking, 0.0, 1 / 3, "looking at errors and memory")
+    yield from scaled(_time_all(choices), 1 / 3, 2 / 3, "taking times")
     return [choice.row() for choice in choices]
 
 
@@ -172,42 +164,6 @@ def levels(samples: int) -> list[int]:
     return sorted({1 << k for k in range(samples.bit_length())} | {samples})
 
 
-def converged(scene: Scene, samples: int) -> Work[Floats]:
-    """Return the colour of a scene with `samples` x `samples` a pixel, (h, w, 4) linear RGBA.
-
-    That of a picture so many times as large, averaged: the same rays as with `Settings.samples`, in
-    a fraction of the time. It is certified; through a panorama, where that would take long,
-    `watertight` in float64.
-    """
-    is_linear = scene.camera.projection.is_linear
-    settings = Settings(Method.CERTIFIED if is_linear else Method.WATERTIGHT)
-    width, height = scene.camera.width, scene.camera.height
-    out = np.empty((height, width, 4))
-    rows = max(1, BAND // (samples * samples * width))
-    for y in range(0, height, rows):
-        end = min(y + rows, height)
-        region = Region(0, samples * y, samples * width, samples * end)
-        band = replace(scene.camera, width=samples * width, height=samples * height, region=region)
-        part = replace(scene, camera=band)
-        frame = Frame.empty(part)
-        for share in steps(part, settings, frame):
-            yield (y + share * (end - y)) / height
-        blocks = frame.color.reshape(end - y, samples, width, samples, 4)
-        out[y:end] = blocks.mean(axis=(1, 3), dtype=np.float64)
-    return out
-
-
-def coverage_error(color: Floats, truth: Floats) -> float:
-    """Return the root mean square, over pixels and RGBA, of a picture's difference from `truth`.
-
-    A smaller picture (h, w, 4) is enlarged to the size of `truth` first, each pixel as it is.
-    """
-    (h, w), (height, width) = color.shape[:2], truth.shape[:2]
-    y = (2 * np.arange(height) + 1) * h // (2 * height)  # the pixel in which each centre lies
-    x = (2 * np.arange(width) + 1) * w // (2 * width)
-    return float(np.sqrt(np.mean((color[np.ix_(y, x)] - truth) ** 2)))
-
-
 def _look_at_all(choices: list[Choice], truth: Floats) -> Work[None]:
     """Render each once, untimed, for its memory and its errors, the certified ones first."""
     total, done = sum(c.cost for c in choices), 0.0
@@ -231,10 +187,10 @@ def _look(choice: Choice) -> Work[Frame]:
         before = tracemalloc.get_traced_memory()[0]
         frame = Frame.empty(choice.scene)
         # A scene keeps tables once they are made: each row makes its own.
-        for share in steps(replace(choice.scene), choice.settings, frame):
+        for event in steps(replace(choice.scene), choice.settings, frame):
             held, peak = tracemalloc.get_traced_memory()
             choice.peak_bytes = max(choice.peak_bytes, peak - before)
-            yield share
+            yield event
             before += tracemalloc.get_traced_memory()[0] - held  # what others took meanwhile
             tracemalloc.reset_peak()
         return frame
@@ -254,16 +210,11 @@ def _time_all(choices: list[Choice]) -> Work[None]:
         for choice in some if number % 2 == 0 else reversed(some):
             yield from scaled(_repeat(choice), done, choice.cost / total)
             done += choice.cost / total
-    yield 1.0
+    yield Progress(1.0)
 
 
 def _repeat(choice: Choice) -> Work[None]:
     """Render once; only the steps count, not what happens between them."""
-    work = steps(choice.scene, choice.settings, Frame.empty(choice.scene))
-    seconds, share = 0.0, 0.0
-    while share < 1:
-        began = time.perf_counter()
-        share = next(work)
-        seconds += time.perf_counter() - began
-        yield share
-    choice.rounds.append(seconds)
+    frame = Frame.empty(choice.scene)
+    yield from steps(choice.scene, choice.settings, frame)
+    choice.rounds.append(frame.statistics.seconds)

@@ -20,7 +20,7 @@ from ..tracer.candidates import candidates
 from ..tracer.frame import Frame
 from ..tracer.hits import Hits
 from ..tracer.nearest import plan, test_pairs, test_planes
-from ..tracer.progress import Work, scaled
+from ..tracer.progress import Progress, Work, scaled
 from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 
 CERTIFIED = Settings(Method.CERTIFIED)
@@ -37,14 +37,13 @@ class Truth:
 def truth_of(scene: Scene) -> Work[Truth]:
     """Find the truth of a scene."""
     frame = Frame.empty(scene)
-    for share in steps(scene, CERTIFIED, frame):
-        yield 0.5 * share
+    yield from scaled(steps(scene, CERTIFIED, frame), 0.0, 0.5)
     region, rays = scene.camera.region, pixel_rays(scene.camera, CERTIFIED.precision)
     clip = scene.camera.clip_start, scene.camera.clip_end
     count = np.zeros(rays.count, np.int64)
-    made = yield from scaled(plan(scene, CERTIFIED, reach=0.0), 0.5, 0.0)
+    made = yield from plan(scene, CERTIFIED, reach=0.0)
     for share, some in candidates(made, region):
-        yield 0.5 + 0.5 * share
+        yield Progress(0.5 + 0.5 * share)
         if some is not None:
             corners = some.triangles.corners
             crossed = decide(rays.take(some.pixel), corners, *clip, row=some.row).crossed
@@ -65,7 +64,7 @@ def plain_of(scene: Scene, precision: Precision) -> Work[dict[Method, Truth]]:
         test_planes(scene, rays, hits[method])
     made = yield from plan(scene, next(iter(found.values())), reach=0.0)
     for share, some in candidates(made, region):
-        yield share
+        yield Progress(share)
         if some is None:
             continue
         for method, settings in found.items():

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays import Index, Integers
-from .vector import groups, spread
+from ..arrays import Index, Integers, groups
+from .vector import spread
 
 if TYPE_CHECKING:
     from ..scene import Region

@@ -45,8 +45,7 @@ LENGTHS = (0.5, 2.0)  # between which those of the camera's axes are
 _TINY = 2.0**-1000  # added to an error: far above what gradual underflow may lose
 PAIRS = 1 << 15  # pairs tested together: arrays of this length stay in a core's cache
 KEPT = 1 << 17  # triangles of a plan, with their boxes, that are kept from pass to pass: 12 MB
-SAMPLED = 1 << 18  # pairs of a tile that are kept for its next samples: 20 MB with the triangles
-_BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
+BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
 
 
 # A batch's finite triangles, their boxes of pixels, and how many are not finite.
@@ -168,7 +167,7 @@ def cull(
     reach: float,
     settings: Settings | None = None,
 ) -> Work[Plan]:
-    """Find the batches that are in view, and their rows; yields 0, as nothing is traced yet."""
+    """Find the batches that are in view, and their rows."""
     found = []
     rows = []
     kept: list[_Bounded] = []
@@ -184,7 +183,7 @@ def cull(
                 kept.append(bounded)
             found.append(batch)
             rows.append((int(y0[seen].min()), int(y1[seen].max())))
-        yield 0.0
+        yield None
     return Plan(scene, dtype, memory, reach, found, rows, refused, settings, kept)
 
 
@@ -208,7 +207,7 @@ def candidates(
     Pairs number the tile's n pixels row by row from the lowest; or those that are `wanted` (n,), in
     that order.
     """
-    limit = max(1, min(PAIRS, plan.memory // (4 * _BYTES_PER_PAIR)))
+    limit = max(1, min(PAIRS, plan.memory // (4 * BYTES_PER_PAIR)))
     before = None if wanted is None else np.append(0, np.cumsum(wanted, dtype=np.int32))
     work = [number for number, (y0, y1) in enumerate(plan.rows) if y0 < tile.y1 and y1 > tile.y0]
     for done, number in enumerate(work):
@@ -222,34 +221,3 @@ def candidates(
         yield done / len(work), None
         for pixel, row in pairs(bounds[:, inside], tile, limit, before):
             yield done / len(work), Pairs(pixel, row, triangles)
-
-
-class Sampled:
-    """The candidates of a plan's tiles, kept from sample to sample where there are few."""
-
-    def __init__(self, plan: Plan) -> None:
-        self._plan = plan
-        self._tile: Region | None = None
-        self._found: list[tuple[float, Pairs | None]] = []
-
-    def of(self, tile: Region) -> Iterator[tuple[float, Pairs | None]]:
-        """Yield what :func:`candidates` does of a tile."""
-        if tile == self._tile:
-            yield from map(_anew, self._found)
-            return
-        self._tile, self._found = None, []
-        found = []
-        left = min(SAMPLED, self._plan.memory // _BYTES_PER_PAIR)
-        for share, some in candidates(self._plan, tile):
-            left -= len(some.pixel) if some else 0
-            if left >= 0:
-                found.append((share, some))
-            yield _anew((share, some))
-        if left >= 0:
-            self._tile, self._found = tile, found
-
-
-def _anew(found: tuple[float, Pairs | None]) -> tuple[float, Pairs | None]:
-    """Return pairs that do not keep what is gathered of them."""
-    share, some = found
-    return share, some and replace(some)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Array, Bools, Bytes, Colors, Floats, Index, Integers
+from ..arrays import Array, Bools, Bytes, Colors, Floats, Index, Integers, parts
 from ..certainty import Certainty
 from ..scene import Region, Scene
 from . import shading
@@ -21,7 +21,6 @@ from .frame_measures import FrameMeasures
 from .hits import NOTHING, Hits, Measures, Names, Statistics
 from .memory import TRACED, check_memory
 from .ties import Ties
-from .vector import parts
 
 _PIXELS = 1 << 15  # of which something is computed together
 FEW = 8  # fewer than one in 8 pixels are few: their measures are found by themselves
@@ -212,9 +211,7 @@ class Frame:
 
     def _rows(self) -> list[slice]:
         height, width = self.shape
-        return [
-            slice(s.start, min(s.stop, height)) for s in parts(height, max(1, _PIXELS // width))
-        ]
+        return parts(height, max(1, _PIXELS // width))
 
     def depths(self) -> tuple[float, float]:
         """Return the depths of the nearest and the farthest hit, metres; 0 where there is none."""

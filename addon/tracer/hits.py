@@ -104,7 +104,7 @@ class Hits:
 
     @classmethod
     def joined(cls, parts: Sequence[Hits]) -> Hits:
-        """Return the hits of several sets of rays, one after the other, as those of one."""
+        """Concatenate the hits of several sets of rays."""
         if len(parts) == 1:
             return parts[0]
         starts = np.cumsum([0, *map(len, parts)])

@@ -72,7 +72,7 @@ def _free_of_container() -> list[int]:
 
 
 def _free_of_process() -> list[int]:
-    """Return what is left below the process's own limits, which `ulimit -v` and `-d` set."""
+    """Return the bytes left below the process's own limits, which `ulimit -v` and `-d` set."""
     import resource
 
     pages = Path("/proc/self/statm").read_text(encoding="ascii").split()

@@ -11,13 +11,14 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Index, Places
+from ..arrays import Bools, Floats, Index, Places, parts
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import PAIRS, Plan, Sampled, candidates, cull
+from .candidates import PAIRS, Plan, candidates, cull
 from .hits import Hits, Statistics
-from .progress import Work
+from .progress import Progress, Work
+from .sampled import Sampled
 from .settings import Settings
 from .triangle import TESTS, sum_is_1
 from .world import Pairs, batches, world_triangles
@@ -94,7 +95,7 @@ def trace_tile(
                 own = np.flatnonzero(sum_is_1(found.s))
                 _keep_nearest(printed, None, some.pixel[seen[own]], found.take(own))
                 statistics.seconds -= time.perf_counter() - began
-        yield share
+        yield Progress(share)
     if literally:
         began = time.perf_counter()
         literally(tile, printed)
@@ -108,7 +109,7 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
     test_planes(scene, rays, hits)
     for pairs in every_pair(scene, rays, statistics):
         test_pairs(scene, settings, rays, pairs, hits)
-        yield 0.0
+        yield None
     return hits
 
 
@@ -119,8 +120,8 @@ def every_pair(scene: Scene, rays: Rays, statistics: Statistics) -> Iterator[Pai
         triangles = world_triangles(scene, batch, dtype)
         triangles = triangles.take(np.flatnonzero(triangles.finite))
         total = rays.count * len(triangles)
-        for start in range(0, total, PAIRS):
-            number = np.arange(start, min(start + PAIRS, total))
+        for part in parts(total, PAIRS):
+            number = np.arange(part.start, part.stop)
             statistics.pairs_tested += len(number)
             yield Pairs(*np.divmod(number, len(triangles)), triangles)
 
@@ -167,7 +168,7 @@ def within_clip(camera: Camera, t: Floats) -> Bools:
 
 
 def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
-    """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
+    """Enter hits where they are nearer than those before; a pixel may occur more than once."""
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))
         pixel, found = pixel[behind], found.take(behind)

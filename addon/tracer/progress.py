@@ -1,7 +1,8 @@
-"""Long work in small steps: generators that yield the share of the work that is done, 0 to 1.
+"""Long work in small steps: generators that yield events; their value is their result.
 
-The caller decides what to show, and stops the work by not asking for the next step. A share may
-say in words what is being done, and that nobody knows how long it takes.
+An event is `Progress`, where more is known of how far the work is or what it does; `Found`, for a
+result that is there before the end; or nothing: then a step is over. The caller decides what to
+show, and stops the work by not asking for more.
 """
 
 from __future__ import annotations
@@ -11,49 +12,59 @@ import time
 from collections.abc import Callable, Generator, MutableMapping
 from contextlib import closing
 from functools import wraps
-from typing import TYPE_CHECKING, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
     from ..arrays import Array
 
-A = TypeVar("A")
-B = TypeVar("B")
+
+class Progress(NamedTuple):
+    """How far work is, and what is being done."""
+
+    share: float | None  # of the work that is done, 0 to 1; None where nobody knows
+    words: str = ""
+
+
+class Found(NamedTuple):
+    """A result that is there before the work has ended."""
+
+    result: Any
+    words: str = ""  # for who waits at a terminal
+
+
 P = ParamSpec("P")
 T = TypeVar("T")
-Work = Generator[float, None, T]
+Event: TypeAlias = Progress | Found | None
+Work = Generator[Event, None, T]
 ROWS = 128  # a step, of work on the rows of a picture
 LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
 GROWN = 1.1  # times what was said before: an estimate that is more was no estimate
 Steps = Generator[str, None, T]  # each step yields the name of its stage of the work
 
 
-class Share(float):
-    """A share of work, with words for what is being done."""
-
-    doing: str
-    known: bool  # whether it says how long the rest takes
-
-    def __new__(cls, share: float, doing: str, known: bool = True) -> Share:
-        """Make a share of a number and words."""
-        self = super().__new__(cls, share)
-        self.doing = doing
-        self.known = known
-        return self
-
-
-class Left:
-    """How many seconds are left, as far as that is known."""
+class Meter:
+    """Reads events: how far the work is, what it does, and how long the rest takes."""
 
     def __init__(self) -> None:
-        self._least = math.inf  # that was said
+        self.share = 0.0  # never falls
+        self.words = ""
+        self._is_known = False
+        self._least = math.inf  # seconds that were said to be left
 
-    def seconds(self, past: float, share: float) -> float | None:
-        """Return the seconds, by those that are past; None if nobody knows.
+    def read(self, event: Event) -> None:
+        """Take over what an event says."""
+        if isinstance(event, Progress):
+            self.words = event.words
+            self._is_known = event.share is not None
+            self.share = max(self.share, event.share or 0.0)
+
+    def seconds(self, past: float) -> float | None:
+        """Return the seconds that are left, by those that are past; None if nobody knows.
 
         What is returned never grows by more than a tenth.
         """
-        known = not isinstance(share, Share) or share.known
-        left = past * (1 - share) / share if known and share > LEAST_SHARE else math.inf
+        is_known = self._is_known and self.share > LEAST_SHARE
+        left = past * (1 - self.share) / self.share if is_known else math.inf
         if left == math.inf or left > GROWN * self._least:
             return None
         self._least = min(self._least, left)
@@ -71,54 +82,38 @@ def at_once(function: Callable[P, T]) -> Callable[P, Work[T]]:
     return work
 
 
-def doing(share: float) -> str:
-    """Return what is being done, in words; empty where nobody says so."""
-    return share.doing if isinstance(share, Share) else ""
-
-
-def called(work: Work[T], words: str, over: bool = True, known: bool = True) -> Work[T]:
-    """Run work whose steps say in these words what is being done, over what its parts say.
-
-    `known` says whether they tell how long the rest takes, as far as its parts do.
-    """
-
-    def with_words(share: float) -> Share:
-        of_part = share if isinstance(share, Share) else Share(share, "")
-        return Share(share, (not over and of_part.doing) or words, known and of_part.known)
-
-    return mapped(work, with_words)
-
-
-def result_of(work: Work[T], progress: Callable[[float], None] | None = None) -> T:
-    """Run work to its end, call `progress` with every share, and return the result."""
+def result_of(work: Work[T], progress: Callable[[Event], object] | None = None) -> T:
+    """Run work to its end, call `progress` with every event, and return the result."""
     with closing(work):  # it may have changed Blender's data, where progress raises
         while True:
             try:
-                share = next(work)
+                event = next(work)
             except StopIteration as stop:
                 return stop.value
             if progress:
-                progress(share)
+                progress(event)
 
 
-def mapped(work: Generator[A, None, T], of: Callable[[A], B]) -> Generator[B, None, T]:
-    """Run work, and yield a function of what each of its steps yields."""
+def scaled(work: Work[T], start: float, size: float | None, words: str = "") -> Work[T]:
+    """Run work as a part of larger work: the share `size` of it, from the share `start` on.
+
+    Without a size, nobody knows how long it takes. The words stand before its own.
+    """
+    unsaid = bool(words)
     while True:
         try:
-            found = next(work)
+            event = next(work)
         except StopIteration as stop:
             return stop.value
-        yield of(found)
-
-
-def scaled(work: Work[T], start: float, size: float) -> Work[T]:
-    """Run work as a part of larger work: the share `size` of it, from the share `start` on."""
-
-    def of_whole(share: float) -> float:
-        whole = start + size * share
-        return Share(whole, share.doing, share.known) if isinstance(share, Share) else whole
-
-    return mapped(work, of_whole)
+        if event is None and unsaid:
+            event = Progress(0.0)
+        if isinstance(event, Progress):
+            unsaid = False
+            share = None
+            if size is not None and event.share is not None:
+                share = start + size * event.share
+            event = Progress(share, ": ".join(filter(None, (words, event.words))))
+        yield event
 
 
 def by_rows(of: Callable[..., Array], *pictures: Array) -> Work[Array]:
@@ -132,12 +127,12 @@ def by_rows(of: Callable[..., Array], *pictures: Array) -> Work[Array]:
         if bottom == 0:
             made = np.empty((height, *found.shape[1:]), found.dtype)
         made[rows] = found
-        yield bottom / height
+        yield None
     return made
 
 
-def timed(steps: Steps[T], stages: MutableMapping[str, float], share: float = 0.0) -> Work[T]:
-    """Add the seconds of each step to those of its stage; every step yields the same share."""
+def timed(steps: Steps[T], stages: MutableMapping[str, float]) -> Work[T]:
+    """Add the seconds of each step to those of its stage."""
     while True:
         began = time.perf_counter()
         try:
@@ -145,17 +140,4 @@ def timed(steps: Steps[T], stages: MutableMapping[str, float], share: float = 0.
         except StopIteration as stop:
             return stop.value
         stages[stage] = stages.get(stage, 0.0) + time.perf_counter() - began
-        yield share
-
-
-def quiet(work: Work[T]) -> Work[T]:
-    """Run work without numpy's warnings: it looks for overflow and NaN itself."""
-    import numpy as np  # late: Blender registers the add-on without numpy
-
-    while True:
-        try:
-            with np.errstate(all="ignore"):
-                share = next(work)
-        except StopIteration as stop:
-            return stop.value
-        yield share
+        yield None

@@ -16,7 +16,7 @@ from itertools import accumulate
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Floats
+from ..arrays import Floats, parts
 from ..scene import Camera, Region, Scene
 from .camera import Rays, camera_rays, film_positions
 from .coloring import Color
@@ -24,9 +24,8 @@ from .frame import Frame
 from .hits import Hits, Statistics
 from .nearest import TraceBand
 from .nearest import tracer as unproven_tracer
-from .progress import Steps, Work, scaled, timed
+from .progress import Event, Progress, Steps, Work, scaled, timed
 from .settings import Settings
-from .vector import parts
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32
@@ -63,21 +62,23 @@ class Round:
 
 def steps(
     scene: Scene, settings: Settings, frame: Frame, tracer: Tracer = unproven_tracer
-) -> Iterator[float]:
-    """Trace a scene into an empty frame; yields the share of the work done after each step.
+) -> Iterator[Event]:
+    """Trace a scene into an empty frame, in steps.
 
     The caller stops by not asking for more, and then calls `frame.cancel`. What the caller does
     between two steps does not count as time.
     """
     work = _steps(scene, settings, frame, tracer)
     statistics = frame.statistics
-    share: float | None = 0.0
-    while share is not None:
+    while True:
         began = time.perf_counter()
-        share = next(work, None)
-        statistics.seconds += time.perf_counter() - began
-        if share is not None:
-            yield share
+        try:
+            event = next(work)
+        except StopIteration:
+            return
+        finally:
+            statistics.seconds += time.perf_counter() - began
+        yield event
 
 
 def rounds(settings: Settings) -> list[Round]:
@@ -99,7 +100,7 @@ def rays_in_order(camera: Camera, settings: Settings) -> Iterator[tuple[Region, 
                 yield band, offset
 
 
-def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> Iterator[float]:
+def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> Work[None]:
     """Trace a scene band by band, in each of its rounds."""
     statistics = frame.statistics
     statistics.method = settings.method.value
@@ -118,7 +119,7 @@ def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> It
             work = _Band(frame, band, each, shade, together and bool(each.offsets))
             yield from scaled(work.steps(trace_band), done, share)
             done += share
-    yield 1.0
+    yield Progress(1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,8 +152,8 @@ class _Band:
             other = yield from scaled(trace_band(self.region, *offset), *own)
             for part in parts(len(hits), PIXELS // 2):
                 color[part] += self._shaded(other.take(part), part, offset) / len(offsets)
-                yield min(sum(own), 1.0)
-        yield from timed(self._write(hits, color), self.frame.statistics.stages, 1.0)
+                yield None
+        yield from timed(self._write(hits, color), self.frame.statistics.stages)
 
     def _shares(self) -> tuple[list[float], list[float]]:
         """Return where the work on the centres and on each sample begins, and their shares."""
@@ -206,7 +207,7 @@ def tiles(camera: Camera) -> list[Region]:
 def bands(camera: Camera, settings: Settings) -> list[Region]:
     """Split the camera's region into bands that are traced together, from the lowest.
 
-    The higher they are, the less often a triangle is looked at. They are limited by memory, and by
+    The higher they are, the less often a triangle is read. They are limited by memory, and by
     the wish to see the picture grow where a pixel has many samples or every triangle is tested.
     """
     pixels = settings.memory // BYTES_PER_PIXEL

@@ -9,13 +9,13 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Bools, Index
-from .vector import groups, spread
+from ..arrays import Bools, Index, groups
+from .vector import spread
 
 Name = tuple[int, int]  # instance and triangle
 
 
-_TOGETHER = 1 << 17  # rows of ties looked at together
+_TOGETHER = 1 << 17  # rows of ties compared together
 
 
 @dataclass(frozen=True, eq=False)

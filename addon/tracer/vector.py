@@ -1,6 +1,6 @@
 """Vectors as component-first arrays, (3, n), so that formulas read as in the textbook.
 
-And helpers for records of arrays, and for working on a part of an array at a time.
+And records of arrays.
 
 Every operation is an explicit elementwise one. A matrix product or einsum may round the same
 vertex differently in arrays of different length, which would tear shared vertices apart.
@@ -43,7 +43,7 @@ def gather(values: NDArray[D], index: Index) -> NDArray[D]:
 
 @dataclass(frozen=True, eq=False)
 class Arrays:
-    """A record of arrays whose last axis counts the same things."""
+    """A record of arrays; the last axis of each counts the same things."""
 
     def arrays(self) -> list[Array]:
         """Return the arrays in the order of the record's fields."""
@@ -82,25 +82,6 @@ class Arrays:
                 count = 0
         if some:
             yield cls.joined(some)
-
-
-def parts(count: int, size: int) -> list[slice]:
-    """Split `count` items into parts of at most `size`."""
-    return [slice(first, first + size) for first in range(0, count, size)]
-
-
-def groups(counts: Index, limit: int) -> Iterator[tuple[int, int]]:
-    """Yield the ends of groups of items with a sum of `counts` of at most `limit`.
-
-    An item with a larger count is a group by itself.
-    """
-    ends = np.cumsum(counts)
-    start = 0
-    while start < len(ends):
-        done = ends[start - 1] if start else 0
-        end = max(start + 1, int(np.searchsorted(ends, done + limit, side="right")))
-        yield start, end
-        start = end
 
 
 def grouped(number: Index, count: int) -> list[NDArray[np.intp]]:

@@ -18,7 +18,7 @@ from reference_tracer.projections import PERSPECTIVE
 from reference_tracer.rendering import render, trace
 from reference_tracer.scene import Mesh, Scene
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.progress import Work, scaled
+from reference_tracer.tracer.progress import Progress, Work, scaled
 from reference_tracer.tracer.settings import Settings
 
 from . import memory
@@ -65,7 +65,7 @@ def measure(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
                 work = _measure_scene(pace, bench, cache, field, mesh, cases)
                 yield from scaled(work, done / total, size / total)
             done += size
-    yield 1.0
+    yield Progress(1.0)
 
 
 def _warm_up(cache: Path) -> None:
@@ -114,7 +114,7 @@ def _measure_memory(cases: list[Case], cache: Path, quick: bool) -> Work[Peaks]:
     with closing(memory.peaks(cases[0].scene, cache, jobs)) as peaks:
         for job, peak in zip(jobs, peaks, strict=True):
             found[job] = peak
-            yield len(found) / len(jobs)
+            yield Progress(len(found) / len(jobs))
     return found
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from statistics import median
 
-from reference_tracer.tracer.progress import Work
+from reference_tracer.tracer.progress import Progress, Work
 
 from .peers import MissingPeerError
 
@@ -73,7 +73,7 @@ def in_rounds(runners: list[Runner], repeats: int, budget: float) -> Work[int]:
     for r in runners:
         if len(r.seconds) > 1:
             r.seconds.pop(0, None)
-    yield 1.0
+    yield Progress(1.0)
     return max(count, 1)
 
 
@@ -86,4 +86,4 @@ def _round(runners: list[Runner], number: int, start: float, size: float) -> Wor
             except MissingPeerError as error:
                 r.failed = str(error)
             r.spent.append(time.perf_counter() - began)
-        yield start + size * done / len(runners)
+        yield Progress(start + size * done / len(runners))

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from reference_tracer.report import folders
 from reference_tracer.tracer import signals
-from reference_tracer.tracer.progress import Work, result_of, scaled
+from reference_tracer.tracer.progress import Event, Work, result_of, scaled
 from reference_tracer.wording import show
 
 from .commands import measure_commands
@@ -24,7 +24,7 @@ from .spread import measure_spread
 SCENES = 0.8  # their share of the time, about
 
 
-def run(options: BenchOptions, progress: Callable[[float], None]) -> Bench:
+def run(options: BenchOptions, progress: Callable[[Event], None]) -> Bench:
     """Measure; Ctrl-C ends it, and what was measured until then is what there is.
 
     Raises
@@ -39,9 +39,9 @@ def run(options: BenchOptions, progress: Callable[[float], None]) -> Bench:
     bench = Bench(machine(hasattr(os, "sched_setaffinity")), wanted.quick)
     written = 0
 
-    def keep(share: float) -> None:
+    def keep(event: Event) -> None:
         nonlocal written
-        progress(share)
+        progress(event)
         if len(bench.rows) > written:  # so that even a crash leaves what was measured
             folders.make(unfinished)
             write_json(unfinished, bench)

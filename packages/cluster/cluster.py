@@ -110,7 +110,7 @@ class Cluster:
         return asked
 
     def answer(self, asked: Asked) -> Work[Any]:
-        """Wait for the answer, yielding 0; return it.
+        """Wait for the answer; return it.
 
         Raises
         ------
@@ -121,7 +121,7 @@ class Cluster:
         """
         began, patience, brought = time.monotonic(), LATE, 0
         while True:
-            yield 0.0
+            yield None
             try:
                 found, worker = asked.answers.get(timeout=TICK)
             except Empty:

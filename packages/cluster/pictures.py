@@ -18,7 +18,7 @@ from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.nearest import TraceBand
-from reference_tracer.tracer.progress import Work, scaled
+from reference_tracer.tracer.progress import Progress, Work
 from reference_tracer.tracer.render import Tracer, rays_in_order, rounds
 from reference_tracer.tracer.settings import Settings
 
@@ -104,11 +104,10 @@ class Picture:
         for number in range(len(parts)):
             for unit in islice(self._todo, AHEAD * self._threads - len(self._ahead)):
                 self._ahead.append(self._ask(*unit))
-            work = self.cluster.answer(self._ahead.popleft())
-            seen, took = yield from scaled(work, number / len(parts), 1 / len(parts))
+            seen, took = yield from self.cluster.answer(self._ahead.popleft())
             count_in(self.statistics, took)
             found.append(seen)
-            yield (number + 1) / len(parts)
+            yield Progress((number + 1) / len(parts))
         if self.settings.method.is_proven:
             return joined(found, self.scene, band, dx, dy)
         return Hits.joined(found)

@@ -14,7 +14,7 @@ from reference_tracer.arrays import Floats
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.extremes import ExtremesRow
 from reference_tracer.study.trade import TradeRow
-from reference_tracer.tracer.progress import Work, scaled
+from reference_tracer.tracer.progress import Progress, Work
 
 from . import tasks
 from .cluster import Cluster
@@ -56,5 +56,6 @@ def _every(cluster: Cluster, told: list[tuple]) -> Work[list]:
     asked = [cluster.ask(task, tasks.about(), *given) for task, *given in told]
     rows = []
     for k, one in enumerate(asked):
-        rows += yield from scaled(cluster.answer(one), k / len(asked), 0.0)
+        yield Progress(k / len(asked))
+        rows += yield from cluster.answer(one)
     return rows

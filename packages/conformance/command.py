@@ -93,7 +93,7 @@ def run(given: Namespace) -> int:
     with folders.made(given.out):
         for name in report.NAMES:  # those of an earlier run would pass for this one's
             (given.out / name).unlink(missing_ok=True)
-        work = conform(program, scenes, lambda result: report.keep(given.out, result))
+        work = conform(program, scenes, given.out)
         with progress_bar() as progress:
             results = result_of(work, progress)
         report.write(given.out, program, results)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -20,11 +20,13 @@ from reference_tracer.opened import file_manifest
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.given import Making, picture_of_array, picture_of_file
 from reference_tracer.pictures.palette import GivenColors
-from reference_tracer.pictures.picture import Picture, SizeError
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import SizeError
 from reference_tracer.rendering import render
+from reference_tracer.report import comparison as comparison_report
 from reference_tracer.report.junit import Judged, of_comparison
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.tracer.progress import Share, Work, scaled
+from reference_tracer.tracer.progress import Progress, Work, scaled
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_meshes import FORMATS
 from reference_tracer_meshes.load import load_meshes, scene_of_meshes
@@ -68,12 +70,8 @@ class Result:
     comparison: Comparison | None = None  # None if it could not be compared
 
 
-def conform(
-    program: Program,
-    scenes: Sequence[KitScene],
-    kept: Callable[[Result], Work[None]],
-) -> Work[list[Result]]:
-    """Judge a program on scenes, in steps; each result is `kept` before the next is made.
+def conform(program: Program, scenes: Sequence[KitScene], out: Path) -> Work[list[Result]]:
+    """Judge a program on scenes, in steps; the page of each is written before the next is made.
 
     Raises
     ------
@@ -85,16 +83,29 @@ def conform(
         prefix="reftrace-conform-", ignore_cleanup_errors=True
     ) as name:
         folder = Path(name)
-        yield Share(0.0, "writing the kit")
+        yield Progress(0.0, "writing the kit")
         write_kit(folder, scenes, any("{blend}" in word for word in program.words))
         for k, kit in enumerate(scenes):
-            yield Share(k / len(scenes), kit.name)
+            yield Progress(k / len(scenes), kit.name)
             work = _judged(program, kit, folder / kit.name)
-            result = yield from scaled(work, k / len(scenes), 1 / len(scenes))
-            yield from scaled(kept(result), (k + 1) / len(scenes), 0.0)
+            result = yield from scaled(work, k / len(scenes), 1 / len(scenes), kit.name)
+            yield from _keep(out, result)
             found.append(replace(result, comparison=None))  # it is large
             shutil.rmtree(folder / kit.name, ignore_errors=True)
     return found
+
+
+def _keep(folder: Path, result: Result) -> Work[None]:
+    """Write the page of a scene that does not agree; remove one that an earlier run left."""
+    own = folder / result.kit.name
+    found = result.comparison
+    if found and result.judged.failure:
+        yield from comparison_report.write(own, found)
+        return
+    for name in comparison_report.NAMES:
+        (own / name).unlink(missing_ok=True)
+    if own.is_dir() and not any(own.iterdir()):
+        own.rmdir()
 
 
 def _judged(program: Program, kit: KitScene, folder: Path) -> Work[Result]:

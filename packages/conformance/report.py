@@ -9,12 +9,10 @@ from string import Template
 
 from reference_tracer import __version__
 from reference_tracer.comparison.verdict import Verdict
-from reference_tracer.report import comparison as comparison_report
 from reference_tracer.report import page as comparison_page
 from reference_tracer.report.folders import replacing, write_json
 from reference_tracer.report.junit import junit
 from reference_tracer.report.tables import columns
-from reference_tracer.tracer.progress import Work
 from reference_tracer.wording import count_of
 
 from .judging import Program, Result
@@ -30,19 +28,6 @@ _BAD = "#a8001c"
 _LETTER = 0.64 * 11  # of a badge: the width of a letter, with room; no font is known here
 _LEFT = 122.64  # and of its left half
 _HEAD = "scene", "verdict", "what is wrong"
-
-
-def keep(folder: Path, result: Result) -> Work[None]:
-    """Write the page of a scene that does not agree; remove one that an earlier run left."""
-    own = folder / result.kit.name
-    found = result.comparison
-    if found and result.judged.failure:
-        yield from comparison_report.write(own, found)
-        return
-    for name in comparison_report.NAMES:
-        (own / name).unlink(missing_ok=True)
-    if own.is_dir() and not any(own.iterdir()):
-        own.rmdir()
 
 
 def write(folder: Path, program: Program, results: Sequence[Result]) -> None:

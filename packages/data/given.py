@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 from reference_tracer.arrays import Array, Bools
 from reference_tracer.pictures.given import Making, traced
-from reference_tracer.pictures.picture import Source
 from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import trace
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.camera import film_positions

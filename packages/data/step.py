@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.pictures.bounds import LEVEL_SLACK, U32
+from reference_tracer.pictures.bounds import U32
+from reference_tracer.pictures.storage import LEVEL_SLACK
 
 _TYPES: dict[str, type[np.floating]] = {
     "float16": np.float16,

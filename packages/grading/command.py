@@ -26,7 +26,7 @@ from reference_tracer.files.scenes import load_scene
 from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.tracer.progress import Work, called, result_of, scaled
+from reference_tracer.tracer.progress import Work, result_of, scaled
 from reference_tracer.wording import count_of, say, show
 from reference_tracer_processes.running import Limits
 from reference_tracer_processes.sandbox import sandbox, secret
@@ -242,13 +242,13 @@ def _work(
     judged = []
     for k, (name, scene, path) in enumerate(scenes):
         work = prepare(name, scene, str(path), options.pixels, options.camera_options)
-        work = called(work, f"tracing {name}")
-        judged.append((yield from scaled(work, 0.3 * k / len(scenes), 0.3 / len(scenes))))
+        share = 0.3 / len(scenes)
+        judged.append((yield from scaled(work, k * share, share, f"tracing {name}")))
     hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     limits = Limits(options.time_limit, options.memory_limit)
     cases = subject(options.subject).cases()
     judging = judge_all(submissions, cases, judged, hard, limits, told=told, jobs=options.jobs)
-    return (yield from scaled(called(judging, "judging"), 0.6, 0.4))
+    return (yield from scaled(judging, 0.6, 0.4, "judging"))
 
 
 def built_in() -> list[Named]:

@@ -16,7 +16,7 @@ from reference_tracer.arrays import Floats
 from reference_tracer.methods import Method
 from reference_tracer.study.scenarios.sweeps import SCENARIOS, Scenario
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.progress import Work, result_of
+from reference_tracer.tracer.progress import Progress, Work, result_of
 from reference_tracer.tracer.triangle import TESTS
 
 from .judged_scene import JudgedScene, prepare
@@ -78,7 +78,7 @@ def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[Extre
     every = [(s, scale) for s in scenarios for scale in s.scales]
     out = []
     for done, (scenario, scale) in enumerate(every):
-        yield done / len(every)
+        yield Progress(done / len(every))
         scene = scenario.build(scale, WIDTH, HEIGHT)
         judged = result_of(prepare(scenario.name, scene, pixels=None))
         lost = {m.value: result_of(look(judged, plain(m))).lost for m in YARDSTICKS}
@@ -104,7 +104,7 @@ def try_extremes(
     """Return what a function loses of every scene; `before` is called before each."""
     rows = []
     for done, e in enumerate(scenes):
-        yield done / len(scenes)
+        yield Progress(done / len(scenes))
         before()
         found = result_of(look(e.judged, ask))
         pixels = {name: n for name, n in found.counts.items() if n}

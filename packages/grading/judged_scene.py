@@ -23,7 +23,7 @@ from reference_tracer.tracer.candidates import candidates
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.nearest import plan, test_planes
-from reference_tracer.tracer.progress import Work
+from reference_tracer.tracer.progress import Progress, Work, scaled
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.world import Pairs
 
@@ -113,8 +113,7 @@ def prepare(
             f"{scene.camera.clip_start:g} m), where t < 0 is no hit: raise its clip start to 0."
         )
     frame = Frame.empty(scene)
-    for share in steps(scene, Settings(Method.CERTIFIED), frame):
-        yield 0.5 * share
+    yield from scaled(steps(scene, Settings(Method.CERTIFIED), frame), 0.0, 0.5)
     total = region.width * region.height
     stride = 1 if pixels is None else max(1, int(np.ceil(np.sqrt(total / pixels))))
     stride = min(stride, region.width, region.height)
@@ -161,7 +160,7 @@ def _find_pairs(judged: JudgedScene, chosen: NDArray) -> Work[None]:
             truth = known(*arrays(judged.rays, own.pixel, own.corners), *clip)
             judged.pairs.append((own, truth))
             _mark_boundary(judged, own, truth)
-        yield 0.5 + 0.5 * share
+        yield Progress(0.5 + 0.5 * share)
 
 
 def _mark_boundary(judged: JudgedScene, some: Pairs, truth: Known) -> None:

@@ -8,13 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.tracer.progress import Work, result_of, scaled
+from reference_tracer.tracer.progress import Meter, Progress, Work, result_of, scaled
 from reference_tracer.wording import printable
 from reference_tracer_processes.running import Limits
 
@@ -116,7 +115,7 @@ def judge(
     name: str = "",
     started: list[Submission] | None = None,
 ) -> Work[Judgement]:
-    """Judge one file or program; yields the share of the work done.
+    """Judge one file or program.
 
     Parameters
     ----------
@@ -240,12 +239,12 @@ def judge_all(
 
     Returns what is made of each judgement once it is there: it holds pictures, and is not kept.
     """
-    shares = dict.fromkeys(submissions, 0.0)
+    meters = {name: Meter() for name in submissions}
     started: list[Submission] = []
 
     def judged(name: str) -> T:
         work = judge(submissions[name], cases, scenes, extremes, limits, name, started)
-        found = result_of(work, partial(shares.__setitem__, name))
+        found = result_of(work, meters[name].read)
         if any(each.stopped for each in started):
             raise CancelledError
         return told(found)
@@ -254,7 +253,7 @@ def judge_all(
         found = {name: pool.submit(judged, name) for name in submissions}
         try:
             while wait(found.values(), 0.1).not_done:
-                yield sum(shares.values()) / len(shares)
+                yield Progress(sum(m.share for m in meters.values()) / len(meters))
             return {name: future.result() for name, future in found.items()}
         finally:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from reference_tracer.tracer import shading
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.nearest import within_clip
-from reference_tracer.tracer.progress import Work
+from reference_tracer.tracer.progress import Progress, Work
 from reference_tracer.tracer.world import world_corners
 
 from .faults import UNRECOGNISED, Fault
@@ -92,7 +92,7 @@ def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> W
         true = (instance == judged.instance[pixel]) & (triangle == judged.triangle[pixel])
         reported[pixel[true]] = True
         found.append((pixel, t[hit], instance, triangle, s[hit], truth.hit[hit]))
-        yield done / len(judged.pairs)
+        yield Progress(done / len(judged.pairs))
     hits, really = _nearest(judged, found)
     false = (hits.triangle != NOTHING) & ~really
     return _judged(judged, hits, false, reported, raised, clock() - began)

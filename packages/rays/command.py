@@ -7,21 +7,26 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.certainty import Certainty
 from reference_tracer.certified.any_rays import nearest_hits
 from reference_tracer.certified.arithmetic import check_assumptions
+from reference_tracer.certified.triangle_tree import TriangleTree
 from reference_tracer.cli.camera_options import add_parts, choice_from
 from reference_tracer.cli.opening import SOURCES, open_file
 from reference_tracer.cli.parser import AGREE, Parser, number
 from reference_tracer.cli.running import progress_bar
 from reference_tracer.framing import Choice
 from reference_tracer.report import folders
-from reference_tracer.scene import SceneError
-from reference_tracer.tracer.hits import NOTHING, Statistics
-from reference_tracer.tracer.progress import called, result_of
+from reference_tracer.scene import Scene, SceneError
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
+from reference_tracer.tracer.progress import Work, result_of, scaled
 from reference_tracer.tracer.world import refused
 from reference_tracer.wording import count_of, show
 
-from .files import load_rays, save_hits
+from .every import Crossings, all_hits
+from .files import load_points, load_rays, save
+from .inside import Inside, places
 
 _T = number(float, lambda value: not np.isnan(value), "a number")
 
@@ -36,19 +41,20 @@ class RaysOptions:
     choice: Choice
     start: float
     end: float
-    every_pair: bool
+    what: str  # is found: first, every, parity; or the first, by "every-pair"
 
     @classmethod
     def parsed(cls, given: Namespace) -> RaysOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
         if not given.start < given.end:
             raise SceneError(f"--start {given.start:g} is not below --end {given.end:g}")
+        if given.what == "parity" and (given.start, given.end) != (0, np.inf):
+            raise SceneError("--parity takes whole rays: leave out --start and --end")
         if folders.place_of(given.out) in map(folders.place_of, (given.scene, given.rays)):
             raise SceneError(f"--out '{given.out}' is a file that is read: choose another")
         choice = choice_from(given, given.scene)
-        return cls(
-            given.scene, given.rays, given.out, choice, given.start, given.end, given.every_pair
-        )
+        clip = given.start, given.end
+        return cls(given.scene, given.rays, given.out, choice, *clip, given.what)
 
 
 def add(parser: Parser) -> None:
@@ -62,7 +68,8 @@ def add(parser: Parser) -> None:
         "rays",
         type=parser.path_ending(".npz"),
         metavar="RAYS.npz",
-        help="arrays origins and directions, (n, 3) each, world space, Z up, in metres",
+        help="arrays origins and directions, (n, 3) each, world space, Z up, in metres; points "
+        "with --parity",
     )
     parser.add_argument(
         "--out",
@@ -79,33 +86,56 @@ def add(parser: Parser) -> None:
             metavar="T",
             help=f"the {what} t that counts, in lengths of the direction (default %(default)g)",
         )
-    parser.add_argument(
-        "--every-pair",
-        action="store_true",
-        help="test each ray with each triangle, without a tree of boxes: sees the same, far slower",
-    )
+    ways = parser.add_mutually_exclusive_group()
+    for name, what in (
+        ("every", "write all that each ray meets, each surface once, in order of t"),
+        ("parity", "write which points lie inside closed meshes, and their winding numbers"),
+        ("every-pair", "test each ray with each triangle, without a tree of boxes: far slower"),
+    ):
+        ways.add_argument(
+            f"--{name}", dest="what", action="store_const", const=name, default="first", help=what
+        )
     add_parts(parser)
 
 
 def rays(options: RaysOptions) -> int:
     """Trace, and write what the rays meet."""
     check_assumptions()
-    given = load_rays(options.rays)
+    of_points = options.what == "parity"
+    given = (load_points if of_points else load_rays)(options.rays)
     with folders.made_for_file(options.out):
         opened = open_file(options.scene, options.choice, whole=True)
         scene = opened.scene
         show(*opened.manifest.lines())
-        found = Statistics(method="certified", refused=refused(scene))
-        clip = options.start, options.end
+        statistics = Statistics(refused=refused(scene))
         with progress_bar() as progress:
-            work = nearest_hits(scene, given, clip, found, culled=not options.every_pair)
-            hits = result_of(called(work, "tracing"), progress)
+            work = scaled(_work(options, scene, given, statistics), 0.0, 1.0, "tracing")
+            found = result_of(work, progress)
         with folders.replacing_file(options.out) as new:
-            save_hits(new, scene, hits)
-    met = count_of(int((hits.instance != NOTHING).sum()), "hit")
-    show(
-        f"{count_of(len(hits), 'ray')}, {count_of(scene.triangle_count, 'triangle')}: {met}, "
-        f"{len(hits.ties.ray):,} ambiguous: {options.out}"
-    )
-    show(*found.required())
+            save(new, scene, given.count, found)
+    counts = count_of(given.count, "point" if of_points else "ray")
+    counts += f", {count_of(scene.triangle_count, 'triangle')}: {_said(found)}"
+    show(f"{counts}: {options.out}", *statistics.required())
     return AGREE
+
+
+def _work(
+    options: RaysOptions, scene: Scene, given: Rays, statistics: Statistics
+) -> Work[Hits | Crossings | Inside]:
+    """Return the work that was chosen."""
+    clip = options.start, options.end
+    if options.what == "parity":
+        return places(scene, given)
+    if options.what == "every":
+        return all_hits(scene, given, clip, TriangleTree.of(scene))
+    statistics.method = "certified"
+    return nearest_hits(scene, given, clip, statistics, options.what == "first")
+
+
+def _said(found: Hits | Crossings | Inside) -> str:
+    if isinstance(found, Inside):
+        words = "outside", "inside", "on a surface"
+        counts = (f"{(found.place == k).sum():,} {word}" for k, word in enumerate(words))
+        return "; ".join([", ".join(counts), *found.notes])
+    met = count_of(int((found.instance != NOTHING).sum()), "hit")
+    return f"{met}, {(found.certainty == Certainty.AMBIGUOUS).sum():,} ambiguous"

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from reference_tracer.causes.case import Case
 from reference_tracer.causes.cause import Cause
 from reference_tracer.causes.checks.unmodelled import covered
-from reference_tracer.pictures.bounds import difference, differing
 from reference_tracer.pictures.identity import NOTHING
 from reference_tracer.pictures.metrics import boundary
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.storage import difference, differing
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Plane, Scene, ViewWindow
 from reference_tracer.tracer.camera import pixel_size

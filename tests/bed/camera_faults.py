@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from .description import Description
 from .making import Fault, Made, with_camera
 from .renderer import Camera
+from .scenes import placed
 from .setup import camera_of, camera_through, posed, solids_of
 
 # From Z up to Y up: (x, y, z) becomes (x, z, -y).
@@ -154,17 +155,16 @@ def stand(right: float, up: float, forward: float) -> Fault:
 
 def turned(pan: float, tilt: float) -> Fault:
     """Return a camera turned to the right, then upwards, by degrees."""
-
-    def change(matrix: np.ndarray) -> np.ndarray:
-        p, t = np.radians((-pan, tilt))
-        about_y = [[np.cos(p), 0, np.sin(p)], [0, 1, 0], [-np.sin(p), 0, np.cos(p)]]
-        about_x = [[1, 0, 0], [0, np.cos(t), -np.sin(t)], [0, np.sin(t), np.cos(t)]]
-        matrix = matrix.copy()
-        matrix[:3, :3] = matrix[:3, :3] @ about_y @ about_x
-        return matrix
-
+    change = pose(lambda matrix: matrix @ placed((0, 0, 0), (tilt, -pan, 0)))
     numbers = {"pan": pan, "tilt": tilt}
-    return Fault("camera_turned", f"{pan:+g}, {tilt:+g} degrees", pose(change), numbers)
+    return Fault("camera_turned", f"{pan:+g}, {tilt:+g} degrees", change, numbers)
+
+
+def elsewhere(by: Sequence[float], angles: Sequence[float], *only: int) -> Fault:
+    """Return a camera moved along its own axes by metres, then turned about them by degrees."""
+    change = pose(lambda matrix: matrix @ placed(by, angles))
+    label = f"{tuple(by)} m, {tuple(angles)} degrees"
+    return Fault("camera_placed", label, change, {"by": by, "angles": angles}, only)
 
 
 def _last_pixel(scene: Description) -> np.ndarray:
@@ -239,6 +239,21 @@ def _whole_film(scene: Description, camera: Camera) -> Camera:
     return replace(whole, k=np.diag(share) @ whole.k, width=camera.width, height=camera.height)
 
 
+def _from_above(scene: Description, camera: Camera) -> Camera:
+    """Return the border with its rows counted from the top."""
+    x0, x1, y0, y1 = scene.film.cut
+    height = scene.film.size[1]
+    other = replace(scene.film, border=(x0, x1, height - y1, height - y0))
+    return camera_through(scene.lens, other, scene.eye.world(scene.frame))
+
+
+def _shift_times_aspect(scene: Description, camera: Camera) -> Camera:
+    """Return the shift up, times the picture's width by its height."""
+    (_, v), (fitted, other), k = center(scene), sides(scene), camera.k.copy()
+    k[1, 2] = v + (k[1, 2] - v) * other / fitted
+    return replace(camera, k=k)
+
+
 PERCENTAGE = film(lambda s: np.diag((100 / s.film.percentage, 100 / s.film.percentage, 1.0)))
 
 CAMERA_FAULTS = (
@@ -258,6 +273,8 @@ CAMERA_FAULTS = (
     Fault("shift_sign", "y", _shift(1, -1), only=(3,)),
     Fault("shift_unit", "own sides", with_camera(_shift_unit), only=(3,)),
     Fault("shift_left_out", "both", _shift(0, 0), only=(3,)),
+    Fault("shift_left_out", "up", _shift(1, 0), only=(3,)),
+    Fault("shift_unit", "up, times the aspect", with_camera(_shift_times_aspect), only=(3,)),
     Fault("pixel_aspect_left_out", "", with_camera(_square), only=(3,)),
     Fault("resolution_percentage", "from the upper left", PERCENTAGE, only=(3,)),
     roll(1.5),
@@ -267,6 +284,9 @@ CAMERA_FAULTS = (
     stand(-0.3, 0.2, 0.5),
     turned(0.5, 0.3),
     turned(-3.0, 2.0),
+    elsewhere((0.06, -0.04, 0.05), (0.6, -0.9, 0.4), 1, 2, 3, 4, 5, 6, 7),
+    elsewhere((-0.4, 0.25, 0.5), (2.0, 3.0, -1.5), 1, 2, 3, 4, 5, 6, 7),
+    Fault("camera_moved", "in a room", pose(lambda m: placed((0.1, -0.15, 0.05)) @ m), only=(7,)),
     Fault("last_pixel", "", film(_last_pixel)),
     Fault("focal_lengths", "+3, -2 %", film(lambda s: s_focals(s, 1.03, 0.98)), only=(1, 4, 5, 6)),
     Fault("shift_length", "taken for millimetres", _shift(1 / 36, 1 / 36), only=(3,)),
@@ -288,7 +308,8 @@ CAMERA_FAULTS = (
     Fault("clip_start", "0.1 m", clip(start=0.1), only=(6,)),
     Fault("clip_end", "through the second object", clip(end=0)),
     Fault("clip_end", "100 m", clip(end=100.0), only=(6,)),
-    Fault("other_camera", "", _other_camera, only=(1, 2, 4, 6)),
+    Fault("other_camera", "", _other_camera, only=(1, 2, 4, 6, 7)),
     *(frame(by) for by in (1, 0.5, -3)),
+    Fault("border", "rows from above", with_camera(_from_above), only=(6,)),
     Fault("border", "the whole view in the border's pixels", with_camera(_whole_film), only=(6,)),
 )

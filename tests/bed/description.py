@@ -24,6 +24,10 @@ class Shape:
         cut = ((0, 1, 3), (1, 2, 3)) if other_diagonal else ((0, 1, 2), (0, 2, 3))
         return self.faces[:, cut].reshape(-1, 3)
 
+    def slots(self, count: int) -> np.ndarray:
+        """Return which of so many material slots each triangle has, (m,): in turn, by faces."""
+        return np.repeat(np.arange(len(self.faces)), self.faces.shape[1] - 2) % count
+
 
 @dataclass(frozen=True, eq=False)
 class Pose:
@@ -60,7 +64,7 @@ class Pose:
 
 @dataclass(frozen=True, eq=False)
 class Item:
-    """An object of one colour. `shape` is what a render shows."""
+    """An object. `shape` is what a render shows."""
 
     name: str
     shape: Shape
@@ -73,6 +77,12 @@ class Item:
     rest: Shape | None = None  # undeformed
     hidden: bool = False  # in a render
     other_layer: bool = False  # in a view layer that is not rendered
+    more: tuple[RGBA, ...] = ()  # the colours of further material slots
+
+    @property
+    def colors(self) -> tuple[RGBA, ...]:
+        """The colours of its material slots."""
+        return self.color, *self.more
 
     def world(self, frame: float) -> np.ndarray:
         """Return world_from_object at a frame, (4, 4)."""

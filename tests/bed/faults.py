@@ -5,13 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .camera_faults import CAMERA_FAULTS
+from .data_faults import DATA_FAULTS
 from .description import Description
-from .making import Fault
+from .making import Fault, together
 from .picture_faults import PICTURE_FAULTS
 from .scene_faults import SCENE_FAULTS
 from .scenes import scenes
 
-FAULTS: tuple[Fault, ...] = (*CAMERA_FAULTS, *SCENE_FAULTS, *PICTURE_FAULTS)
+SINGLE = (*CAMERA_FAULTS, *SCENE_FAULTS, *PICTURE_FAULTS, *DATA_FAULTS)
+
+
+def of(key: str, label: str = "") -> Fault:
+    """Return the first fault of a key, and of a label that begins so."""
+    return next(f for f in SINGLE if f.key == key and f.label.startswith(label))
+
+
+PAIRS = (
+    together(of("pixel_offset"), of("srgb_for_linear", "the curve left")),
+    together(of("object_moved", "first by 0.4"), of("gamma")),
+    together(of("focal_length", "angle"), of("rows")),
+    together(of("channels"), of("rows")),
+)
+FAULTS: tuple[Fault, ...] = (*SINGLE, *PAIRS)
 
 
 def cells(key: str | None = None, number: int | None = None) -> Iterator[tuple[Fault, Description]]:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from .description import RGBA, Description
-from .renderer import Camera, Solid, render
+from .renderer import Camera, Solid, Tracer, render
 from .setup import camera_of, solids_of
 
 LEVELS = 255  # of a file of eight bits
@@ -26,6 +27,7 @@ class Made:
     draw: Callable[[Made], np.ndarray] | None = None
     after: Callable[[np.ndarray], np.ndarray] | None = None  # changes the finished picture
     levels: int = 0  # of the file that it is stored in; 0 for floats
+    holds: str = ""  # the data in place of colours: depth, or ids
     filter_radius: float = 0.0  # pixels: of the filter that the renderer *says* it has
 
     def picture(self) -> np.ndarray:
@@ -51,11 +53,36 @@ class Fault:
     make: Change
     numbers: dict[str, Any] = field(default_factory=dict)
     only: tuple[int, ...] = (1, 2, 3, 4, 5, 6)  # the scenes in which it makes sense
+    parts: tuple[Fault, ...] = ()  # those of a pair
 
     @property
     def name(self) -> str:
         """The key and the label."""
         return f"{self.key} ({self.label})" if self.label else self.key
+
+
+def together(first: Fault, second: Fault) -> Fault:
+    """Return two faults at once: the second one's change of the picture comes last."""
+
+    def make(scene: Description, made: Made) -> Made | None:
+        one = first.make(scene, made)
+        both = one and second.make(scene, replace(one, after=None))
+        if one is None or both is None:
+            return None
+        changes = [m.after for m in (one, both) if m.after]
+        return replace(both, after=partial(in_turn, changes) if changes else None)
+
+    only = tuple(n for n in first.only if n in second.only)
+    key = f"{first.key} and {second.key}"
+    label = f"{first.label} and {second.label}"
+    return Fault(key, label, make, only=only, parts=(first, second))
+
+
+def in_turn(changes: Iterable[Callable[[np.ndarray], np.ndarray]], p: np.ndarray) -> np.ndarray:
+    """Change a picture by one after the other."""
+    for change in changes:
+        p = change(p)
+    return p
 
 
 def right(scene: Description) -> Made:
@@ -69,8 +96,17 @@ def premultiplied(color: RGBA) -> tuple[float, ...]:
 
 
 def once(made: Made, samples: int = 1) -> np.ndarray:
-    """Return the picture of n x n samples a pixel."""
+    """Return the picture of n x n samples a pixel, or data (h, w, 1) of one."""
+    if made.holds:
+        seen = Tracer(made.camera, made.solids)
+        held = seen.depths() if made.holds == "depth" else ids_of(seen.owners())
+        return held[..., None]
     return render(made.camera, made.solids, premultiplied(made.background), samples)
+
+
+def ids_of(owners: np.ndarray) -> np.ndarray:
+    """Return the id of each solid by its number; 0 for none."""
+    return np.where(owners < 0, 0, 3 * owners + 5)
 
 
 def encoded(linear: np.ndarray) -> np.ndarray:

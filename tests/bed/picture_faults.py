@@ -153,20 +153,26 @@ def filtered(radius: float, gauss: bool = False) -> Fault:
     return Fault("filter_radius", label, lambda _, m: replace(m, draw=draw), {"radius": radius})
 
 
+def means(picture: np.ndarray, n: int) -> np.ndarray:
+    """Return the mean of each n x n pixels from above, in all of them."""
+    for axis in (0, 1):
+        blocks = np.arange(picture.shape[axis]) // n
+        starts, counts = np.unique(blocks, return_index=True, return_counts=True)[1:]
+        shape = (-1, 1, 1) if axis == 0 else (1, -1, 1)
+        sums = np.add.reduceat(picture, starts, axis=axis) / counts.reshape(shape)
+        picture = np.take(sums, blocks, axis=axis)
+    return picture
+
+
+def corners(picture: np.ndarray, n: int) -> np.ndarray:
+    """Return the first of each n x n pixels from above, in all of them."""
+    rows, columns = (np.arange(size) // n * n for size in picture.shape[:2])
+    return picture[rows][:, columns]
+
+
 def shrunk(n: int, nearest: bool) -> Fault:
     """Return the picture with one pixel, or the mean, of each n x n from above, n x n large."""
-
-    def change(picture: np.ndarray) -> np.ndarray:
-        rows, columns = (np.arange(size) // n * n for size in picture.shape[:2])
-        if nearest:
-            return picture[rows][:, columns]
-        sums = picture
-        for axis, first in ((0, rows), (1, columns)):
-            starts, counts = np.unique(first, return_counts=True)
-            shape = (-1, 1, 1) if axis == 0 else (1, -1, 1)
-            sums = np.add.reduceat(sums, starts, axis=axis) / counts.reshape(shape)
-        return sums[rows // n][:, columns // n]
-
+    change = partial(corners if nearest else means, n=n)
     label = f"1/{n} of the size, {'nearest' if nearest else 'mean'}, and back"
     return Fault("resampled", label, afterwards(change), {"n": n})
 
@@ -224,6 +230,33 @@ def eight(values: np.ndarray, read: Colors = lambda v: v) -> np.ndarray:
     return read(np.rint(LEVELS * np.clip(values, 0, 1)) / LEVELS)
 
 
+def _few_bits(straight: np.ndarray) -> np.ndarray:
+    """Return colours of 5, 6 and 5 bits."""
+    levels = np.array((31, 63, 31))
+    return decoded(np.rint(levels * encoded(straight)) / levels)
+
+
+def _half_chroma(straight: np.ndarray) -> np.ndarray:
+    """Return colours whose Cb and Cr (Rec. 601) are the mean of 2 x 2 pixels."""
+    weights = np.array((0.299, 0.587, 0.114))
+    coded = encoded(straight)
+    luma = (coded @ weights)[..., None]
+    chroma = coded - luma
+    return decoded(np.clip(luma + means(chroma, 2), 0, 1))
+
+
+def enlarged(n: int) -> Fault:
+    """Return the picture shrunk by the nearest pixel, and enlarged linearly."""
+
+    def change(picture: np.ndarray) -> np.ndarray:
+        rows, columns = picture.shape[:2]
+        small = resized(picture, columns // n, rows // n, nearest=True)
+        return resized(small, columns, rows, nearest=False)
+
+    label = f"1/{n} of the size, nearest, and back linearly"
+    return Fault("resampled", label, afterwards(change), {"n": n})
+
+
 PICTURE_FAULTS = (
     Fault("rows", "from the top", afterwards(np.flipud)),
     Fault("row_off", "one down", afterwards(lambda p: np.roll(p, 1, axis=0))),
@@ -244,6 +277,15 @@ PICTURE_FAULTS = (
     ),
     colors("srgb_for_linear", "the curve left out, in 8 bits", lambda c: eight(c, decoded)),
     colors("power_for_srgb", "of 8 bits", lambda c: eight(c ** (1 / 2.2), decoded)),
+    colors(
+        "power_for_srgb",
+        "of 8 bits, rounded before",
+        lambda c: eight(eight(encoded(c), decoded) ** (1 / 2.2), decoded),
+    ),
+    colors("rounding_level", "of linear values", eight),
+    colors("rounding_level", "of 5, 6 and 5 bits", _few_bits),
+    in_file("resampled", "hues at half the size", of_straight(_half_chroma)),
+    enlarged(2),
     saturated(1.25, coded=False),
     saturated(0.6, coded=True),
     colors("white_balance", "warmer", lambda c: c * (1.12, 1.0, 0.85)),

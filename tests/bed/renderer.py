@@ -57,12 +57,18 @@ class Camera:
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """Triangles of one colour in world space."""
+    """Triangles in world space."""
 
     name: str
     vertices: np.ndarray  # (v, 3) float64, metres
     triangles: np.ndarray  # (n, 3) indices
     color: tuple[float, float, float, float]  # linear RGBA
+    paint: np.ndarray | None = None  # of each triangle, (n, 4), where it has several
+
+    @property
+    def colors(self) -> np.ndarray:
+        """The colour of each triangle, (n, 4)."""
+        return np.tile(self.color, (len(self.triangles), 1)) if self.paint is None else self.paint
 
 
 def render(
@@ -73,12 +79,13 @@ def render(
     Each pixel shows the colour of the nearest surface between `near` and `far`.
     """
     seen = Tracer(camera, solids)
-    colors = np.array([*(s.color for s in solids), background], np.float32)
+    every = [*(s.colors for s in solids), np.array([background])]
+    colors = np.concatenate(every).astype(np.float32)
     places = (np.arange(samples) + 0.5) / samples
     total = np.zeros((camera.height, camera.width, 4))
     for dy in places:
         for dx in places:
-            total += colors[seen.owners(dx, dy)]
+            total += colors[seen.triangles(dx, dy)]
     return (total / samples**2).astype(np.float32)
 
 
@@ -89,11 +96,12 @@ class Tracer:
         self._camera = camera
         # What is subtracted in float64 first loses nothing far from the world's origin.
         corners = [(s.vertices - camera.center)[s.triangles].reshape(-1, 3) for s in solids]
+        self._corners = np.concatenate([*corners, np.zeros((0, 3))])
         of_each = [np.full(len(s.triangles), n) for n, s in enumerate(solids)]
         self._owner = np.append(np.concatenate([*of_each, np.zeros(0, int)]), -1).astype(int)
         self._scene = None
         if len(self._owner) > 1:
-            vertices = np.concatenate(corners).astype(np.float32)
+            vertices = self._corners.astype(np.float32)
             self._scene = EmbreeScene()
             TriangleMesh(
                 self._scene, vertices, np.arange(len(vertices), dtype=np.int32).reshape(-1, 3)
@@ -101,6 +109,23 @@ class Tracer:
 
     def owners(self, dx: float = 0.5, dy: float = 0.5) -> np.ndarray:
         """Return which solid each pixel sees at (dx, dy) from its upper left corner; -1: none."""
+        return self._owner[self.triangles(dx, dy)]
+
+    def depths(self) -> np.ndarray:
+        """Return how deep along the view axis each pixel's centre sees a surface; inf: none."""
+        c, triangle = self._camera, self.triangles()
+        seen = triangle >= 0
+        v, u = np.nonzero(seen)
+        origins, directions = c.rays(u + 0.5, v + 0.5)
+        first, second, third = self._corners.reshape(-1, 3, 3)[triangle[seen]].transpose(1, 0, 2)
+        normal = np.cross(second - first, third - first)
+        t = ((first - origins) * normal).sum(axis=1) / (directions * normal).sum(axis=1)
+        out = np.full(seen.shape, np.inf)
+        out[seen] = c.near + t
+        return out
+
+    def triangles(self, dx: float = 0.5, dy: float = 0.5) -> np.ndarray:
+        """Return which triangle of them all each pixel sees there; -1: none."""
         c = self._camera
         v, u = (n.ravel() for n in np.mgrid[: c.height, : c.width])
         triangle = np.full(len(u), -1)
@@ -108,4 +133,4 @@ class Tracer:
             origins, directions = (a.astype(np.float32) for a in c.rays(u + dx, v + dy))
             reach = np.full(len(u), min(c.far - c.near, 1e30), np.float32)
             triangle = self._scene.run(origins, directions.copy(), reach)
-        return self._owner[triangle].reshape(c.height, c.width)
+        return triangle.reshape(c.height, c.width)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,11 +10,15 @@ import numpy as np
 from .description import Description, Item, Shape
 from .making import Change, Fault, Made, once
 from .renderer import Camera, Solid, Tracer
+from .scenes import placed as posed
 from .setup import placed, solid_of
 
 # Which object a fault is made with, by the scene's number: in the foreground, then a smaller one.
 FIRST = {1: "Cube", 2: "Cube", 3: "Cube", 4: "Ball", 5: "Pebble", 6: "Thing14"}
 SECOND = {1: "Ring", 2: "Post", 3: "Ring", 4: "Roller", 5: "Leaf", 6: "Near"}
+GREY = 0.8, 0.8, 0.8, 1.0  # of a viewport
+BENT = {4: "Mast", 5: "Cloth"}
+SEVERAL = {1: "Far", 5: ("Leaf", "Stem"), 6: "Thing1"}  # how their names begin
 FLOORS = dict.fromkeys((1, 3, 4, 5, 6), "Floor")
 
 
@@ -39,9 +43,64 @@ def changed(of: dict[int, str], change: Callable[[Description, Item, Solid], Sol
     return make
 
 
-def missing(of: dict[int, str]) -> Change:
-    """Return what drops one solid."""
-    return lambda scene, made: exchanged(made, of[scene.number])
+def missing(of: Mapping[int, str | tuple[str, ...]]) -> Change:
+    """Return what drops the solids whose names begin so."""
+
+    def make(scene: Description, made: Made) -> Made:
+        left = tuple(s for s in made.solids if not s.name.startswith(of[scene.number]))
+        return replace(made, solids=left)
+
+    return make
+
+
+def reposed(change: Callable[[np.ndarray], np.ndarray], of: dict[int, str] | None = None) -> Change:
+    """Return one object, or all, with another matrix, (4, 4)."""
+
+    def make(scene: Description, made: Made) -> Made | None:
+        for item in scene.shown:
+            if of is None or item.name == of.get(scene.number):
+                at = placed(item.shape.vertices, change(item.world(scene.frame)))
+                own = replace(solid_of(item, scene.frame), vertices=at)
+                made = exchanged(made, item.name, own)
+        return made
+
+    return make
+
+
+def transposed(matrix: np.ndarray) -> np.ndarray:
+    """Return a matrix with its rotation transposed: its scale is what it was."""
+    matrix = matrix.copy()
+    lengths = np.linalg.norm(matrix[:3, :3], axis=0)
+    matrix[:3, :3] = (matrix[:3, :3] / lengths).T * lengths
+    return matrix
+
+
+def repainted(change: Callable[[np.ndarray, int], np.ndarray]) -> Change:
+    """Return all objects in other colours: of those of a solid, and its number."""
+
+    def make(_: Description, made: Made) -> Made:
+        out = (replace(s, paint=change(s.colors, n)) for n, s in enumerate(made.solids))
+        return replace(made, solids=tuple(out))
+
+    return make
+
+
+def in_slots(change: Callable[[np.ndarray, int], np.ndarray]) -> Change:
+    """Return faces in the colours of other material slots: of their own, and how many there are."""
+
+    def make(scene: Description, made: Made) -> Made:
+        for own, item in zip(made.solids, scene.shown, strict=True):
+            count = len(item.colors)
+            slots = change(item.shape.slots(count), count)
+            made = exchanged(made, own.name, replace(own, paint=np.array(item.colors)[slots]))
+        return made
+
+    return make
+
+
+def _random(colors: np.ndarray, number: int) -> np.ndarray:
+    """Return a colour by lot, the same for a whole object."""
+    return np.tile([*np.random.default_rng([3, number]).uniform(0.05, 0.9, 3), 1], (len(colors), 1))
 
 
 def twice(of: dict[int, str], *by: float) -> Fault:
@@ -169,6 +228,25 @@ def level(name: str, by: int) -> Fault:
 SCENE_FAULTS = (
     Fault("object_missing", "first", missing(FIRST)),
     Fault("object_missing", "second", missing(SECOND)),
+    Fault("instances_missing", "several", missing(SEVERAL), only=(1, 5, 6)),
+    Fault("rotation_transposed", "of all", reposed(transposed)),
+    Fault("rotation_transposed", "of one", reposed(transposed, FIRST)),
+    Fault(
+        "object_turned", "by a quarter", reposed(lambda m: m @ posed((0, 0, 0), (90, 0, 0)), SECOND)
+    ),
+    Fault(
+        "object_turned",
+        "mirrored",
+        reposed(lambda m: m @ np.diag((-1, 1, 1, 1)), BENT),
+        only=(4, 5),
+    ),
+    Fault("color_source", "white", repainted(lambda c, _: np.ones_like(c))),
+    Fault("color_source", "grey", repainted(lambda c, _: c * 0 + GREY)),
+    Fault("color_source", "random", repainted(_random)),
+    Fault("color_source", "slot 0", in_slots(lambda slots, _: 0 * slots), only=(7,)),
+    Fault(
+        "color_source", "slots off by one", in_slots(lambda slots, n: (slots + 1) % n), only=(7,)
+    ),
     twice(FIRST, 0.9, 1.1, 0.4),
     twice(SECOND, -0.9, 0.2, 1.2),
     Fault("rest_pose", "", reshaped("Mast", lambda item: item.rest), only=(4,)),

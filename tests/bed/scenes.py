@@ -1,4 +1,4 @@
-"""The six scenes of the test bed. None is symmetric; things stand on all sides."""
+"""The seven scenes of the test bed. None is symmetric; things stand on all sides."""
 
 from __future__ import annotations
 
@@ -248,7 +248,37 @@ def many() -> Description:
     )
 
 
+def room() -> Description:
+    """Return a camera inside a room, whose walls and furniture have several material slots."""
+    rng = np.random.default_rng(7)
+    forms = shapes.box(0.5, 0.4, 0.7), shapes.ball(0.3, 2), shapes.torus(0.3, 0.1)
+    inside = [
+        (f"Thing{n}", forms[n % 3], placed(rng.uniform((-2.6, -1.4, 0.3), (2.6, 2.1, 2.2)), angles))
+        for n, angles in enumerate(rng.uniform(-60, 60, (15, 3)))
+    ]
+    parts = items(
+        (
+            "Room",
+            shapes.box(7.0, 6.0, 2.8),
+            placed((0, 0, 1.4)),
+            {"more": tuple(map(color, range(40, 45)))},
+        ),
+        (
+            "Shelf",
+            shapes.tower(0.7, 4, 0.5),
+            placed((-1.3, 1.9, 0.0), (0, 0, 20)),
+            {"more": (color(45), color(46))},
+        ),
+        ("Table", shapes.box(1.6, 0.9, 0.1), placed((0.9, 0.6, 0.8), (0, 0, -15))),
+        *inside,
+    )
+    eye, lens = Pose(placed((2.4, -2.3, 1.7), (80, 2, 33))), Lens(22.0)
+    other = ("Door", Lens(28.0), Pose(placed((-2.9, -2.4, 1.5), (84, 0, -38))))
+    film = Film(360, 216)
+    return Description(7, "room", parts, lens, film, eye, (0.02, 0.02, 0.03, 1.0), 1, (other,))
+
+
 @cache
 def scenes() -> tuple[Description, ...]:
-    """Return the six scenes."""
-    return solids(), parallel(), shifted(), moving(), modelled(), many()
+    """Return the seven scenes."""
+    return solids(), parallel(), shifted(), moving(), modelled(), many(), room()

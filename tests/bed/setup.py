@@ -79,9 +79,9 @@ def camera_through(lens: Lens, film: Film, world_from_camera: np.ndarray) -> Cam
 def solid_of(item: Item, frame: float, shape: Shape | None = None) -> Solid:
     """Return an item in the world at a frame, in another shape if one is given."""
     shape = shape or item.shape
-    return Solid(
-        item.name, placed(shape.vertices, item.world(frame)), shape.triangles(), item.color
-    )
+    at = placed(shape.vertices, item.world(frame))
+    paint = np.array(item.colors)[shape.slots(len(item.colors))]
+    return Solid(item.name, at, shape.triangles(), item.color, paint if item.more else None)
 
 
 def placed(vertices: np.ndarray, matrix: np.ndarray) -> np.ndarray:

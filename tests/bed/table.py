@@ -27,6 +27,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -35,7 +36,7 @@ from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.tracer.progress import result_of
 
-from .bridge import case_of
+from .bridge import case_of, case_of_data
 from .damage import COUNT, damaged
 from .description import Description
 from .faults import cells
@@ -79,13 +80,17 @@ def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, Fault | No
     [(fault, scene)] = found
     wrong = fault.make(scene, right(scene))
     shown = None if wrong is None else wrong.stored()
-    if shown is None or same(shown, right(scene).picture()) or says_nothing(shown):
+    if shown is None or says_nothing(shown):
+        return None
+    if same(shown, replace(right(scene), holds=wrong.holds).picture()):
         return None
     return scene, shown, wrong, fault
 
 
 def compared(scene: Description, picture: np.ndarray, made: Made | None = None) -> Comparison:
     """Return the comparison with a picture (h, w, 4), row 0 at the top, and what it was made by."""
+    if made and made.holds:
+        return result_of(trace_and_compare(case_of_data(scene, picture[..., 0], made.holds)))
     known = (made.levels, made.filter_radius) if made else ()
     return result_of(trace_and_compare(with_variants(case_of(scene, picture, *known), scene)))
 
@@ -109,7 +114,7 @@ def measured(cell: str) -> Row:
     useful = wrong is not None and set(shown) & changed(scene, wrong)
     silent = "useful" if useful else "silent"
     return {
-        "answer": ("named" if _are_right(every, fault, scene) else "wrong") if every else silent,
+        "answer": _judged(every, fault, scene) if every else silent,
         "compare": between - began,
         "both": ended - began,
         "told": [transform] * bool(transform) + [t.sentence for t in told],
@@ -118,11 +123,15 @@ def measured(cell: str) -> Row:
     }
 
 
-def _are_right(names: set[str], fault: Fault | None, scene: Description) -> bool:
-    """Return whether names are right: only others than the fault's own take long to judge."""
-    if fault is None:
-        return False
-    return names <= {fault.key, spoken(fault)} or names <= right_names(fault, scene).keys()
+def _judged(names: set[str], fault: Fault | None, scene: Description) -> str:
+    """Judge names: only others than the fault's own take long. Of a pair, both must be named."""
+    parts = () if fault is None else fault.parts or (fault,)
+    own = [{part.key, spoken(part)} for part in parts]
+    if not names <= set().union(*own):
+        own = [set(right_names(part, scene)) for part in parts]
+    if not names <= set().union(*own):
+        return "wrong"
+    return "named" if all(names & some for some in own) else "useful"
 
 
 def changed(scene: Description, made: Made) -> set[str]:

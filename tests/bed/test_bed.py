@@ -14,7 +14,7 @@ from reference_tracer.tracer.progress import result_of
 from ..sampled import daily
 from . import damage, shapes
 from .bridge import case_of, scene_of, window_of
-from .faults import FAULTS
+from .faults import FAULTS, of
 from .making import Fault, right
 from .names import picture_of, right_names, same, says_nothing
 from .renderer import Camera, Solid, render
@@ -25,11 +25,6 @@ from .variants import variants_of
 EVERY = pytest.mark.parametrize("scene", scenes(), ids=lambda s: s.name)
 BLACK = (0.0, 0.0, 0.0, 0.0)
 RED = (1.0, 0.0, 0.0, 1.0)
-
-
-def of(key: str, label: str = "") -> Fault:
-    """Return the first fault of a key, and of a label that begins so."""
-    return next(f for f in FAULTS if f.key == key and f.label.startswith(label))
 
 
 def compared(scene, made):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -70,22 +69,6 @@ def test_the_json(bench, tmp_path):
     assert [Row(**row) for row in data["rows"]] == bench.rows
     assert [CommandRow(**row) for row in data["commands"]] == bench.commands
     assert not list(tmp_path.glob("*.part"))
-
-
-def test_the_table(bench):
-    """pyperf's, of ours beside each peer that was measured with it; then commands and notes."""
-    case = "cube, 480 x 270, perspective"
-    seconds = {"certified, trace": [2.0, 2.2], "embreex_trace": [1.0, 1.1], "rtree": [8.0]}
-    times = {f"{case}: {who}": some for who, some in seconds.items()}
-    text = table(replace(bench, times=times | {"cone: rtree": [1.0]}))
-    head, *_ = parts = text.split("\n\n")
-    assert "embreex_trace" in head and "certified_trace" in head and "2.00x slower" in head
-    assert "rtree" in parts[1] and "3.81x faster" in parts[1] and case in parts[1]
-    assert len(parts) == 4 and "cone" not in text.replace("cone: ", "")
-    assert all(name in text for name in COMMANDS) and "0.40 (0.30 - 9.50)" in text
-    assert text.count("0.25 s") == 1 and bench.notes[0] in text
-    assert "nterrupted" not in text
-    assert "Interrupted" in table(replace(bench, interrupted=True))
 
 
 def test_a_table_of_nothing():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bpy
 import pytest
 
 
@@ -31,11 +30,3 @@ def test_unkeyed_edits_are_kept(moved, compare, judge):
     assert tuple(cube.location) == (0.5, 0.25, 0)
     assert tuple(material.diffuse_color) == pytest.approx((0.1, 0.2, 0.3, 1))
     assert cube["bend"] == 3.0
-
-
-def test_a_render_alone_would_lose_them(moved):
-    """Else there would be nothing to keep."""
-    cube, _ = moved
-    bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
-    bpy.ops.render.render()
-    assert tuple(cube.location) == (0, 0, 0)

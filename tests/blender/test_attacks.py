@@ -6,7 +6,6 @@ whose surfaces it shows, and by its colours alone, as `compare --against` judges
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -22,7 +21,6 @@ from reference_tracer.causes.explain import (
     UNEXPLAINED,
     explain,
 )
-from reference_tracer.comparison.comparing import compare as compare_traced
 from reference_tracer.rendering import render
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
@@ -194,16 +192,6 @@ def test_one_object_in_another_shade_is_named_and_is_no_transform(shade, every, 
             wrong[name] = (causes.transform, [(s.object, s.pixels, s.transform) for s in shades])
     assert wrong == {}
     assert attacked >= len(SCENES) // 2 // every
-
-
-def test_a_person_is_told_which_object_is_in_another_shade(subjects):
-    name, subject = next((n, s) for n, s in subjects(lambda _: False) if n == "suzanne")
-    made = one_recoloured(SHADES["halved"])(subject)
-    case = replace(made.case, self_check=False)
-    found = result_of(compare_traced(case, made.frame))
-    assert found.verdict == "differences", name
-    told = [line for line in found.lines() if f"'{made.object}' is shown in another shade" in line]
-    assert len(told) == 1
 
 
 @pytest.mark.parametrize("shade", SHADES)

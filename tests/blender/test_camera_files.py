@@ -86,28 +86,6 @@ def test_frames_are_written_and_checked(name, scene, tmp_path, reftrace):
     assert ": 3 cameras agree: " in done.stdout
 
 
-def test_one_view_is_checked_at_another_frame(scene, tmp_path, reftrace):
-    out = tmp_path / "sparse"
-    reftrace("camera", scene, "--out", out, "--convention", "colmap", "--frames", "1-5:2")
-    one = reftrace("camera", scene, "--check", out, "--view", "3", "--set", "frame=3")
-    assert one.returncode == 0 and one.stdout.count("agree") == 1
-    other = reftrace("camera", scene, "--check", out, "--view", "3", "--set", "frame=5")
-    assert other.returncode == 2 and "the camera is moved by" in other.stdout
-
-
-def test_a_file_that_is_off_is_told_how_far_and_why(scene, tmp_path, reftrace):
-    """The shift left out, as one public exporter of transforms.json has it."""
-    out = tmp_path / "transforms.json"
-    reftrace("camera", scene, "--out", out, "--convention", "nerf")
-    file = json.loads(out.read_text(encoding="utf-8"))
-    file["cx"], file["cy"] = file["w"] / 2, file["h"] / 2
-    out.write_text(json.dumps(file), encoding="utf-8")
-    done = reftrace("camera", scene, "--check", out)
-    assert done.returncode == 2
-    assert f"up to {0.2 * 96:.4g} px" in done.stdout
-    assert "the camera's shift is left out" in done.stdout and "add shift X and Y" in done.stdout
-
-
 def test_what_else_a_file_has_is_told_in_lines(scene, tmp_path, reftrace):
     out = tmp_path / "camera.json"
     reftrace("camera", scene, "--out", out)

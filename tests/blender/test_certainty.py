@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.engine import ENGINE
@@ -38,11 +37,6 @@ def test_a_plain_method_certifies_nothing(square, rendered):
     assert not rendered()["ViewLayer"]["Certainty"].any()
 
 
-def test_what_the_scene_required_is_in_the_log(square, rendered, capfd):
-    rendered()
-    assert "needed exact arithmetic" in capfd.readouterr().out
-
-
 def test_certified_fails_where_nothing_can_be(square, broken_arithmetic, rendered):
     square.reference_tracer.method = "certified"
     with pytest.raises(RuntimeError, match="nothing can be certified in this process"):
@@ -53,14 +47,3 @@ def test_automatic_falls_back_and_says_so(square, broken_arithmetic, rendered, c
     assert not rendered()["ViewLayer"]["Certainty"].any()
     said = capfd.readouterr()
     assert "Traced by watertight in float64, as nothing can be certified" in said.out + said.err
-
-
-@pytest.mark.parametrize("method", ["auto", "certified"])
-def test_the_operator_says_so_too(method, square, broken_arithmetic, capfd):
-    square.reference_tracer.method = method
-    if method == "certified":
-        with pytest.raises(RuntimeError, match="nothing can be certified"):
-            bpy.ops.reference_tracer.compare()
-    else:
-        assert bpy.ops.reference_tracer.compare() == {"FINISHED"}
-        assert "traced by watertight in float64" in capfd.readouterr().out

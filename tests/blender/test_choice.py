@@ -196,13 +196,6 @@ def test_the_files_own_camera_comes_before_a_librarys(solids, tmp_path):
         assert bpy.context.scene.camera == own
 
 
-def test_nothing_to_frame(build):
-    build.scene()
-    build.cube().hide_render = True
-    with pytest.raises(SceneError, match="nothing to frame"), chosen(Choice(frame_all=True)):
-        pass
-
-
 def test_without_a_camera_the_command_says_how_to_get_one(solids, tmp_path, capsys):
     out = str(tmp_path / "out")
     compare, explain = ["compare", "--out", out], ["explain", "--pixel", "3", "3"]

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
 from pathlib import Path
 
 import bpy
-import numpy as np
 import pytest
-from PIL import Image
-from reference_tracer.files.images import to_display
 from reference_tracer.files.scenes import load_scene
 from reference_tracer.rendering import render
-from reference_tracer.tracer.settings import Settings
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
 
@@ -39,47 +34,6 @@ def small(build, tmp_path):
     return path
 
 
-def test_compare(small, tmp_path):
-    done = shell("compare", small, "--out", tmp_path / "out")
-    assert done.returncode == 0, done.stderr
-    assert "verdict: agree" in done.stdout
-    found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
-    assert found["scene"]["file"] == small.name
-    assert found["pixels"]["unexplained"] == 0
-    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == [
-        "blender.png",
-        "comparison.json",
-        "difference.png",
-        "frame.npz",
-        "page.html",
-        "traced.png",
-    ]
-
-
-def test_a_file_without_a_camera(small, tmp_path, reftrace):
-    """It is framed, or seen from where the options say."""
-    bpy.context.scene.camera = None
-    bpy.ops.wm.save_mainfile()
-    done = reftrace("compare", small, "--out", tmp_path / "out", "--set", "eye=all", "width=32")
-    assert done.returncode == 0, done.stderr
-    assert "camera 'framing'" in done.stdout and "verdict: agree" in done.stdout
-    found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
-    assert found["scene"]["camera"] == "framing" and found["pixels"]["agree"] == 32 * 18
-    eye = "--set", "eye=4,-4,3", "ortho-scale=5"
-    done = reftrace("export", small, "--out", tmp_path / "s.npz", *eye)
-    assert done.returncode == 0, done.stderr
-    camera = load_scene(tmp_path / "s.npz").camera
-    assert camera.projection.shares_direction and camera.origin.tolist() == [4, -4, 3]
-
-
-def test_compare_warns_by_its_exit_code(tmp_path, reftrace, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    done = reftrace("compare", SAMPLES / "far_away.blend", "--out", "out", "--set", "width=240")
-    assert done.returncode == 1, done.stderr
-    assert "not decidable" in done.stdout
-    assert (tmp_path / "out" / "comparison.json").is_file()  # beside where the shell is
-
-
 def test_export_and_trace_give_the_same_picture(small, tmp_path, reftrace):
     """From the .blend and from the .npz, bit for bit."""
     exported, first, second = (tmp_path / n for n in ("scene.npz", "blend.exr", "npz.exr"))
@@ -93,15 +47,6 @@ def test_export_and_trace_give_the_same_picture(small, tmp_path, reftrace):
     assert (scene.camera.width, scene.camera.height) == (64, 36)
     assert set(scene.objects) == {"Floor", "Red", "Green", "Blue"}
     assert render(scene).color.any()
-
-
-def test_trace_shows_the_colour_that_the_file_stores(small, tmp_path, export, reftrace):
-    bpy.context.scene.reference_tracer.color = "normal"
-    bpy.ops.wm.save_as_mainfile(filepath=str(small))
-    frame = render(export.render()[0], Settings(color="normal"))
-    assert reftrace("trace", small, "--out", tmp_path / "a.png").returncode == 0
-    found = np.asarray(Image.open(tmp_path / "a.png"))[::-1]
-    np.testing.assert_array_equal(found, to_display(frame.color))
 
 
 def test_trace_uses_what_the_scene_stores(small, tmp_path, reftrace):
@@ -160,12 +105,6 @@ def test_interrupted_while_blender_is_imported(command, tmp_path):
     assert done.stderr.splitlines()[-1] == "reftrace: interrupted"
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "new").exists()
-
-
-def test_too_large_a_picture(reftrace):
-    done = reftrace("trade", SAMPLES / "suzanne.blend", "--set", "width=10000000", "--samples", "1")
-    assert done.returncode == 4
-    assert "choose a smaller size" in done.stderr and "Traceback" not in done.stderr
 
 
 def test_explain_prints_markdown_and_nothing_else(tmp_path, reftrace):

@@ -74,26 +74,6 @@ def test_3_the_sizes_do_not_match(saved, out, shown_otherwise, capsys):
     assert "64 x 35" in capsys.readouterr().err
 
 
-def test_3_also_where_blender_made_another_size(saved, out, monkeypatch, capsys):
-    """It is noticed where the picture is read."""
-    from reference_tracer.blender.drawing import picture
-
-    real = picture.read
-    monkeypatch.setattr(picture, "read", lambda *of: real(*of)[:, :-1])
-    assert in_blender.run(["compare", "--out", str(out)]) == 3
-    assert "63 x 36" in capsys.readouterr().err
-    assert verdict(out)["verdict"] == "failed"
-
-
-def test_4_no_camera(saved, out, capsys):
-    saved.camera = None
-    assert in_blender.run(["compare", "--out", str(out)]) == 4
-    assert "camera" in capsys.readouterr().err
-    found = verdict(out)
-    assert (found["verdict"], found["error"]["type"]) == ("failed", "SceneError")
-    assert "camera" in found["error"]["message"]
-
-
 def test_4_no_file_is_open(build, out, capsys):
     build.camera()
     assert not bpy.data.filepath
@@ -122,11 +102,6 @@ def test_4_an_option_that_is_wrong(argv, saved, capsys):
     assert "--help" in message
 
 
-def test_4_without_a_folder(saved, capsys):
-    assert in_blender.run(["compare"]) == 4
-    assert "name a folder with --out" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("samples", ["0", "-1", "65"])
 def test_4_a_value_out_of_range(samples, saved, out, capsys):
     assert in_blender.run(["compare", "--out", str(out), "--samples", samples]) == 4
@@ -148,14 +123,6 @@ def test_4_an_exception_of_its_own(kind, saved, out, monkeypatch, capsys):
     assert in_blender.run(["compare", "--out", str(out)]) == 4
     assert "on purpose" in capsys.readouterr().err
     assert verdict(out)["error"]["type"] == kind.__name__
-
-
-@pytest.mark.parametrize("argv", [["--help"], ["-h"], ["compare", "--help"]], ids=str)
-def test_help(argv, saved, capsys):
-    assert in_blender.run(argv) == 0
-    text = capsys.readouterr().out
-    assert "exit codes:" in text
-    assert "blender FILE --command reference_tracer" in text
 
 
 @pytest.mark.parametrize(
@@ -202,22 +169,6 @@ def test_a_folder_beside_the_file(saved, tmp_path):
     assert (tmp_path / "beside" / "pixel.json").is_file()
     traced = ["--against", "//beside/traced.png"]
     assert in_blender.run(["compare", "--out", "//again", *traced]) == 0
-
-
-def test_the_operator_fails_where_it_cannot_write(saved, tmp_path):
-    (tmp_path / "file").write_text("in the way")
-    with pytest.raises(RuntimeError, match="file"):
-        bpy.ops.reference_tracer.compare(directory=str(tmp_path / "file"))
-
-
-def test_explain_prints_or_writes(saved, tmp_path, capsys):
-    assert in_blender.run(["explain", "--pixel", "30", "18"]) == 0
-    assert capsys.readouterr().out.startswith("# The ray through pixel (30, 18) of scene.blend")
-    page, again = tmp_path / "pixel.html", tmp_path / "pixel.json"
-    written = ["--out", str(page), "--reproducer", str(again)]
-    assert in_blender.run(["explain", "--pixel", "30", "18", *written]) == 0
-    assert page.read_text(encoding="utf-8").startswith("<!doctype html>")
-    assert "reference_tracer.pixel/2" in again.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

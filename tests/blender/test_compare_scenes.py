@@ -8,6 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.report.lines import lines
 
 from .scenes import HALF_FLOAT
 
@@ -116,19 +117,6 @@ def orthographic(build):
     build.corner_camera(type="ORTHO", ortho_scale=6.5, shift_x=0.1)
 
 
-def border_with_crop(build):
-    build.corner_camera(lens=40)
-    render = bpy.context.scene.render
-    render.use_border = render.use_crop_to_border = True
-    render.border_min_x, render.border_max_x = 0.23, 0.77
-    render.border_min_y, render.border_max_y = 0.31, 0.93
-
-
-def border_without_crop(build):
-    border_with_crop(build)
-    bpy.context.scene.render.use_crop_to_border = False
-
-
 def mirrored(build):
     build.corner_camera(lens=40).scale = (-1, 1, 1)
 
@@ -170,8 +158,6 @@ def percentage(build):
         pixel_aspect,
         tall_pixels,
         orthographic,
-        border_with_crop,
-        border_without_crop,
         mirrored,
         scaled,
         parented,
@@ -200,6 +186,6 @@ def test_an_empty_scene_is_a_valid_picture_and_a_warning(build, compare):
     build.camera()
     comparison = compare()
     assert comparison.verdict == "warnings"
-    assert "the picture is empty: no ray meets anything" in comparison.lines()
+    assert "the picture is empty: no ray meets anything" in lines(comparison)
     assert comparison.counts.agree == comparison.counts.total == 96 * 54
     assert not comparison.frame.color.any()

@@ -107,14 +107,6 @@ def set_border(scene, crop: bool) -> None:
     render_settings.border_min_y, render_settings.border_max_y = 0.13, 0.67
 
 
-def test_border_with_crop(solids, rendered, export):
-    set_border(solids, crop=True)
-    frame = render(export.render()[0])
-    passes = rendered()["ViewLayer"]
-    assert passes["Combined"].shape[:2] == frame.t.shape != (54, 96)
-    assert_same(passes, frame)
-
-
 def test_border_without_crop(solids, rendered, export):
     whole = render(export.render()[0])
     set_border(solids, crop=False)
@@ -158,25 +150,6 @@ def test_two_view_layers(solids, build, rendered, export):
         bpy.context.window.view_layer = layer
         assert_same(layers[layer.name], render(export.viewport()[0]))
     assert (layers["ViewLayer"]["Combined"] != layers[other.name]["Combined"]).any()
-
-
-def test_render_levels_and_visibility_are_the_renders(solids, build, rendered, export):
-    cube = bpy.data.objects["Red"]
-    modifier = cube.modifiers.new("Subdivision", "SUBSURF")
-    modifier.levels, modifier.render_levels = 0, 2
-    bpy.data.objects["Blue"].hide_render = True
-    scene = export.render()[0]
-    assert "Blue" not in scene.objects
-    assert len(scene.meshes[scene.instances[scene.objects.index("Red")].mesh].triangles) == 192
-    assert_same(rendered()["ViewLayer"], render(scene))
-
-
-def test_the_passes_are_declared_to_the_compositor(solids, build):
-    solids.view_layers[0].update_render_passes()
-    _, node = build.compositor()
-    # Blender's own name for Combined is Image, and Alpha is part of it.
-    shown = {output.name for output in node.outputs if output.enabled}
-    assert shown - {"Image", "Alpha"} == LABELS - {"Combined"}
 
 
 def test_what_a_layer_has_not_chosen_is_neither_computed_nor_declared(

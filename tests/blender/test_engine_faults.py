@@ -121,16 +121,6 @@ def test_an_exception_midway_fails_the_render(kind, scene, no_file, monkeypatch)
         bpy.ops.render.render(write_still=True)
 
 
-def test_settings_that_are_out_of_range_fail_the_render(scene, no_file, monkeypatch):
-    monkeypatch.setattr("reference_tracer.tracer.settings.Settings", fail_settings)
-    with pytest.raises(RuntimeError, match="samples is 99"):
-        bpy.ops.render.render(write_still=True)
-
-
-def fail_settings(*given, **options):
-    raise ValueError("samples is 99; it must be between 1 and 64")
-
-
 @pytest.mark.parametrize("fault", [no_camera, panoramic], ids=lambda fault: fault.__name__)
 def test_an_animation_stops_at_the_first_frame(fault, scene, no_file):
     fault(scene)

@@ -16,7 +16,7 @@ from reference_tracer.blender.jobs.variants import variants
 from reference_tracer.blender.reading import opened
 from reference_tracer.pictures.palette import By
 from reference_tracer.scene import SceneError
-from reference_tracer.tracer.progress import doing
+from reference_tracer.tracer.progress import Progress
 
 from ..evaluations import DONE, counted
 
@@ -110,8 +110,8 @@ def test_what_takes_long_is_said_before_each_frame(heavy, monkeypatch, tmp_path)
     wave.levels = 5
     wave.keyframe_insert("show_on_cage", frame=1)  # so that each frame evaluates it anew
     monkeypatch.setattr(slowest, "LONG", 0.01)
-    told = [doing(share) for share in compare_frames(str(tmp_path), range(1, 3), lambda rows: None)]
-    said = [words for words in told if "Blender" in words]
+    events = compare_frames(str(tmp_path), range(1, 3))
+    said = [e.words for e in events if isinstance(e, Progress) and "Blender" in e.words]
     assert said[1:] == [
         "frame 1: Blender evaluates 'Heavy'",
         *2 * ["frame 2: Blender evaluates 'Heavy'"],

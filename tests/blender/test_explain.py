@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.blender.ui import ray_objects, results
-from reference_tracer.blender.ui.results import MARK, Kind
+from reference_tracer.blender.ui.blocks import MARK
+from reference_tracer.blender.ui.results import Kind
 from reference_tracer.derivation import document, reproducer
 from reference_tracer.derivation.candidates import gather_pixel
 from reference_tracer.derivation.derivation import derive
@@ -159,21 +160,6 @@ def test_no_picture_has_a_ray_that_was_put_elsewhere(suzanne, compare):
     drawn = compare()
     np.testing.assert_array_equal(drawn.frame.color, clean.frame.color)
     np.testing.assert_array_equal(drawn.picture, clean.picture)
-
-
-def test_no_picture_has_the_ray(suzanne, compare):
-    clean = compare()
-    ops.explain(**PIXEL, draw_ray=True)
-    drawn = compare()
-    np.testing.assert_array_equal(drawn.frame.color, clean.frame.color)
-    np.testing.assert_array_equal(drawn.picture, clean.picture)
-    assert drawn.verdict == "agree"
-    entries = {e.name: e for e in drawn.manifest.objects}
-    for obj in bpy.data.collections[ray_objects.NAME].objects:  # not dropped without a word
-        assert not entries[obj.name].exported and entries[obj.name].reason
-    first = document.document_markdown(latest())
-    ops.explain(**PIXEL)
-    assert document.document_markdown(latest()) == first
 
 
 def test_undo_takes_the_ray_and_leaves_the_text(suzanne):

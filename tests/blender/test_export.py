@@ -59,17 +59,6 @@ def test_modifiers_have_the_level_of_the_mode(build, export):
     assert {m: manifest.evaluation for m, (_, manifest) in found.items()} == {m: m for m in MODES}
 
 
-def test_modifiers_shown_in_one_mode_only(build, export):
-    build.camera()
-    cube = build.cube()
-    for name, viewport, render in (("V", True, False), ("R", False, True)):
-        modifier = cube.modifiers.new(name, "ARRAY")
-        modifier.count = 2 if viewport else 3
-        modifier.show_viewport, modifier.show_render = viewport, render
-    assert export.viewport()[0].triangle_count == 24
-    assert export.render()[0].triangle_count == 36
-
-
 @pytest.mark.parametrize("mode", MODES)
 def test_every_type_gives_the_triangles_that_blender_makes(mode, build, export, entries):
     build.camera()
@@ -86,15 +75,6 @@ def test_every_type_gives_the_triangles_that_blender_makes(mode, build, export, 
         assert found[obj.name].triangles == count
         assert found[obj.name].type == obj.type
     assert scene.triangle_count == sum(own_triangles(obj) for obj in made)
-
-
-def test_curves_have_the_resolution_of_the_mode(build, export):
-    build.camera()
-    curve = build.bevelled_curve()
-    curve.data.resolution_u, curve.data.render_resolution_u = 4, 8
-    viewport, render = export.viewport()[0], export.render()[0]
-    assert viewport.triangle_count == own_triangles(curve)
-    assert render.triangle_count == 2 * viewport.triangle_count
 
 
 @pytest.mark.parametrize("mode", MODES)

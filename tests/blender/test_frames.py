@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
-import sys
 from dataclasses import replace
 
 import bpy
 import numpy as np
 import pytest
-from PIL import Image
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.jobs.cameras import cameras
 from reference_tracer.blender.reading.camera import export_camera
@@ -319,27 +316,6 @@ def test_the_operator_goes_back_to_the_users_frame(moving, out):
     assert path == out / "animation.html" and rows[0].frame == 3
 
 
-def test_reftrace_goes_on_where_it_ended(moving, out, reftrace):
-    """As a user's shell runs it; where the work is done makes no other frames."""
-    argv = ["compare", bpy.data.filepath, "--out", str(out), "--no-identity", "--frames"]
-
-    def elsewhere(*argv):
-        command = [sys.executable, "-m", "reference_tracer.cli.main", *argv]
-        command += "--scheduler", "local:1"
-        return subprocess.run(command, capture_output=True, text=True, timeout=300)
-
-    for frames, run, told in (
-        ("2", reftrace, [2]),
-        ("1-3", elsewhere, [1, 3]),
-        ("1-3", reftrace, []),
-    ):
-        ended = run(*argv, frames)
-        assert ended.returncode == (frames != "2"), ended.stderr
-        assert [int(n) for n in re.findall(r"^frame (\d):", ended.stderr, re.M)] == told
-    assert not (out / "comparison.json").exists()
-    assert [row["frame"] for row in table(out)["frames"]] == [3, 1, 2]
-
-
 def test_each_frame_is_traced_as_it_is_by_itself(moving, tmp_path, capsys):
     """Pictures, all passes and masks, under the names that `camera --frames` gives them."""
     files = (("--out", "png"), ("--out", "exr"), ("--certificate", "npz"))
@@ -361,13 +337,6 @@ def test_each_frame_is_traced_as_it_is_by_itself(moving, tmp_path, capsys):
     moving.frame_set(1)
     named = [camera.view.name for camera in cameras([2, 4])]
     assert named == ["0002.png", "0004.png"]
-
-
-def test_frames_are_seen_by_their_own_cameras(moving, tmp_path, seen_by):
-    given = ["--camera", seen_by("r_1.png", "r_2.png", "r_4.png"), "--frames", "2-4:2"]
-    assert in_blender.run(["trace", *given, "--out", str(tmp_path / "all/####.png")]) == 0
-    pictures = [Image.open(tmp_path / f"all/000{frame}.png") for frame in (2, 4)]
-    assert [picture.size[0] for picture in pictures] == [28, 32]
 
 
 @pytest.mark.parametrize(

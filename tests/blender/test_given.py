@@ -7,7 +7,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.ui import properties, results
+from reference_tracer.blender.ui import blocks, properties, results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.blender.versions import set_format
 from reference_tracer.tracer.progress import result_of
@@ -60,14 +60,14 @@ def test_a_wrong_image_is_put_right_on_a_copy(rendered_png, solids):
     assert found.verdict == "differences" and told() == ["focal_length"]
     assert OPS.show_put_right(number=0) == {"FINISHED"}
     right = found.diagnosis.told[0].frame.color
-    shown = np.array(results.ours(results.PUT_RIGHT).pixels[:]).reshape(right.shape)
+    shown = np.array(blocks.ours(blocks.PUT_RIGHT).pixels[:]).reshape(right.shape)
     assert np.array_equal(shown, right) and not np.array_equal(shown, found.frame.color)
     explained_as_shown(found, found.diagnosis.told[0].frame)
     assert OPS.copy_camera(number=0) == {"FINISHED"}
     assert OPS.activate_copy() == {"FINISHED"}
     assert solids.camera != camera and camera.data.lens == 40
     assert compared_with(solids.reference_tracer.image).verdict == "agree"
-    assert results.ours(results.PUT_RIGHT) is None and not OPS.show_put_right.poll()
+    assert blocks.ours(blocks.PUT_RIGHT) is None and not OPS.show_put_right.poll()
     with pytest.raises(RuntimeError, match="No picture of this scene's latest comparison is shown"):
         OPS.explain(x=1, y=1, source="PUT_RIGHT")
 
@@ -135,6 +135,6 @@ def test_an_image_that_cannot_be_compared(make, said, rendered_png):
 def test_images_of_the_comparison_are_not_offered(solids):
     offered = solids.reference_tracer.bl_rna.properties["image"]
     assert offered.fixed_type.identifier == "Image"
-    own = results.show("Reference Tracer Traced", np.zeros((4, 4, 4), np.float32))
+    own = blocks.show("Reference Tracer Traced", np.zeros((4, 4, 4), np.float32))
     assert not properties._is_a_picture(solids.reference_tracer, own)
     assert properties._is_a_picture(solids.reference_tracer, bpy.data.images.new("Mine", 4, 4))

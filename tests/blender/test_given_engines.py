@@ -12,7 +12,6 @@ from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.cli import in_blender
 from reference_tracer.comparison.engines import EngineRow
-from reference_tracer.pictures.palette import By
 from reference_tracer.scene import SceneError
 
 from .given import rendered_png, solids, told, toy
@@ -87,21 +86,6 @@ def test_an_engine_that_does_not_show_the_colors_is_told(own, toy, solids, monke
     told = [note for note in found.manifest.notes if "none of the colours" in note]
     assert len(told) == own
     assert [line for line in EngineRow.of(found).not_judged if "none of" in line] == told
-
-
-def test_random_colors_of_instances_are_refused(toy, build, compare):
-    """An engine would give them the colour of the object that instances them."""
-    build.scene(color_type="RANDOM")
-    build.camera()
-    build.square(size=1)
-    alone = {"judge": "TOY_TRACER", "colors": By.VIEWPORT, "diagnose": False}
-    assert compare(**alone).verdict == "agree"
-    kit = build.collection("Kit", build.square("Part", 1, link=False))
-    instancer = build.empty("Instancer", location=(1.5, 0, 0))
-    instancer.instance_type, instancer.instance_collection = "COLLECTION", kit
-    with pytest.raises(SceneError, match="Toy Tracer cannot draw the viewport's random colours"):
-        compare(**alone)
-    assert compare(judge="TOY_TRACER", colors=By.OBJECT, diagnose=False).verdict == "agree"
 
 
 def raises(self, depsgraph):

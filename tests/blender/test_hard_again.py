@@ -8,8 +8,8 @@ import pytest
 from reference_tracer.blender.jobs.against import gather_against
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.comparison.comparing import compared
-from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.storage import Storage
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 

@@ -177,17 +177,6 @@ def test_leaves_the_users_data_and_simulation_alone(make, judge, build, compare)
     np.testing.assert_array_equal(again.picture, found.picture)
 
 
-@pytest.mark.parametrize("make", hard.SIMULATIONS, ids=name_of)
-def test_simulations_have_moved(make, build):
-    """The picture is neither that of the first frame, nor is anything at rest in it."""
-    make(build)
-    case = gather_case(bpy.context, judge="WORKBENCH", identity=False)
-    bpy.context.scene.frame_set(1)
-    first = gather_case(bpy.context, judge="WORKBENCH", identity=False)
-    changed = np.abs(case.picture.color - first.picture.color).max(axis=-1) > 0.02
-    assert changed.sum() > SEEN
-
-
 def own_picture() -> np.ndarray:
     """The user's own scene, not a copy of it, as Workbench draws it in constant colours."""
     scene = bpy.context.scene
@@ -268,14 +257,6 @@ def test_no_copy_simulates_the_second_frame_of_rigid_bodies(now, build):
     assert scene.rigidbody_world.enabled and scene.frame_current == now
 
 
-def test_upset_particles_are_seen_here(build):
-    """Colouring an emitter resets what is not baked: the test above would find that."""
-    hard.particles(build)
-    geometry = evaluated_geometry()
-    bpy.data.objects["Emitter"].color = (1, 0, 0, 1)
-    assert evaluated_geometry() != geometry
-
-
 @pytest.mark.parametrize("make", hard.EDIT_MODE, ids=name_of)
 def test_edited_objects_are_in_edit_mode_and_in_the_picture(make, build):
     make(build)
@@ -352,28 +333,3 @@ def test_no_false_excuse(make, damage, build, sound_cases):
         plain &= ~around(shown_otherwise(sound)[:, ::-1])
     assert plain.sum() > SEEN
     assert (found.causes.cause[plain] == UNEXPLAINED).mean() > 0.9
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        hard.particle_hair,
-        *(
-            pytest.param(make, marks=pytest.mark.torture)
-            for make in (
-                hard.glass_pane,
-                hard.in_front,
-                hard.instanced_hair,
-                hard.grease_pencil,
-                hard.hair_on_points,
-            )
-        ),
-    ],
-    ids=name_of,
-)
-def test_the_self_check_misses_nothing(make, build, compare):
-    make(build)
-    found = compare(judge="WORKBENCH", self_check=True)
-    results = {row.name: row.result for row in found.self_check}
-    assert "missed" not in results.values(), results
-    assert sum(result == "caught" for result in results.values()) >= 10

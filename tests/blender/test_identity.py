@@ -89,14 +89,3 @@ def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch)
     shows = found.counts.unexplained_shows
     assert found.verdict == "differences"
     assert shows.other_object > 100 and shows.same_object == 0
-
-
-def test_it_can_be_left_out(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
-    assert compare(identity=False).identity is None
-    bpy.context.scene.reference_tracer.identity = False
-    found = compare()
-    assert found.identity is None and found.verdict == "agree"
-    assert found.to_dict()["identity"] is None

@@ -55,7 +55,3 @@ def test_a_translation_names_them_in_its_language_and_the_english_name_beside(
     assert len(pairs) >= 3
     assert [(own, english) for own, english in pairs if table.get(english) != own] == []
     assert sorted(set(NAMED.findall(text)) - shown - set(table.values())) == []
-
-
-def test_a_button_of_another_name_is_found(shown):
-    assert "Trace and Compare" in shown and not {"Compare and Trace", "Traces"} & shown

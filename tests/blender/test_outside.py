@@ -130,19 +130,6 @@ def test_the_picture_is_the_same_without(camera, mode, build, export, keeping_al
     assert f"{sum(e.outside for e in unseen)} instances of {len(unseen)} objects" in lines
 
 
-def test_the_comparison_is_the_same_without(build, compare, keeping_all):
-    build.scene()
-    scatter(build)
-    build.corner_camera(**CAMERAS["perspective"])
-    few = compare()
-    keeping_all()
-    whole = compare()
-    assert few.counts == whole.counts
-    assert few.verdict == whole.verdict
-    assert few.counts.unexplained == 0
-    assert len(few.scene.instances) < len(whole.scene.instances)
-
-
 @pytest.mark.parametrize("mode", MODES)
 def test_a_border_leaves_nothing_out(mode, build, export):
     """The trade traces the whole picture, also where a border is set."""

@@ -7,7 +7,6 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.jobs.against import gather_against
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.cli import in_blender
@@ -16,6 +15,7 @@ from reference_tracer.files import images
 from reference_tracer.pictures import colors_file
 from reference_tracer.pictures.palette import By
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.report.lines import lines
 from reference_tracer.scene import GREY, SceneError
 from reference_tracer.tracer.progress import result_of
 
@@ -104,20 +104,6 @@ def test_the_scene_keeps_its_own(ordinary, compare, colors):
     assert found == []
 
 
-@pytest.mark.parametrize("colors", OTHER_COLORS)
-def test_the_scene_keeps_its_own_after_an_error(ordinary, compare, monkeypatch, colors):
-    def failing(*args, **options):
-        raise RuntimeError("no picture")
-
-    bpy.context.view_layer.update()
-    before = state()
-    monkeypatch.setattr(drawings, "picture", failing)
-    with pytest.raises(RuntimeError, match="no picture"):
-        compare(colors=colors)
-    found = [d for d in differences(before, state()) if "/names/images" not in d[0]]
-    assert found == []
-
-
 def test_base_colors_of_materials(ordinary, build, compare):
     tree = bpy.data.materials["Middle"].node_tree
     node = next(n for n in tree.nodes if n.type == "BSDF_PRINCIPLED")
@@ -159,12 +145,6 @@ def test_colors_that_an_animation_sets_stay(ordinary, compare):
     assert tuple(obj.color) == pytest.approx((0.3, 0.9, 0.1, 1))
 
 
-def test_a_scene_without_anything(build, compare):
-    build.scene()
-    build.camera()
-    assert compare().manifest.notes == ()
-
-
 def written(path, found):
     path.write_text(colors_file.text(found.scene, found.manifest.owners), encoding="utf-8")
     return colors_file.read(path)
@@ -184,7 +164,7 @@ def test_another_picture_in_colors_of_a_file(ordinary, compare, tmp_path):
     hidden.hide_render = True  # the picture is of before
     case = gather_against(bpy.context, shown, found.case.settings, colors=given)
     again = result_of(compared(case))
-    assert any("'Right'" in line for line in again.lines()) and not again.counts.unexplained
+    assert any("'Right'" in line for line in lines(again)) and not again.counts.unexplained
 
 
 def test_colors_of_a_file_by_material(ordinary, build, compare, tmp_path):

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.reading.camera import resolution
-from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui import blocks
 from reference_tracer.blender.ui.picking import pick
 from reference_tracer.blender.versions import lens
 from reference_tracer.scene import SceneError
@@ -72,9 +72,9 @@ def test_a_render_border_is_the_pictures_origin(click):
 @pytest.mark.parametrize(
     ("name", "source"),
     [
-        (results.TRACED, "COMPARISON"),
-        (results.BLENDER, "COMPARISON"),
-        (results.PUT_RIGHT, "PUT_RIGHT"),
+        (blocks.TRACED, "COMPARISON"),
+        (blocks.BLENDER, "COMPARISON"),
+        (blocks.PUT_RIGHT, "PUT_RIGHT"),
         ("", "SCENE"),
     ],
 )
@@ -83,7 +83,7 @@ def test_a_pixel_of_an_image_is_of_what_that_shows(build, name, source):
     build.corner_camera()
     image = bpy.data.images.new("Any", 48, 27)
     if name:
-        image[results.MARK] = name
+        image[blocks.MARK] = name
     view = SimpleNamespace(region_to_view=lambda x, y: (x / 96, y / 54))
     region = SimpleNamespace(type="WINDOW", view2d=view, x=0, y=0, width=96, height=54)
     active = SimpleNamespace(active=SimpleNamespace(image=image))

@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui import blocks, results
 from reference_tracer.blender.ui.differing import texts_of
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.causes.cause import AGREE, UNEXPLAINED
@@ -23,67 +23,67 @@ def named():
 
 
 def test_an_image_of_ours_is_written_again():
-    first = results.show(results.TRACED, PICTURE)
+    first = blocks.show(blocks.TRACED, PICTURE)
     users = bpy.data.textures.new("Shows it", "IMAGE")
     users.image = first
     for _ in range(3):
-        again = results.show(results.TRACED, 0.5 * np.ones((8, 3, 4), np.float32))
+        again = blocks.show(blocks.TRACED, 0.5 * np.ones((8, 3, 4), np.float32))
         assert tuple(again.size) == (3, 8) and again.pixels[0] == 0.5 and not again.is_dirty
-        assert named() == [results.TRACED] and users.image == again
+        assert named() == [blocks.TRACED] and users.image == again
 
 
 def test_an_image_has_what_it_was_given_to_the_bit():
     color = np.random.default_rng(0).normal(size=(5, 7, 4)).astype(np.float32)
     color[0, :3, 0] = np.nan, np.inf, -0.0
-    shown = results.show(results.TRACED, color)
+    shown = blocks.show(blocks.TRACED, color)
     found = np.empty_like(color)
     shown.pixels.foreach_get(found.ravel())
     assert np.array_equal(found.view(np.uint32), color.view(np.uint32))
 
 
 def test_an_image_of_the_users_is_left_alone(tmp_path):
-    own = bpy.data.images.new(results.TRACED, 2, 2, float_buffer=True)
+    own = bpy.data.images.new(blocks.TRACED, 2, 2, float_buffer=True)
     own.pixels.foreach_set(np.full(16, 0.25, np.float32))
     for _ in range(3):
-        results.show(results.TRACED, PICTURE)
+        blocks.show(blocks.TRACED, PICTURE)
     assert len(named()) == 2 and own.pixels[0] == 0.25
 
 
 def test_an_image_that_the_user_saved_is_the_users(tmp_path):
-    saved = results.show(results.TRACED, PICTURE)
+    saved = blocks.show(blocks.TRACED, PICTURE)
     assert saved.pixels[0] == 1
     saved.filepath_raw = str(tmp_path / "kept.exr")
     saved.save()
     for _ in range(3):
-        again = results.show(results.TRACED, 0 * PICTURE)
-    assert named() == [results.TRACED, "kept.exr"] and again.pixels[0] == 0
+        again = blocks.show(blocks.TRACED, 0 * PICTURE)
+    assert named() == [blocks.TRACED, "kept.exr"] and again.pixels[0] == 0
     saved.reload()
-    results.remove(results.TRACED)
-    assert saved.pixels[0] == 1 and not saved.is_runtime_data and not saved.get(results.MARK)
+    blocks.remove(blocks.TRACED)
+    assert saved.pixels[0] == 1 and not saved.is_runtime_data and not saved.get(blocks.MARK)
 
 
 def test_an_image_whose_path_blender_has_made_relative_is_still_ours(tmp_path):
-    results.show(results.TRACED, PICTURE)
+    blocks.show(blocks.TRACED, PICTURE)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
     bpy.ops.file.make_paths_relative()
-    assert results.ours(results.TRACED).filepath.startswith("//")
-    results.show(results.TRACED, PICTURE)
-    assert named() == [results.TRACED]
+    assert blocks.ours(blocks.TRACED).filepath.startswith("//")
+    blocks.show(blocks.TRACED, PICTURE)
+    assert named() == [blocks.TRACED]
 
 
 def test_twenty_rounds_take_the_memory_of_one():
     used = []
     for _ in range(20):
-        shown = results.show(results.TRACED, np.ones((1024, 1024, 4), np.float32))
+        shown = blocks.show(blocks.TRACED, np.ones((1024, 1024, 4), np.float32))
         assert shown.pixels[0] == 1  # it is loaded, 16 MB
         used.append(int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[1]) * 4096)
-    assert used[-1] - used[1] < 64e6 and named() == [results.TRACED]
+    assert used[-1] - used[1] < 64e6 and named() == [blocks.TRACED]
 
 
 def test_an_image_that_the_user_packed_is_written_again():
-    results.show(results.TRACED, PICTURE).pack()
-    again = results.show(results.TRACED, 0 * PICTURE)
-    assert named() == [results.TRACED] and again.pixels[0] == 0
+    blocks.show(blocks.TRACED, PICTURE).pack()
+    again = blocks.show(blocks.TRACED, 0 * PICTURE)
+    assert named() == [blocks.TRACED] and again.pixels[0] == 0
 
 
 def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compare):
@@ -151,15 +151,15 @@ def test_a_file_that_is_saved_has_none_of_it(tmp_path):
     packed.use_fake_user = True
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     before = path.stat().st_size
-    for name in (results.DIFFERENCE, results.TRACED):
-        results.show(name, np.ones((400, 400, 4), np.float32)).use_fake_user = True
-    results.ours(results.TRACED).pack()
-    results.show_text(bpy.context, "Reference Tracer Pixel", 1000 * "line\n").use_fake_user = True
+    for name in (blocks.DIFFERENCE, blocks.TRACED):
+        blocks.show(name, np.ones((400, 400, 4), np.float32)).use_fake_user = True
+    blocks.ours(blocks.TRACED).pack()
+    blocks.show_text("Reference Tracer Pixel", 1000 * "line\n").use_fake_user = True
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     assert path.stat().st_size <= before + 100  # 100: what is packed is not of the same bytes
     bpy.ops.wm.open_mainfile(filepath=str(path))
     assert named() == ["Reference Tracer Difference"] and not bpy.data.texts
-    assert results.ours(results.DIFFERENCE) is None
+    assert blocks.ours(blocks.DIFFERENCE) is None
 
 
 def test_undo_is_the_users():
@@ -168,16 +168,16 @@ def test_undo_is_the_users():
     bpy.context.scene.collection.objects.link(moved)
     bpy.ops.ed.undo_push(message="Add")
     for x in (1.0, 2.0):
-        results.show(results.TRACED, x * PICTURE)
-        results.show_text(bpy.context, "Reference Tracer Pixel", f"at {x}")
+        blocks.show(blocks.TRACED, x * PICTURE)
+        blocks.show_text("Reference Tracer Pixel", f"at {x}")
         bpy.data.objects["Moved"].location.x = x
         bpy.ops.ed.undo_push(message="Move")
     for step, x in (("undo", 1.0), ("undo", 0.0), ("redo", 1.0), ("redo", 2.0)):
         getattr(bpy.ops.ed, step)()
         assert bpy.data.objects["Moved"].location.x == x
-        assert named() == [results.TRACED] and results.ours(results.TRACED).pixels[0] == 2
+        assert named() == [blocks.TRACED] and blocks.ours(blocks.TRACED).pixels[0] == 2
         [text] = bpy.data.texts
-        assert text == results.ours(text.name) and text.as_string().strip() == "at 2.0"
+        assert text == blocks.ours(text.name) and text.as_string().strip() == "at 2.0"
 
 
 def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, compare):
@@ -208,7 +208,7 @@ def test_a_comparison_that_fails_leaves_no_other_one_on_the_screen(build):
     build.solids()
     camera = build.corner_camera()
     bpy.ops.reference_tracer.compare()
-    assert results.ours(results.TRACED)
+    assert blocks.ours(blocks.TRACED)
     camera.data.type = "PANO"
     with pytest.raises(RuntimeError, match="fisheye"):
         bpy.ops.reference_tracer.compare()

@@ -32,13 +32,11 @@ def scene(make):
 def shown(name, scene, settings):
     """Return the picture that a show makes, each of whose steps must leave it whole."""
     picture = Picture.empty(scene.camera)
-    shares, done = [], 0
-    for share in SHOWS[name](scene, settings, picture):
-        shares.append(share)
+    done = 0
+    for _ in SHOWS[name](scene, settings, picture):
         assert picture.rows_done.sum() >= done
         done = picture.rows_done.sum()
     assert picture.rows_done.all() and picture.color.shape == (64, 96, 4)
-    assert shares == sorted(shares) and 0 <= shares[0] and shares[-1] <= 1
     return picture
 
 

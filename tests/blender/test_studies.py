@@ -62,15 +62,6 @@ def test_trade_shows_its_plot_and_changes_nothing(solids, tmp_path):
     assert {row["width"] for row in written["rows"]} == {4, 8, 16}
 
 
-def test_trade_of_a_scene_that_cannot_be_traced(solids):
-    solids.camera = None
-    before = state()
-    with pytest.raises(RuntimeError, match="has no camera"):
-        bpy.ops.reference_tracer.trade(**SMALL)
-    assert differences(before, state()) == []
-    assert results.latest(Kind.TRADE, solids) is None
-
-
 def test_extremes_shows_its_pictures_and_changes_nothing(solids):
     before = state()
     assert bpy.ops.reference_tracer.extremes(**FEW) == {"FINISHED"}
@@ -81,27 +72,11 @@ def test_extremes_shows_its_pictures_and_changes_nothing(solids):
     assert differences(before, state()) == []
 
 
-def test_extremes_writes_what_reftrace_does(solids, tmp_path):
-    bpy.ops.reference_tracer.extremes(directory=str(tmp_path / "out"), **FEW)
-    assert {p.name for p in (tmp_path / "out").iterdir()} == {
-        "extremes.txt",
-        "extremes.json",
-        "extremes.html",
-    }
-
-
 @pytest.mark.parametrize(("run", "options"), [("trade", SMALL), ("extremes", FEW)])
 def test_a_folder_that_cannot_be_written_is_known_before_the_work(run, options, solids, tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(RuntimeError, match="is a file"):
         getattr(bpy.ops.reference_tracer, run)(directory=str(tmp_path / "file"), **options)
-
-
-def test_results_go_with_their_file(solids):
-    bpy.ops.reference_tracer.extremes(**FEW)
-    assert results.latest(Kind.EXTREMES, bpy.context.scene) is not None
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert results.latest(Kind.EXTREMES, bpy.context.scene) is None
 
 
 def test_the_commands(solids, tmp_path, capsys):

@@ -10,6 +10,7 @@ import bpy
 import pytest
 from reference_tracer.blender.ui import language
 from reference_tracer.causes.explain import CAUSES
+from reference_tracer.comparison.extras import MEANWHILE
 from reference_tracer.comparison.verdict import BUT, Verdict
 from reference_tracer.derivation.document import CERTAINTY_SENTENCES
 from reference_tracer.diagnosis.faults.fault import TRIED
@@ -18,6 +19,7 @@ from reference_tracer.translations import tables
 
 BLENDER = Path(language.__file__).parents[1]
 TRANSLATED = {"rpt_", "iface_", "tip_", "wrapped", "poll_message_set"}  # functions given texts
+WORDS = {"scaled": 3, "Progress": 1}  # which argument says what is being done
 KINDS = "Operator", "Panel", "Menu", "PropertyGroup", "AddonPreferences", "GizmoGroup"
 
 
@@ -63,9 +65,9 @@ def stages():
     """Yield the words for what long work does at a time."""
     for file in BLENDER.parent.rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "called":
-                if isinstance(node.args[1], ast.Constant):
-                    yield node.args[1].value
+            if isinstance(node, ast.Call):
+                words = node.args[WORDS.get(getattr(node.func, "id", ""), len(node.args)) :][:1]
+                yield from (word.value for word in words if isinstance(word, ast.Constant))
 
 
 def fields(text):
@@ -77,7 +79,7 @@ def test_a_language_has_each_text_and_no_other(table):
     drawn, held = sources()
     computed = {*CERTAINTY_SENTENCES.values(), *(v.capitalize() for v in Verdict)}
     computed |= {cause.place or cause.label for cause in CAUSES[1:]} | {BUT, ASKING, *stages()}
-    computed |= {f"trying {what}" for what, _ in TRIED.values()}
+    computed |= {f"trying {what}" for what in TRIED.values()} | {*MEANWHILE.values()}
     shown = {*declared(), *drawn, *computed} - {""}
     shown -= {"Presets"}  # Blender's own name for a menu of presets of which one was removed
     assert {"Trace and Compare", "Watertight", "Needles", "{} differ, {} open"} < shown

@@ -173,19 +173,6 @@ OF_SCENES = {
 
 
 @pytest.mark.parametrize("make", OF_SCENES, ids=lambda make: make.__name__)
-@pytest.mark.parametrize("mode", MODES)
-def test_of_the_scene_is_named_without_bounds(mode, make, build, export):
-    scene = build.scene()
-    build.camera()
-    make(scene, build)
-    _, manifest = export.modes[mode]()
-    found = [u for u in manifest.unmodelled if u.feature == OF_SCENES[make]]
-    assert len(found) == 1
-    assert found[0].bounds is None
-    assert found[0].object == "Camera" if make is depth_of_field else "scene '" in found[0].object
-
-
-@pytest.mark.parametrize("make", OF_SCENES, ids=lambda make: make.__name__)
 def test_of_the_scene_is_not_in_the_picture_and_still_named(make, build, compare):
     scene = build.scene()
     build.solids()
@@ -197,6 +184,7 @@ def test_of_the_scene_is_not_in_the_picture_and_still_named(make, build, compare
     assert [u.object for u in found] == [
         "Camera" if make is depth_of_field else f"scene '{scene.name}'"
     ]
+    assert found[0].bounds is None
 
 
 def test_several_instances_share_one_entry_around_all_of_them(build, export):

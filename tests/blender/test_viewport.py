@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from reference_tracer.blender.drawing import picture as picture_module
 from reference_tracer.blender.drawing import shading, viewport
-from reference_tracer.blender.drawing.judges import JUDGES, judge_named
+from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.temporary import temporary_scene
-from reference_tracer.pictures.picture import SizeError
+from reference_tracer.pictures.source import SizeError
 from reference_tracer.scene import SceneError
 
 from .scenes import HALF_FLOAT
@@ -33,14 +33,6 @@ def pictured(scene, judge="workbench", like_for_like=True):
     with temporary_scene(scene) as copy:
         picture_module.prepare_scene(copy, JUDGES[judge], like_for_like)
         return picture_module.drawn_once(copy, layer, JUDGES[judge], camera, like_for_like)
-
-
-@pytest.mark.parametrize(
-    ("judge", "source"), [("AUTO", "workbench"), ("WORKBENCH", "workbench"), ("CYCLES", "cycles")]
-)
-def test_the_judge_in_background(judge, source):
-    assert bpy.app.background
-    assert judge_named(judge, bpy.app.background) is JUDGES[source]
 
 
 def test_like_for_like_has_no_anti_aliasing_and_only_the_scenes_colours(scene):

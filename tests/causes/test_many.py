@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from reference_tracer.causes import explain as causes
 from reference_tracer.causes.explain import EDGE, UNEXPLAINED
-from reference_tracer.pictures.bounds import differing
+from reference_tracer.pictures.storage import differing
 from reference_tracer.rendering import render
 
 from ..cases import count, explained, shifted

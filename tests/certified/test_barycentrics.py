@@ -15,8 +15,9 @@ from reference_tracer.rendering import render, trace
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.world import world_corners
 
-from ..tracer.rational import functions, rational, world_corners
+from ..oracle import barycentrics, rational
 
 FLATNESS = (1e-3, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12, 1.0)
 
@@ -40,11 +41,10 @@ def flat_scene(make, rng, flatness: float, orthographic: bool):
 
 def errors(scene, found, rays: Rays, names) -> list[Fraction]:
     """Return how far the barycentrics (3, n) of n rays on their triangles are off."""
-    corners = np.stack([world_corners(scene, name) for name in names], axis=-1)
+    corners = world_corners(scene, *np.array(names).T)
     shape = 3, len(names)
     o, d = (np.broadcast_to(v, shape) for v in (rays.origins, rays.directions))
-    (ab, bc, ca), _, total = functions(o, d, corners)
-    return list(np.abs(rational(found) - np.stack((bc, ca, ab)) / total).ravel())
+    return list(np.abs(rational(found) - barycentrics(o, d, corners)[0]).ravel())
 
 
 def worst(make, seeds, by_rays: bool = False) -> tuple[Fraction, int]:

@@ -23,9 +23,9 @@ from reference_tracer.scene import (
 )
 from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.world import world_corners
 
-from ..oracle import scene_sights
-from ..tracer.rational import functions, rational, t_of_pixels, world_corners
+from ..oracle import barycentrics, rational, scene_sights
 from .test_definition import held
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -73,14 +73,15 @@ def check(scene: Scene) -> int:
             strict=True,
         )
     )
-    assert names == [sight.seen for sight in scene_sights(scene)]
-    assert np.array_equal(frame.t.ravel(), t_of_pixels(scene, names))
+    sights = scene_sights(scene)
+    assert names == [sight.seen for sight in sights]
+    assert np.array_equal(frame.t.ravel(), [sight.rounded_t for sight in sights])
     on_mesh = [k for k, name in enumerate(names) if name[0] == 0]
     if on_mesh:
         rays = camera_rays(scene.camera, *film_positions(scene.camera.region, 0.0, 0.0))
         shape = 3, len(names)
         rays = [np.broadcast_to(v, shape)[:, on_mesh] for v in (rays.origins, rays.directions)]
-        corners = np.stack([world_corners(scene, names[k]) for k in on_mesh], axis=-1)
+        corners = world_corners(scene, *np.array([names[k] for k in on_mesh]).T)
         found = frame.barycentrics.reshape(-1, 3)[on_mesh].T
         assert np.isfinite(found).all()
         apart, allowed = error_of(found, *rays, corners=corners)
@@ -90,8 +91,8 @@ def check(scene: Scene) -> int:
 
 def error_of(found, origins, directions, corners):
     """Return how far barycentrics (3, n) are off, and how far the edge functions' bounds allow."""
-    (ab, bc, ca), _, total = functions(origins, directions, corners)
-    apart = np.abs(rational(found) - np.stack((bc, ca, ab)) / total)
+    exact, total = barycentrics(origins, directions, corners)
+    apart = np.abs(rational(found) - exact)
     o, d, c = rational(origins), rational(directions), rational(corners)
     sums = []
     for k in range(3):

@@ -13,14 +13,13 @@ import pytest
 from reference_tracer.certainty import Certainty, Reason
 from reference_tracer.certified.ladder import Ladder
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
+from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import Pairs, WorldTriangles
 
 from ..moved import may, touched
 from ..oracle import sights
 from ..rays import nearest_hits
-from ..tracer.rational import t_of
 
 pytestmark = pytest.mark.filterwarnings("error")
 RAYS, TRIANGLES = 60, 30
@@ -82,8 +81,7 @@ def check(rays, corners, start=0.0, end=np.inf) -> Hits:
     for k, truth in enumerate(sights(origins, directions, corners, clip=(start, end))):
         name = int(hits.instance[k]), int(hits.triangle[k])
         assert name == truth.seen
-        column = origins[:, k], directions[:, k], corners[..., name[1]]
-        assert hits.t[k] == (np.inf if name == NOWHERE else t_of(*column))
+        assert hits.t[k] == truth.rounded_t
         ambiguous = hits.certainty[k] == Certainty.AMBIGUOUS
         assert ambiguous == (len(touched(truth)) > 1) == (k in hits.ties)
         assert ambiguous or hits.certainty[k] in (Certainty.BOUND, Certainty.EXACT)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
-from reference_tracer.certified import arithmetic, measures, plain
+from reference_tracer.certified import arithmetic, plain, surfaces
 from reference_tracer.certified.arithmetic import AssumptionError
 from reference_tracer.certified.measures import Measured
 from reference_tracer.files.images import save_png, to_display
@@ -133,7 +133,7 @@ def test_names_are_told_apart_whatever_place_they_share():
         count = int(rng.integers(1, 200))
         high = rng.choice([2, 50, 2**31 - 1], 2)
         names = [rng.integers(-1, top, count).astype(np.int32) for top in high]
-        which, row = measures._different(*names)
+        which, row = surfaces._different(*names)
         for name in names:
             assert (name[which][row] == name).all()
         assert (np.diff(which) > 0).all()

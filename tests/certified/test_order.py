@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty, Reason
-from reference_tracer.certified.ladder import Decisions
+from reference_tracer.certified.decisions import Decisions
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow

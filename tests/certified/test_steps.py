@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified import ladder
-from reference_tracer.certified.ladder import Decisions
+from reference_tracer.certified.decisions import Decisions
 from reference_tracer.certified.measures import Prepared
 from reference_tracer.certified.sweep.depth_buffer import DepthBuffer
 from reference_tracer.rendering import steps

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from reference_tracer.certified.any_rays import nearest_hits
 from reference_tracer.certified.definition import seen_by
-from reference_tracer.certified.tree import WIDE, Tree, _cuts
+from reference_tracer.certified.tree import WIDE, _cuts
+from reference_tracer.certified.triangle_tree import TriangleTree
 from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.hits import Statistics
@@ -72,7 +73,7 @@ def test_directions_with_components_of_all_sizes(exponent, make):
 def test_of_any_number_of_triangles(count, make):
     rng = np.random.default_rng(count)
     scene = scene_of(make, rng.normal(size=(count, 3, 3)))
-    tree = Tree.of(scene)
+    tree = TriangleTree.of(scene)
     assert tree.is_one.sum() == count
     check(scene, Rays(rng.normal(size=(3, 20)), rng.normal(size=(3, 20))))
 
@@ -118,10 +119,13 @@ def test_rays_that_touch_a_corner(make):
     assert ties > 200
 
 
-@pytest.mark.parametrize(("name", "value"), [("_LOOSE", -1e-3), ("_LOOSE", 0.0), ("_OFF", 0.0)])
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("tree._LOOSE", -1e-3), ("tree._LOOSE", 0.0), ("triangle_tree._OFF", 0.0)],
+)
 def test_a_tree_that_drops_too_much_is_found(name, value, make, monkeypatch):
     """The test above sees it where the bounds are left out."""
-    monkeypatch.setattr(f"reference_tracer.certified.tree.{name}", value)
+    monkeypatch.setattr(f"reference_tracer.certified.{name}", value)
     with pytest.raises(AssertionError):
         for seed in range(12):
             check(*touching(make, seed))

@@ -18,7 +18,7 @@ from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
 from reference_tracer.study import extremes
 from reference_tracer.study.scenarios.sweeps import BY_NAME
-from reference_tracer.tracer.progress import Share
+from reference_tracer.tracer.progress import Progress
 
 
 class Clock:
@@ -33,16 +33,21 @@ class Clock:
 def test_an_estimate_never_grows_by_more_than_a_tenth(capsys):
     """Of what slows down, or of what nobody knows, no seconds are said."""
     clock = Clock()
-    shares = (0.25, Share(0.26, "a"), 0.5, Share(0.9, "3/8: trying the lens", known=False))
+    events = (
+        Progress(0.25),
+        Progress(0.26, "a"),
+        Progress(0.5),
+        Progress(None, "3/8: trying the lens"),
+    )
     with running.progress_bar(clock) as show:
-        for share in shares:
+        for event in events:
             clock.now += 10.0
-            show(share)
+            show(event)
     assert capsys.readouterr().err.splitlines() == [
         " 25 % (10 s, 30 s left)",
         " 26 %, a (20 s)",
         " 50 % (30 s, 30 s left)",
-        " 90 %, 3/8: trying the lens (40 s)",
+        " 50 %, 3/8: trying the lens (40 s)",
     ]
 
 
@@ -105,7 +110,7 @@ def test_on_a_terminal_a_bar_says_what_is_done(monkeypatch):
         monkeypatch.setattr(sys, "stderr", terminal)
         with running.progress_bar() as show:
             for number in range(5):
-                show(Share(number / 10, "tracing"))
+                show(Progress(number / 10, "tracing"))
                 time.sleep(0.1)
         assert b"tracing" in os.read(ours, 1 << 16)
 

@@ -133,3 +133,43 @@ def test_the_example_of_the_page_runs(scene, tmp_path, monkeypatch, exit_code):
     assert exit_code("rays scene.npz rays.npz --out hits.npz".split()) == 0
     exec(compile(after, "rays.md", "exec"), held := {})
     assert held["wrong"].sum() == 0
+
+
+def test_every_hit_and_parity(make, run):
+    """What Python's functions return, in a file: rows of each ray, and where points are."""
+    ball = make.scene(make.camera(4, 4), make.mesh(trimesh.creation.icosphere(2), name="Ball"))
+    given = random_rays(300)
+    code, found, printed = run(ball, "--every", **given)
+    _, first, _ = run(ball, **given)
+    start = found["start"]
+    assert code == 0 and len(start) == 301 and start[-1] == len(found["t"]) > 100
+    assert f"300 rays, 320 triangles: {len(found['t']):,} hits, 0 ambiguous" in printed
+    met = np.flatnonzero(first["triangle"] >= 0)
+    assert (np.diff(start) > 0).nonzero()[0].tolist() == met.tolist()
+    for name in ("t", "triangle", "object", "instance"):
+        assert (found[name][start[met]] == first[name][met]).all(), name
+    assert found["barycentrics"].shape == (len(found["t"]), 3) and found["objects"] == ["Ball"]
+    assert (found["t"][1:] >= found["t"][:-1])[
+        np.isin(np.arange(1, len(found["t"])), start, invert=True)
+    ].all()
+    code, near, _ = run(ball, "--every", "--end", "0.6", **given)
+    assert code == 0 and (near["t"] <= 0.6).all() and len(near["t"]) == (found["t"] <= 0.6).sum()
+    points = np.array([(0, 0, 0), (0, 2, 0), ball.meshes[0].vertices[5]])
+    code, places, printed = run(ball, "--parity", points=points)
+    assert code == 0 and places["place"].tolist() == [1, 0, 2]
+    assert places["winding"][:2].tolist() == [1, 0]
+    assert "3 points, 320 triangles: 1 outside, 1 inside, 1 on a surface" in printed
+
+
+def test_parity_refuses_what_it_can_not_say(scene, run, make):
+    points = np.zeros((1, 3))
+    assert "'Ball' is an infinite plane" in run(scene, "--parity", points=points)[2]
+    assert "no array 'points'" in run(scene, "--parity", origins=points)[2]
+    assert "leave out --start and --end" in run(scene, "--parity", "--end", "3", points=points)[2]
+    assert "not allowed with" in run(scene, "--parity", "--every", points=points)[2]
+    cube = trimesh.creation.box()
+    cube.faces[0] = cube.faces[0, ::-1]
+    mesh = make.scene(make.camera(4, 4), make.mesh(cube, name="Box"))
+    code, found, printed = run(mesh, "--parity", points=points)
+    assert code == 0 and list(found) == ["place"]
+    assert "no winding numbers: faces of 'Box'" in printed

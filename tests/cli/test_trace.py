@@ -51,15 +51,6 @@ def test_plain_methods_require_nothing(ball, tmp_path, capsys):
     assert len(said) == 1 and "(watertight, float64)" in said[0]
 
 
-@pytest.mark.parametrize("method", ["certified", "auto"])
-def test_certified_in_float32_is_refused(method, ball, tmp_path, capsys):
-    options = ["--method", method, "--precision", "float32"]
-    assert trace(ball, tmp_path / "b.png", *options) == INPUT_ERROR
-    said = capsys.readouterr().err
-    assert "float64 only" in said and "watertight" in said and "Traceback" not in said
-    assert not (tmp_path / "b.png").exists()
-
-
 @pytest.fixture
 def broken_arithmetic(monkeypatch):
     monkeypatch.setattr(arithmetic, "broken_assumptions", lambda: ["subnormal results"])
@@ -73,13 +64,6 @@ def test_a_machine_that_cannot_certify_says_so(ball, tmp_path, capsys):
     said = capsys.readouterr().err
     assert said.count("subnormal results") == 2 and "Traceback" not in said
     assert not (tmp_path / "b.png").exists()
-
-
-@pytest.mark.usefixtures("broken_arithmetic")
-def test_auto_falls_back_and_says_so(ball, tmp_path, capsys):
-    assert trace(ball, tmp_path / "b.png") == AGREE
-    said = capsys.readouterr().out
-    assert "(watertight, float64)" in said and "subnormal results" in said
 
 
 def test_rows_are_those_of_the_whole_picture(make, tmp_path, capsys):

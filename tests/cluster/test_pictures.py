@@ -16,7 +16,7 @@ from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render, steps
 from reference_tracer.study import extremes
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.progress import Meter, result_of
 from reference_tracer.tracer.settings import UNPROVEN_SETTINGS, Settings
 from reference_tracer_cluster import cluster as cluster_module
 from reference_tracer_cluster import pictures, tasks
@@ -59,9 +59,10 @@ def larger(scene):
 def happens(cluster, scene, do) -> Frame:
     """Trace, and do something once a part is there."""
     frame = Frame.empty(scene)
-    work = steps(scene, Settings("certified"), frame, pictures.tracer(cluster))
-    for share in work:
-        if share > 0.1 and do:
+    work, meter = steps(scene, Settings("certified"), frame, pictures.tracer(cluster)), Meter()
+    for event in work:
+        meter.read(event)
+        if meter.share > 0.1 and do:
             do()
             do = None
     assert not do

@@ -14,8 +14,10 @@ from reference_tracer.comparison.engines import EngineRow
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.pictures.drawn_over import DrawnOver
 from reference_tracer.pictures.identity import Owners
-from reference_tracer.pictures.picture import DrawnOver, Picture, Source
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.report.engines import lines, write
 from reference_tracer.tracer.progress import result_of

@@ -53,24 +53,6 @@ def test_degenerate_and_duplicate():
     assert (found["degenerate_faces"], found["duplicate_faces"]) == (1, 3)
 
 
-@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e160])
-def test_as_trimesh_has_it(rng, scale):
-    for count in range(60):
-        points = scale * rng.integers(-1, 2, (6, 3)).astype(float)
-        points[0] += 1e-8 * rng.normal(size=3)
-        faces = rng.integers(0, 6, (count % 12, 3))
-        if count % 2:  # all edges in pairs, one of them wound the wrong way at times
-            faces = np.concatenate((faces, np.roll(faces[:, ::-1], count, axis=1)))
-            faces[:1] = faces[:1, :: 1 if count % 4 == 1 else -1]
-        found = diagnose(Mesh(points, faces))
-        positions, index = np.unique(points, axis=0, return_inverse=True)
-        merged = trimesh.Trimesh(positions, index.reshape(-1)[faces], process=False)
-        with np.errstate(all="ignore"):
-            assert found["degenerate_faces"] == (~merged.nondegenerate_faces()).sum()
-        assert found["closed"] == merged.is_watertight
-        assert found["consistent_winding"] == merged.is_winding_consistent
-
-
 def test_nothing():
     found = diagnose(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int)))
     assert not found["closed"] and not found["degenerate_faces"]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from pathlib import Path
 from zipfile import ZipFile
 
 import numpy as np
@@ -12,13 +10,10 @@ from reference_tracer import compare
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.files import exr
 from reference_tracer.files.scenes import save_scene
-from reference_tracer.pictures.picture import SizeError
+from reference_tracer.pictures.source import SizeError
 from reference_tracer.scene import SceneError
 from reference_tracer_data.depth import DEPTH
-from reference_tracer_data.faults import DATA_FAULTS
 from reference_tracer_data.files import read
-
-PAGE = Path(__file__).parents[2] / "docs" / "data.md"
 
 
 def test_our_own_exr_is_right_in_all_that_it_holds(judged, traced):
@@ -154,11 +149,6 @@ def test_the_command_says_what_it_compared(solids, traced, tmp_path, capsys, exi
     assert "note: of 'd.npy': it holds float32" in said
     assert "depths along the view axis: RMSE " in said and "PSNR" not in said
     assert (tmp_path / "out" / "page.html").exists()
-
-
-def test_the_document_has_every_fault_of_data_in_its_table():
-    table = PAGE.read_text(encoding="utf-8").split("## What is named")[1]
-    assert re.findall(r"^\| `(\w+)` \|", table, re.M) == [fault.name for fault in DATA_FAULTS]
 
 
 def test_a_script_compares_arrays(solids, traced):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.diagnosis.faults.fault import Numbers
-from reference_tracer.diagnosis.faults.pose import about_point
 
 from .diagnosing import fitted, pictured
 
@@ -33,8 +32,7 @@ def found_again(few, seed, size):
     scene = few(*size, parallel=rng.random() < 0.25, seed=seed)
     values = tuple(float(v) for v in KINDS[name](rng))
     guess = Numbers(values, object=str(rng.choice(OBJECTS)) if "object" in name else "")
-    made = about_point(guess) if name == "object_scaled" else guess
-    color = pictured(scene, name, made)
+    color = pictured(scene, name, guess)
     found = fitted(scene, color, name)
     if found is None:
         return None

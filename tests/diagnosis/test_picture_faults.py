@@ -22,9 +22,9 @@ from reference_tracer.diagnosis.faults.fault import Numbers
 from reference_tracer.diagnosis.faults.picture import PICTURE_FAULTS
 from reference_tracer.diagnosis.faults.sizes import resized
 from reference_tracer.files.images import curve, curve_undone
-from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.storage import Storage
 from reference_tracer.rendering import render
 from reference_tracer.scene import GREY, Instance, Mesh, Region
 from reference_tracer.tracer.progress import result_of

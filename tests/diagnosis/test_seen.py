@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.causes.checks.probe import SOUND
-from reference_tracer.diagnosis.boxes import crossed, inverted, together, tree
+from reference_tracer.certified.tree import BoxRays, Tree
 from reference_tracer.diagnosis.evidence import shows_colors
-from reference_tracer.diagnosis.seen import Trees
+from reference_tracer.diagnosis.seen import Trees, _tree_of
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import trace
 from reference_tracer.scene import Instance, Mesh, Plane
-from reference_tracer.tracer.camera import camera_rays, film_positions
+from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.progress import result_of
 
 SEED = 4
@@ -63,12 +63,12 @@ def test_every_box_that_is_passed_is_found():
     low = rng.uniform(-5, 5, (3, 700))
     high = low + rng.uniform(0, 1, low.shape) * (rng.random(low.shape) < 0.8)
     low[:, 7] = np.nan
-    nodes = together([tree(low[:, :0], high[:, :0]), tree(low, high)])
+    trees = Tree.joined([_tree_of(low[:, :0], high[:, :0]), _tree_of(low, high)])
     origins = rng.uniform(-8, 8, (3, 60))
     directions = rng.normal(size=origins.shape) * (rng.random(origins.shape) < 0.8)
+    rays, every = BoxRays.of(Rays(origins, directions), -np.inf, np.inf), np.arange(60)
     found = set()
-    start = np.full(60, nodes.roots[1])
-    for pairs in crossed(nodes, start, origins, inverted(directions)):
+    for pairs in trees.crossed(rays, every, trees.roots[[1] * 60]):
         found |= set(zip(pairs.ray.tolist(), pairs.item.tolist(), strict=True))
     t = np.linspace(-30, 30, 1201)
     for ray in range(60):
@@ -76,8 +76,7 @@ def test_every_box_that_is_passed_is_found():
         inside = (points[:, None] >= low[..., None]) & (points[:, None] <= high[..., None])
         assert {(ray, int(n)) for n in np.flatnonzero(inside.all(axis=0).any(axis=1))} <= found
     assert 0 < len(found) < 0.2 * 60 * 700 and 7 not in {item for _, item in found}
-    assert nodes.roots[0] == -1
-    assert not list(crossed(nodes, np.full(60, -1), origins, inverted(directions)))
+    assert not list(trees.crossed(rays, every, trees.roots[[0] * 60]))
 
 
 def test_a_color_that_thousands_of_instances_have_is_looked_for_once():

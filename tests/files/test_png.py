@@ -163,11 +163,11 @@ def test_what_is_there_too_often_or_behind_the_end_is_told(tmp_path):
     path, gamma = tmp_path / "a.png", (b"gAMA", struct.pack(">I", 45_455))
     png_file(path, (1, 1), 8, 0, [b"\7"], gamma, gamma)
     once = png.decode(path.read_bytes())
-    assert once.remarks == ("it has more than one chunk gAMA: the first one was looked at",)
+    assert once.remarks == ("it has more than one chunk gAMA: the first one was read",)
     png_file(path, (1, 1), 8, 0, [b"\7"], (b"tEXt", b"a\0b"), (b"tEXt", b"c\0d"))
     assert png.decode(path.read_bytes()).remarks == ()
     path.write_bytes(path.read_bytes() + b"more" * 5)
-    assert png.decode(path.read_bytes()).remarks == ("20 bytes behind its end are not looked at",)
+    assert png.decode(path.read_bytes()).remarks == ("20 bytes behind its end are not read",)
     png_file(path, (1, 1), 8, 3, [b"\0"], (b"PLTE", bytes(3)), (b"PLTE", bytes(3)))
     with pytest.raises(png.PngError, match="more than one chunk PLTE"):
         png.decode(path.read_bytes())

@@ -294,10 +294,10 @@ def test_failing_in_a_scene_only(two, tied, checks, right, written):
     assert set(marks(found.looks[0])) == {"raised", "right"} and found.looks[0].tally.score == 0
     assert found.score == pytest.approx(66.6)
     slow = right["textbook"].replace(
-        "    o, d =", "    import time; time.sleep(2.0 * (directions == directions[0]).all() * "
+        "    o, d =", "    import time; time.sleep(9.0 * (directions == directions[0]).all() * "
         "(len(directions) > 9))\n    o, d ="
     )  # fmt: skip
-    found = result_of(judge(written(slow), checks, [tied, two], limits=Limits(seconds=1.5)))
+    found = result_of(judge(written(slow), checks, [tied, two], limits=Limits(seconds=5)))
     assert [(where, e.kind) for where, e in found.errors] == [("tied", "time")]
     assert [k.judged.name for k in found.looks] == ["two"]
     assert found.score == pytest.approx(66.6)

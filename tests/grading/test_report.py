@@ -19,7 +19,6 @@ from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading import command
 from reference_tracer_grading.class_folder import ClassFolder
-from reference_tracer_grading.external import Run
 from reference_tracer_grading.extremes import extreme_scenes
 from reference_tracer_grading.formats import FORMATS
 from reference_tracer_grading.judged_scene import prepare
@@ -28,7 +27,7 @@ from reference_tracer_grading.page import MARK_COLORS, marked
 from reference_tracer_grading.picture import Mark
 from reference_tracer_grading.report import student
 from reference_tracer_grading.subjects.triangle import TRIANGLE
-from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, VERDICTS, class_table, lines
+from reference_tracer_grading.tables import MARKS, VERDICTS, class_table, lines
 from reference_tracer_processes.running import Limits
 
 TEXT = """
@@ -206,27 +205,6 @@ def test_class_table(judged):
     assert table[5].split()[1:] == ["0.0", "failed", "exception"]
 
 
-def test_the_page_says_the_same_in_the_same_words(written, judged):
-    right = class_table([student(judged["right.py"])])[1].split("  ")[-1]
-    text = (written / "students" / "right.py.html").read_text(encoding="utf-8")
-    assert right == "all right" and f">{right}</span>" in text
-    assert f">{right}</span>" in (written / "judge.html").read_text(encoding="utf-8")
-    # No pixel of this scene lies on a boundary, and both say what the dash there means.
-    assert not judged["right.py"].looks[0].judged.boundary.any()
-    assert NO_BOUNDARY in text and NO_BOUNDARY in lines(judged["right.py"])
-
-
-def test_words_are_flush_left(written):
-    text = (written / "judge.html").read_text(encoding="utf-8")
-    table = text[text.index("<thead>") : text.index("</table>")]
-    for head in ("file", "verdict", "what is wrong"):
-        assert f'<th scope="col" class="words">{head}</th>' in table
-    assert '<th scope="col">score</th>' in table
-    assert table.count('<td class="words">') == 3 * len(FILES) and "<td>100.0</td>" in table
-    css = " ".join(text[text.index("<style>") : text.index("</style>")].split())
-    assert ".words { text-align: left; }" in css
-
-
 def test_every_mark_has_its_words_and_color():
     assert set(MARKS) == set(Mark) and len(set(MARKS.values())) == len(Mark)
     assert set(MARK_COLORS) == set(Mark) - {Mark.RIGHT}
@@ -348,17 +326,6 @@ def test_a_name_is_no_formula(judged):
     said = student(replace(judged["right.py"], name="=1+1.py"))
     [(_, text)] = FORMATS["csv"]([(said, "students/x.html")])
     assert "\n'=1+1.py," in text.replace("\r", "")
-
-
-def test_a_program_that_is_compiled_anew_is_judged_again(judged, tmp_path):
-    (tmp_path / "Own.class").write_bytes(b"1")
-    runs = {"own": Run.parsed(f"java -cp {tmp_path} Own")}
-    kept = ClassFolder(tmp_path / "out", TRIANGLE, list(runs), key=KEY)
-    kept.keep(runs["own"], replace(judged["right.py"], name="own"))
-    kept.save()
-    assert kept.kept_of(runs)
-    (tmp_path / "Own.class").write_bytes(b"2")
-    assert not kept.kept_of(runs)
 
 
 def test_files_of_students_have_names_of_their_own(tmp_path):

@@ -205,46 +205,6 @@ def test_two_at_once_and_what_is_more_wrong():
     assert names_of(cases.answers(table)) == ["unrecognised_answers"]
 
 
-def spoiled(name, change):
-    """What is said of a right program whose answers are changed: by rows of a group, or all."""
-    cases = asked(name)
-    table = cases.subject.programs[0].answers(cases.letters)
-    groups = list(cases.subject.groups)
-    return names_of(cases.answers(change(table, lambda g: cases.group == groups.index(g))))
-
-
-def group_to(group, value):
-    return lambda table, of: np.where(of(group)[:, None], value, table)
-
-
-@pytest.mark.parametrize(
-    ("name", "change", "expected"),
-    [
-        ("plane", lambda table, of: np.float64(np.float32(table)), ["float32"]),
-        ("camera", lambda table, of: np.float64(np.float32(table)), ["float32"]),
-        ("nearest", lambda table, of: np.float64(np.float32(table)), ["float32"]),
-        ("nearest", lambda table, of: table * [1.001, 1], ["unrecognised_answers"]),
-        ("plane", group_to("tiny", np.inf), ["misses_tiny"]),
-        ("plane", group_to("inside", 0.5), ["hits_inside"]),
-        ("plane", group_to("parallel", 1.0), ["hits_parallel"]),
-        ("nearest", group_to("scaled", np.inf), ["misses_scaled"]),
-        ("plane", lambda table, of: table * [1, np.nan, 1, 1], ["not_finite"]),
-        ("camera", lambda table, of: table * np.nan, ["not_finite"]),
-        ("nearest", lambda table, of: np.tile((np.inf, 0), (len(table), 1)), ["no_hits"]),
-        ("plane", lambda table, of: np.where(np.isfinite(table), table, 1.0), ["all_hits"]),
-        ("nearest", lambda table, of: np.where(table == 2, 3, table), ["unrecognised_answers"]),
-        # What holds of half a group is not said of it.
-        (
-            "plane",
-            lambda table, of: np.where((of("tiny") & (table[:, 0] > 3))[:, None], np.inf, table),
-            ["unrecognised_hits"],
-        ),
-    ],
-)
-def test_other_faults_have_tests_that_can_fail(name, change, expected):
-    assert spoiled(name, change) == expected
-
-
 def test_ties_are_fair():
     """The other one of two that are hit at once is as right."""
     cases = asked("nearest")

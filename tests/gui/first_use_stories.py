@@ -1,7 +1,5 @@
 """What comes in between in a first use: each event comes as from a user's hand."""
 
-import time
-
 import bpy
 from hands import click, click_on
 from interruption_stories import still_running
@@ -46,10 +44,8 @@ def second_press():
     yield from click(*where)
     noted["second"] = running()
     screenshot("first_use_running")
-    pressed = time.monotonic()
     press("Escape")
     yield from until(ended, 60)
-    noted["seconds_to_stop"] = time.monotonic() - pressed
     yield
     noted["changed"] = {k: v for k, v in settings().items() if before[k] != v}
     noted["left"] = [*still_running(), *images()]

@@ -441,19 +441,6 @@ def status_bar():
     stop()
 
 
-def ours():
-    """Our images, by name, with how many editors show each."""
-    editors = [
-        a.spaces.active
-        for w in bpy.context.window_manager.windows
-        for a in w.screen.areas
-        if a.type == "IMAGE_EDITOR"
-    ]
-    return {
-        i.name: sum(e.image == i for e in editors) for i in bpy.data.images if i.source != "VIEWER"
-    }
-
-
 def after_a_render():
     """The button where the editor of F12 is still open."""
     window().scene.render.engine = "BLENDER_WORKBENCH"
@@ -476,19 +463,6 @@ def after_a_render():
             subprocess.run(["xdotool", *keys], check=True)
             yield
     view.render_display_type, bpy.context.preferences.is_dirty = before
-
-
-def left_behind():
-    """What a second run and closing the editor leave of the images."""
-    window().scene.render.resolution_percentage = 20
-    for name in ("once", "twice"):
-        yield from pressed("AREA")
-        noted[name] = ours()
-    _, area = editor()
-    area.type = "VIEW_3D"  # the editor is closed
-    yield
-    yield from pressed("AREA")
-    noted["reopened"] = ours()
 
 
 def sample():
@@ -534,6 +508,5 @@ STORIES = (
     compared_images,
     status_bar,
     heavy,
-    left_behind,
     sample,
 )

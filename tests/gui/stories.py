@@ -1,6 +1,5 @@
 """What a user does with renders and comparisons, played in Blender's window: see `play.py`."""
 
-import time
 from pathlib import Path
 
 import bpy
@@ -10,7 +9,6 @@ from story import (
     data_blocks,
     ended,
     invoke,
-    module,
     noted,
     open_tab,
     press,
@@ -54,20 +52,15 @@ def f12_escape():
     scene.reference_tracer.samples = 16
     scene.render.use_lock_interface = False
     cancelled = []
-    bpy.app.handlers.render_cancel.append(lambda *a: cancelled.append(time.monotonic()))
+    bpy.app.handlers.render_cancel.append(lambda *a: cancelled.append(True))
     yield
     press("F12")
     yield from until(rendering)
     yield 2
     screenshot("f12_running")
-    pressed = time.monotonic()
     press("Escape")
-
-    def stopped():
-        return cancelled
-
-    yield from until(stopped)
-    noted["seconds_to_stop"] = cancelled[0] - pressed
+    yield from until(lambda: cancelled)
+    noted["cancelled"] = cancelled
     yield
     screenshot("f12_cancelled")
     noted["result"] = render_result()
@@ -202,61 +195,6 @@ def compare_as_is():
     noted["preference"] = bpy.context.preferences.system.viewport_aa
 
 
-def compare_escape():
-    """Esc midway: stopped at once, and everything as before."""
-    scene = window().scene
-    scene.render.resolution_percentage = 200
-    yield
-    before = settings(), data_blocks()
-    press_compare()
-    yield 0.5
-    noted["running"] = [o.bl_idname for o in window().modal_operators]
-    screenshot("compare_running")
-    pressed = time.monotonic()
-    press("Escape")
-    yield from until(ended)
-    noted["seconds_to_stop"] = time.monotonic() - pressed
-    after = settings(), data_blocks()
-    noted["same"] = before == after
-    noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
-    noted["compared"] = compared()
-
-
-def compare_another_file():
-    """Another file is opened midway: that comparison ends, and the next one works.
-
-    Also where the machine is so busy that the time of a step is over before it begins.
-    """
-    window().scene.render.resolution_percentage = 200
-    yield
-    press_compare()
-    yield 0.5
-    noted["running"] = [o.bl_idname for o in window().modal_operators]
-    bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
-    yield
-    noted["left"] = [o.bl_idname for o in window().modal_operators]
-    long_work = module("blender.ui.long_work")
-    usual, long_work.SECONDS_A_STEP = long_work.SECONDS_A_STEP, 0
-    try:
-        press_compare()
-        yield from until(compared, 60)
-    finally:
-        long_work.SECONDS_A_STEP = usual
-    noted["comparison"] = result().content.to_dict()
-
-
-def compare_error():
-    """A scene that cannot be traced: an error, and everything as before."""
-    window().scene.camera.data.type = "PANO"
-    yield
-    before = settings(), data_blocks()
-    press_compare()
-    yield
-    noted["running"] = running()
-    noted["same"] = before == (settings(), data_blocks())
-    noted["message"] = reports()
-
-
 def no_camera():
     """The buttons say what is missing; one adds it, and the next one compares; undo takes it."""
     bpy.data.objects.remove(window().scene.camera)
@@ -309,9 +247,6 @@ STORIES = (
     engines,
     animation,
     compare_as_is,
-    compare_escape,
-    compare_another_file,
-    compare_error,
     no_camera,
     scenes,
 )

@@ -1,6 +1,5 @@
 """What a user does with the two studies, played in its window: see `play.py`."""
 
-import time
 from pathlib import Path
 from urllib.parse import urlparse
 from urllib.request import url2pathname
@@ -116,10 +115,8 @@ def escape(name, kind, **options):
     invoke(name, **options)
     yield 0.5
     noted["running"] = running()
-    pressed = time.monotonic()
     press("Escape")
     yield from until(ended)
-    noted["seconds_to_stop"] = time.monotonic() - pressed
     note_changes(before)
     noted["found"] = result(kind) is not None
     noted["can_begin"] = bpy.ops.reference_tracer.trade.poll()

@@ -36,15 +36,6 @@ def folder(blender, request):
     return path, f"/project/out/gui/{path.name}"
 
 
-def test_renders_a_frame_as_a_farm_does(blender, folder):
-    path, inside = folder
-    done = blender.run(
-        "-b", SCENE, "-E", "REFERENCE_TRACER", "-o", f"{inside}/out_####", "-F", "PNG", "-f", "1"
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert [p.name for p in path.iterdir()] == ["out_0001.png"]
-
-
 @pytest.mark.parametrize("fault", FAULTS)
 def test_fault_stops_the_render(blender, folder, fault):
     path, inside = folder
@@ -68,21 +59,6 @@ def test_fault_stops_the_render(blender, folder, fault):
     assert done.returncode not in (0, 9), done.stdout + done.stderr
     assert named in done.stdout + done.stderr
     assert list(path.iterdir()) == []
-
-
-def test_operator_in_background(blender, folder):
-    path, inside = folder
-    done = blender.run(
-        "-b",
-        SCENE,
-        "--python-exit-code",
-        "9",
-        "--python-expr",
-        "import bpy; bpy.context.scene.render.resolution_percentage = 25; "
-        f"bpy.ops.reference_tracer.compare(directory='{inside}')",
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    check_files(path)
 
 
 @pytest.mark.parametrize("camera", ["", "--set eye=3,-9,4 ortho-scale=7 frame=2 width=160"])

@@ -22,6 +22,5 @@ def test_then_go_to_what_differs_and_open_the_page(noted):
 @pytest.mark.story("second_press")
 def test_a_second_press_starts_no_second_and_esc_ends_the_first(noted):
     assert noted["first"] == noted["second"] and len(noted["first"]) == 1
-    assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
     assert noted["changed"] == {} and noted["left"] == []
     assert not noted["compared"]

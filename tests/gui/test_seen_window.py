@@ -124,9 +124,3 @@ def test_a_sample_scene_is_opened_as_a_new_file_and_not_over_unsaved_changes(not
     assert "exercise_triangle.blend" in noted["files"] and len(noted["files"]) >= 10
     assert noted["dirty"] and noted["kept"] == ["Suzanne", True]
     assert noted["opened"] == ["Exercise: Triangle", ""]
-
-
-@pytest.mark.story("left_behind")
-def test_images_and_their_editor_are_used_again(noted):
-    once = {name: int(name == "Reference Tracer Traced") for name in OURS}
-    assert noted["once"] == noted["twice"] == noted["reopened"] == once

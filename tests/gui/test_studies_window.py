@@ -44,7 +44,6 @@ def test_extremes_shows_its_table_and_has_its_plot(noted):
 )
 def test_escape_leaves_nothing(name, noted):
     assert noted["running"] == [f"REFERENCE_TRACER_OT_{name}"]
-    assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
     assert noted["changed"] == noted["new"] == {}
     assert noted["render_result_kept"]
     assert not noted["found"]

@@ -56,20 +56,6 @@ def test_as_it_is_names_what_the_window_adds(noted):
     assert comparison["verdict"] == "warnings"
 
 
-@pytest.mark.story("compare_escape")
-def test_escape_stops_a_comparison_and_changes_nothing(noted):
-    assert any("compare" in name.lower() for name in noted["running"])
-    assert noted["same"], noted["changed"]
-    assert not noted["compared"]
-
-
-@pytest.mark.story("compare_another_file")
-def test_another_file_ends_a_comparison(noted):
-    assert noted["running"] and not noted["left"]
-    assert noted["comparison"]["scene"]["file"] == "exercise_triangle.blend"
-    assert noted["comparison"]["verdict"] == "agree"
-
-
 @pytest.mark.story("no_camera")
 def test_a_camera_is_added_by_a_button_and_taken_away_by_undo(noted):
     assert noted["before"] == [False] * 3 and noted["after"] == [True] * 3
@@ -77,12 +63,6 @@ def test_a_camera_is_added_by_a_button_and_taken_away_by_undo(noted):
     assert noted["comparison"]["scene"]["camera"] == "Camera"
     assert noted["comparison"]["verdict"] == "agree"
     assert noted["undo"] == ["FINISHED"] and noted["cameras"] == []
-
-
-@pytest.mark.story("compare_error")
-def test_error_is_reported_and_changes_nothing(noted):
-    assert "fisheye_equisolid" in noted["message"]
-    assert noted["same"] and not noted["running"]
 
 
 @pytest.mark.story("f12")
@@ -93,7 +73,7 @@ def test_f12_shows_the_traced_picture(noted):
 
 @pytest.mark.story("f12_escape")
 def test_escape_stops_f12(noted):
-    assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
+    assert noted["cancelled"] and noted["result"]
 
 
 @pytest.mark.story("scenes")

@@ -42,37 +42,6 @@ def lists(name, rows, kind, length="u1", **more):
 
 
 @pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("coordinate", ["f4", "f8", "i2"])
-@pytest.mark.parametrize(
-    ("index", "length"), [("i4", "u1"), ("u4", "i4"), ("u1", "u2"), ("i2", "i1")]
-)
-def test_all_types_and_sizes_in_any_order(form, coordinate, index, length, tmp_path, rng):
-    angles = np.arange(60) * np.pi / 30  # so that each face is convex
-    flat = np.column_stack((np.cos(angles), np.sin(angles), np.ones(60)))
-    points = np.round(30000 * flat).astype(coordinate)
-    fields = [("nx", "f4"), *((axis, coordinate) for axis in "zxy"), ("red", "u1")]
-    vertices = np.zeros(60, fields)
-    for k, axis in enumerate("xyz"):
-        vertices[axis] = points[:, k]
-    sizes = rng.integers(3, 5, 300)
-    starts = rng.integers(0, 60, 300)
-    rows = [(start + np.arange(size)) % 60 for start, size in zip(starts, sizes, strict=True)]
-    path = tmp_path / "a.ply"
-    elements = [
-        plyfile.PlyElement.describe(vertices, "vertex"),
-        lists("face", rows, index, length),
-    ]
-    for these in (elements, elements[::-1]):
-        written(path, these, form)
-        found = corners(read_ply(path))
-        first = found[np.concatenate(([0], np.cumsum(sizes - 2)[:-1]))]
-        expected = points[[row[0] for row in rows]].astype(np.float64)
-        assert (first == expected[:, None]).all(axis=2).any(axis=1).all()
-        assert len(found) == (sizes - 2).sum()
-        assert found.dtype == (np.float32 if coordinate == "f4" else np.float64)
-
-
-@pytest.mark.parametrize("form", FORMS)
 def test_what_is_not_the_shape_is_named_and_skipped_to_the_byte(form, tmp_path):
     vertices = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(axis, "f4") for axis in "xyz"])
     edges = np.array([(0, 1), (1, 2)], [("vertex1", "i4"), ("vertex2", "i4")])

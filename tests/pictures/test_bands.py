@@ -8,7 +8,6 @@ import weakref
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.pictures import bands
 from reference_tracer.pictures.bands import SampleBand, band_of
 from reference_tracer.pictures.bounds import SNAPPING
 from reference_tracer.pictures.renderers import EMBREE, RASTER, RAYS
@@ -82,17 +81,6 @@ def test_it_lives_as_long_as_its_frame(make):
     del frame
     gc.collect()
     assert gone() is None
-
-
-def test_it_is_measured_once(make, monkeypatch):
-    measured = []
-    most = bands._most
-    monkeypatch.setattr(bands, "_most", lambda *args: measured.append(args) or most(*args))
-    room = make.room()
-    frame = render(room)
-    for renderer in (RASTER, RAYS, RASTER, RAYS):
-        band_of(room, frame, renderer)
-    assert [args[-1] for args in measured] == [RASTER, RAYS]
 
 
 def test_no_vertex_lies_outside_the_depths_of_its_box(make):

@@ -14,9 +14,9 @@ from reference_tracer.causes.explain import (
     explain,
 )
 from reference_tracer.manifest import Effect, Unmodelled
-from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.identity import UNKNOWN
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.storage import Storage
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import trimesh
 from reference_tracer.causes.explain import AGREE, CLIP_PLANE, DEPTH_TIE, UNEXPLAINED
 from reference_tracer.files import exr, images
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.renderers import RASTER, RAYS, renderer_of
 from reference_tracer.pictures.sampling import Sampling
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.camera import Rays
@@ -20,7 +20,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import cross, dot
 
 from ..cases import find_causes
-from ..tracer.rational import rational
+from ..oracle import rational
 
 F = np.float32
 FOREIGN = Source(file="theirs.exr")
@@ -67,63 +67,6 @@ def test_rays_of_float32_may_show_either_of_what_they_do_not_tell_apart(make):
     scene = make.scene(make.camera(16, 12), *walls)
     shown = render(replace(scene, instances=scene.instances[1:])).color
     assert not (causes_of(scene, shown, RAYS) == UNEXPLAINED).any()
-
-
-def float32_picture(scene):
-    """A renderer that has nothing of the tracer's: Moeller and Trumbore, all of it in float32."""
-    camera = scene.camera
-    corners, owner = [], []
-    for number, instance in enumerate(scene.instances):
-        mesh, matrix = scene.meshes[instance.mesh], instance.world_from_object.astype(F)
-        world = mesh.vertices.astype(F) @ matrix[:3, :3].T + matrix[:3, 3]
-        corners.append(world[mesh.triangles])
-        owner.append(np.full(len(mesh.triangles), number))
-    corners, owner = np.concatenate(corners), np.concatenate(owner)
-    w, matrix = camera.window, camera.world_from_camera.astype(F)
-    y, x = np.mgrid[: camera.height, : camera.width].astype(F) + F(0.5)
-    x = F(w.left) + x.ravel() * (F(w.right - w.left) / F(camera.width))
-    y = F(w.bottom) + y.ravel() * (F(w.top - w.bottom) / F(camera.height))
-    d = np.stack((x, y, -np.ones_like(x)), axis=1) @ matrix[:3, :3].T
-    length = np.linalg.norm(d, axis=1, keepdims=True)
-    d = (d / length)[:, None]
-    first, e1, e2 = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    p = np.cross(d, e2)
-    with np.errstate(all="ignore"):
-        det = (p * e1).sum(axis=-1)
-        s = matrix[:3, 3] - first
-        u, q = (p * s).sum(axis=-1) / det, np.cross(s, e1)
-        v, t = (q * d).sum(axis=-1) / det, (q * e2).sum(axis=-1) / det / length
-        hit = (u >= 0) & (v >= 0) & (u + v <= 1) & (t >= camera.clip_start) & (t <= camera.clip_end)
-    assert t.dtype == F
-    t = np.where(hit, t, np.inf)
-    nearest = t.argmin(axis=1)
-    colors = np.array([instance.colors[0] for instance in scene.instances])
-    color = np.where(hit.any(axis=1)[:, None], colors[owner[nearest]], scene.background)
-    return color.reshape(camera.height, camera.width, 4).astype(F)
-
-
-@pytest.mark.parametrize("place", [0.0, 30.0, 1000.0])
-@pytest.mark.parametrize("seed", range(2))
-def test_no_false_alarm_of_rays_in_float32(make, place, seed):
-    """Balls that cut one another and the ground, at a slant, near the origin and far from it."""
-    rng = np.random.default_rng(seed)
-    where = place * rng.normal(size=3)
-    ground = make.quad(-50, 50, -50, 50, 0, name="Ground")
-    ball = trimesh.creation.icosphere(2)
-    balls = [make.mesh(ball.copy().apply_scale(r)) for r in rng.uniform(0.2, 1.5, 3)]
-    eye = where + rng.uniform(2, 6, 3) * (1, 1, 0.1 + rng.random())
-    camera = make.camera(40, 30, half=0.5, eye=eye.astype(F), target=where)
-    scene = make.scene(camera, ground, *balls)
-    instances = []
-    for instance in scene.instances:
-        matrix = trimesh.transformations.random_rotation_matrix(rng.random(3))
-        if instance.object == 0:
-            matrix = np.eye(4)
-        matrix[:3, 3] = where + (instance.object > 0) * rng.uniform(-1, 1, 3)
-        instances.append(replace(instance, world_from_object=matrix.astype(F).astype(float)))
-    scene = replace(scene, instances=tuple(instances))
-    causes = causes_of(scene, float32_picture(scene), RAYS)
-    assert not (causes == UNEXPLAINED).any()
 
 
 def test_blenders_header_says_which_engine_made_a_picture(make, tmp_path):

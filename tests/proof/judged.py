@@ -59,7 +59,7 @@ def _wrong(scene: Scene, hits: Hits) -> set[str]:
         ties = hits.ties.get(k, frozenset())
         is_right = {
             "owner": names[k] == sight.seen,
-            "t": sight.t is None or hits.t[k] == float(sight.t),
+            "t": hits.t[k] == sight.rounded_t,
             "certainty": (hits.certainty[k] == Certainty.AMBIGUOUS) == is_ambiguous,
             "ties": not is_ambiguous or may(sight) <= ties <= touched(sight),
         }

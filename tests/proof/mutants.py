@@ -267,7 +267,7 @@ _TABLE = {
     "judge": (
         (
             "ties are called exact",
-            "certified/ladder.py",
+            "certified/decisions.py",
             "Certainty.AMBIGUOUS if ties else Certainty.EXACT",
             "Certainty.EXACT",
         ),
@@ -279,7 +279,7 @@ _TABLE = {
         ),
         (
             "the farther candidate wins",
-            "certified/ladder.py",
+            "certified/decisions.py",
             "nearer = result == order.FARTHER",
             "nearer = result == order.NEARER",
         ),
@@ -291,7 +291,7 @@ _TABLE = {
         ),
         (
             "candidates are not sorted by their names",
-            "certified/ladder.py",
+            "certified/decisions.py",
             "found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], "
             "found.ray)))",
             "found = found.take(np.lexsort((-found.surface, found.ray)))",

@@ -25,10 +25,12 @@ TUNING = {
     "plain": {"_ROWS": _STEP},
     "any_rays": {"_FEW": "from how many pairs a tree of boxes is worth while"},
     "ladder": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},
-    "sweep.boxes": {
+    "sweep.depth_bins": {
         **dict.fromkeys(("_FIRST", "BINS", "BINS - 1", "_GROWTH", "_GROWTH - 1"), _BINS),
-        **dict.fromkeys(("2", "3"), _BINS + "; and the bytes of a kind of integer"),
+        **dict.fromkeys(("2", "3"), _BINS),
     },
+    "sweep.boxes": {"2": "the bytes of a kind of integer"},
+    "surfaces": {"40503": "the place of a name in a table: it is found by its name"},
     "sweep.depth_buffer": dict.fromkeys(
         ("FINE", "COARSE", "COARSE // FINE", "2 * FINE"),
         "the size of a cell of pixels: integers; a cell has the least nearness of its pixels",
@@ -66,15 +68,21 @@ HAND = {
 }
 # Proven otherwise than by an expression of floats.
 ELSEWHERE = {
-    "arithmetic": "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
+    **dict.fromkeys(
+        ("arithmetic", "known_results"),
+        "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
+    ),
     "reasons": "words for the user, of what integers have decided",
     "integers": "frexp's mantissa has 53 digits, so that 2^53 of it are an integer: `digits_is`",
     "rounding": "the roundings before the proof, which is about stored rays and corners: "
     "test_rounding.py holds their bounds against fractions",
     "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "
     "is left out is held to be met by no ray, in fractions, by test_dropped.py",
-    "tree": "which triangles any rays may meet, argued by hand at its head: what is found is held "
-    "to be what every pair has by test_tree.py",
+    **dict.fromkeys(
+        ("tree", "triangle_tree"),
+        "which triangles any rays may meet, argued by hand at its head: what is found is held to "
+        "be what every pair has by test_tree.py",
+    ),
     "measures": "of barycentrics, whose bound is argued by hand: below it, integers divide",
 }
 

@@ -10,7 +10,8 @@ import trimesh
 from reference_tracer.causes.case import Case
 from reference_tracer.comparison.comparing import compare
 from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import Source
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance

@@ -8,15 +8,14 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer.causes.case import Case
-from reference_tracer.causes.explain import AGREE, CAUSES
 from reference_tracer.comparison.comparing import compare
 from reference_tracer.comparison.comparison import SCHEMA
 from reference_tracer.files.images import to_display
 from reference_tracer.manifest import Manifest
-from reference_tracer.pictures.picture import Picture, Source
+from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.report.comparison import (
-    cause_picture,
     failure_written,
     write,
 )
@@ -150,15 +149,3 @@ def test_a_failure_leaves_what_is_no_result(tmp_path):
     with pytest.raises(SceneError), failure_written(tmp_path):
         raise SceneError("no camera")
     assert {p.name for p in tmp_path.iterdir()} == before | {"comparison.json"}
-
-
-def test_every_cause_has_a_colour_of_its_own(comparison):
-    colored = {cause for cause in CAUSES if cause.color is not None}
-    assert colored == set(CAUSES) - {AGREE}
-    shown = set()
-    for cause in colored:
-        comparison.causes.cause[...] = cause
-        picture = cause_picture(comparison)
-        assert picture.shape == (9, 12, 4) and picture.dtype == np.float32
-        shown.add(tuple(np.round(picture[5, 5], 3)))
-    assert len(shown) == len(colored)

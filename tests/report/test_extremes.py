@@ -71,26 +71,6 @@ def test_the_folder(rows, tmp_path):
 SCENARIOS_BY_NAME = {s.name: s for s in quick(SCENARIOS)}
 
 
-@pytest.fixture
-def drawn(rows, plotted):
-    return plotted(page(rows))
-
-
-@pytest.mark.browser
-def test_the_picture_is_legible(rows, drawn, plotted):
-    """That with all scales, too, whose numbers stand closest."""
-    full = [
-        replace(r, scale=x)
-        for s in SCENARIOS
-        for r in rows
-        if r.scenario == s.name
-        for x in s.scales
-    ]
-    for each in (drawn, plotted(page(full))):
-        each.assert_legible()
-        assert each.width == 1920 and each.height >= 1000
-
-
 def test_every_row_of_a_sweep_is_a_mark_at_its_numbers(rows):
     marks = 0
     for s, panel in zip(SCENARIOS, plot(rows).panels, strict=True):

@@ -70,20 +70,6 @@ def test_hovering_swaps_and_so_does_a_key(show, differing):
     assert color_at(tab, x, y) == theirs
 
 
-def test_every_picture_can_be_shown_on_either_side(show, differing):
-    tab = show(differing)
-    ids = tab.locator("#left option").evaluate_all("all => all.map(o => o.value)")
-    assert ids[:4] == ["traced", "blender", "literal", "causes"]
-    for name in ids:
-        tab.locator("#right").select_option(name)
-        assert state(tab, "right") == name
-    tab.locator("#exchange").click()
-    assert state(tab, "left") == ids[-1] and state(tab, "right") == "traced"
-    for mode, expected in (("pair", 2), ("all", len(ids))):
-        choose(tab, mode)
-        assert tab.evaluate("() => panes().length") == expected
-
-
 def test_the_legend_filters_the_map(show, differing):
     tab = show(differing)
     causes: Any = content(differing)["causes"]

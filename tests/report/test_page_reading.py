@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from reference_tracer.comparison.extras import Extras
 from reference_tracer.manifest import ObjectEntry
-from reference_tracer.pictures.picture import Source
+from reference_tracer.pictures.source import Source
 from reference_tracer.report import page
 from reference_tracer.report.page.content import content
 from reference_tracer.study import extremes, tradeoff

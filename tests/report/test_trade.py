@@ -17,7 +17,8 @@ from reference_tracer.report.trade import (
     text_cells,
     write,
 )
-from reference_tracer.study.trade import COLUMNS, Trade, TradeRow, mark
+from reference_tracer.study.advice import mark
+from reference_tracer.study.trade import COLUMNS, Trade, TradeRow
 from reference_tracer.tracer.settings import Precision
 
 pytestmark = pytest.mark.slow
@@ -155,26 +156,3 @@ def test_the_plot_says_what_it_shows(trade, plotted):
     for words in (trade.advice, "a scene.blend: ", "16 × 16 rays", "160 × 90 pixels, one ray each"):
         assert words in said
     assert all(m.record.words in said for m in MEASURED)
-
-
-@pytest.mark.browser
-@pytest.mark.parametrize("slow", [1, 1000])
-def test_plots_are_legible(slow, plotted):
-    """Nothing wrong, all wrong, a coverage without error, one sample; times that are far apart."""
-    cases = (
-        {"wrong": (0,) * 9},
-        {"wrong": (14400,) * 8 + (0,)},
-        {"coverage": 0.0},
-        {"samples": (1,)},
-    )
-    names = "<b>&\x00\ud800 " * 6, "long_" * 12, "シーン" * 7, "a"
-    for case, scene in zip(cases, names, strict=True):
-        trade = made(**case)
-        rows = [
-            replace(r, seconds=(s := r.seconds * slow ** (k % 2)), rounds=(s, 1.1 * s))
-            for k, r in enumerate(trade.rows)
-        ]
-        held = replace(trade, rows=mark(rows), scene=scene, advice="word " * 60)
-        drawn = plotted(page(held))
-        drawn.assert_legible()
-        assert len(drawn.titled("circle")) == len(trade.rows) + len(trade.whole)

@@ -7,7 +7,8 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.study.trade import COLUMNS, TIMED, Column, TradeRow, advice, gain, mark
+from reference_tracer.study.advice import advice, gain, mark
+from reference_tracer.study.trade import COLUMNS, TIMED, Column, TradeRow
 from reference_tracer.tracer.settings import Precision
 
 

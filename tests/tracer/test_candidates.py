@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.scene import Instance, Mesh, Region, Scene
-from reference_tracer.tracer import candidates
+from reference_tracer.tracer import candidates, sampled
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.candidates import pixel_bounds
 from reference_tracer.tracer.nearest import within_clip
@@ -101,16 +101,16 @@ def forest(make, rng):
     return Scene(make.camera(), meshes, instances, objects=("Forest",))
 
 
-@pytest.mark.parametrize("kept", [0, 200, candidates.SAMPLED])
+@pytest.mark.parametrize("kept", [0, 200, sampled.SAMPLED])
 def test_candidates_are_the_same_for_each_sample(kept, forest, monkeypatch):
-    monkeypatch.setattr(candidates, "SAMPLED", kept)
+    monkeypatch.setattr(sampled, "SAMPLED", kept)
     monkeypatch.setattr(candidates, "PAIRS", 64)
     made = result_of(candidates.cull(forest, np.dtype(float), 1 << 28, 0.5))
     r = forest.camera.region
     low, high = Region(r.x0, r.y0, r.x1, r.y1 // 2), Region(r.x0, r.y1 // 2, r.x1, r.y1)
-    sampled, gathered = candidates.Sampled(made), 0
+    several, gathered = sampled.Sampled(made), 0
     for tile in (low, low, high, low, low):
-        pairs = zip(sampled.of(tile), candidates.candidates(made, tile), strict=True)
+        pairs = zip(several.of(tile), candidates.candidates(made, tile), strict=True)
         for (share, some), (own_share, own) in pairs:
             assert share == own_share and (some is None) == (own is None)
             if some is not None:

@@ -53,8 +53,7 @@ blender/ui/long_work.py LongWork.invoke
           blender/drawing/drawings.py Plan.drawn
             blender/drawing/drawings.py Plan._drawn
               blender/drawing/drawings.py _turns
-                blender/drawing/drawings.py _picture
-                  blender/drawing/picture.py picture
+                blender/drawing/picture.py picture
         comparison/comparing.py compared
           comparison/comparing.py trace_and_compare
             rendering.py steps
@@ -66,9 +65,8 @@ blender/ui/long_work.py LongWork.invoke
           comparison/comparing.py diagnosed
             diagnosis/diagnosis.py diagnose
               diagnosis/guessing.py accounting
-      blender/ui/operators.py REFERENCE_TRACER_OT_compare._showing
-        blender/ui/operators.py REFERENCE_TRACER_OT_compare._show
-          blender/ui/results.py keep_comparison
+    blender/ui/operators.py REFERENCE_TRACER_OT_compare.show
+      blender/ui/results.py keep_comparison
 blender/ui/long_work.py LongWork.modal
   blender/ui/long_work.py LongWork._end
     blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish
@@ -90,7 +88,7 @@ cli/main.py main
                   report/comparison.py write
                     report/page/__init__.py write
               cli/commands/compare.py _told_comparison
-                comparison/comparison.py Comparison.lines
+                report/lines.py lines
                 cli/commands/compare.py _told
                   comparison/verdict.py Verdict.exit_code
 """,

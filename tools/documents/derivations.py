@@ -8,7 +8,6 @@ from pathlib import Path
 
 from reference_tracer.derivation import document, formulas, reproducer
 from reference_tracer.derivation.derivation import derive, derive_pixel
-from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 
 from .figures import scene
 
@@ -49,22 +48,10 @@ def rows(table: str, labels: Sequence[str]) -> str:
     return "\n".join(kept)
 
 
-def formula_table() -> str:
-    """Every formula of a ray and a triangle, in the order in which it is computed."""
-    lines = ["| | formula | |", "|---|---|---|"]
-    perspective, orthographic = (formulas.ray_formulas(p) for p in (PERSPECTIVE, ORTHOGRAPHIC))
-    of = [*formulas.CAMERA.values(), *perspective.values()]
-    of += [f._replace(remark="orthographic") for f in orthographic.values()]
-    of += [*formulas.TRIANGLE.values(), *formulas.COLOR.values()]
-    lines += [f"| {f.label} | {f.right} | {f.remark} |" for f in of if f.right]
-    return "\n".join(lines)
-
-
 def values() -> dict[str, str]:
     """Return each part by its name."""
     ray, test = "## 1. From the pixel to the ray", "### 2.1"
     parts = {
-        "explain_formulas": formula_table(),
         "explain_errata": "\n".join(f"{k}. {e}" for k, e in enumerate(formulas.ERRATA, 1)),
         "explain_candidates": after("", "## 2. What the ray may meet", 0, 1),
         "explain_test": rows(after("", test, 0), ("t", "nₛ₂", "s₂", "s₃", _SUM))

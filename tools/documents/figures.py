@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -38,62 +38,31 @@ def _whole(value: float) -> str:
     return f"{round(value):,}"
 
 
-def size_of(name: str) -> str:
-    camera = scene(name).camera
-    return f"{camera.width} × {camera.height}"
+def sizes() -> dict[str, str]:
+    """The size of each scene's picture."""
+    cameras = {n: scene(n).camera for n in ("orthographic", "perspective", "plane", "triangle")}
+    return {f"size_{name}": f"{own.width} × {own.height}" for name, own in cameras.items()}
 
 
-def ortho_width() -> str:
-    w = scene("orthographic").camera.window
-    return f"{w.right - w.left:.3g}"
-
-
-def ortho_pixel() -> str:
-    camera = scene("orthographic").camera
-    return f"{1000 * (camera.window.right - camera.window.left) / camera.width:.4g}"
-
-
-def column_pixels() -> str:
-    """How high the scene's columns are in the orthographic picture."""
-    some = scene("orthographic")
-    heights = {
+def of_orthographic() -> dict[str, str]:
+    """The parallel camera's film, and what changes if rays pass the pixels' corners."""
+    some, camera = scene("orthographic"), scene("orthographic").camera
+    w, color = camera.window, traced("orthographic").color
+    across, up = w.right - w.left, camera.world_from_camera[2, 1]
+    [height] = {
         float(np.ptp(some.meshes[i.mesh].vertices[:, 2]))
         for i in some.instances
         if some.objects[i.object].startswith("Column")
     }
-    [height] = heights
-    up = some.camera.world_from_camera[2, 1]
-    w = some.camera.window
-    return _whole(height * up / ((w.top - w.bottom) / some.camera.height))
-
-
-def half_changed() -> str:
-    """Pixels of the orthographic picture that change if rays pass the pixels' corners."""
-    camera = scene("orthographic").camera
-    w = camera.window
-    half = (w.right - w.left) / camera.width / 2
-    moved = scene("orthographic").seen_by(replace(camera, window=w.moved(-half, -half)))
-    color = render(moved, Settings()).color
-    return _whole((color != traced("orthographic").color).any(axis=2).sum())
-
-
-def constant_colors() -> str:
-    """Different colours in the picture, the background's among them."""
-    return _whole(len(np.unique(traced("orthographic").color.reshape(-1, 4), axis=0)))
-
-
-def half_angle() -> float:
-    """Half the vertical angle of view, in radians."""
-    return math.atan(scene("perspective").camera.window.top)
-
-
-def half_angle_degrees() -> str:
-    return f"{math.degrees(half_angle()):.2f}"
-
-
-def pixel_length() -> str:
-    camera = scene("perspective").camera
-    return f"{math.tan(half_angle()) / (camera.height / 2):.6f}"
+    half = across / camera.width / 2
+    moved = some.seen_by(replace(camera, window=w.moved(-half, -half)))
+    return {
+        "ortho_width": f"{across:.3g}",
+        "ortho_pixel": f"{1000 * across / camera.width:.4g}",
+        "column_pixels": _whole(height * up / ((w.top - w.bottom) / camera.height)),
+        "half_changed": _whole((color != render(moved, Settings()).color).any(axis=2).sum()),
+        "constant_colors": _whole(len(np.unique(color.reshape(-1, 4), axis=0))),
+    }
 
 
 def _misread(angle: float, height: int) -> float:
@@ -103,120 +72,64 @@ def _misread(angle: float, height: int) -> float:
     return height / 2 * (1 - wrong / right)
 
 
-def misread_edge() -> str:
-    return f"{_misread(half_angle(), scene('perspective').camera.height):.1f}"
-
-
-def misread_wide() -> str:
-    """The same for half an angle of 60 degrees."""
-    return _whole(_misread(math.radians(60), scene("perspective").camera.height))
-
-
-def misread_corner() -> str:
-    """The same at the corner of the picture."""
+def of_perspective() -> dict[str, str]:
+    """The angle of view, and what comes of misreading it: at the edge, the corner, and of 60°."""
     camera = scene("perspective").camera
-    half = math.hypot(camera.width, camera.height) / 2
-    return f"{_misread(half_angle(), camera.height) * half / (camera.height / 2):.1f}"
+    w, half = camera.window, camera.height / 2
+    angle = math.atan(w.top)  # half the vertical one
+    off = _misread(angle, camera.height)
+    corner = w.right * (1 - 1 / camera.width), w.top * (1 - 1 / camera.height), 1
+    return {
+        "half_angle_degrees": f"{math.degrees(angle):.2f}",
+        "pixel_length": f"{math.tan(angle) / half:.6f}",
+        "corner_length": f"{math.hypot(*corner):.4f}",
+        "whole_angle_factor": f"{math.tan(2 * angle) / math.tan(angle):.2f}",
+        "misread_edge": f"{off:.1f}",
+        "misread_corner": f"{off * math.hypot(camera.width, camera.height) / camera.height:.1f}",
+        "misread_wide": _whole(_misread(math.radians(60), camera.height)),
+    }
 
 
-def corner_length() -> str:
-    """How long d is for a corner pixel."""
-    w, camera = scene("perspective").camera.window, scene("perspective").camera
-    x, y = w.right * (1 - 1 / camera.width), w.top * (1 - 1 / camera.height)
-    return f"{math.hypot(x, y, 1):.4f}"
-
-
-def whole_angle_factor() -> str:
-    """By how much the picture shrinks if half the angle is taken for the whole one."""
-    a = half_angle()
-    return f"{math.tan(2 * a) / math.tan(a):.2f}"
-
-
-def _on_plane() -> np.ndarray:
+def of_plane() -> dict[str, str]:
+    """Where the plane is seen, and how its depth grows towards the horizon."""
     frame = traced("plane")
-    return (frame.instance_index != NOTHING) & (frame.triangle_index == NOTHING)
+    seen = (frame.instance_index != NOTHING) & (frame.triangle_index == NOTHING)
+    rows = seen.any(axis=1)
+    depths = np.nanmedian(np.where(seen, frame.t, np.nan)[rows], axis=1)  # from the lowest row
+    below, highest = depths[-2:]
+    return {
+        "plane_pixels": _whole(seen.sum()),
+        "plane_farthest": _whole(frame.t[seen].max()),
+        "plane_clip": _whole(scene("plane").camera.clip_end),
+        "plane_top_row": str(int(np.flatnonzero(rows).max())),
+        "plane_step": _whole(highest - below),
+        # Rows from the highest one's centre to the horizon: 1 / t falls evenly.
+        "horizon_below": f"{1 / highest / (1 / below - 1 / highest):.2f}",
+    }
 
 
-def plane_pixels() -> str:
-    return _whole(_on_plane().sum())
+def of_triangle() -> dict[str, str]:
+    """The pixels that the textbook's methods get wrong, of those that see a triangle."""
+    certified = traced("triangle")
+    seen = int((certified.triangle_index != NOTHING).sum())
+    found = {
+        "literal_seen": _whole(seen),
+        "triangle_count": _whole(scene("triangle").triangle_count),
+    }
+    for name, method in (("literal", "textbook_literal"), ("textbook", "textbook")):
+        for end, precision in (("", "float64"), ("_float32", "float32")):
+            lost = int(traced("triangle", method, precision).wrong_against(certified).sum())
+            found[f"{name}_lost{end}"] = _whole(lost)
+            found[f"{name}_share{end}"] = f"{100 * lost / seen:.0f}"
+    return found
 
 
-def plane_farthest() -> str:
-    return _whole(traced("plane").t[_on_plane()].max())
-
-
-def plane_clip() -> str:
-    return _whole(scene("plane").camera.clip_end)
-
-
-def plane_top_row() -> str:
-    """The highest row in which the plane is seen."""
-    return str(int(np.flatnonzero(_on_plane().any(axis=1)).max()))
-
-
-def _depths() -> np.ndarray:
-    """Depths of the plane in the rows that see it, from the lowest."""
-    t = np.where(_on_plane(), traced("plane").t, np.nan)
-    return np.nanmedian(t[_on_plane().any(axis=1)], axis=1)
-
-
-def horizon_below() -> str:
-    """By how many rows the highest row's centre is below the horizon: 1 / t falls evenly."""
-    below, highest = 1 / _depths()[-2:]
-    return f"{highest / (below - highest):.2f}"
-
-
-def plane_step() -> str:
-    """Metres from the highest row's depth to that of the row below."""
-    below, highest = _depths()[-2:]
-    return _whole(highest - below)
-
-
-def _lost(name: str, method: str, precision: str) -> tuple[int, int]:
-    """Pixels that see another surface than the certified one, and those that see a triangle."""
-    certified = traced(name)
-    wrong = traced(name, method, precision).wrong_against(certified)
-    return int(wrong.sum()), int((certified.triangle_index != NOTHING).sum())
-
-
-def literal_lost() -> str:
-    return _whole(_lost("triangle", "textbook_literal", "float64")[0])
-
-
-def literal_seen() -> str:
-    return _whole(_lost("triangle", "textbook_literal", "float64")[1])
-
-
-def literal_share() -> str:
-    lost, seen = _lost("triangle", "textbook_literal", "float64")
-    return f"{100 * lost / seen:.0f}"
-
-
-def literal_share_float32() -> str:
-    lost, seen = _lost("triangle", "textbook_literal", "float32")
-    return f"{100 * lost / seen:.0f}"
-
-
-def textbook_lost() -> str:
-    return _whole(_lost("triangle", "textbook", "float64")[0])
-
-
-def textbook_lost_float32() -> str:
-    return _whole(_lost("triangle", "textbook", "float32")[0])
-
-
-def triangle_count() -> str:
-    return _whole(scene("triangle").triangle_count)
-
-
-def judged_pairs() -> str:
-    """Pairs that a student's function is asked about, over the exercise's four scenes."""
+def of_grading() -> dict[str, str]:
+    """What is asked of a student's function, over the exercise's four scenes; the weights."""
     subjects = (result_of(prepare(name, some)) for name, some, _ in built_in())
-    return _whole(sum(len(some.pixel) for s in subjects for some, _ in s.pairs))
-
-
-def judged_pixels() -> str:
-    return _whole(PIXELS)
+    pairs = sum(len(some.pixel) for s in subjects for some, _ in s.pairs)
+    found = {"judged_pairs": _whole(pairs), "judged_pixels": _whole(PIXELS), "cost": f"{COST:g}"}
+    return found | {f"weight_{name}": f"{weight:g}" for name, weight in TRIANGLE.weights.items()}
 
 
 TOUR = Path(__file__).resolve().parents[2] / "docs" / "images" / "tutorial" / "comparison.json"
@@ -232,41 +145,17 @@ def of_tour() -> dict[str, str]:
     return counts | figures | {"tutorial_pixel": f"{x}, {y}", "tutorial_verdict": found["verdict"]}
 
 
-WEIGHED = {f"weight_{name}": f"{weight:g}" for name, weight in TRIANGLE.weights.items()}
-SIZES = {f"size_{n}": n for n in ("orthographic", "perspective", "plane", "triangle")}
-_FIGURES: tuple[Callable[[], str], ...] = (
-    ortho_width,
-    ortho_pixel,
-    column_pixels,
-    half_changed,
-    constant_colors,
-    half_angle_degrees,
-    pixel_length,
-    corner_length,
-    whole_angle_factor,
-    misread_edge,
-    misread_corner,
-    misread_wide,
-    plane_pixels,
-    plane_farthest,
-    plane_clip,
-    plane_top_row,
-    plane_step,
-    horizon_below,
-    literal_lost,
-    literal_seen,
-    literal_share,
-    literal_share_float32,
-    textbook_lost,
-    textbook_lost_float32,
-    triangle_count,
-    judged_pairs,
-    judged_pixels,
-)
-
-
 def values() -> Mapping[str, str]:
     """Return every figure by its name."""
-    sizes = {key: size_of(name) for key, name in SIZES.items()}
-    graded = {"cost": f"{COST:g}"} | WEIGHED
-    return {f.__name__: f() for f in _FIGURES} | sizes | graded | of_tour()
+    found: dict[str, str] = {}
+    for of in (
+        sizes,
+        of_orthographic,
+        of_perspective,
+        of_plane,
+        of_triangle,
+        of_grading,
+        of_tour,
+    ):
+        found |= of()
+    return found

@@ -14,7 +14,7 @@ from reference_tracer.diagnosis.faults import EXAMPLES
 from reference_tracer.files.images import to_display
 from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.picture import Picture as Shown
-from reference_tracer.pictures.picture import Source
+from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.hits import NOTHING

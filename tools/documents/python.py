@@ -16,6 +16,7 @@ _FIRST = (
     "trace",
     "compare",
     "explain",
+    "inside",
     "read_camera",
     "write_camera",
 )

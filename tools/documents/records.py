@@ -11,14 +11,24 @@ import reference_tracer_data.faults
 from reference_tracer.camera_files.features import FEATURES
 from reference_tracer.camera_files.files import CONVENTIONS
 from reference_tracer.causes.cause import Cause
-from reference_tracer.causes.checks import unmodelled
-from reference_tracer.causes.explain import CAUSES, CHECKS
+from reference_tracer.causes.explain import CAUSES
 from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault
+from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault, Effort
 from reference_tracer.diagnosis.guessing import IN_PLACES
 from reference_tracer.methods import Method
 from reference_tracer_data.faults import DATA_FAULTS
+
+_COST = {  # what one try takes
+    Effort.NOTHING: "some hundred pixels are traced",
+    Effort.VIEW: "the same",
+    Effort.FILM: "one or two numbers are fitted to edges in the picture, then to a thousand pixels",
+    Effort.CAMERA: "the same, of two to six numbers",
+    Effort.LEFT_OUT: "some hundred pixels are traced",
+    Effort.PIXELS: "some hundred pixels in some dozen ways",
+    Effort.OBJECT: "up to three numbers of two objects are fitted to edges; each is traced alone",
+    Effort.ANYTHING: "the whole picture is traced",
+}
 
 
 class _Name(str):
@@ -33,7 +43,6 @@ def values() -> dict[str, str]:
     parts = {
         "camera_conventions": camera_conventions(),
         "causes": causes(),
-        "checks": checks(),
         "faults": faults_by_family(),
         "order": order_of_faults(),
         "methods": methods(),
@@ -56,16 +65,6 @@ def methods() -> str:
     for method in Method:
         of = method.record
         rows.append(f"| `{method}`, *{of.label}* | {of.description} | {of.guarantees} |")
-    return "\n".join(rows)
-
-
-def checks() -> str:
-    """Return the checks in their order, a line each: what they say of the pixels that they find."""
-    rows = []
-    for check in (unmodelled.check_in_place, *(check for check, _ in CHECKS)):
-        said = (inspect.getdoc(check) or "").split("\n")[0].removeprefix("Find open pixels ")
-        file = check.__module__.split(".")[-1] + ".py"
-        rows.append(f"1. {said.rstrip('.')} ([{file}](../addon/causes/checks/{file}))")
     return "\n".join(rows)
 
 
@@ -97,14 +96,14 @@ def _list(*lines: tuple[str, str]) -> str:
 
 
 def order_of_faults() -> str:
-    """Return a table of what is tried, in which order, and at which cost."""
+    """Return a table of the steps of the search, in their order, with what each costs."""
     rows = [
-        f"| {words} | {cost} | {number} | {1 + IN_PLACES.index(effort)} | "
+        f"| {words} | {_COST[effort]} | {number} | {1 + IN_PLACES.index(effort)} | "
         f"{sum(f.effort == effort for f in FAULTS)} |"
-        for number, (effort, (words, cost)) in enumerate(TRIED.items(), 1)
+        for number, (effort, words) in enumerate(TRIED.items(), 1)
     ]
     head = "| tried | at which cost | place | where most of the picture agrees | faults |"
-    return "\n".join(("", head, "|---|---|---|---|---|", *rows, ""))
+    return "\n".join((head, "|---|---|---|---|---|", *rows))
 
 
 def faults_by_family() -> str:

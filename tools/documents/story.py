@@ -1,7 +1,7 @@
 """The README's moving picture: a renderer's picture with a wrong camera, and what is said of it.
 
-The picture is traced with another focal length than the scene has. The comparison and its diagnosis
-are those that `reftrace compare --against` makes: the words and counts are what they say.
+The picture is traced with another focal length than the scene has. The words and counts are those
+of the comparison and its diagnosis.
 """
 
 from __future__ import annotations
@@ -13,17 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
-from reference_tracer.causes.case import Case
+from reference_tracer import Comparison, Scene, ViewWindow, compare, render
 from reference_tracer.cli.opening import load
-from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
-from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.files.images import to_display
-from reference_tracer.manifest import Manifest
-from reference_tracer.pictures.picture import Picture, Source
-from reference_tracer.rendering import render
-from reference_tracer.scene import Scene, ViewWindow
-from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Settings
 
 SCENE = Path(__file__).resolve().parents[2] / "sample_scenes" / "suzanne.blend"
 ANGLES = 38, 40  # degrees: the picture's angle of view, and the scene's
@@ -37,8 +29,7 @@ DARK, WHITE = (24, 26, 30), (240, 240, 240)
 def write(path: Path) -> None:
     """Write the animation, a GIF."""
     scene, _ = load(SCENE)
-    other = render(_with_angle(scene), Settings())
-    found = result_of(_compared(scene, other.color))
+    found = compare(scene, render(_with_angle(scene)).color)
     frames = [_captioned(*shown) for shown in _pictures(found)]
     made = [frame.quantize(64, dither=Image.Dither.NONE) for frame in frames]
     length = [round(1000 * seconds) for seconds in SECONDS]
@@ -53,25 +44,17 @@ def _with_angle(scene: Scene) -> Scene:
     return scene.seen_by(replace(scene.camera, window=ViewWindow(*sides)))
 
 
-def _compared(scene: Scene, color: NDArray[np.float32]):
-    """Compare the scene with a picture, and find what is wrong."""
-    manifest = Manifest(SCENE.name, SCENE.stem, "", 0, "FILE", scene.camera.name)
-    case = Case(scene, manifest, Settings(), Picture(color, Source(file="render.exr")), curves=())
-    comparison = yield from trace_and_compare(case)
-    return (yield from diagnosed(comparison))
-
-
 def _pictures(found: Comparison) -> Sequence[tuple[NDArray[np.uint8], str, tuple[int, ...]]]:
     """Return the pictures, (h, w, 3) uint8 with row 0 on top, the words below, and their colour."""
     shown, traced = (_on_grey(c) for c in (found.picture, found.frame.color))
     wrong = (found.picture != found.frame.color).any(axis=-1)[::-1]
     assert found.diagnosis is not None
     [told] = found.diagnosis.told
-    count = found.counts.unexplained
+    count, words = found.counts.unexplained, told.sentence.partition(";")[0]  # what fits
     return [
         (shown, "A renderer's picture of your scene. Is it right?", WHITE),
         (_tinted(shown, wrong, RED), f"No: {count:,} pixels show something else.", RED),
-        (_tinted(shown, wrong, RED), told.sentence[0].upper() + told.sentence[1:] + ".", RED),
+        (_tinted(shown, wrong, RED), f"{words[0].upper()}{words[1:]}.", RED),
         (
             _tinted(traced, wrong, GREEN),
             f"Put right: {told.settled:,} of {told.unexplained:,} agree, pixel by pixel.",

@@ -25,7 +25,7 @@ from .drawings import Drawing, with_what_draws_itself
 def behind(
     drawing: Drawing, case: Case, color_type: str, made: Callable[[Colors], Picture], identity: bool
 ) -> Behind | None:
-    """Return the case without what is seen through; None if there is nothing of that kind.
+    """Return the case without objects that are seen through; None if there are none.
 
     Parameters
     ----------
@@ -34,11 +34,11 @@ def behind(
     case : Case
         That of the scene with it.
     color_type : str
-        Of the user's own shading: it says whose alpha counts.
+        The user's own shading, which chooses the alpha that counts.
     made : callable
         Makes the picture of its pixels.
     identity : bool
-        Whether whose surface each pixel shows is found, too.
+        Whether to find each pixel's owner, too.
     """
     if TRANSPARENCY in drawing.judge.ignores:
         return None
@@ -61,7 +61,7 @@ def behind(
 
 
 def _see_through(manifest: Manifest, there: set[str], color_type: str) -> list[Unmodelled]:
-    """Return what is seen through and can be left out, of the objects that are exported.
+    """Return the exported objects that are seen through and can be left out.
 
     A palette draws it opaque: so the user's own colours are asked, too.
     """

@@ -37,8 +37,8 @@ def constant_colors(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
     SceneError
         If the colours are ones that a material cannot ask for.
     """
-    # Once a script has looked at an evaluated object, Blender tells an engine in Python its own
-    # colour, not that of what instances it. So all are looked at only where instances are refused.
+    # Once a script has read an evaluated object, Blender tells an engine in Python its own colour,
+    # not that of what instances it. So all objects are read only where instances are refused.
     if scene.display.shading.color_type == "RANDOM":
         objects = (block for block in depsgraph.ids if block.id_type == "OBJECT")
         show_in(scene, depsgraph, {o.original.name_full: random_color(o)[:3] for o in objects})

@@ -1,4 +1,4 @@
-"""Draws the user's scene again, to find whose surface each pixel of Blender's picture shows.
+"""Draws the user's scene again, to find the owner of each pixel of Blender's picture.
 
 For that, each object has a colour of its own. What is instanced shows the colour of the object that
 instances it, and counts as that object. Where hair and the like are drawn is found by a picture
@@ -8,7 +8,7 @@ without them. The user's objects are drawn, never copies of them: those have no 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeAlias
 
@@ -18,20 +18,19 @@ import numpy as np
 from ...arrays import Colors
 from ...causes.checks.unmodelled import covered
 from ...manifest import Effect, Manifest, Unmodelled
+from ...pictures.drawn_over import DrawnOver
 from ...pictures.identity import MOST_OBJECTS, NOTHING, Owners, colors_of, decode
 from ...pictures.palette import VIEWPORT, Palette
-from ...pictures.picture import DrawnOver, Picture
+from ...pictures.picture import Picture
 from ...scene import Scene, SceneError
-from ..evaluating import Turns, evaluated
-from ..reading.unmodelled import HAIR, is_hair
-from ..temporary import drawn, leave_out, show_in, temporary_scene
-from ..values import is_animated, untold
+from ..evaluating import evaluated
+from ..temporary import drawn, show_in, temporary_scene
+from ..turns import Turns
 from .judge import Judge
+from .left_out import left_out, separable
 from .picture import picture, prepare_scene
 from .shading import anti_aliasing, use_view_shading
 from .stand_ins import STANDS_FOR, stand_ins
-
-_HIDING = ("hide_render", "hide_viewport")
 
 
 @dataclass(frozen=True)
@@ -42,7 +41,7 @@ class Plan:
     layer: str
     judge: Judge
     like_for_like: bool = True
-    view_shading: Any = None  # of the 3D view whose shading is used
+    view_shading: Any = None  # the 3D view's shading that is used
     palette: Palette = VIEWPORT
     left_out: tuple[Unmodelled, ...] = ()  # objects that are never drawn
 
@@ -112,7 +111,7 @@ class Drawn(NamedTuple):
     drawing: Drawing
     scene: Scene  # what was exported, its planes in the colours drawn
     pixels: Colors
-    owners: Owners | None  # whose surface each pixel shows, if requested and known
+    owners: Owners | None  # of each pixel, if requested and known
 
 
 # Exports an evaluated depsgraph, given the temporary scene and the settings that it is drawn with.
@@ -133,22 +132,14 @@ def _turns(tmp: Any, used: dict[str, Any], export: Export, identity: bool) -> Tu
     gone = {(u.object, u.feature) for u in drawing.left_out}
     identity &= all((u.object, u.feature) in gone for u in separable(manifest))
     names = _owner_names(drawing, tmp) if identity else {}
-    pixels = yield from _picture(drawing, tmp, depsgraph, drawing.like_for_like, not names)
+    by = drawing.layer, drawing.judge, drawing.exported.camera, depsgraph
+    pixels = yield from picture(tmp, *by, drawing.like_for_like, not names)
     owners = (yield from _owners(drawing, tmp, names)) if names else None
     return Drawn(drawing, scene, pixels, owners)
 
 
-def _picture(
-    drawing: Drawing, tmp: Any, depsgraph: Any, like_for_like: bool, is_last: bool = True
-) -> Turns[Colors]:
-    """Have a temporary scene drawn as its judge does it."""
-    judge = drawing.judge
-    set_up = judge.set_up(tmp, drawing.layer, depsgraph) if like_for_like else nullcontext()
-    return (yield from picture(tmp, judge, drawing.exported.camera, set_up, is_last))
-
-
 def _owner_names(drawing: Drawing, tmp: Any) -> dict[str, str]:
-    """Return whose surface each object of a temporary scene shows, by their names.
+    """Return the owner that each object of a temporary scene shows, by the objects' names.
 
     There is none if there are more objects than colours can tell apart.
     """
@@ -159,51 +150,15 @@ def _owner_names(drawing: Drawing, tmp: Any) -> dict[str, str]:
 
 
 def _owners(drawing: Drawing, tmp: Any, owners: Mapping[str, str]) -> Turns[Owners]:
-    """Draw a temporary scene again, in a colour for each owner, and return whose each pixel is."""
+    """Draw a temporary scene again, in a colour for each owner, and return each pixel's owner."""
     names = tuple(dict.fromkeys(owners.values()))
     colors = dict(zip(names, colors_of(len(names)), strict=True))
     prepare_scene(tmp, drawing.judge, True)
     depsgraph = yield False
     show_in(tmp, depsgraph, {name: colors[owner] for name, owner in owners.items()})
-    pixels = yield from _picture(drawing, tmp, depsgraph, True)
+    by = drawing.layer, drawing.judge, drawing.exported.camera, depsgraph
+    pixels = yield from picture(tmp, *by)
     return Owners.of(names, decode(pixels, len(names)), drawing.manifest.owners)
-
-
-@contextmanager
-def left_out(tmp: Any, layer: str, features: Sequence[Unmodelled]) -> Iterator[None]:
-    """Leave hair, and objects that draw what is no triangle, out of a temporary scene, for a while.
-
-    Where an animation would show again what was hidden, the object leaves the scene.
-    """
-    growing = {u.object for u in features if u.feature == HAIR}
-    others = {name for u in features if u.feature != HAIR for name in (u.object, *u.by)}
-    objects = {o for o in bpy.data.objects if o.name_full in others}
-    old: set[Any] = {o for o in objects if str(o.type) == "GPENCIL"}  # 4.2 would not show it again
-    leave_out(tmp, layer, old | {o for o in objects if is_animated(o, *_HIDING)})
-    hidden = dict.fromkeys(objects - old, np.bool_(True))
-    with ExitStack() as stack:
-        for name in _HIDING:
-            stack.enter_context(untold(bpy.data.objects, name, hidden))
-        stack.enter_context(_without_hair(growing))
-        yield
-
-
-@contextmanager
-def _without_hair(objects: set[str]) -> Iterator[None]:
-    """Draw no hair of some objects, by their names, for a while."""
-    settings = {
-        system.settings
-        for obj in bpy.data.objects
-        if obj.name_full in objects
-        for system in obj.particle_systems
-        if is_hair(system.settings)
-    }
-    with ExitStack() as stack:
-        for name in ("render_type", "display_method"):
-            items: Any = bpy.types.ParticleSettings.bl_rna.properties[name]
-            values = dict.fromkeys(settings, np.int32(items.enum_items["NONE"].value))
-            stack.enter_context(untold(bpy.data.particles, name, values))
-        yield
 
 
 def with_what_draws_itself(
@@ -254,10 +209,3 @@ def drawn_by_others(drawing: Drawing) -> DrawnOver | None:
         return None
     drawn = with_what_draws_itself(drawing, shown)[0].drawn
     return drawn and DrawnOver(drawn.feature)
-
-
-def separable(manifest: Manifest) -> list[Unmodelled]:
-    """Return what draws itself and can be left out without leaving out what is traced."""
-    traced = {e.name for e in manifest.objects if e.exported} | set(manifest.owners)
-    drawn_itself = (u for u in manifest.unmodelled if u.effect is Effect.DRAWN)
-    return [u for u in drawn_itself if u.feature == HAIR or traced.isdisjoint((u.object, *u.by))]

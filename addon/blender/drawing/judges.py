@@ -15,7 +15,7 @@ from .viewport import VIEWPORT
 from .workbench import WORKBENCH
 
 if TYPE_CHECKING:
-    from ...pictures.picture import Source
+    from ...pictures.source import Source
 
 # Choices in place of a judge: an engine by its name, or a picture that is there.
 ENGINE = "ENGINE"

@@ -6,7 +6,7 @@ Everything is set on a temporary copy of the user's scene, and what cannot be is
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +14,11 @@ import bpy
 import numpy as np
 
 from ...arrays import Colors
-from ...pictures.picture import SizeError
+from ...pictures.source import SizeError
 from ...scene import Camera
-from ..evaluating import Turns, evaluated
+from ..evaluating import evaluated
 from ..temporary import made_for
+from ..turns import Turns
 from ..versions import set_format
 from .judge import Judge
 
@@ -74,9 +75,11 @@ def prepare_scene(scene: Any, judge: Judge, like_for_like: bool) -> dict[str, An
 
 def picture(
     scene: Any,
+    layer: str,
     judge: Judge,
     camera: Camera,
-    set_up: AbstractContextManager[None],
+    depsgraph: Any,
+    like_for_like: bool = True,
     is_last: bool = True,
 ) -> Turns[Colors]:
     """Have a prepared temporary scene drawn, in work that has its evaluation; return the picture.
@@ -85,12 +88,16 @@ def picture(
     ----------
     scene : bpy.types.Scene
         The temporary scene.
+    layer : str
+        Its view layer.
     judge : Judge
         The engine that draws.
     camera : Camera
         Its region says which pixels are the picture's: the viewport ignores the render border.
-    set_up : context manager
-        For as long as Blender draws.
+    depsgraph : bpy.types.Depsgraph
+        The evaluation.
+    like_for_like : bool
+        Whether it is drawn in constant colours.
     is_last : bool
         Whether no other picture is made of this evaluation.
 
@@ -106,7 +113,7 @@ def picture(
     SizeError
         If it made one of another size.
     """
-    with set_up:
+    with judge.set_up(scene, layer, depsgraph) if like_for_like else nullcontext():
         yield not is_last
     written = Path(scene.render.filepath)
     found = list(written.parent.glob(f"{written.name}*.exr"))
@@ -129,9 +136,7 @@ def drawn_once(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_li
     """Have a prepared temporary scene evaluated and drawn; return its :func:`picture`."""
 
     def turns() -> Turns[Colors]:
-        depsgraph = yield False
-        set_up = judge.set_up(scene, layer, depsgraph) if like_for_like else nullcontext()
-        return (yield from picture(scene, judge, camera, set_up))
+        return (yield from picture(scene, layer, judge, camera, (yield False), like_for_like))
 
     return evaluated(scene, layer, judge, turns())
 

@@ -3,7 +3,7 @@
 Eight bits below the pixel are a habit; what is promised is less (Vulkan's `subPixelPrecisionBits`
 is 4 or more). So an edge is moved slowly over the centres of pixels: where they are covered too
 early or too late, it was rounded. It is measured once a process. This is also the process's first
-drawing, whose edges may differ from those of all that follow.
+drawing: its edges may differ from those of all that follow.
 """
 
 from __future__ import annotations

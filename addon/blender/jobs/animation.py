@@ -6,8 +6,7 @@ What is simulated and not baked depends on the frames before: these are visited,
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,7 @@ from ...comparison.animation import FrameRow
 from ...errors import words
 from ...report import animation as report
 from ...scene import SceneError
-from ...tracer.progress import Share, Work, doing, mapped, scaled
+from ...tracer.progress import Found, Progress, Work, scaled
 from ..drawing.judges import OF_ONE_FRAME, STILLS
 from ..paths import made_folder
 from ..reading.camera import export_camera
@@ -37,22 +36,19 @@ _ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be im
 def compare_frames(
     directory: str,
     frames: range,
-    told: Callable[[list[FrameRow]], None],
     made_by: Any = None,
     views: Mapping[int, View] | None = None,
     **choices: Any,
 ) -> Work[list[FrameRow]]:
     """Step the context's scene to each frame, compare it, and write the table of all so far.
 
-    A frame that cannot be compared is a row, too.
+    A frame that cannot be compared is a row, too; all rows are found after each new one.
 
     Parameters
     ----------
     directory : str
         The folder for all that is written.
     frames : range
-    told : callable
-        Called with all rows after each new one, which is the last.
     made_by : dict, optional
         What the comparisons depend on. Frames that are whole in the folder and were made by the
         same are not compared again.
@@ -85,24 +81,19 @@ def compare_frames(
         try:
             for frame in visited(scene, todo):
                 share = sum(f < frame for f in todo) / len(todo)
-                yield _of_frame(frame, Share(share, takes))
+                yield Progress(share, f"frame {frame}: {takes}")
                 scene.frame_set(frame)
                 takes = announced(bpy.context.view_layer, _DRAWS)  # asked while all is evaluated
-                yield _of_frame(frame, Share(share, takes))
+                yield Progress(share, f"frame {frame}: {takes}")
                 if frame in todo:
                     work = _compared(folder, frame, made[frame], views.get(frame), choices)
-                    work = mapped(work, partial(_of_frame, frame))
-                    rows.append((yield from scaled(work, share, 1 / len(todo))))
+                    work = scaled(work, share, 1 / len(todo), f"frame {frame}")
+                    rows.append((yield from work))
                     report.write(folder, title, frames, rows)
-                    told(rows)
+                    yield Found(rows, report.line(rows[-1]))
         finally:
             scene.frame_set(before[0], subframe=before[1])
     return rows
-
-
-def _of_frame(frame: int, share: float) -> Share:
-    """Return the share of a frame's work with words that name the frame, too."""
-    return Share(share, ": ".join(filter(None, (f"frame {frame}", doing(share)))))
 
 
 def _made_by(made_by: Any, view: View | None) -> Any:
@@ -121,8 +112,7 @@ def _compared(
         # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
         choices = choices | {"diagnose": False, "literal": False}
         with seen_by(bpy.context.scene, view):
-            work = compare_open_file(bpy.context, str(own), **choices)
-            comparison = yield from work
+            comparison = yield from compare_open_file(bpy.context, str(own), **choices)
     except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
         return FrameRow(frame, error=words(error))
     report.mark_whole(folder, frame, made_by)

@@ -1,4 +1,4 @@
-"""Sets in an open file what is to be looked at, and through which camera.
+"""Chooses the scene, view layer, frame and camera of an open file.
 
 `framing.Choice` says what is chosen. A file is opened for one command and never saved, so that the
 choice is set in the file itself: the picture is that of a file saved like this.

@@ -6,7 +6,6 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -17,12 +16,13 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
-from ...pictures.bounds import Storage
 from ...pictures.certificate import CameraCertificate
 from ...pictures.palette import VIEWPORT, By
-from ...pictures.picture import Picture, Source
+from ...pictures.picture import Picture
 from ...pictures.renderers import EMBREE, RASTER
 from ...pictures.sampling import Sampling
+from ...pictures.source import Source
+from ...pictures.storage import Storage
 from ...report import comparison as comparison_report
 from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory, give_back
@@ -182,16 +182,14 @@ def compare_open_file(
     directory: str = "",
     trade: bool = False,
     extremes: bool = False,
-    told: Callable[[Comparison], object] = lambda comparison: None,
     literal: bool = True,
     **choices: Any,
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing, diagnosing, and writing the files.
 
     Nothing is written if the directory is empty. With `trade` and `extremes`, these are measured
-    for the page, too. `told` hears of the comparison before the diagnosis, if there is one. The
-    page has the literal textbook's picture, if that is wanted. The choices are the fields of
-    :class:`Choices`. On failure the JSON of a folder without results says why.
+    for the page, too. The page has the literal textbook's picture, if that is wanted. The choices
+    are the fields of :class:`Choices`. On failure the JSON of a folder without results says why.
 
     Raises
     ------
@@ -200,8 +198,8 @@ def compare_open_file(
     """
     diagnose = Choices.of(context.scene, choices).diagnose
     if not directory:
-        return compared(gather_case(context, **choices), diagnose, told)
+        return compared(gather_case(context, **choices), diagnose)
     folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
-    return comparison_report.written(folder, case, diagnose, trade, extremes, told, literal)
+    return comparison_report.written(folder, case, diagnose, trade, extremes, literal)

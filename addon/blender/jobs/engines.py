@@ -15,7 +15,7 @@ from ...comparison.comparing import compared
 from ...comparison.engines import EngineRow
 from ...comparison.verdict import Verdict
 from ...errors import words
-from ...pictures.picture import SizeError
+from ...pictures.source import SizeError
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...scene import SceneError

@@ -16,7 +16,8 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...pictures.given import Making, picture_of_array, picture_of_file
 from ...pictures.palette import APART, By, eight_bits
-from ...pictures.picture import Picture, Source
+from ...pictures.picture import Picture
+from ...pictures.source import Source
 from ...scene import Scene
 from ..drawing.drawings import Drawing
 from ..drawing.judge import Judge
@@ -28,7 +29,7 @@ from ..versions import DITHER
 from .against import gather_against
 from .open_file import Choices
 
-_MOST = 256  # colours of a picture that are looked at
+_MOST = 256  # colours of a picture that are compared
 _UNSEEN = (
     "which engine rendered it is not known, so only the rounding of rays excuses it: render again "
     "with F12 while the add-on is enabled, or choose Made By"

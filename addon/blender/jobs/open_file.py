@@ -28,7 +28,7 @@ class Choices:
     judge: str  # its name in capitals, or AUTO
     as_is: bool  # Blender draws with the shading that the scene has
     colors: By | GivenColors  # where the colours come from; as it is, they are the viewport's
-    identity: bool  # whose surface each pixel shows is found, too
+    identity: bool  # find each pixel's owner, too
     self_check: bool  # the comparison is tried on known faults, too
     diagnose: bool  # whether to diagnose unexplained pixels
     renderer: str = ""  # what another engine, or an image, was made by: a name in RENDERERS

@@ -73,7 +73,7 @@ def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:
 
 
 def coarser(camera: Camera, factor: int) -> Camera:
-    """Return a camera whose pixels are `factor` times as wide and high, from the same corner on.
+    """Return a camera with pixels `factor` times as wide and high, from the same corner on.
 
     The last ones may reach beyond the picture.
     """

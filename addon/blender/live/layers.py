@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import parts
 from .shows import Picture
 
 Place = tuple[float, float, float, float]  # left, bottom, a pixel's width and height, of the region
@@ -76,11 +77,10 @@ class Textures:
 
     def __init__(self, picture: Picture, place: Place) -> None:
         height, width = picture.color.shape[:2]
-        step = max(1, BAND // width)
         self.color = picture.color
         self._rows_done = picture.rows_done
         self._place = place
-        self.missing = [slice(y, min(y + step, height)) for y in range(0, height, step)]
+        self.missing = parts(height, max(1, BAND // width))
         self._bands: list[tuple[int, Any]] = []  # the first row of each
 
     def upload(self, until: float) -> bool:
@@ -102,7 +102,7 @@ class Textures:
         return False
 
     def draw(self, shader: Any, width: int, height: int) -> None:
-        """Draw what is there over a region of this size."""
+        """Draw the layers over a region of this size."""
         from gpu_extras.batch import batch_for_shader
 
         left, bottom, across, up = np.multiply(self._place, (width, height) * 2)

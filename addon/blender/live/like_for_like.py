@@ -16,8 +16,9 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...manifest import Manifest
 from ...pictures.certificate import CameraCertificate
-from ...pictures.picture import Picture, Source
+from ...pictures.picture import Picture
 from ...pictures.sampling import Sampling
+from ...pictures.source import Source
 from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
 from ..drawing.camera_object import add_camera
@@ -25,11 +26,12 @@ from ..drawing.picture import picture, prepare_scene
 from ..drawing.rasteriser import snapping_of
 from ..drawing.stand_ins import stand_ins
 from ..drawing.viewport import VIEWPORT
-from ..evaluating import Turns, evaluated
+from ..evaluating import evaluated
 from ..reading.camera import certify_camera
 from ..reading.export import NO_SURFACE, export
 from ..reading.visible import in_view, types_left_out
 from ..temporary import drawn, leave_out, made_for, temporary_scene
+from ..turns import Turns
 
 AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
 
@@ -78,8 +80,7 @@ def _turns(
     certificate = certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
     planes = [scene.objects[p.object] for p in scene.planes]
     traced = replace(stand_ins(tmp, layer, scene, planes), background=exported.background)
-    set_up = VIEWPORT.set_up(tmp, layer, depsgraph)
-    pixels = yield from picture(tmp, VIEWPORT, scene.camera, set_up)
+    pixels = yield from picture(tmp, layer, VIEWPORT, scene.camera, depsgraph)
     return traced, manifest, certificate, pixels
 
 

@@ -3,7 +3,7 @@
 Every evaluation of an object makes a new mesh with a `session_uid` of its own, which Blender gives
 away once in a session: so a mesh with the same number is the same mesh. (An address is not enough:
 it is given away again.) Meshes that are being edited or painted change as they are: they are read
-every time, as are those of objects whose geometry the depsgraph says is updated.
+every time, as are those of objects with a geometry that the depsgraph has updated.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from ...arrays import Bools, Colors
+from ...arrays import Bools, Colors, parts
 from ...causes.cause import AGREE, UNEXPLAINED, Causes
 from ...causes.explain import CAUSES, explain
 from ...causes.maps import WRONG, cause_map, certainty_map, dimmed, ringed
@@ -22,9 +22,8 @@ from ...scene import Camera, Scene
 from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Event, Work
 from ...tracer.settings import Settings
-from ...tracer.vector import parts
 from . import like_for_like
 
 ROWS = 64  # entered together, in some milliseconds
@@ -53,12 +52,12 @@ class Picture:
         return cls(color, np.zeros(region.height, bool), space, is_coarse)
 
 
-# Fills a picture in steps of some milliseconds; yields the share that is done.
-Steps = Callable[[Scene, Settings, Picture], Iterator[float]]
+# Fills a picture in steps of some milliseconds.
+Steps = Callable[[Scene, Settings, Picture], Iterator[Event]]
 Rows = Callable[[Frame, slice], Colors]  # what is shown of rows of a frame, linear RGBA
 
 
-def picture(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+def picture(scene: Scene, settings: Settings, shown: Picture) -> Iterator[Event]:
     """Trace the picture of F12."""
     frame = Frame.empty(scene)
     shown.color = frame.color
@@ -66,12 +65,12 @@ def picture(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]
     yield from steps(scene, settings, frame)
 
 
-def colored(color: Color, scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+def colored(color: Color, scene: Scene, settings: Settings, shown: Picture) -> Iterator[Event]:
     """Trace one of the things that a render can show of a surface."""
     yield from _traced(scene, replace(settings, color=color), shown, lambda f, r: f.color[r])
 
 
-def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[Event]:
     """Trace by the settings' method, and mark where it sees another surface than is proven."""
     if settings.method.is_proven:
         frame = yield from _traced(scene, settings, shown, _quiet)
@@ -79,22 +78,21 @@ def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[f
         [shown.line] = frame.statistics.notes[:1] or proven
         return
     truth = Frame.empty(scene)
-    yield from scaled(steps(scene, Settings(Method.CERTIFIED), truth), 0.0, 0.4)
+    yield from steps(scene, Settings(Method.CERTIFIED), truth)
 
     def marked(f: Frame, rows: slice) -> Colors:
         out = _quiet(f, rows)
         out[f.wrong_against(truth)[rows]] = (*WRONG, 1)
         return out
 
-    work = _traced(scene, settings, shown, marked)
-    frame = yield from scaled(work, 0.4, 0.6)
+    frame = yield from _traced(scene, settings, shown, marked)
     wrong = frame.wrong_against(truth)
     shown.color = ringed(shown.color, wrong)
     name = f"{settings.precision} {settings.method.record.words}"
     shown.line = f"{name}: {wrong.sum():,} wrong of {wrong.size:,} pixels"
 
 
-def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[Event]:
     """Trace, and show how each pixel was decided."""
     frame = yield from _traced(
         scene, settings, shown, lambda f, r: certainty_map(f.color[r], f.certainty[r])
@@ -104,30 +102,29 @@ def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[floa
     shown.line = ", ".join(f"{n:,} {c.words}" for c, n in counts if n)
 
 
-def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[Event]:
     """Trace, have Blender draw the same once the view rests, and show why pixels differ."""
     settings = replace(settings, samples=1, color=Color.OBJECT)
-    work = _traced(scene, settings, shown, _quiet)
-    frame = yield from scaled(work, 0.0, 0.5)
+    frame = yield from _traced(scene, settings, shown, _quiet)
     if shown.is_coarse:
         return
     shown.line = "Blender's viewport draws the same once the view rests"
     while like_for_like.is_busy():
         shown.waits = True
-        yield 0.5
+        yield None
     shown.waits = False
     case = like_for_like.case_of(shown.space, scene, settings)
-    yield 0.6
+    yield None
     frame = replace(frame, scene=case.scene)
     if scene.planes:  # which may have other colours there
         frame = Frame.empty(case.scene)
-        yield from scaled(steps(case.scene, settings, frame), 0.6, 0.1)
+        yield from steps(case.scene, settings, frame)
     frame.color[frame.instance_index == NOTHING] = case.scene.background
-    causes = (yield from scaled(explain(case, frame, MOST_EXPLAINED), 0.7, 0.2)).causes
+    causes = (yield from explain(case, frame, MOST_EXPLAINED)).causes
     color = np.empty_like(shown.color)
     for rows in parts(len(color), ROWS):
         color[rows] = cause_map(frame.color[rows], causes.cause[rows], opaque=False)
-        yield 0.9
+        yield None
     nothing = (frame.instance_index == NOTHING) & (causes.cause == AGREE)
     color[nothing] = scene.background
     color.reshape(-1, 4)[causes.passed_over] = 1
@@ -141,7 +138,7 @@ def _summary(causes: Causes) -> str:
     passed = len(causes.passed_over)
     found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c != AGREE]
     if passed:
-        found.append(f"{passed:,} not looked at (white)")
+        found.append(f"{passed:,} not checked (white)")
     differ = sum(n for c, n in counts.items() if c.explains or c == UNEXPLAINED) + passed
     line = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
     return f"{line}: {', '.join(found)}" if found else line
@@ -158,14 +155,14 @@ def _quiet(frame: Frame, rows: slice) -> Colors:
 def _traced(scene: Scene, settings: Settings, shown: Picture, rows: Rows) -> Work[Frame]:
     """Trace one ray a pixel, and show the rows that are done as `rows` makes them."""
     frame = Frame.empty(scene)
-    for share in steps(scene, replace(settings, samples=1), frame):
+    for event in steps(scene, replace(settings, samples=1), frame):
         new = np.flatnonzero(frame.rows_done & ~shown.rows_done)
         for part in parts(len(new), ROWS):
             some = slice(new[part][0], new[part][-1] + 1)
             shown.color[some] = rows(frame, some)
             shown.rows_done[some] = True
-            yield share
-        yield share
+            yield event
+        yield event
     return frame
 
 

@@ -1,4 +1,4 @@
-"""Names what a .blend needs for what is seen, and does not have: libraries, data-blocks, files.
+"""Names the libraries, data-blocks and files that a .blend needs for its picture and lacks.
 
 Blender shows something in their place, or nothing. So the picture that is compared is not what the
 file is meant to show: a warning, which explains no pixel.
@@ -120,7 +120,7 @@ def _named(block: Any) -> str:
 
 
 def _first(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterator[Any]:
-    """Yield what is seen without being used by anything else."""
+    """Yield the data-blocks that are seen without being used by anything else."""
     yield drawn
     yield drawn.camera
     yield from _gone_collections(layer.layer_collection, mode)
@@ -160,7 +160,7 @@ def _without_idle_trees(reached: set[Any], mode: str) -> set[Any]:
 
 
 def _reached(users: _Users, first: Iterable[Any]) -> set[Any]:
-    """Return the data-blocks that shape what is seen."""
+    """Return the data-blocks that shape the picture."""
     uses: dict[Any, list[Any]] = defaultdict(list)
     for block, of_block in users.items():
         for user in of_block:
@@ -219,7 +219,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _drivers(blocks: Iterable[Any]) -> Iterator[Unmodelled]:
-    """Yield the drivers whose Python Blender has not run, as scripts are off."""
+    """Yield the drivers with Python that Blender has not run, as scripts are off."""
     for block in blocks:
         animation = getattr(block, "animation_data", None)
         drivers = animation.drivers if animation else ()

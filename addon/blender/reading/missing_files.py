@@ -1,4 +1,4 @@
-"""Finds the files that a .blend names, shape what is seen, and are not there.
+"""Finds the files that a .blend names, that shape its picture, and that are not there.
 
 Data-blocks name some (fonts, images, caches, volumes), modifiers and nodes others.
 """

@@ -61,7 +61,7 @@ def unfilled(obj: Any, holder: Any) -> bool:
 
 @dataclass(frozen=True)
 class Viewing:
-    """How the objects of a depsgraph are looked at."""
+    """The settings under which a depsgraph's objects are drawn."""
 
     shading: Any  # bpy.types.View3DShading
     layer: Any  # bpy.types.ViewLayer

@@ -67,7 +67,7 @@ def outside(
 
 
 def _linear(camera: Camera) -> Camera:
-    """Return a camera whose view volume holds this one's, with flat sides: of a panorama a box."""
+    """Return a camera with a flat-sided view volume that holds this one's: of a panorama a box."""
     if camera.projection.is_linear:
         return camera
     end = camera.clip_end

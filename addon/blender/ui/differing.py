@@ -11,6 +11,7 @@ from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import IntProperty, StringProperty
 
 from . import results, shown
+from .areas import areas, within
 from .layout import fit, wrapped
 from .long_work import Answer, named
 from .results import Kind
@@ -50,7 +51,7 @@ class REFERENCE_TRACER_OT_frame_region(bpy.types.Operator):
         found = _regions(context)
         if self.number >= len(found):
             raise SceneError(f"The comparison has {len(found)} regions, numbered from 0.")
-        for window, area in _areas(context, "IMAGE_EDITOR"):
+        for window, area in () if bpy.app.background else areas("IMAGE_EDITOR"):
             if shown.chosen(area.spaces.active):
                 _enlarge(window, area, found[self.number])
         return {"FINISHED"}
@@ -99,28 +100,20 @@ class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
                 "'{}' is active, but hidden in this view: Blender selects only what is seen"
             )
             self.report({"WARNING"}, said.format(self.name))
-        for window, area in _areas(context, "VIEW_3D"):
+        for window, area in () if bpy.app.background else areas("VIEW_3D"):
             if area.spaces.active.region_3d.view_perspective != "CAMERA":
-                inside = next(r for r in area.regions if r.type == "WINDOW")
-                with context.temp_override(window=window, area=area, region=inside):
+                with within(window, area):
                     bpy.ops.view3d.view_selected()
         return {"FINISHED"}
 
 
-def _areas(context: Any, kind: str) -> list[tuple[Any, Any]]:
-    """Return the areas of a type in all windows, with their windows; none without a window."""
-    windows = () if bpy.app.background else context.window_manager.windows
-    return [(w, area) for w in windows for area in w.screen.areas if area.type == kind]
-
-
 def _enlarge(window: Any, area: Any, region: Region) -> None:
     """Enlarge a region in an Image Editor."""
-    inside = next(r for r in area.regions if r.type == "WINDOW")
     around = max(_AROUND, region.width // 2, region.height // 2)
     width, height = area.spaces.active.image.size
     low = region.left - around, region.bottom - around
     high = region.left + region.width + around, region.top + 1 + around
-    with bpy.context.temp_override(window=window, area=area, region=inside):
+    with within(window, area) as inside:
         view = inside.view2d
         (x0, y0), (x1, y1) = (
             view.view_to_region(x / width, y / height, clip=False) for x, y in (low, high)

@@ -10,7 +10,8 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ...wording import count_of
 from ..drawing.judges import judge_or_none
-from . import choices, results
+from . import blocks, choices, results
+from .areas import redraw
 from .long_work import Answer, named, with_ending
 from .results import Kind
 
@@ -87,11 +88,11 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
             told = results.shown_put_right(context.scene)
             said = rpt_("With this put right: {}. {}").format(told.sentence, said)
         results.keep(Kind.PIXEL, found, [said], context.scene.name)
-        results.show_text(context, TEXT, document.document_markdown(found))
+        blocks.show_text(TEXT, document.document_markdown(found))
         if self.draw_ray:
             draw: Any = bpy.ops.reference_tracer.draw_ray  # type: ignore[attr-defined]
             draw("EXEC_DEFAULT", True)
-        results.redraw(context)
+        redraw(context)
         self.report({"INFO"}, f"({self.x}, {self.y}): {said}")
         return {"FINISHED"}
 

@@ -13,7 +13,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import IntProperty
 
-from . import results
+from . import blocks, results
 from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object
 from .layout import wrapped
 from .long_work import Answer, named
@@ -47,7 +47,7 @@ class _OfFinding:
         own: Any = cls
         comparison = results.content(Kind.COMPARISON, context.scene)
         if not (comparison and comparison.diagnosis and comparison.diagnosis.told):
-            own.poll_message_set(rpt_("There is no comparison whose diagnosis has found something"))
+            own.poll_message_set(rpt_("No diagnosis has found something yet"))
             return False
         if cls.in_object_mode and context.mode != "OBJECT":
             own.poll_message_set(rpt_(OBJECT_MODE))
@@ -139,7 +139,7 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
         if color is None:
             raise SceneError(f"No picture shows it put right: {said}.")
         show = show_where_shown if bpy.app.background else open_as_render
-        show(context, results.show(results.PUT_RIGHT, color))
+        show(context, blocks.show(blocks.PUT_RIGHT, color))
         kept: Any = results.latest(Kind.COMPARISON, context.scene)
         kept.shown[:] = [self.number]
         return {"FINISHED"}

@@ -1,13 +1,14 @@
 """Operators' base classes; long work goes on in steps while the interface stays alive.
 
-An operator returns the work from `begin`: a generator that yields the share that is done. Its
-`finish` shows the result. A script's call runs through. A button's call goes on in small steps,
-with progress, the time left, and Esc. Only one runs at a time.
+An operator returns the work from `begin`: a generator that yields events. Its `show` shows what is
+found on the way, and its `finish` the result. A script's call runs through. A button's call goes on
+in small steps, with progress, the time left, and Esc. Only one runs at a time.
 """
 
 from __future__ import annotations
 
 import time
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar
 
@@ -15,13 +16,14 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from ...tracer.progress import Left, Work, doing, result_of
+from ...tracer.progress import Found, Meter, Work, result_of
 from ...wording import say
 from ..slowest import announced
 from ..temporary import is_temporary
 from ..versions import RELATIVE
+from .areas import redraw, redraw_said
 from .preferences import default_folder
-from .results import Kind, drop, redraw
+from .results import Kind, drop
 
 if TYPE_CHECKING:
     from bpy.stub_internal.rna_enums import OperatorReturnItems
@@ -36,9 +38,6 @@ T = TypeVar("T", bound=type)
 SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
-
-# Types of areas that show progress, and of regions in them.
-_SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
 
 OPERATORS: list[type] = []  # to be registered
 
@@ -67,7 +66,7 @@ class LongWork(Mixin):
 
     running: ClassVar[str] = ""  # the label of the one that is, in whichever window
     said: ClassVar[str] = ""  # what it does, how far it is, and how to end it
-    share: ClassVar[float] = 0.0  # of its work that is done
+    meter: ClassVar[Meter] = Meter()  # how far it is
     _work: ClassVar[Work[Any]]  # of that one
     _timer: ClassVar[Any]
     _told: ClassVar[set[int]] = set()  # the addresses of the workspaces whose status bar says so
@@ -99,6 +98,10 @@ class LongWork(Mixin):
         """Return the work; what has to be done in one go is done here."""
         raise NotImplementedError
 
+    def show(self, context: Any, result: Any) -> Work[None]:
+        """Show a result that is there before the end."""
+        yield from ()
+
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Show the result of the work; return what to report: 'INFO' or 'WARNING', and a text."""
         raise NotImplementedError
@@ -110,7 +113,7 @@ class LongWork(Mixin):
 
     def execute(self, context: Any) -> Answer:
         """Run through, as a script wants it."""
-        return self._end(context, result_of(self.begin(context)))
+        return self._end(context, result_of(self._begun(context)))
 
     def invoke(self, context: Any, event: Any) -> Answer:
         """Begin, and go on while the interface stays alive."""
@@ -122,18 +125,25 @@ class LongWork(Mixin):
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
         self._began = time.monotonic()
-        self._left = Left()
         self._shown = self._began
-        self._words = ""
         LongWork.running = self.bl_label
-        LongWork.share = 0.0
+        LongWork.meter = Meter()
         self.pressed = True
         self._say(context, self.announced and announced(context.view_layer, self.announced))
         return {"RUNNING_MODAL"}
 
     def _begun(self, context: Any) -> Work[Any]:
         """Begin once what is announced has been drawn, which is before the timer's first event."""
-        return (yield from self.begin(context))
+        with closing(self.begin(context)) as work:
+            while True:
+                try:
+                    event = next(work)
+                except StopIteration as stop:
+                    return stop.value
+                if isinstance(event, Found):
+                    yield from self.show(context, event.result)
+                else:
+                    yield event
 
     def modal(self, context: Any, event: Any) -> Answer:
         """Work for one step, or stop at Esc."""
@@ -146,10 +156,11 @@ class LongWork(Mixin):
             is_alone = self.alone or any(map(is_temporary, bpy.data.scenes))
             return {"RUNNING_MODAL"} if is_alone else {"PASS_THROUGH"}
         until = time.monotonic() + SECONDS_A_STEP
+        meter, words = self.meter, self.meter.words
         try:
-            share = next(self._work)  # at least: a busy machine may be back after the time is over
-            while time.monotonic() < until and doing(share) == self._words:
-                share = next(self._work)
+            meter.read(next(self._work))  # at least: a busy machine may be back too late
+            while time.monotonic() < until and meter.words == words:
+                meter.read(next(self._work))
         except StopIteration as stop:
             self.stop(context)
             try:
@@ -159,21 +170,17 @@ class LongWork(Mixin):
         except Exception as error:
             self.stop(context)
             return failed(self, error)
-        self._show_progress(context, share)
+        if meter.words != words or time.monotonic() - self._shown >= SHOWN_EVERY:
+            self._show_progress(context)
         return {"PASS_THROUGH"}  # the timers of others are theirs
 
-    def _show_progress(self, context: Any, share: float) -> None:
-        now = time.monotonic()
-        if now - self._shown < SHOWN_EVERY and doing(share) == self._words:
-            return
-        self._shown = now
-        self._words = doing(share)
-        past = now - self._began
-        context.window_manager.progress_update(int(100 * share))
-        seconds = self._left.seconds(past, share)
+    def _show_progress(self, context: Any) -> None:
+        self._shown = time.monotonic()
+        percent = int(100 * self.meter.share)
+        context.window_manager.progress_update(percent)
+        seconds = self.meter.seconds(self._shown - self._began)
         left = "" if seconds is None else f"  {seconds:.0f} s"
-        LongWork.share = share
-        self._say(context, doing(share), f": {int(100 * share)} %{left}")
+        self._say(context, self.meter.words, f": {percent} %{left}")
 
     def _say(self, context: Any, what: str, rest: str = "") -> None:
         """Say where the user looks what is done, how far it is, and how to end it."""
@@ -182,7 +189,7 @@ class LongWork(Mixin):
         LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"
         LongWork._told.add(context.workspace.as_pointer())
         context.workspace.status_text_set(LongWork.said)
-        redraw_said(context)
+        redraw_said()
 
     def cancel(self, context: Any) -> None:
         """Stop, as Blender itself asks for at quitting or loading a file."""
@@ -199,7 +206,7 @@ class LongWork(Mixin):
             if workspace.as_pointer() in LongWork._told:
                 workspace.status_text_set(None)
         LongWork._told.clear()
-        redraw_said(context)
+        redraw_said()
 
     def _end(self, context: Any, result: Any) -> Answer:
         """Show the result, and report it."""
@@ -208,15 +215,6 @@ class LongWork(Mixin):
         kind: Any = {level}
         self.report(kind, text)
         return {"FINISHED"}
-
-
-def redraw_said(context: Any) -> None:
-    """Have what says how far the work is drawn again, and nothing that costs more."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            for region in area.regions:
-                if (area.type, region.type) in _SAID_IN:
-                    region.tag_redraw()
 
 
 def failed(operator: Any, error: Exception) -> Answer:
@@ -236,7 +234,7 @@ def failed(operator: Any, error: Exception) -> Answer:
 
 
 def with_ending(filepath: str, *endings: str) -> Path:
-    """Return the path of a file whose name must have one of these endings.
+    """Return the path of a file with one of these endings.
 
     // is beside the .blend.
 

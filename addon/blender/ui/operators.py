@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from contextlib import closing
 from dataclasses import replace
 from typing import Any
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
-from bpy.props import BoolProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper
+from bpy.props import BoolProperty
 
-from ...tracer.progress import Work, mapped
-from ...wording import count_of, say
+from ...tracer.progress import Found, Work
+from ...wording import say
 from ..drawing.judges import OF_ONE_FRAME, STILLS
-from . import results
-from .long_work import Answer, LongWork, named, with_ending
-from .results import Kind, redraw
+from . import blocks, results
+from .areas import redraw
+from .long_work import LongWork, named
+from .results import Kind
 from .shown import open_as_render, show_where_shown
 
 
@@ -33,43 +32,31 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
     _is_shown = False
 
     def begin(self, context: Any) -> Work[Any]:
-        """Have Blender draw the scene at once; return the work that is left."""
+        """Have Blender draw the scene, and compare."""
         from ..jobs.compare import compare_open_file
 
-        told: list[Any] = []  # of the comparison, before the search for what is wrong with it
-        work = compare_open_file(context, str(self.folder() or ""), told=told.append)
-        return self._showing(context, work, told)
+        comparison = yield from compare_open_file(context, str(self.folder() or ""))
+        yield Found(comparison)
+        return comparison
 
-    def _showing(self, context: Any, work: Work[Any], told: list[Any]) -> Work[Any]:
-        """Show intermediate results while the work goes on, and then its result."""
-        with closing(work):
-            while True:
-                try:
-                    share = next(work)
-                except StopIteration as stop:
-                    yield from self._show(context, stop.value, 1.0)
-                    return stop.value
-                yield share
-                if told:
-                    comparison = told.pop()
-                    yield from self._show(context, comparison, share)
-                    self.left = rpt_("the comparison stays, without a diagnosis")
-                    redraw(context)
-
-    def _show(self, context: Any, comparison: Any, share: float) -> Work[None]:
-        """Keep a comparison, and show the user the traced picture, once; the share stays."""
-        yield from mapped(results.keep_comparison(comparison), lambda _: share)
+    def show(self, context: Any, result: Any) -> Work[None]:
+        """Keep a comparison, and show the user the traced picture, once."""
+        yield from results.keep_comparison(result)
+        self.left = rpt_("the comparison stays, without a diagnosis")
+        redraw(context)
         if not self._is_shown:
             show = open_as_render if self.pressed else show_where_shown
-            show(context, results.ours(results.TRACED))
+            show(context, blocks.ours(blocks.TRACED))
             self._is_shown = True
             self.kind = None
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Print the comparison; report its first line."""
-        lines = result.lines()  # of the comparison: the context's scene may be another one by now
-        say(*result.manifest.lines(), *lines)
-        return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
+        from ...report.lines import lines
+
+        said = lines(result)  # of the comparison: the context's scene may be another one by now
+        say(*result.manifest.lines(), *said)
+        return "INFO" if result.verdict == "agree" else "WARNING", said[0]
 
 
 @named
@@ -121,24 +108,28 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         return not is_still and super().poll(context)
 
     def begin(self, context: Any) -> Work[Any]:
-        from ...comparison.animation import worst_first
-        from ...report import animation as frames_report
         from ...scene import SceneError
         from ..jobs import animation
 
         if context.screen and context.screen.is_animation_playing:
             raise SceneError("The animation is playing: stop it, then compare it.")
-        folder = self.folder() or results.session_folder() / "animation"
+        self._folder = self.folder() or results.session_folder() / "animation"
         frames = animation.frames_of(context.scene)
 
-        def told(rows: list[Any]) -> None:
-            content = folder / frames_report.PAGE, worst_first(rows)
-            lines = frames_report.lines(frames, rows)
-            found = results.keep(Kind.FRAMES, content, lines, context.scene.name)
-            self.left = ", ".join(found.lines[-2:])
-            redraw(context)
+        return animation.compare_frames(str(self._folder), frames)
 
-        return animation.compare_frames(str(folder), frames, told)
+    def show(self, context: Any, result: Any) -> Work[None]:
+        """Keep the rows of the frames so far."""
+        from ...comparison.animation import worst_first
+        from ...report import animation as frames_report
+        from ..jobs.animation import frames_of
+
+        content = self._folder / frames_report.PAGE, worst_first(result)
+        lines = frames_report.lines(frames_of(context.scene), result)
+        found = results.keep(Kind.FRAMES, content, lines, context.scene.name)
+        self.left = ", ".join(found.lines[-2:])
+        redraw(context)
+        yield None
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         found = results.latest(Kind.FRAMES, context.scene)
@@ -188,87 +179,3 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         if self.open_browser:
             bpy.ops.wm.url_open(url=path.resolve().as_uri())
         return "INFO", rpt_("The page is {}").format(path)
-
-
-@named
-class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
-    bl_label = "Add a Camera That Frames All"
-    bl_description = (
-        "Add a camera that sees all that a render shows, from the front, the right and above, "
-        "and make it the scene's"
-    )
-    bl_options = {"REGISTER", "UNDO"}
-
-    def execute(self, context: Any) -> Answer:
-        from ..jobs.choice import frame_all
-
-        camera = frame_all(context.scene, context.view_layer)
-        camera.name = "Camera"
-        camera.data.name = "Camera"
-        return {"FINISHED"}
-
-
-@named
-class REFERENCE_TRACER_OT_write_colors(bpy.types.Operator):
-    bl_label = "Write the Colors"
-    bl_description = (
-        "Add a copy of the scene, of plain meshes whose materials emit the colours of a "
-        "comparison. Render it with any engine, then press Trace and Compare there"
-    )
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Allow it where there is a camera."""
-        return context.scene.camera is not None
-
-    def execute(self, context: Any) -> Answer:
-        from ...pictures.palette import By
-        from ..jobs.colors_scene import colors_scene
-
-        made = colors_scene(context, By(context.scene.reference_tracer.colors.lower()))
-        if context.window:
-            context.window.scene = made
-        said = rpt_("'{}' is added: render it with any engine, then press Trace and Compare")
-        self.report({"INFO"}, said.format(made.name))
-        return {"FINISHED"}
-
-
-@named
-class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper is no operator
-    ExportHelper, LongWork, bpy.types.Operator
-):
-    bl_label = "Export Reference Tracer Scene"
-    bl_description = (
-        "Write what the camera sees, as a render has it, to a file that `reftrace trace "
-        "FILE.npz` traces without Blender"
-    )
-    bl_options = set()  # it leaves nothing in Blender
-    filename_ext = ".npz"
-    needs_camera = True
-    announced = "Blender evaluates the scene"
-
-    filepath: StringProperty(
-        name="File",
-        description="The file to write; its name ends in .npz",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE"},
-    )
-    filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
-
-    def begin(self, context: Any) -> Work[Any]:
-        """Export the scene as a render has it, and write it: it is whole, or not there."""
-        from ...files.scenes import save_scene
-        from ...report import folders
-        from ..jobs.open_file import export_open_file
-
-        path = with_ending(self.filepath, self.filename_ext)
-        scene, manifest, _ = export_open_file(context)
-        yield 0.5
-        with folders.made_for_file(path), folders.replacing_file(path) as new:
-            save_scene(new, scene, manifest)
-        say(*manifest.lines())
-        return scene
-
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        return "INFO", f"{count_of(result.triangle_count, 'triangle')}: {self.filepath}"

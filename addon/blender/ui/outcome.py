@@ -36,7 +36,7 @@ def draw_in_header(layout: Any, context: Any) -> None:
     """Draw the verdict beside the picture of a comparison, or how far the work on it is."""
     comparison = results.content(Kind.COMPARISON, context.scene)
     if LongWork.running:
-        layout.progress(factor=LongWork.share)
+        layout.progress(factor=LongWork.meter.share)
         layout.label(text=LongWork.said, translate=False)
     elif comparison:
         text, icon = _verdict(comparison)

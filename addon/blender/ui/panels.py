@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ...methods import Method
 from ..drawing.judges import JUDGES
 from ..temporary import ENGINE
-from . import operators, results, samples
+from . import operators, results, samples, scene_operators
 from .layout import Part, both, button, draw_facts, folded, setting, wrapped
 from .long_work import LongWork
 from .menus import REFERENCE_TRACER_PT_presets
@@ -49,9 +49,9 @@ class _Main(Part):
         """Draw the button and what came of it; then, folded, settings and what else there is."""
         layout = self.layout
         if context.scene.camera is None:
-            button(layout, context, operators.REFERENCE_TRACER_OT_frame_all, "CAMERA_DATA")
+            button(layout, context, scene_operators.REFERENCE_TRACER_OT_frame_all, "CAMERA_DATA")
         if LongWork.running:
-            layout.progress(factor=LongWork.share)
+            layout.progress(factor=LongWork.meter.share)
             wrapped(layout, context, LongWork.said)
         else:
             row = layout.row()

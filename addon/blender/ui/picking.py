@@ -9,7 +9,7 @@ import numpy as np
 from ...scene import Camera, SceneError
 from ..live.camera import camera_of, frame_in_view
 from ..reading.camera import export_camera
-from . import results
+from . import blocks
 from .shown import IMAGES
 
 
@@ -69,9 +69,9 @@ def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
             f"The image '{image.name}' has {width} x {height} pixels, the picture {own.width} x "
             f"{own.height}: it is of something else, or the resolution has changed since"
         )
-    mark = image.get(results.MARK)
+    mark = image.get(blocks.MARK)
     source = "COMPARISON" if mark in IMAGES.values() else "SCENE"
-    if mark == results.PUT_RIGHT:
+    if mark == blocks.PUT_RIGHT:
         source = "PUT_RIGHT"
     return Pick(int(u * width), int(v * height), source)
 

@@ -20,14 +20,16 @@ from bpy.props import (
 
 from ...methods import Method
 from ..drawing import judges
-from . import choices, results
+from . import choices
+from .areas import redraw
+from .blocks import MARK
 
 if TYPE_CHECKING:
     from ...tracer.settings import Settings
 
 
 def _redraw(owner: Any, context: Any) -> None:
-    results.redraw(context)  # the 3D views in Rendered mode
+    redraw(context)  # the 3D views in Rendered mode
 
 
 def _engines(owner: Any, context: Any, typed: str) -> list[str]:
@@ -38,7 +40,7 @@ def _engines(owner: Any, context: Any, typed: str) -> list[str]:
 
 def _is_a_picture(owner: Any, image: Any) -> bool:
     """Offer neither the comparison's own images nor what Blender renders into."""
-    return image.type not in ("RENDER_RESULT", "COMPOSITING") and results.MARK not in image
+    return image.type not in ("RENDER_RESULT", "COMPOSITING") and MARK not in image
 
 
 class ReferenceTracerScene(bpy.types.PropertyGroup):

@@ -1,14 +1,9 @@
-"""Keeps the latest of each kind of result for the panels, and shows it in images and texts.
-
-They belong to the session, as a render does. Blender stores no data-block that is marked as runtime
-data. A picture is shown from a file of the session's, so there is nothing in it to be saved. No
-undo step need have them: undo takes them away, and they are put back.
-"""
+"""Keeps the latest of each kind of result for the panels; they belong to the session."""
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cache
@@ -17,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ...tracer.progress import Work, by_rows, scaled
+from ...tracer.progress import Work, by_rows
+from . import blocks
 
 if TYPE_CHECKING:
     from ...arrays import Colors
@@ -27,13 +23,6 @@ if TYPE_CHECKING:
 
 # A name: so the class of a result need not be imported.
 Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES")
-TRACED = "Reference Tracer Traced"
-BLENDER = "Reference Tracer Blender"
-DIFFERENCE = "Reference Tracer Difference"
-CAUSES = "Reference Tracer Causes"
-PUT_RIGHT = "Reference Tracer Put Right"
-MARK = "reference_tracer_result"  # a custom property of our images and texts: their name
-_SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of an area
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,47 +42,35 @@ class Result:
 
 
 _latest: dict[Kind, Result] = {}
-_files: dict[str, tuple[str, str]] = {}  # of our images, with their colour spaces, and texts
-_made: dict[str, int] = {}  # from these: the latest one's `session_uid`
-_seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
-
-
-def _kept(comparison: Comparison) -> Work[Result]:
-    """Remember a comparison, and put its pictures into images of Blender's, in small steps."""
-    from ...causes.maps import cause_map, difference_map
-    from ...comparison.put_right import pictures_put_right
-    from ...report.comparison import differing_regions
-
-    traced = comparison.frame.color
-    cause = comparison.causes.cause
-    show(TRACED, traced)
-    yield 0.1
-    show(BLENDER, comparison.picture)
-    yield 0.2
-    pair = traced, comparison.picture
-    apart = yield from scaled(by_rows(difference_map, *pair), 0.2, 0.3)
-    yield 0.5
-    show(DIFFERENCE, apart)
-    yield 0.6
-    causes = yield from scaled(by_rows(cause_map, traced, cause), 0.6, 0.2)
-    show(CAUSES, causes)
-    yield 0.9
-    regions = tuple(differing_regions(comparison))
-    yield 0.95
-    right = {}
-    for number, _, color in pictures_put_right(comparison):
-        right[number] = color
-        yield 1.0
-    remove(PUT_RIGHT)
-    found = keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
-    _latest[Kind.COMPARISON] = replace(found, regions=regions, put_right=right)
-    return _latest[Kind.COMPARISON]
 
 
 def keep_comparison(comparison: Comparison) -> Work[Result]:
     """Remember a comparison, and show its pictures; ended in between, there is none."""
+    from ...causes.maps import cause_map, difference_map
+    from ...comparison.put_right import pictures_put_right
+    from ...report.comparison import differing_regions
+    from ...report.lines import lines
+
+    traced, picture = comparison.frame.color, comparison.picture
     try:
-        return (yield from _kept(comparison))
+        blocks.show(blocks.TRACED, traced)
+        yield None
+        blocks.show(blocks.BLENDER, picture)
+        yield None
+        blocks.show(blocks.DIFFERENCE, (yield from by_rows(difference_map, traced, picture)))
+        yield None
+        blocks.show(blocks.CAUSES, (yield from by_rows(cause_map, traced, comparison.causes.cause)))
+        yield None
+        regions = tuple(differing_regions(comparison))
+        yield None
+        right = {}
+        for number, _, color in pictures_put_right(comparison):
+            right[number] = color
+            yield None
+        blocks.remove(blocks.PUT_RIGHT)
+        kept = keep(Kind.COMPARISON, comparison, lines(comparison), comparison.manifest.scene)
+        _latest[Kind.COMPARISON] = replace(kept, regions=regions, put_right=right)
+        return _latest[Kind.COMPARISON]
     finally:
         found = _latest.get(Kind.COMPARISON)
         if found is None or found.content.causes is not comparison.causes:
@@ -136,77 +113,15 @@ def drop(kind: Kind) -> None:
 
 def _forget_comparison() -> None:
     _latest.pop(Kind.COMPARISON, None)
-    for name in (TRACED, BLENDER, DIFFERENCE, CAUSES, PUT_RIGHT):
-        remove(name)
+    for name in blocks.PICTURES:
+        blocks.remove(name)
 
 
 @bpy.app.handlers.persistent
 def forget(*_: Any) -> None:
     """Drop all results, with what shows them, as when another file is opened."""
     _latest.clear()
-    for name in tuple(_files):
-        remove(name)
-
-
-def show(name: str, color: Colors) -> Any:
-    """Show linear RGBA (h, w, 4) as our image of this name, in place of the one that there is."""
-    import numpy as np
-
-    height, width = color.shape[:2]
-    image: Any = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
-    linear = image.colorspace_settings.name
-    image.colorspace_settings.is_data = True  # it is written as it is
-    image.alpha_mode = "CHANNEL_PACKED"
-    image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
-    image.filepath_raw = str(Path(bpy.app.tempdir, f"{name}.exr"))
-    image.file_format = "OPEN_EXR"
-    image.save()
-    _files[name] = image.filepath_raw, linear
-    bpy.data.images.remove(image)
-    remember_editors()
-    shown = _loaded(name)
-    _fill_editors()
-    return shown
-
-
-def _loaded(name: str) -> Any:
-    """Load our image or text from its file, in place of the one that there is."""
-    path, linear = _files[name]
-    block: Any
-    if linear:
-        block = bpy.data.images.load(path)
-        block.colorspace_settings.name = linear
-    else:
-        block = bpy.data.texts.load(path, internal=True)
-    _give_up(name, block)
-    block.name = name
-    block[MARK] = name
-    block.is_runtime_data = True
-    _made[name] = block.session_uid
-    return block
-
-
-def remove(name: str) -> None:
-    """Remove our image or text of a name, if there is one."""
-    _give_up(name)
-    _files.pop(name, None)
-
-
-def _give_up(name: str, successor: Any = None) -> None:
-    """Remove ours, whose users take another one; if the user has saved it to a file, it is his."""
-    old = ours(name)
-    if old and old.filepath and _file(old.filepath) != _file(_files[name][0]):
-        del old[MARK]
-        old.is_runtime_data = False
-        old.name = Path(old.filepath).name
-    elif old:
-        if successor:
-            old.user_remap(successor)
-        _blocks(name).remove(old)
-
-
-def _file(path: str) -> Path:
-    return Path(bpy.path.abspath(path)).resolve()
+    blocks.remove_all()
 
 
 def shown_put_right(scene: Any) -> Told:
@@ -223,65 +138,3 @@ def shown_put_right(scene: Any) -> Told:
     if found and found.shown:
         return found.content.diagnosis.told[found.shown[0]]
     raise SceneError("No picture of this scene's latest comparison is shown put right: press Show.")
-
-
-def ours(name: str) -> Any:
-    """Return our image or text of a name, or None."""
-    return next((b for b in _blocks(name) if b.get(MARK) == name and b.is_runtime_data), None)
-
-
-def _blocks(name: str) -> Any:
-    _path, linear = _files.get(name, ("", ""))
-    return bpy.data.images if linear else bpy.data.texts
-
-
-def show_text(context: Any, name: str, content: str) -> Any:
-    """Put a text into our text of this name, and show it in a text editor."""
-    path = Path(bpy.app.tempdir, f"{name}.md")
-    path.write_text(content, encoding="utf-8")
-    _files[name] = str(path), ""
-    text = _loaded(name)
-    if area := next(areas(context, "TEXT_EDITOR"), None):
-        area.spaces.active.text = text
-        area.spaces.active.top = 0
-    return text
-
-
-@bpy.app.handlers.persistent
-def remember_editors(*_: Any) -> None:
-    """Remember which editors show ours, before undo takes it away."""
-    _seen.clear()
-    manager: Any = bpy.context.window_manager
-    for window in manager.windows:
-        for area in window.screen.areas:
-            shown = getattr(area.spaces.active, _SHOWN_AS.get(area.type, ""), None)
-            if shown and MARK in shown:
-                _seen.append((area, shown[MARK]))
-
-
-@bpy.app.handlers.persistent
-def put_back(*_: Any) -> None:
-    """Make again what undo has taken away, or has put an older one in the place of."""
-    for name in _files:
-        block = ours(name)
-        if block is None or block.session_uid != _made[name]:
-            _loaded(name)
-    _fill_editors()
-
-
-def _fill_editors() -> None:
-    for area, name in _seen:
-        setattr(area.spaces.active, _SHOWN_AS[area.type], ours(name))
-
-
-def areas(context: Any, kind: str) -> Iterator[Any]:
-    """Yield the areas of a type that the context's window shows; without a window, none."""
-    for area in context.window.screen.areas if context.window else ():
-        if area.type == kind:
-            yield area
-
-
-def redraw(context: Any) -> None:
-    """Have the context's window drawn again, where there is one."""
-    for area in context.window.screen.areas if context.window else ():
-        area.tag_redraw()

@@ -6,7 +6,6 @@ other one share the editor, and a line between them is dragged: see `split.py`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -14,19 +13,20 @@ import bpy
 from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty
 
-from . import results
-from .long_work import Answer, named, redraw_said
+from . import blocks
+from .areas import areas, redraw_said, within
+from .long_work import Answer, named
 
 SETTLED = 0.5  # seconds from when on panels are at rest, which Blender moves where one has grown
 
 # By the identifiers of the switch; Both is the traced picture with the other one over it.
 IMAGES = {
-    "TRACED": results.TRACED,
-    "OTHER": results.BLENDER,
-    "BOTH": results.TRACED,
-    "DIFFERENCE": results.DIFFERENCE,
-    "CAUSES": results.CAUSES,
-    "PUT_RIGHT": results.PUT_RIGHT,
+    "TRACED": blocks.TRACED,
+    "OTHER": blocks.BLENDER,
+    "BOTH": blocks.TRACED,
+    "DIFFERENCE": blocks.DIFFERENCE,
+    "CAUSES": blocks.CAUSES,
+    "PUT_RIGHT": blocks.PUT_RIGHT,
 }
 _CHOICES = (
     ("TRACED", "Traced", "What the tracer sees"),
@@ -63,7 +63,7 @@ class REFERENCE_TRACER_OT_show_image(bpy.types.Operator):
 
     def execute(self, context: Any) -> Answer:
         context.window_manager.reference_tracer.both = self.image == "BOTH"
-        context.space_data.image = results.ours(IMAGES[self.image])
+        context.space_data.image = blocks.ours(IMAGES[self.image])
         context.area.tag_redraw()
         return {"FINISHED"}
 
@@ -71,12 +71,12 @@ class REFERENCE_TRACER_OT_show_image(bpy.types.Operator):
 def chosen(space: Any) -> str | None:
     """Return which image of the comparison a space shows, as the switch names it, or None."""
     image = space.image if space.type == "IMAGE_EDITOR" else None
-    if image is None or image.get(results.MARK) not in IMAGES.values():
+    if image is None or image.get(blocks.MARK) not in IMAGES.values():
         return None
-    if image.get(results.MARK) == results.TRACED:
+    if image.get(blocks.MARK) == blocks.TRACED:
         manager: Any = bpy.context.window_manager
         return "BOTH" if manager.reference_tracer.both else "TRACED"
-    return next(key for key, name in IMAGES.items() if name == image[results.MARK])
+    return next(key for key, name in IMAGES.items() if name == image[blocks.MARK])
 
 
 def open_as_render(context: Any, image: Any) -> None:
@@ -86,70 +86,65 @@ def open_as_render(context: Any, image: Any) -> None:
     is opened in a moment: within an operator, Blender would lose track of the operator's window.
     """
     if not show_where_shown(context, image):
-        opening = partial(_open, context.window.as_pointer(), image[results.MARK])
+        opening = partial(_open, context.window.as_pointer(), image[blocks.MARK])
         bpy.app.timers.register(opening, first_interval=0.0)
 
 
 def _open(window: int, name: str) -> None:
     """Have Blender open its editor for renders from a window's address; show our image in it."""
     context: Any = bpy.context
-    image = results.ours(name)
+    image = blocks.ours(name)
     found = [w for w in context.window_manager.windows if w.as_pointer() == window]
     if not (image and found):  # another file was opened since
         return
     had = {i.name for i in bpy.data.images}
     # In an area, Blender's operator would put away a render that is shown already.
     way = context.preferences.view.render_display_type
-    if way == "WINDOW" or (way != "NONE" and _of_render(context) is None):
+    if way == "WINDOW" or (way != "NONE" and _of_render() is None):
         with context.temp_override(window=found[0]):
             bpy.ops.render.view_show("INVOKE_DEFAULT")
         # Blender leaves panels where they are by then: they would lie over each other.
-        bpy.app.timers.register(partial(redraw_said, context), first_interval=SETTLED)
-    if space := _of_render(context):
+        bpy.app.timers.register(redraw_said, first_interval=SETTLED)
+    if space := _of_render():
         space.image = image
-        _fit(context, space)
+        _fit(space)
     for extra in bpy.data.images[:]:  # Blender makes it to be shown, where there is none
         if extra.type == "RENDER_RESULT" and extra.name not in had:
             bpy.data.images.remove(extra)
 
 
-def _fit(context: Any, space: Any) -> None:
+def _fit(space: Any) -> None:
     """Have an Image Editor show all of its picture."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.spaces.active == space:
-                inside = next(r for r in area.regions if r.type == "WINDOW")
-                with context.temp_override(window=window, area=area, region=inside):
-                    bpy.ops.image.view_all(fit_view=True)
+    for window, area in areas("IMAGE_EDITOR"):
+        if area.spaces.active == space:
+            with within(window, area):
+                bpy.ops.image.view_all(fit_view=True)
 
 
-def _of_render(context: Any) -> Any:
+def _of_render() -> Any:
     """Return the first space that shows a Render Result, or None."""
-    shown = (s for s in _spaces(context) if s.image and s.image.type == "RENDER_RESULT")
+    shown = (s for s in _spaces() if s.image and s.image.type == "RENDER_RESULT")
     return next(shown, None)
 
 
 def show_where_shown(context: Any, image: Any) -> bool:
     """Show an image in an editor that shows one of a comparison, or none; return whether it is."""
-    found = [s for s in _spaces(context) if s.image is None or chosen(s)]
+    found = [s for s in _spaces() if s.image is None or chosen(s)]
     for space in sorted(found, key=lambda s: s.image is None)[:1]:
         space.image = image
     return bool(found)
 
 
-def _spaces(context: Any) -> Iterator[Any]:
-    """Yield the spaces of all Image Editors that view; those of the context's window first."""
-    own = context.window
-    for window in sorted(context.window_manager.windows, key=lambda w: w != own):
-        for area in window.screen.areas:
-            if area.type == "IMAGE_EDITOR" and area.spaces.active.mode == "VIEW":
-                yield area.spaces.active
+def _spaces() -> list[Any]:
+    """Return the spaces of all Image Editors that view; those of the context's window first."""
+    spaces = (area.spaces.active for _, area in areas("IMAGE_EDITOR"))
+    return [space for space in spaces if space.mode == "VIEW"]
 
 
 def draw_switch(layout: Any, space: Any) -> None:
     """Draw the switch of a space that shows an image of a comparison."""
     now = chosen(space)
-    there = (choice for choice in _CHOICES if now and results.ours(IMAGES[choice[0]]))
+    there = (choice for choice in _CHOICES if now and blocks.ours(IMAGES[choice[0]]))
     for key, label, _ in there:
         button = layout.operator(
             REFERENCE_TRACER_OT_show_image.bl_idname, text=label, depress=key == now

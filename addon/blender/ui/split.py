@@ -15,7 +15,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
 from ..drawing.judges import label_of
-from . import results
+from . import blocks, results
 from .long_work import Answer
 from .results import Kind
 from .shown import chosen
@@ -122,7 +122,7 @@ def _draw_marks(context: Any, at: Place, scale: float) -> None:
 
 
 def _draw_names(context: Any, at: Place, scale: float) -> None:
-    """Say on each side of the line whose picture it is."""
+    """Name the picture on each side of the line."""
     import blf
 
     from ..live.layers import draw_outlined
@@ -153,9 +153,9 @@ class REFERENCE_TRACER_GT_split(bpy.types.Gizmo):
         with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
             gpu.matrix.load_identity()
             gpu.matrix.load_projection_matrix(screen)
-            other = results.ours(results.BLENDER)
+            other = blocks.ours(blocks.BLENDER)
             if other and chosen(context.space_data) == "BOTH":
-                _draw_side(results.ours(results.TRACED), at, at.left, at.line)
+                _draw_side(blocks.ours(blocks.TRACED), at, at.left, at.line)
                 _draw_side(other, at, at.line, at.right)
                 _draw_lines([(at.line, at.bottom), (at.line, at.top)], _WHITE, scale)
                 _draw_names(context, at, scale)

@@ -104,7 +104,7 @@ def _t(test: Any) -> str:
 
 
 def _numbers(layout: Any, context: Any, test: Any) -> None:
-    """Draw the key numbers of what is seen; wrong digits are in brackets."""
+    """Draw the key numbers of the surface that is seen; wrong digits are in brackets."""
     from ...derivation.digits import exact_text, marked, off_text, ulps
     from ...derivation.textbook import Arithmetic
 

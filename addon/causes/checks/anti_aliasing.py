@@ -15,11 +15,11 @@ from functools import partial
 
 import numpy as np
 
-from ...arrays import Array, Bools, Floats, Places
+from ...arrays import Array, Bools, Floats, Places, parts
 from ...tracer import shading
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from .. import hull
 from ..cause import Cause
 from .coverage import coverage
@@ -39,12 +39,10 @@ ANTI_ALIASING = Cause(
     place="by anti-aliasing",
     why="The picture was filtered, which mixes the colours at an edge; the tracer shows what "
     "the pixel's centre sees.",
-    check="The colour lies in the convex hull of the several colours that the tracer sees within "
-    "the filter's radius: linear ones, or Workbench's logarithms log2(1 + c), before Blender 5.0 "
-    "log2(1/2 + c). Each sample has at least a tenth of the weight of the one opposite. A known "
-    "object must be seen at the centre, or within its error. At an edge a triangle within the "
-    "radius may show through a crack, with no more weight than the centre's colour. The figure is "
-    "the radius that suffices.",
+    check="The colour lies in the convex hull of the colours that the tracer sees within the "
+    "filter's radius, linear or as Workbench mixes them, each with no less than a tenth of the "
+    "weight of the sample opposite. A known object must be seen at the centre, or within its "
+    "error. The figure is the radius that suffices.",
     never="An object that is not seen there; another shade of a surface of one colour; a colour "
     "outside the range of those that are mixed.",
     advice="compare like for like, or render one sample in each pixel's centre",
@@ -64,7 +62,7 @@ NEAR = 2.0**-7
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels whose colour is a mix of what is seen within the filter's radius.
+    """Find open pixels with a colour that is a mix of the colours within the filter's radius.
 
     Their figure is the radius of the smallest ring that is enough.
     """
@@ -72,10 +70,9 @@ def check(pixels: OpenPixels) -> Work[None]:
     if not pixels.open.any() or radius <= 0 or pixels.picture.lit:
         return
     made = yield from plan(pixels.case.scene, SOUND, reach=np.sqrt(2) * radius)
-    share = 1 / len(DENSITIES)
-    for number, density in enumerate(DENSITIES):
+    for density in DENSITIES:
         look = partial(_look, radius=radius, density=density)
-        yield from scaled(by_parts(pixels, made, look), number * share, share)
+        yield from by_parts(pixels, made, look)
 
 
 def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
@@ -90,7 +87,7 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
         for x, y in _ring(ring, density, radius):
             hits = yield from part.probe.trace(x, y)
             mixed.append(picture.made_of(shading.colors(part.scene, hits)))
-            yield 0.0
+            yield None
         seen = np.stack(mixed)
         rest = np.flatnonzero(~found & owner & (seen != seen[0]).any(axis=(0, 2)))
         seen = seen[:, rest]
@@ -162,7 +159,7 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
             across[: 2 * len(pairs)] = np.roll(across[: 2 * len(pairs)], len(pairs))
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
             [found[n]] = yield from is_mix(color, near[:, None], picture.storage.sums, across)
-        yield 0.0
+        yield None
     return found
 
 
@@ -180,8 +177,8 @@ def is_mix(
     bright = color.min(axis=-1, initial=0) >= -allowed
     found = np.zeros(count, bool)
     together = max(1, hull.STEP * count // max(mixed.size, 1))
-    for first in range(0, count, together):
-        some = first + np.flatnonzero(bright[first : first + together])
+    for part in parts(count, together):
+        some = part.start + np.flatnonzero(bright[part])
         older = partial(_logarithm, offset=0.5, channels=4)
         for of, slack in ((lambda v: v, 1), (_logarithm, 2), (older, 4)):
             rest = some[~found[some]]
@@ -189,7 +186,7 @@ def is_mix(
             if opposite is not None:
                 points = (1 - OPPOSITE) * points + OPPOSITE * points[opposite]
             found[rest] = yield from hull.in_hull(of(color[rest]), points, slack * allowed[rest])
-        yield 0.0
+        yield None
     return found
 
 

@@ -23,7 +23,7 @@ from ...tracer.progress import Work
 from . import color as colors
 from .probe import by_blocks, other_color
 
-NEAR = 2.0**-7  # a surface whose colour is this near to a background's looks like it
+NEAR = 2.0**-7  # a surface with a colour this near to a background's looks like it
 NEARLY_ALL = 0.75  # of the pixels that see nothing, away from edges
 
 

@@ -16,7 +16,7 @@ from ...rendering import steps
 from ...scene import Scene
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ..case import Behind, Case
 from ..cause import UNEXPLAINED, Causes
 
@@ -40,8 +40,7 @@ def wrong_behind(case: Case, frame: Frame, find: FindCauses) -> Work[tuple[Bools
     if behind is None or not judged.any():
         return none, none
     own = Frame.empty(behind.case.scene)
-    tracing = steps(own.scene, behind.case.settings, own, case.tracer)
-    yield from scaled(tracing, 0.0, 0.4)
-    causes: Causes = yield from scaled(find(behind.case, own), 0.4, 0.6)
+    yield from steps(own.scene, behind.case.settings, own, case.tracer)
+    causes: Causes = yield from find(behind.case, own)
     judged = judged & ~causes.unjudged
     return judged, judged & (causes.cause == UNEXPLAINED)

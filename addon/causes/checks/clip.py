@@ -65,7 +65,7 @@ def _clipped(part: Part) -> Work[None]:
         near |= may
         same = seen & near & ~part.picture.differ(part.scene, hits)
         part.give(same, CLIP_PLANE, figure, allowed)
-        yield 0.0
+        yield None
         going &= ~seen | at_clip
         if not (going & (hits.instance != NOTHING)).any():
             return

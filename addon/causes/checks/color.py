@@ -14,10 +14,10 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Array, Bools, Floats, Index, Places
-from ...pictures.bounds import difference
 from ...pictures.curves import FIT, FITTED_SHARE, candidates
 from ...pictures.metrics import boundary
 from ...pictures.picture import MAJORITY, Curve, Picture, straight
+from ...pictures.storage import difference
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
@@ -52,7 +52,7 @@ SHADES = 16  # the most objects that are named
 def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels that show the same object in another shade.
 
-    The others are then looked at as if the picture had been made by the transform that was found.
+    The others are then compared as if the picture had been made by the transform that was found.
     """
     if pixels.picture.lit:
         pixels.out.transform = "light that the tracer does not have"
@@ -77,7 +77,7 @@ def check(pixels: OpenPixels) -> Work[None]:
         else:
             same = ~picture.other_color(color) & ~picture.other_object(instance)
             pixels.give(pixels.open[rows] & same, COLOR, *picture.difference(color), rows)
-        yield 1.0
+        yield None
 
 
 def find_transform(
@@ -85,7 +85,7 @@ def find_transform(
 ) -> Work[Curve | None]:
     """Return the transform that makes a picture's (h, w) differing surfaces agree, or None.
 
-    Only the pixels `interior` (h, w) are looked at, which are traced, and away from edges. `more`
+    Only the pixels `interior` (h, w) are tested, which are traced, and away from edges. `more`
     are tried besides CURVES, such as the scene's own view transform. Surfaces that agree already
     have to agree with the transform, too.
     """
@@ -106,7 +106,7 @@ def find_transform(
         of_group = np.bincount(group, agree) / np.bincount(group)
         # Of the pixels, or of their groups if that is less.
         share = min(float(agree.mean()), float((of_group > MAJORITY).mean()))
-        yield 0.0
+        yield None
         if share > named.share:
             found.append((share, named))
     for _, named in sorted(found, key=lambda pair: -pair[0]):
@@ -156,7 +156,7 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
                 name = pixels.case.scene.objects[number]
                 how = found.name if found else ""
                 pixels.out.shades.append(Shade(name, int(count[number]), how))
-        yield 1.0
+        yield None
 
 
 def _is_its_own(frame: Frame, picture: Picture, where: Bools) -> bool:

@@ -65,10 +65,10 @@ def coverage(probe: Probe, band: Floats) -> Work[Coverage]:
             certain = (rim > own) | np.isnan(rim) | _thin(corners, own)
             near = np.flatnonzero(np.abs(nearest).max(axis=0) <= own)
         test_pairs(probe.scene, probe.settings, centres, some.take(np.flatnonzero(certain)), sure)
-        yield 0.0
+        yield None
         middle = corners[..., near].mean(axis=0)
         found.append(_aim(probe, some.take(near), nearest[:, near], middle, own[near]))
-        yield 0.0
+        yield None
     pixel = np.concatenate([aimed.pixel for aimed in found])
     offset = np.concatenate([aimed.offset for aimed in found], axis=1)
     return Coverage(

@@ -16,7 +16,7 @@ from ...pictures.picture import Picture
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ...tracer.vector import transform_points
 from ..cause import Cause
 from .coverage import coverage
@@ -34,12 +34,11 @@ EDGE = Cause(
     explains=True,
     rounding=True,
     place="at edges",
-    why="Float32 and the rasteriser move corners a little, so a pixel whose centre is very "
+    why="Float32 and the rasteriser move corners a little, so a pixel with its centre very "
     "close to an edge may fall on its other side.",
     check="The tracer sees the shown colour, and the shown object, at a distance from the "
-    "pixel's centre that the other side's error allows. (Each is looked for separately, "
-    "as they come from two drawings.) That error is the rasteriser's snapping and the "
-    "bound of float32 for the surfaces around. Triangles that share an edge leave no gap.",
+    "pixel's centre that the other side's error allows: a rasteriser's snapping of corners, and "
+    "the bound of float32 for the surfaces around. Triangles that share an edge leave no gap.",
     never="A pixel farther from an edge; a colour or an object that is not seen within that "
     "distance; what lies behind a closed surface.",
     advice="ignore a few such pixels; if there are many, move the scene to the origin, or render "
@@ -59,8 +58,7 @@ DEPTH_TIE = Cause(
     why="Two surfaces are closer to each other than a depth buffer of 24 bits, or float32, "
     "can tell apart.",
     check="The shown colour and the shown object lie on the same ray, behind what the tracer "
-    "sees, within the resolution of depth there: that of the depth buffer and float32 for "
-    "a rasteriser, that of float32 for rays. A tie is looked for before an edge.",
+    "sees, within the resolution of depth there: of float32, and of a rasteriser's depth buffer.",
     never="A surface that lies clearly behind.",
     advice="raise the clip start, move the surfaces apart, or remove one of two copies",
 )
@@ -78,7 +76,7 @@ OFFSETS = (
 def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels at depth ties and at edges."""
     if pixels.open.any():
-        yield from scaled(pixels.band.find(pixels.open), 0.0, 0.0)
+        yield from pixels.band.find(pixels.open)
         reach = float(np.max(pixels.bands(places(pixels.open))))
         yield from near_surfaces(pixels, pixels.case.scene, reach, _look)
 
@@ -133,7 +131,7 @@ def _beside(part: Part, asked: _Asked) -> Work[None]:
         np.minimum(found, _sides(part.scene, part.picture, hits, distance), out=found)
         off = np.where(asked.lost, np.where(other, distance, np.inf), found.max(axis=0))
         part.give(off < np.inf, EDGE, off, part.band)
-        yield 0.0
+        yield None
         if part.done:
             return
 
@@ -178,7 +176,7 @@ def _mixed(part: Part, asked: _Asked) -> Work[None]:
         color |= tied & picture.same_color(scene, hits)
         owner = owner | (tied & ~picture.other_object(hits.instance))
         part.give(tied & color & owner, DEPTH_TIE, gap, asked.resolution)
-        yield 0.0
+        yield None
 
 
 def _covering(part: Part, asked: _Asked) -> Work[None]:
@@ -209,7 +207,7 @@ def _closed(scene: Scene, beside: list[Hits], asks: Bools) -> Floats:
 
     It is infinite where there is none. Triangles that share an edge, or a corner all around it,
     leave no gap between them, as a rasteriser rounds what they share alike. But a clipped triangle
-    gets corners of its own. Only the pixels that ask are looked at.
+    gets corners of its own. Only these pixels are tested.
     """
     instance = np.stack([h.instance for h in beside])
     triangle = np.stack([h.triangle for h in beside])

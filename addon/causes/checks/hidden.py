@@ -14,7 +14,7 @@ from ...arrays import Bools
 from ...rendering import steps
 from ...scene import Scene
 from ...tracer.frame import Frame
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ...tracer.settings import Settings
 from ..case import PRECISE, Alternative
 from ..cause import AGREE, Cause, Causes, Hidden
@@ -33,8 +33,7 @@ HIDDEN = Cause(
     why="One side hides an object, by a flag or a collection of the scene, or shows another frame.",
     check="Blender's picture shows such an object. For another program's picture, the scene is "
     "traced with the object hidden or shown, and must give what the picture shows in 97 % "
-    "of the pixels that this changes, within rounding at its edges. Flags are tried one by one, "
-    "and all together.",
+    "of the pixels that this changes.",
     never="An object that nothing hides; one that is there in part; any other damage.",
     advice="show the object to both sides, or hide it from both",
 )
@@ -49,12 +48,10 @@ def check(pixels: OpenPixels) -> Work[None]:
                 where = pixels.open & (owners.pixels == number)
                 if where.any():
                     pixels.give(where, HIDDEN, _named(pixels, Hidden(name, why[name])))
-                yield 0.0
-    alternatives = pixels.case.alternatives
-    for number, other in enumerate(alternatives):
+                yield None
+    for other in pixels.case.alternatives:
         if pixels.open.any():
-            share = 1 / len(alternatives)
-            yield from scaled(_look_at(pixels, other), number * share, share)
+            yield from _look_at(pixels, other)
 
 
 def _named(pixels: OpenPixels, hidden: Hidden) -> float:
@@ -64,7 +61,7 @@ def _named(pixels: OpenPixels, hidden: Hidden) -> float:
 
 
 def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
-    """Find open pixels that show what an alternative does; yields the share that is done.
+    """Find open pixels that show what an alternative does.
 
     Their objects are not compared, as the picture has them by the instances of the traced scene.
     """
@@ -72,7 +69,7 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     colorless = case.colorless
     picture = replace(pixels.picture, owners=None, colorless=colorless)
     there = replace(pixels, case=case, picture=picture)
-    traced, same = yield from scaled(traced_instead(there), 0.0, 0.4)
+    traced, same = yield from traced_instead(there)
     there = replace(there, frame=traced)
     changed = picture.sees_apart(traced, pixels.frame)
     changed &= pixels.open | (pixels.out.cause == AGREE)
@@ -82,13 +79,13 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     if right.sum() <= changed.sum() / 2:
         return  # so much is no edge
     if right.sum() < needed:
-        right |= yield from scaled(_at_edges(there, changed & ~same), 0.4, 0.3)
+        right |= yield from _at_edges(there, changed & ~same)
     if right.sum() < needed:
         return
     same &= changed & pixels.open
     pixels.give(same, HIDDEN, _named(pixels, Hidden(other.object, other.reason)))
     # Its edges are as uncertain as those of the traced scene.
-    yield from scaled(_edges(there), 0.7, 0.3)
+    yield from _edges(there)
 
 
 def _edges(there: OpenPixels) -> Work[None]:
@@ -115,7 +112,7 @@ def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:
         part, seen = pixels.picture.at(rows), traced.instance_index[rows]
         return part.shows(traced, rows) & ~part.other_object(seen)
 
-    same = yield from scaled(by_blocks(traced.shape, alike), 1.0, 0.0)
+    same = yield from by_blocks(traced.shape, alike)
     return traced, same
 
 

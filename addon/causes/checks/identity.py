@@ -1,7 +1,7 @@
 """Finds where Blender's two drawings contradict one another: there, the object is not known.
 
 An edge may fall to one side in the drawing of the colours, and to the other in the drawing of the
-objects. A pixel whose colour an object cannot have does not show that object.
+objects. A pixel with a colour that an object cannot have does not show that object.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .probe import blocks
 def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
     """Return the case without the objects that their pixels' colours contradict.
 
-    Only pixels with the traced colour are looked at: others differ, whatever object they show.
+    Only pixels with the traced colour are tested: others differ, whatever object they show.
     """
     picture, scene = case.picture, case.scene
     owners = picture.owners
@@ -43,7 +43,7 @@ def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
                 here = odd & (shown == number)
                 may = _may_have(part.at(here), _colors(scene, own))
                 shown[here] = np.where(may, number, UNKNOWN)
-        yield 1.0
+        yield None
     return replace(case, picture=replace(picture, owners=replace(owners, pixels=pixels)))
 
 

@@ -1,4 +1,4 @@
-"""Parts of the open pixels, each looked at with its own rays, and what lies near them."""
+"""Parts of the open pixels, each with its own rays, and the surfaces near them."""
 
 from __future__ import annotations
 
@@ -8,14 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Bools, Floats, Index, Places, places
+from ...arrays import Bools, Floats, Index, Places, groups, parts, places
 from ...pictures.picture import Picture
 from ...scene import Region, Scene
 from ...tracer.candidates import Plan
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Progress, Work
 from ...tracer.shading import interpolated
-from ...tracer.vector import groups, parts
 from ..cause import Cause
 from .plans import shared_plan
 from .probe import BLOCK, FEW, FEW_COLORS, OpenPixels, Probe
@@ -70,21 +69,20 @@ def by_parts(
     """Have `look` give causes to the open pixels of a whole picture, a part of it at a time.
 
     The plan `made` has the scene that is asked, perhaps with another clip range than the case's.
-    Only the pixels `asked` (h, w) are looked at, if given.
+    Only the pixels `asked` (h, w) are tested, if given.
     """
     r = made.scene.camera.region
     asked = pixels.open & asked
-    yield from scaled(pixels.band.find(asked), 0.0, 0.0)
+    yield from pixels.band.find(asked)
     height = len(asked)
     for y0, y1 in groups(asked.sum(axis=1), FEW):
         rows = slice(y0, y1)
         tile = Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1)
         if asked[rows].any():
-            finding = Probe.of(made, tile, asked[rows].ravel())
-            probe = yield from scaled(finding, y0 / height, 0.5 * (y1 - y0) / height)
+            yield Progress(y0 / height)
+            probe = yield from Probe.of(made, tile, asked[rows].ravel())
             y, x = places(asked[rows])
-            for _ in look(Part.of(pixels, (y + y0, x), probe)):
-                yield 0.5 * (y0 + y1) / height
+            yield from look(Part.of(pixels, (y + y0, x), probe))
 
 
 def near_surfaces(
@@ -103,8 +101,8 @@ def near_surfaces(
     # The scene may have the case's own clip range, or a wider one.
     made = yield from shared_plan(pixels.case.scene, pixels.picture.sampling.renderer, reach)
     made = replace(made, scene=scene)
-    asked = yield from scaled(may_be_seen(pixels, scene), 0.0, 0.1)
-    yield from scaled(by_parts(pixels, made, look_near, asked), 0.1, 0.9)
+    asked = yield from may_be_seen(pixels, scene)
+    yield from by_parts(pixels, made, look_near, asked)
 
 
 def _near(picture: Picture, probe: Probe) -> Work[Bools]:
@@ -121,7 +119,7 @@ def _near(picture: Picture, probe: Probe) -> Work[Bools]:
         shown = picture.at(pixel)
         color[pixel[any_color | shown.same_color(scene, hits)]] = True
         object_[pixel[~shown.other_object(hits.instance)]] = True
-        yield 0.0
+        yield None
     return color & object_
 
 
@@ -154,5 +152,5 @@ def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
         shown = replace(picture, color=np.broadcast_to(picture.color[at], shape))
         traced = np.broadcast_to(colors[:, None], shape)
         out[at] = ~shown.other_color(traced).all(axis=0)
-        yield part.start / len(row)
+        yield None
     return out

@@ -35,7 +35,7 @@ def shared_plan(scene: Scene, renderer: Renderer, reach: float) -> Work[Plan]:
 
     It holds for the camera's own clip range, and for the :func:`widened` one.
     """
-    yield 0.0
+    yield None
     known = _LAST.get(scene)
     if known is None or known[0] is not renderer or known[1].reach < reach:
         wide = replace(scene, camera=widened(scene.camera, renderer))

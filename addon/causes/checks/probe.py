@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Array, Bools, Floats, Index, Places
+from ...arrays import Array, Bools, Floats, Index, Places, groups, parts
 from ...pictures.bands import SampleBand
 from ...pictures.picture import Picture
 from ...scene import Region, Scene
@@ -25,24 +25,22 @@ from ...tracer.nearest import test_pairs, test_planes
 from ...tracer.progress import Work
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import positions
-from ...tracer.vector import groups
 from ...tracer.world import Pairs, WorldTriangles
 from ..case import Case
 from ..cause import AGREE, Cause, Causes
 from .plans import SOUND
 
-LAYERS = 4  # surfaces behind one another that are looked at
-FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
+LAYERS = 4  # surfaces behind one another that are tested
+FEW = 1 << 11  # pixels tested together, so that a step is short where whole pictures differ
 FEW_COLORS = 64  # of a scene: a picture's pixels are held against each of them
-BLOCK = 1 << 15  # pixels looked at in one step, where that needs no rays
+BLOCK = 1 << 15  # pixels tested in one step, where that needs no rays
 
 Some = tuple[Places, ...] | slice  # rows and columns of pixels, or rows
 
 
 def blocks(shape: tuple[int, ...]) -> list[slice]:
     """Split a picture (h, w, ...) into whole rows of about BLOCK pixels."""
-    rows = max(1, BLOCK // shape[1])
-    return [slice(y, min(y + rows, shape[0])) for y in range(0, shape[0], rows)]
+    return parts(shape[0], max(1, BLOCK // shape[1]))
 
 
 def other_color(picture: Picture, colors: Array, ramp: Bools | bool = False) -> Work[Bools]:
@@ -62,7 +60,7 @@ def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bool
     out = np.zeros(shape, bool)
     for rows in blocks(shape):
         out[rows] = of(rows)
-        yield 0.0
+        yield None
     return out
 
 
@@ -120,15 +118,12 @@ class Probe:
 
     @classmethod
     def of(cls, made: Plan, tile: Region, wanted: Bools, settings: Settings = SOUND) -> Work[Probe]:
-        """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
-
-        Yields the share of the work done; returns the probe.
-        """
+        """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True."""
         chunks = []
-        for share, some in candidates(made, tile, wanted):
+        for _, some in candidates(made, tile, wanted):
             if some is not None and len(some.pixel):
                 chunks.append(some)
-            yield share
+            yield None
         px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
         return cls(made.scene, px, py, _together(chunks), settings)
 
@@ -167,7 +162,7 @@ class Probe:
         test_planes(self.scene, rays, hits, after)
         for some in self.chunks:
             test_pairs(self.scene, self.settings, rays, some, hits, after)
-            yield 0.0
+            yield None
         return hits
 
 

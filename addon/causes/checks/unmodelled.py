@@ -24,7 +24,7 @@ from ...scene import Camera
 from ...tracer.candidates import pixel_bounds
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ..case import Case
 from ..cause import NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause
 from . import edges
@@ -99,7 +99,7 @@ def blind(case: Case, frame: Frame) -> Integers:
 
 def check_in_place(pixels: OpenPixels) -> Work[None]:
     """Find open pixels in which a feature is drawn, or a surface has an unknown colour."""
-    yield 0.0
+    yield None
     if not pixels.case.manifest.unmodelled:
         return
     number, seen = pixels.out.blind, pixels.frame.instance_index
@@ -115,11 +115,11 @@ def check_in_place(pixels: OpenPixels) -> Work[None]:
     recolored = is_recolored | (own != NOTHING)
     recolored &= ~pixels.picture.other_object(seen)
     pixels.give(pixels.open & (drawn | recolored), NOT_MODELLED, number)
-    yield 1.0
+    yield None
 
 
 def check_otherwise(pixels: OpenPixels) -> Work[None]:
-    """Find open pixels that show what is seen past an object, or one drawn in front of others."""
+    """Find open pixels that show the scene without an object, or one drawn in front of others."""
     case, picture = pixels.case, pixels.picture
     unseen = case.feature_of(Effect.UNSEEN)
     holes = case.feature_of(Effect.HOLDOUT)
@@ -131,13 +131,13 @@ def check_otherwise(pixels: OpenPixels) -> Work[None]:
             instances = np.where(holes != NOTHING, np.int32(NOTHING), owners.instances)
             owners = replace(owners, instances=instances)
         shown = replace(picture, owners=owners, holes=holes != NOTHING)
-        yield from scaled(_see(pixels, shown, unseen == NOTHING, past), 0.0, 0.5)
+        yield from _see(pixels, shown, unseen == NOTHING, past)
     if pixels.open.any() and (front != NOTHING).any():
-        yield from scaled(_see(pixels, picture, front != NOTHING, front), 0.5, 0.5)
+        yield from _see(pixels, picture, front != NOTHING, front)
 
 
 def _see(pixels: OpenPixels, picture: Picture, left: Bools, feature: Integers) -> Work[None]:
-    """Find open pixels that show what is seen of the instances and planes `left` (k + 1,) alone."""
+    """Find open pixels that show the instances and planes `left` (k + 1,) alone."""
     scene = pixels.case.scene
     count = len(scene.instances)
     instances = _some(scene.instances, left[:count])
@@ -145,7 +145,7 @@ def _see(pixels: OpenPixels, picture: Picture, left: Bools, feature: Integers) -
     left = np.append(left[:-1], True)  # nothing can be seen, too
     picture = picture.of_instances(left)
     there = replace(pixels, case=replace(pixels.case, scene=scene), picture=picture)
-    traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
+    traced, same = yield from traced_instead(there)
     number = feature[left][traced.instance_index]
     number = np.where(number == NOTHING, feature[pixels.frame.instance_index], number)
     where = pixels.open & same & (number != NOTHING)
@@ -153,7 +153,7 @@ def _see(pixels: OpenPixels, picture: Picture, left: Bools, feature: Integers) -
         any_color = where & ~picture.known(number) & picture.colorless[traced.instance_index]
         pixels.out.blind[any_color] = number[any_color]
     pixels.give(where, NOT_MODELLED, number)
-    yield from scaled(edges.check(there), 0.5, 0.5)
+    yield from edges.check(there)
 
 
 def _some(things: Sequence[T], left: Bools) -> tuple[T, ...]:
@@ -168,7 +168,7 @@ def check_everywhere(pixels: OpenPixels) -> Work[None]:
             if feature.effect is Effect.LIGHT:  # it does not put another object there
                 where = where & ~pixels.picture.other_object(pixels.frame.instance_index)
             pixels.give(where, NOT_MODELLED, float(number))
-            yield 0.0
+            yield None
 
 
 def name_drawn(pixels: OpenPixels) -> Work[None]:

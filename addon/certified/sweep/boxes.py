@@ -12,19 +12,16 @@ from functools import reduce
 
 import numpy as np
 
-from ...arrays import Bools, Bytes, Floats, Index, Integers
+from ...arrays import Bools, Floats, Index, Integers, parts
 from ...scene import Region, Scene
 from ...tracer.candidates import pixel_bounds
-from ...tracer.vector import Vectors, gather, grouped, largest, parts, transform_points
+from ...tracer.vector import Vectors, gather, largest, transform_points
 from ...tracer.world import world_corners
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
-from .film import Film, Vertices, with_room
+from .film import Film, with_room
+from .vertices import Vertices
 
-BINS = 256  # intervals of nearness that the depth bins are made of
-_GROWTH = 1.2  # by how much each depth bin is larger than the one before
-_FIRST = 0.5  # the area of the first depth bin: a box is larger than its triangle
-_SAMPLE = 1 << 14  # triangles, about, from which depth bins are estimated
 _MARGIN = 1.0  # pixels by which the region, and an instance's box, are widened
 _TOGETHER = 1 << 15  # triangles at a time
 
@@ -170,7 +167,7 @@ def _mend(scene: Scene, film: Film, expanded: Expanded, low: Index, high: Index)
     finite = vertices.finite.take(corners).all(axis=0)
     high[:, ~finite] = -1
     some = np.flatnonzero(finite & ~vertices.ahead.take(corners).all(axis=0))
-    for part in np.split(some, range(_TOGETHER, len(some), _TOGETHER)):
+    for part in (some[chosen] for chosen in parts(len(some), _TOGETHER)):
         world = world_corners(scene, *expanded.names.of(part))
         x0, x1, y0, y1 = pixel_bounds(whole, world, reach=1.0)
         low[:, part] = x0, y0
@@ -220,37 +217,3 @@ class Boxed:
     def in_region(self, triangle: Index) -> tuple[Index, Index]:
         """Return the ends of triangles' boxes in the region."""
         return gather(self.region_low, triangle), gather(self.region_high, triangle)
-
-
-def by_depth(seen: Index, nearest: Floats, low: Index, high: Index) -> list[Index]:
-    """Split the triangles `seen` into depth bins, from the front to the back.
-
-    The boxes of the first bin have somewhat fewer pixels than the union of all boxes: about as many
-    as a surface that covers it all. Every other bin is larger than the one before: the more lies in
-    front, the less is left to be hidden. So the number of bins is about the logarithm of the number
-    of surfaces behind one another, and refreshing the depth buffer is worth its price. All this is
-    estimated from some thousand triangles.
-    """
-    step = 1 + len(seen) // _SAMPLE
-    some = seen[::step]
-    x0, y0 = low.take(some, axis=1)
-    x1, y1 = high.take(some, axis=1)
-    area = np.multiply(x1 - x0 + 1, y1 - y0 + 1, dtype=np.float32)
-    union = _FIRST * (int(x1.max()) + 1 - int(x0.min())) * (int(y1.max()) + 1 - int(y0.min()))
-    if step * area.sum(dtype=np.float64) < 2 * union or BINS < 3:
-        return [seen]
-    near = nearest.take(some)
-    first = np.min(near)
-    last = np.max(near)
-    scale = (BINS - 1) / (last - first) if last > first else 0.0
-
-    def depth(nearness: Floats) -> Bytes:
-        return np.clip((last - nearness) * scale, 0, BINS - 1).astype(np.uint8)
-
-    before = np.cumsum(np.bincount(depth(near), area, BINS)) * (step / union)
-    of_depth = (np.log1p(before * (_GROWTH - 1)) / np.log(_GROWTH)).astype(np.uint8)
-    own = np.empty(len(seen), np.uint8)
-    for part in parts(len(seen), _TOGETHER):
-        own[part] = of_depth.take(depth(gather(nearest, seen[part])))
-    bins = grouped(own, int(of_depth[-1]) + 1)
-    return [seen.take(part) for part in bins if len(part)]

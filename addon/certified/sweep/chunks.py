@@ -11,12 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Index, Integers, Places
+from ...arrays import Bools, Floats, Index, Integers, Places, groups, parts
 from ...scene import Mesh, Scene
 from ...tracer.progress import Steps
-from ...tracer.vector import Vectors, gather, groups, occurring, parts, transform_points
-from .film import Film, Vertices
+from ...tracer.vector import Vectors, gather, occurring, transform_points
+from .film import Film
 from .small_triangles import SmallTriangles
+from .vertices import Vertices
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
 

@@ -38,7 +38,8 @@ import numpy as np
 from ...arrays import Bools, Floats, Index
 from ...tracer.vector import Arrays, gather, largest
 from ..bounds import U
-from .film import Film, Vertices
+from .film import Film
+from .vertices import Vertices
 
 _MORE = 1.01  # covers the roundings of the bounds themselves
 # Far above what gradual underflow may lose, and far below where it matters: values as small as this
@@ -191,7 +192,7 @@ def _parallel(
 
 
 def _with_both_signs(found: EdgeFunctions, unsure: Index) -> EdgeFunctions:
-    """Duplicate the triangles whose orientation is uncertain, once for each sign of T.
+    """Duplicate the triangles of uncertain orientation, once for each sign of T.
 
     Nothing is known of their nearness.
     """

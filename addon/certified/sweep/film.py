@@ -18,12 +18,13 @@ from functools import cached_property
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Index
+from ...arrays import Floats
 from ...scene import Camera, Scene
 from ...tracer.camera import dual_axes, pixel_size
 from ...tracer.candidates import SAFETY, has_sound_axes
 from ...tracer.vector import Vectors, largest
 from ...tracer.world import reaches
+from .vertices import Vertices
 
 _EPS = 2.0**-52
 _TINY = 2.0**-960  # added to a vertex's size: more than gradual underflow may lose
@@ -40,50 +41,6 @@ def with_room(size: Floats, most: Floats, reach: Floats | float = 0.0) -> Floats
     """
     size = size + _TINY * (1 + reach)
     return np.where(size + most < _HUGE, size, np.inf)
-
-
-@dataclass(frozen=True, eq=False)
-class Vertices:
-    """v vertices on the film.
-
-    `box` (v, 4) is lowest x, lowest y, -highest x, -highest y of the pixels whose centres a
-    triangle may cover at this vertex. The minimum over its three corners is a triangle's box. It
-    holds only where `ahead`: where the vertex surely is in front of the eye.
-    `x`, `y` (v,) is the film position. It is off by at most DELTA where `certain`; then the vertex
-    is ahead, too. `nearest` (v,) bounds the nearness (`edge_functions.py`) of the vertex from
-    above. `finite` (v,) says whether the vertex is finite in world space.
-    """
-
-    p: Floats
-    q: Floats
-    w: Floats
-    x: Floats
-    y: Floats
-    depth: Floats
-    size: Floats
-    nearest: Floats
-    box: Index
-    ahead: Bools
-    certain: Bools
-    finite: Bools
-
-    @classmethod
-    def empty(cls, count: int, dtype: type[np.integer]) -> Vertices:
-        """Return arrays for this many vertices, to be filled; boxes are of this dtype."""
-        return cls(
-            p=np.empty(count),
-            q=np.empty(count),
-            w=np.empty(count),
-            x=np.empty(count),
-            y=np.empty(count),
-            depth=np.empty(count),
-            size=np.empty(count),
-            nearest=np.empty(count),
-            box=np.empty((count, 4), dtype),
-            ahead=np.empty(count, bool),
-            certain=np.empty(count, bool),
-            finite=np.empty(count, bool),
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,10 +85,9 @@ class Film:
         c = self.camera
         if not self.is_sound:
             return np.inf, 0.0
-        window = (c.window.left, c.window.bottom)
-        constant = 0.0
-        slope = 0.0
-        for start, size, reach in zip(window, pixel_size(c), self._reach, strict=True):
+        starts = c.window.left, c.window.bottom
+        constant = slope = 0.0
+        for start, size, reach in zip(starts, pixel_size(c), self._reach, strict=True):
             film = SAFETY * _EPS * (abs(start / size) + c.width + c.height)
             if c.projection.shares_direction:
                 slope = max(slope, (SAFETY + 8) * _EPS * self._spread / size)
@@ -180,7 +136,7 @@ class Film:
         return np.stack((p, q, w, depth)), size
 
     def nearest(self, depth: Floats, size: Floats) -> Floats:
-        """Bound the nearness of what is seen of vertices from above, (n,)."""
+        """Bound the nearness of the visible part of vertices from above, (n,)."""
         if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
             return (constant + slope * size) - depth
@@ -200,8 +156,9 @@ class Film:
         if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
             return constant + slope * (DELTA / self.place[1])
-        far = max(self.camera.width, self.camera.height)
-        return (DELTA / far + 2 * self.ray_error + 2.0**-50) * nearness
+        return (
+            DELTA / max(self.camera.width, self.camera.height) + 2 * self.ray_error + 2.0**-50
+        ) * nearness
 
     def enter(self, vertices: Vertices, first: int, world: Vectors) -> None:
         """Project world points (3, n) into the n vertices from `first` on."""

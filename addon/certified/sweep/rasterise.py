@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Index
-from ...tracer.vector import Arrays, gather, groups, parts, spread
+from ...arrays import Bools, Floats, Index, groups, parts
+from ...tracer.vector import Arrays, gather, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .edge_functions import EdgeFunctions
 

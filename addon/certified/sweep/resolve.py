@@ -10,15 +10,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...arrays import Bools, Index
+from ...arrays import Bools, Index, groups, parts
 from ...certainty import Certainty
 from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
 from ...tracer.frame_measures import PIXELS
 from ...tracer.hits import NOTHING, Hits, Statistics
-from ...tracer.progress import Steps, mapped
+from ...tracer.progress import Steps
 from ...tracer.ties import Ties
-from ...tracer.vector import gather, grouped, groups, parts
+from ...tracer.vector import gather, grouped
 from ...tracer.world import Pairs, WorldTriangles, world_corners
 from ..ladder import Ladder
 from ..measures import Known, Measured
@@ -28,7 +28,7 @@ from .film import Film
 from .tournament import tournament
 
 _PAIRS = 1 << 15  # pairs that a ladder tests at a time
-_FRAGMENTS = 1 << 17  # fragments looked at together: a step of some milliseconds
+_FRAGMENTS = 1 << 17  # fragments tested together: a step of some milliseconds
 _RAYS = 1 << 14  # rays of a ladder, at most
 _CANDIDATES = 1 << 15  # candidates of a ladder, at most
 
@@ -52,7 +52,7 @@ class Resolver:
         yield "resolve"
         open_ = np.zeros(count, bool)
         pairs = []
-        # Fragments are freed as soon as they are looked at.
+        # Fragments are freed as soon as they are tested.
         every = (fragments.pop(0) for _ in range(len(fragments)))
         for some in Fragments.together(every, _FRAGMENTS):
             some = some.take(self.depths.not_hidden(some))
@@ -135,4 +135,10 @@ class Resolver:
         for part in parts(len(ray), _PAIRS):
             ladder.test(Pairs(ray[part], row[part], triangles))
             yield "ladder"
-        return (yield from mapped(ladder.hits(self.statistics, tournament), lambda _: "ladder"))
+        deciding = ladder.hits(self.statistics, tournament)
+        while True:
+            try:
+                next(deciding)
+            except StopIteration as stop:
+                return stop.value
+            yield "ladder"

@@ -37,8 +37,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...arrays import Bools, Floats, Index
-from ...tracer.vector import gather, groups, largest
+from ...arrays import Bools, Floats, Index, groups
+from ...tracer.vector import gather, largest
 from ..bounds import U
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
@@ -105,7 +105,7 @@ def small_pairs(
 
 
 def _blocks(shape: Index) -> Iterator[Block]:
-    """Yield the blocks of triangles whose boxes have these shapes (k,), which are sorted."""
+    """Yield the blocks of triangles with boxes of these shapes (k,), which are sorted."""
     starts = np.flatnonzero(shape[1:] != shape[:-1]) + 1
     for start, end in pairwise([0, *starts.tolist(), len(shape)]):
         h, w = divmod(int(shape[start]), SIDE + 1)

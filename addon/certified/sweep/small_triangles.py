@@ -24,9 +24,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Colors, Floats, Index, Integers
+from ...arrays import Colors, Floats, Index, Integers, parts
 from ...scene import Mesh, Region, Scene
-from ...tracer.vector import gather, largest, occurring, parts
+from ...tracer.vector import gather, largest, occurring
 from .film import Film
 
 _PER_PIXEL = 2  # an instance with more triangles per pixel of its box is dense

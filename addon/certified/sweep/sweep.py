@@ -12,16 +12,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Floats, Index
+from ...arrays import Floats, Index, parts
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
-from ...tracer.progress import Steps, Work, quiet, scaled, timed
-from ...tracer.vector import gather, parts
+from ...tracer.progress import Progress, Steps, Work, scaled, timed
+from ...tracer.vector import gather
 from ..arithmetic import sound_steps
 from ..bounds import plane_fractions
-from .boxes import Boxed, InstanceBoxes, boxes_of, by_depth
+from .boxes import Boxed, InstanceBoxes, boxes_of
 from .chunks import Chunk, Names, Numbering, chunks, expand
+from .depth_bins import by_depth
 from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments, nearness
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
@@ -56,10 +57,9 @@ def sweep(
     statistics = statistics or Statistics()
     pairs = statistics.pairs_tested
     culling = statistics.culling.copy()
-    with np.errstate(all="ignore"):
-        work = Sweep(scene, Film(scene.camera, dx, dy), region, statistics).steps(memory)
+    whole = Sweep(scene, Film(scene.camera, dx, dy), region, statistics)
     try:
-        return (yield from quiet(work))
+        return (yield from whole.steps(memory))
     except _FullError as full:
         share = full.share
     statistics.pairs_tested = pairs  # each pair counts once
@@ -96,14 +96,14 @@ class Sweep:
         """Sweep the scene in chunks, and decide every pixel; a `_FullError` without the memory."""
         room = max(_FRAGMENTS, memory // _BYTES_PER_FRAGMENT)
         stages = self._statistics.stages
-        yield 0.0  # allocating the depth buffer of a large picture is a step of its own
+        yield None  # allocating the depth buffer of a large picture is a step of its own
         for _ in timed(self.enter_planes(), stages):
-            yield 0.0
+            yield None
             self._make_room(room, 0.0)
         if self._scene.instances:
             yield from self._instances(max(1, memory // _BYTES_PER_TRIANGLE), room)
         end = Resolver(self._scene, self._film, self._depths, self._numbers, self._statistics)
-        return (yield from timed(end.steps(self._fragments), stages, 0.6))
+        return (yield from timed(end.steps(self._fragments), stages))
 
     def _instances(self, limit: int, room: int) -> Work[None]:
         """Sweep the instances in chunks of `limit` triangles, with room for some fragments."""
@@ -119,7 +119,7 @@ class Sweep:
                 chunk = replace(chunk, instances=chunk.instances[~hidden])
             share = 0.6 * number / len(every)
             for _ in timed(self.enter(chunk, small), self._statistics.stages):
-                yield share
+                yield Progress(share)
                 self._make_room(room, share)
 
     def _keep(self, some: Fragments) -> None:
@@ -147,20 +147,17 @@ class Sweep:
         start = self._numbers.enter(Names(instances, count, NOTHING))
         film = self._film
         region = self._depths.region
-        size = region.width * region.height
         for surface, infinite in enumerate(planes, start):
-            point = infinite.point[:, None]
-            normal = infinite.normal[:, None]
-            for begin in range(0, size, _PIXELS):
-                pixel = np.arange(begin, min(begin + _PIXELS, size))
+            at = infinite.point[:, None], infinite.normal[:, None]
+            for part in parts(region.width * region.height, _PIXELS):
+                pixel = np.arange(part.start, part.stop)
                 rays = camera_rays(film.camera, *film_positions(region, film.dx, film.dy, pixel))
-                ends = plane_fractions(rays, point, normal).interval()
+                ends = plane_fractions(rays, *at).interval()
                 low, high = (np.broadcast_to(v, pixel.shape) for v in ends)
                 least, most = nearness(film.camera, low, high, ROUNDING)
-                place = self._depths.places(pixel)
                 of = np.full(len(pixel), surface)
-                pairs = Covered(place, of, least, most, np.isfinite(high))
-                self._keep(self.of_pairs(pairs, of))
+                place = self._depths.places(pixel)
+                self._keep(self.of_pairs(Covered(place, of, least, most, np.isfinite(high)), of))
                 yield "planes"
 
     def enter(self, chunk: Chunk, small: SmallTriangles) -> Steps[None]:
@@ -168,16 +165,15 @@ class Sweep:
         if not len(chunk.instances):
             return
         expanded = yield from expand(self._scene, self._film, chunk, small)
-        first = self._numbers.enter(expanded.names)
         yield "project"
         low, high, nearest = boxes_of(self._scene, self._film, expanded)
         yield "boxes"
-        boxed = Boxed.of(expanded, first, self._depths.region, low, high, nearest)
-        seen = boxed.seen
-        if not len(seen):
+        number = self._numbers.enter(expanded.names)
+        boxed = Boxed.of(expanded, number, self._depths.region, low, high, nearest)
+        if not len(boxed.seen):
             return
         yield "boxes"
-        bins = by_depth(seen, nearest, boxed.region_low, boxed.region_high)
+        bins = by_depth(boxed.seen, nearest, boxed.region_low, boxed.region_high)
         yield "bins"
         for number, depth_bin in enumerate(bins):
             if number or self._fragments:
@@ -195,8 +191,7 @@ class Sweep:
         boxes = Boxes(own, gather(boxed.low, own), gather(boxed.high, own))
         left = [some[~small]]
         culling = self._statistics.culling
-        found = small_pairs(self._film, boxed.expanded, boxes, self._depths, culling, left)
-        for pairs in found:
+        for pairs in small_pairs(self._film, boxed.expanded, boxes, self._depths, culling, left):
             self._keep(self.of_pairs(pairs, boxed.first + pairs.owner))
             yield "pixels"
         rest = np.concatenate(left)
@@ -231,28 +226,24 @@ class Sweep:
         culling = self._statistics.culling
         for some in split(found, boxes, self._depths):
             reached[found.row.take(some.owner)] = True
-            width, height = (some.high - some.low + 1).astype(np.int64)
-            culling["computed"] += int((width * height).sum())
+            sides = (some.high - some.low + 1).astype(np.int64)
+            culling["computed"] += int(sides.prod(axis=0).sum())
             yield from rasterised(found, some, self._depths)
         culling["reached"] += int(reached.sum())
 
     def of_pairs(self, pairs: Covered, surface: Index) -> Fragments:
         """Enter sure hits into the depth buffer; return the fragments, and all that is not sure."""
-        pixel = pairs.pixel
         least = pairs.least
         most = pairs.most
-        self._statistics.pairs_tested += len(pixel)
+        self._statistics.pairs_tested += len(pairs)
         sure = pairs.sure & self._clip.inside(least, most)
         if sure.all():
-            return Fragments.joined(self._depths.enter(pixel, surface, least, most))
+            return Fragments.joined(self._depths.enter(pairs.pixel, surface, least, most))
         certain = np.flatnonzero(sure)
-        fragments = self._depths.enter(
-            gather(pixel, certain),
-            gather(surface, certain),
-            gather(least, certain),
-            gather(most, certain),
-        )
-        open_ = ~(sure | (most < gather(self._depths.nearness, pixel)))
+        own = gather(surface, certain)
+        some = pairs.take(certain)
+        fragments = self._depths.enter(some.pixel, own, some.least, some.most)
+        open_ = ~(sure | (most < gather(self._depths.nearness, pairs.pixel)))
         unsure = np.flatnonzero(open_ & ~self._clip.outside(least, most))
-        others = Fragments(gather(pixel, unsure), gather(surface, unsure), gather(most, unsure))
+        others = Fragments(pairs.pixel, surface, most).take(unsure)
         return Fragments.joined((*fragments, others))

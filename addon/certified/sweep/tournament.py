@@ -1,7 +1,7 @@
 """Finds the nearest of many coplanar sheets sooner: candidates are compared two by two, in rounds.
 
-`ladder.one_by_one` compares as often, but in as many rounds as a ray has candidates. A tournament
-takes their logarithm. Both find the same wherever all comparisons are decided.
+`decisions.one_by_one` compares as often, but in as many rounds as a ray has candidates. A
+tournament takes their logarithm. Both find the same wherever all comparisons are decided.
 """
 
 from __future__ import annotations
@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Bools, Index
-from ..ladder import Compare
+from ..decisions import Compare
 from ..order import COPLANAR, FARTHER, UNDECIDED
 
 
 def tournament(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
-    """Find the nearest of each ray's candidates, as `ladder.one_by_one`.
+    """Find the nearest of each ray's candidates, as `decisions.one_by_one`.
 
     In every round, each second candidate that is left of a ray is compared with the one before it,
     and the nearer stays; of two in one plane, the one before.

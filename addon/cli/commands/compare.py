@@ -12,7 +12,7 @@ from typing import Any
 from ...camera_files.files import of_frames
 from ...causes.case import Case
 from ...comparison import engines
-from ...comparison.animation import FrameRow, frames_named
+from ...comparison.animation import frames_named
 from ...comparison.comparison import Comparison
 from ...comparison.verdict import Verdict
 from ...files import images
@@ -27,8 +27,9 @@ from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
 from ...report.junit import Judged, junit, of_comparison
+from ...report.lines import lines
 from ...scene import Scene, SceneError
-from ...tracer.progress import Work, result_of
+from ...tracer.progress import Event, Work, result_of
 from ...wording import show
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
@@ -122,7 +123,7 @@ def _frames(
     options: CompareOptions,
     named: str,
     scene: Any,
-    progress: Callable[[float], None],
+    progress: Callable[[Event], None],
     **chosen: Any,
 ) -> int:
     """Compare the frames that are named of the open file; the exit code is that of the worst."""
@@ -133,11 +134,8 @@ def _frames(
     views = of_frames(options.choice.views, frames) if options.choice.views else {}
     bake_bodies(scene, frames[-1])
 
-    def told(rows: list[FrameRow]) -> None:
-        show(frames_report.line(rows[-1]), file=sys.stderr)
-
     made_by = depends_on(options.of_a_frame())
-    work = compare_frames(str(options.out), frames, told, made_by, views, **chosen)
+    work = compare_frames(str(options.out), frames, made_by, views, **chosen)
     try:
         rows = result_of(work, progress)
     except KeyboardInterrupt:
@@ -176,7 +174,7 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
     """Print a comparison; return the exit code."""
     if options.colors_out:
         _write_colors(options.colors_out, comparison.scene, comparison.manifest.owners)
-    show(*comparison.manifest.lines(), *comparison.lines())
+    show(*comparison.manifest.lines(), *lines(comparison))
     _write_junit(options, [of_comparison(options.scene.name, comparison)])
     return _told(options, comparison.verdict, options.out / page.NAME)
 
@@ -263,13 +261,5 @@ def _file(
 
 
 def _written(options: CompareOptions, case: Case) -> Work[Comparison]:
-    """Compare and write; say on standard error what is there before what is wrong is looked for."""
-    page_path = options.out / page.NAME
-
-    def told(found: Comparison) -> None:
-        show(
-            f"verdict: {found.verdict} ({page_path}); what is wrong is looked for", file=sys.stderr
-        )
-
-    diagnose, more = options.diagnosis is not False, (options.trade, options.extremes)
-    return comparison_report.written(options.out, case, diagnose, *more, told)
+    diagnose = options.diagnosis is not False
+    return comparison_report.written(options.out, case, diagnose, options.trade, options.extremes)

@@ -45,9 +45,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "pixel_offset",
         "{words}: ({dx:+.3f}, {dy:+.3f}) px",
-        "OpenCV puts the first pixel's centre at (0, 0), Blender and COLMAP at (1/2, 1/2): a "
-        "principal point at (width - 1) / 2 belongs to the former. Rays through (i, j) / size "
-        "pass through the pixels' corners.",
+        "OpenCV puts the first pixel's centre at (0, 0), Blender and COLMAP at (1/2, "
+        "1/2). Rays through (i, j) / size pass the pixels' corners.",
         "move the film position of every ray by that: pixel (i, j) has its centre at "
         "(i + 1/2, j + 1/2), and the principal point is at half of the width and the height, plus "
         "the shift",
@@ -66,8 +65,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "focal_length",
         "{words}",
-        "An angle is halved or doubled, a vertical one (glTF's yfov) taken for a horizontal "
-        "one, or a lens in millimetres goes with another sensor than the camera's.",
+        "An angle is halved or doubled, a vertical one (glTF's yfov) taken for a "
+        "horizontal one, or a lens in millimetres goes with another sensor.",
         "check the lens' unit, the sensor's width, and whether an angle is the whole one or half, "
         "of the width or of the height",
         of_camera(FOCAL.camera),
@@ -81,8 +80,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "focal_lengths",
         "the focal length is {across:+.4g} % off across, and {up:+.4g} % up",
-        "Each is computed from its own side of the sensor, though the sensor has another shape "
-        "than the picture; or only one of them takes the pixel aspect into account.",
+        "Each is computed from its own side of the sensor, which has another shape than "
+        "the picture; or only one of them heeds the pixel aspect.",
         "take one focal length for both, in pixels; a pixel is pixel aspect Y / X as high as it is "
         "wide; remove the scale of the camera and its parents",
         of_camera(FOCALS.camera),
@@ -96,8 +95,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "cropped",
         "the focal length is {percent:+.4g} % off, and the rays pass ({dx:+.3f}, {dy:+.3f}) px "
         "beside: the picture was cropped or enlarged about another point than the camera's axis",
-        "A picture that is cropped and scaled has its principal point elsewhere; a focal length "
-        "changed about the picture's centre keeps a shift that should have grown with it.",
+        "A picture that is cropped and scaled has its principal point elsewhere.",
         "compare the whole picture, and scale the principal point with the focal length",
         of_camera(CROPPED.camera),
         _CROPPED.find,
@@ -111,8 +109,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "the camera is moved by {right:+.4g} m to its right, {up:+.4g} m upwards and "
         "{forward:+.4g} m forward: by {words} in the world",
         "In Blender a camera's `location` is without its parents, constraints and delta "
-        "transform; matrix_world has them. Or the picture is that of one eye of a stereo "
-        "pair.",
+        "transform. Or the picture is that of one eye of a stereo pair.",
         "compare its world matrix with the one that the scene has",
         of_camera(MOVED.camera),
         _MOVED.find,
@@ -128,8 +125,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "camera_turned",
         "the camera is turned by {words}",
-        "Angles are read in another order than the camera's rotation mode, or without its "
-        "parents and constraints, such as Track To.",
+        "Angles are read in another order than the camera's rotation mode, or without "
+        "its parents and constraints.",
         "compare its world matrix with the one that the scene has, and the order of its angles",
         of_camera(TURNED.camera),
         _PANNED.find,
@@ -147,8 +144,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "camera_placed",
         "the camera stands elsewhere and looks elsewhere: {words}",
-        "A pose of another convention, another frame or another camera; a camera that was placed "
-        "by hand; a rig of several cameras in another order.",
+        "A pose of another frame or another camera, or a camera that was placed by hand.",
         "compare its world matrix with the one that the scene has",
         of_camera(PLACED.camera),
         _PLACED.find,
@@ -161,8 +157,7 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "roll",
         "the camera is rolled by {degrees:+.3f} degrees about its axis",
-        "A camera that is made of an eye, a target and an up vector has a roll if the up "
-        "vector is another one.",
+        "A camera that is made of an eye, a target and an up vector rolls with the up vector.",
         "turn it back; a positive angle turns the picture's content clockwise",
         of_camera(ROLL.camera),
         _ROLL.find,

@@ -111,36 +111,16 @@ class Effort(IntEnum):
     ANYTHING = 7
 
 
-# The step of the search, in words, and its cost.
+# The steps of the search, in words, in their order.
 TRIED = {
-    Effort.NOTHING: (
-        "colours, and what Blender says of the scene",
-        "each is put in, and tried in a few hundred pixels; it has no numbers",
-    ),
-    Effort.VIEW: ("a camera's conventions, and rows", "likewise"),
-    Effort.FILM: (
-        "the lens",
-        "one or two numbers are fitted to edges that are found in the picture, then to a thousand "
-        "pixels",
-    ),
-    Effort.CAMERA: ("the camera's place and turn", "two to six numbers are fitted likewise"),
-    Effort.LEFT_OUT: (
-        "what is clipped; an object that is missing, or as in its file",
-        "as colours",
-    ),
-    Effort.PIXELS: (
-        "samples, sizes and triangles",
-        "a few hundred pixels say which of some dozen ways is right",
-    ),
-    Effort.OBJECT: (
-        "one object",
-        "up to three numbers of each of two objects are fitted to its edges, then to the pixels "
-        "around it; it alone is traced, over what is behind it",
-    ),
-    Effort.ANYTHING: (
-        "what can look like much else",
-        "a second copy of an object, drawing orders, any filter: on the whole picture",
-    ),
+    Effort.NOTHING: "colours, and what Blender says of the scene",
+    Effort.VIEW: "a camera's conventions, and rows",
+    Effort.FILM: "the lens",
+    Effort.CAMERA: "the camera's place and turn",
+    Effort.LEFT_OUT: "what is clipped; an object that is missing, or as in its file",
+    Effort.PIXELS: "samples, sizes and triangles",
+    Effort.OBJECT: "one object",
+    Effort.ANYTHING: "what can look like much else",
 }
 
 

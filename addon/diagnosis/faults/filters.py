@@ -1,7 +1,7 @@
 """Faults that mix neighbouring colours: several samples a pixel, and any filter.
 
 A mean of samples is what it is: it is traced, and held against the picture. Of any other filter no
-more is known than how far it reaches, so it is told if no mean does as well.
+more is known than how far it reaches, so it is reported if no mean does as well.
 """
 
 from __future__ import annotations
@@ -13,11 +13,12 @@ import numpy as np
 
 from ...arrays import Colors
 from ...causes.case import Case
-from ...pictures.bounds import largest_within
+from ...causes.cause import UNEXPLAINED
+from ...causes.explain import explain
 from ...pictures.metrics import beside_edges
 from ...tracer import shading
 from ...tracer.progress import Work
-from ..evidence import NEAR, Evidence
+from ..evidence import NEAR, NOISE, Evidence
 from .fault import AnyFault, Effort, Fault, Guess, Numbers, Values
 from .matching import touched_parts
 from .sizes import CODINGS, Coding, at_size, sampled_right
@@ -26,6 +27,7 @@ RADII = (0.5, 0.75, 1.0, 1.5, 2.0)  # of filters that are tried, in pixels
 EDGES = 0.2  # the least share of edges that must be mixed
 PARTS = 0.8  # the least share of the picture's parts with edges in which some must be
 MIXED = 0.5  # the least share of unexplained pixels that must show no colour of the scene
+ASKED = 48  # differing pixels, of which a filter must explain nearly all to be tried
 MEANS = (2, 3, 4)  # samples each way
 MOST_SAMPLES = 1 << 24  # of a picture that is traced with several a pixel
 
@@ -38,7 +40,7 @@ def _shows_mixes(evidence: Evidence) -> Work[bool]:
         colors = np.unique(evidence.case.scene.color_table, axis=0)
         for color in colors if len(colors) <= 64 else ():
             pure |= ~shown.other_color(np.broadcast_to(color, shown.color.shape))
-            yield 0.0
+            yield None
         evidence.known["mixes"] = bool(pure.mean() <= 1 - MIXED)
     return bool(evidence.known["mixes"])
 
@@ -103,12 +105,18 @@ def _filtered(case: Case, guess: Numbers) -> Case:
 
 
 def _find_filter(evidence: Evidence) -> Work[list[Numbers]]:
-    """Guess radii beyond the picture's own, if most unexplained pixels mix colours."""
+    """Guess the least radius beyond the picture's own that explains some pixels, and the next."""
     if not ((yield from _shows_mixes(evidence)) and _edges_mix(evidence)):
         return []
     larger = [r for r in RADII if r > evidence.picture.sampling.filter_radius]
-    fits = (r for r in larger if _may_mix(evidence, r))
-    return [Numbers((r,), (r,), (r,)) for r in fits]
+    fits: list[float] = []
+    for r in reversed(larger):
+        case = _filtered(evidence.case, Numbers((r,)))
+        found = yield from explain(case, evidence.frame, ASKED)
+        if (found.causes.cause == UNEXPLAINED).sum() > NOISE * ASKED:
+            break
+        fits = [r, *fits]
+    return [Numbers((r,), (r,), (r,)) for r in fits[:2]]
 
 
 def _edges_mix(evidence: Evidence) -> bool:
@@ -122,20 +130,6 @@ def _edges_mix(evidence: Evidence) -> bool:
     edge = beside_edges(evidence.picture.made_of(evidence.frame.color), 2 * NEAR)
     mixed = edge.any() and evidence.unexplained[edge].mean() >= EDGES
     return bool(mixed and touched_parts(evidence) >= PARTS)
-
-
-def _may_mix(evidence: Evidence, radius: float) -> bool:
-    """Return whether most unexplained pixels lie between the colours traced near them."""
-    around = int(np.ceil(radius)) + 1
-    at = tuple(v[evidence.unexplained_sampled] for v in evidence.sample)
-    made = evidence.picture.made_of(evidence.frame.color)
-    shown = evidence.picture.color[at][:, : made.shape[-1]]
-    inside = np.ones(len(shown), bool)
-    for channel in range(made.shape[-1]):
-        traced, here = made[..., channel], shown[:, channel]
-        inside &= here <= largest_within(traced, around)[at] + NEAR
-        inside &= here >= -largest_within(-traced, around)[at] - NEAR
-    return bool(inside.mean() > MIXED)
 
 
 FILTER_FAULTS: tuple[AnyFault, ...] = (
@@ -156,8 +150,8 @@ FILTER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "filter_radius",
         "the picture is filtered: its pixels mix what is within {radius:g} px",
-        "Renderers weight samples by a filter that reaches beyond the pixel: that of Cycles "
-        "is 1.5 px wide by default.",
+        "Renderers weight samples by a filter that reaches beyond the pixel: Cycles' is "
+        "1.5 px wide by default.",
         "render one sample in each pixel's centre, or compare with --excuse filter={radius:g}",
         _filtered,
         _find_filter,

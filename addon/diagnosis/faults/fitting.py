@@ -24,7 +24,7 @@ from ...tracer.progress import Work
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
 from .climbing import values_of
 from .fault import Find, Numbers, Refine, Values
-from .matching import Fitted, fitted, is_everywhere, matches
+from .matching import Fitted, fitted, is_everywhere, matches, seen_by
 from .search import Search
 
 REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
@@ -106,10 +106,14 @@ class Family:
         key = f"matched {id(self)}"
         if key not in evidence.known:
             axes, own = self.columns(evidence), evidence.case.scene.camera
-            of = lambda units: self.camera(own, *axes @ units)  # noqa: E731
-            evidence.known[key] = fitted(matches(evidence), of, axes.shape[1])
-        found: Fitted | None = evidence.known[key]
-        return found
+            found = matches(evidence)
+
+            def seen(units: Floats) -> Floats | None:
+                return seen_by(self.camera(own, *axes @ units), found.points)
+
+            evidence.known[key] = fitted(found, seen, axes.shape[1])
+        out: Fitted | None = evidence.known[key]
+        return out
 
 
 class Fit(NamedTuple):
@@ -172,7 +176,8 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
     none = (0.0,) * len(axes)
     if family.camera(own, *none) is None:
         return []
-    found, still = family.matched(evidence), fitted(matches(evidence), lambda units: own, 0)
+    film = seen_by(own, matches(evidence).points)
+    found, still = family.matched(evidence), fitted(matches(evidence), lambda units: film, 0)
     others = [other.share for r in rivals if (other := r.matched(evidence))]
     if found and still and (most := max(found.share, still.share, *others)) >= FOUND:
         moves = found.share >= still.share + MORE or is_everywhere(evidence)
@@ -186,7 +191,7 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
         if score > least:
             scores.append((score, values))
         if number % 32 == 0:
-            yield 0.0
+            yield None
     best: list[Values] = []
     for _, values in sorted(scores, key=lambda pair: -pair[0]):
         apart = [np.abs(units @ np.subtract(values, b)).max() > REACH for b in best]

@@ -68,8 +68,7 @@ GIVEN_FAULTS = (
     _given(
         "sensor_width_for_height",
         "the sensor's width is taken for its height, or the height for the width",
-        "Blender uses the sensor's height with sensor fit Vertical only. Code that always "
-        "takes the width, or takes the height for every portrait, is wrong.",
+        "Blender uses the sensor's height with sensor fit Vertical only, not for every portrait.",
         "with sensor fit Vertical, the sensor's height spans the picture's height; else its width "
         "is what the lens is fitted to",
         witness="isaac-sim/IsaacSim#200",
@@ -84,8 +83,8 @@ GIVEN_FAULTS = (
     _given(
         "camera_scale",
         "the scale of the camera, or of its parents, is not removed",
-        "`matrix_world` includes the scale of the camera and of its parents, which Blender "
-        "itself ignores. An exporter that writes the matrix unchanged scales the rays.",
+        "`matrix_world` includes the scale of the camera and of its parents, which "
+        "Blender itself ignores.",
         "divide each axis of the camera's matrix by its length: Blender's cameras have no scale",
         witness="JiayinCao/SORT#88",
     ),
@@ -100,24 +99,23 @@ GIVEN_FAULTS = (
     _given(
         "parent_scale",
         "the parent's scale is left out: {words}",
-        "The chain of parents is rebuilt from locations and rotations alone, as rigid bodies "
-        "and bones have them.",
+        "The chain of parents is rebuilt from locations and rotations alone.",
         "use matrix_world: the parent's scale moves and scales what is parented to it",
         witness="Nusiq/mcblend#62",
     ),
     _given(
         "parent_inverse",
         "the parent's inverse is left out: {words}",
-        "When an object is parented, Blender keeps it in place by storing the parent's "
-        "inverse of that moment (matrix_parent_inverse). Other programs have no such matrix.",
+        "When an object is parented, Blender keeps it in place by a matrix that other "
+        "programs lack (matrix_parent_inverse).",
         "world = parent's world @ matrix_parent_inverse @ matrix_basis",
         witness="NikolaiVChr/Blender-AC3D#5",
     ),
     _given(
         "camera_type",
         "the camera is taken for one of another type: {words}",
-        "The renderer has one type of camera so far, or the exporter writes every camera as a "
-        "perspective one, as Mitsuba's does.",
+        "The renderer has one type of camera so far, or the exporter writes every camera"
+        " as a perspective one.",
         "take the camera's type from the scene",
         witness="lunadigital/btoa#107",
     ),
@@ -146,8 +144,7 @@ GIVEN_FAULTS = (
     _given(
         "subdivision",
         "subdivision at another level: {words}",
-        "A subdivision has one level for the viewport and one for renders, and Simplify limits "
-        "both.",
+        "A subdivision has one level for the viewport and one for renders.",
         "use the render levels of the modifier",
         witness="Bforartists/Bforartists#3645",
     ),
@@ -162,8 +159,8 @@ GIVEN_FAULTS = (
     _given(
         "hidden_shown",
         "'{object}' is shown, and the scene hides it: {words}",
-        "Blender hides objects for the viewport, for renders, by the eye, and by collections. "
-        "An exporter that asks for one of these shows what another one hides.",
+        "Blender hides objects for the viewport, for renders, by the eye, and by "
+        "collections; an exporter heeds one of these.",
         "leave out what is hidden in renders",
         witness="lunadigital/btoa#9",
     ),

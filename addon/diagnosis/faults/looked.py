@@ -19,8 +19,9 @@ from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
 from ..evidence import WORTH, Evidence, shows_colors, spread
 from .fault import instances_named
+from .matching import in_front
 
-AROUND = 6  # pixels around the object, on both sides, that are looked at, too
+AROUND = 6  # pixels around the object, on both sides, that are compared, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +41,15 @@ class Looked:
 
     @classmethod
     def of(cls, evidence: Evidence, name: str, kept: bool = False) -> Work[Looked | None]:
-        """Gather what is known of an object; None if it is unseen, or can settle few pixels."""
+        """Gather what is known of an object (cached); None if it can settle few pixels."""
+        key = f"looked {name} {kept} {evidence.size} {evidence.fine}"
+        if key not in evidence.known:
+            evidence.known[key] = yield from cls._of(evidence, name, kept)
+        found: Looked | None = evidence.known[key]
+        return found
+
+    @classmethod
+    def _of(cls, evidence: Evidence, name: str, kept: bool) -> Work[Looked | None]:
         scene, frame = evidence.case.scene, evidence.frame
         own = instances_named(scene, name)
         if not own:  # an infinite plane
@@ -67,6 +76,12 @@ class Looked:
         behind = yield from out.traced(rest)
         out = replace(out, behind=behind)
         return out if out._may_settle >= WORTH * evidence.unexplained.sum() else None
+
+    @cached_property
+    def rim(self) -> Bools:
+        """The pixels (h, w) where it is traced, but for those beside what is in front of it."""
+        own = instances_named(self.evidence.case.scene, self.name)
+        return self.seen & np.isin(in_front(self.evidence)[1], own)
 
     def traced(self, scene: Scene) -> Work[Hits]:
         """Trace a scene in the n pixels."""

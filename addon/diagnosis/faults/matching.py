@@ -75,19 +75,24 @@ def matches(
     return found
 
 
-def fitted(found: Matches, camera: Callable[[Floats], Camera | None], count: int) -> Fitted | None:
-    """Fit a camera of some units, (k,), to points; None if too few are known."""
+def seen_by(camera: Camera | None, points: Floats) -> Floats | None:
+    """Return where a camera has points (3, n), (2, n) pixels; None without one."""
+    return None if camera is None else np.stack(film_of(camera, points)[:2])
+
+
+def fitted(found: Matches, seen: Callable[[Floats], Floats | None], count: int) -> Fitted | None:
+    """Fit some units, (k,), with which points are seen where they are shown.
+
+    None if too few are known. The function returns their film positions, (2, n), with some units.
+    """
     units, axes = np.zeros(count), np.eye(count)
     if len(found.points[0]) < LEAST:
         return None
 
     def off(values: Floats) -> Floats | None:
-        other = camera(values)
-        if other is None:
-            return None
         with np.errstate(all="ignore"):
-            x, y, _ = film_of(other, found.points)
-            return found.moved + found.film - np.stack((x, y))
+            film = seen(values)
+            return None if film is None else found.moved + found.film - film
 
     now = off(units)
     for number in range(ROUNDS if count else 0):
@@ -146,7 +151,10 @@ def _matched(evidence: Evidence, where: Bools, about: Floats) -> Matches:
     sure = np.where(spreads < STRAIGHT, 1 / (spreads + SNAPPED), 0.0) * good.any(axis=1)[:, None]
     known = np.flatnonzero(sure.any(axis=1))
     each = np.einsum("nij,nj,nkj->nik", axes, sure, axes)
-    points, film = _points(evidence, rows[known], columns[known])
+    rows, columns = rows[known], columns[known]
+    camera = evidence.case.scene.camera
+    film = np.stack((columns + camera.region.x0 + 0.5, rows + camera.region.y0 + 0.5))
+    points = camera_rays(camera, *film).at(in_front(evidence)[0][rows, columns])
     return Matches(points, film, (moved + mean)[:, known], each[known])
 
 
@@ -195,19 +203,27 @@ def _compared(
     return wrong, steps.astype(np.float64)
 
 
-def _points(evidence: Evidence, rows: Places, columns: Places) -> tuple[Floats, Floats]:
-    """Return the nearest traced points in and beside some pixels, and their film positions.
+def in_front(evidence: Evidence) -> tuple[Floats, Integers]:
+    """Return the depth and the instance of what is nearest in and beside each pixel, (h, w) each.
 
     Of an edge, what is in front moves.
     """
-    t, camera = evidence.frame.t, evidence.case.scene.camera
+    t = evidence.frame.t
     far = BEYOND * float(np.max(t[np.isfinite(t)], initial=1.0))
-    padded = np.pad(np.where(np.isfinite(t), t, far), 1, mode="edge")
     height, width = t.shape
-    near = [padded[y : y + height, x : x + width] for y in range(3) for x in range(3)]
-    depth = np.min(near, axis=0)[rows, columns]
-    film = np.stack((columns + camera.region.x0 + 0.5, rows + camera.region.y0 + 0.5))
-    return camera_rays(camera, *film).at(depth), film
+
+    def around(values: Array) -> Array:
+        padded = np.pad(values, 1, mode="edge")
+        return np.stack([padded[y : y + height, x : x + width] for y in range(3) for x in range(3)])
+
+    depth = around(np.where(np.isfinite(t), t, far))
+    first = depth.argmin(axis=0)[None]
+    near = (
+        np.take_along_axis(v, first, axis=0)[0]
+        for v in (depth, around(evidence.frame.instance_index))
+    )
+    out: tuple[Floats, Integers] = tuple(near)
+    return out
 
 
 def is_everywhere(evidence: Evidence) -> bool:

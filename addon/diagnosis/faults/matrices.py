@@ -67,7 +67,7 @@ def _transposed(matrix: Array) -> Array:
 
 
 def _all_transposed(world: Array) -> Array:
-    """Transpose the whole matrix, whose last row is not read: the camera is at the origin."""
+    """Transpose the whole matrix; its last row is not read: the camera is at the origin."""
     return pose(world[:3, :3].T, np.zeros(3))
 
 
@@ -137,8 +137,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "mirrored_x",
         "the picture is mirrored left to right",
-        "A camera that looks along +Z with +Y up has its +X at the left. Code that changes "
-        "the sign of one axis alone mirrors the picture.",
+        "Code that changes the sign of one axis alone mirrors the picture.",
         "check the sign of the camera's right axis, or of x on the film",
         *ways(("", _matrix(_mirrored(-1, 1, 1))), ("", lambda camera: flipped(camera, 0))),
         turns=True,
@@ -148,8 +147,8 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "mirrored_y",
         "the camera is mirrored upside down",
-        "In OpenCV's cameras Y points down, in Blender's up. Code that changes the sign of Y, "
-        "and not that of Z with it, mirrors the camera.",
+        "In OpenCV's cameras Y points down. Code that changes the sign of Y, and not "
+        "that of Z with it, mirrors the camera.",
         "check the sign of the camera's up axis, or of y on the film",
         *ways(("", _matrix(_mirrored(1, -1, 1)))),
         examples=(Example("mirrored_y", "the camera mirrored upside down", with_option(0)),),
@@ -167,9 +166,8 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "matrix_transposed",
         "the camera's rotation is transposed: R has its rows for its columns",
-        "OpenGL and glTF store a matrix column by column, numpy and Blender's Python row by "
-        "row; PyTorch3D multiplies rows by R. A rotation's transpose is also its inverse, and R "
-        "in OpenCV and COLMAP takes the world to the camera.",
+        "OpenGL and glTF store a matrix column by column, numpy and Blender's Python row"
+        " by row; PyTorch3D multiplies rows by R.",
         "the axes right, up and backward are the columns of world_from_camera, and the rows of R "
         "in R X + t",
         *ways(*_read_wrongly(_transposed), ("", _matrix(_all_transposed))),
@@ -198,8 +196,8 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "y_up",
         "the camera is placed in a world with Y up, the meshes in one with Z up (or reversed)",
-        "In glTF Y is up, and Blender writes OBJ files so, unless it is told otherwise; a "
-        "camera that other code writes is not turned with the meshes.",
+        "In glTF Y is up, and Blender writes OBJ files so by default; a camera that "
+        "other code writes is not turned with the meshes.",
         "convert both, or none",
         *ways(*_turned(Y_UP_FROM_Z_UP), *_turned(Y_UP_FROM_Z_UP.T)),
         witness="KhronosGroup/glTF-Blender-IO#2048",
@@ -217,8 +215,8 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
     Fault(
         "handedness",
         "the camera's world has another handedness: its {words} axis is mirrored",
-        "Unity, Unreal and DirectX have left-handed worlds: what goes there and back has one axis "
-        "mirrored once too often, or never.",
+        "Unity, Unreal and DirectX have left-handed worlds: on the way there and back an"
+        " axis is mirrored once too often, or never.",
         "mirror the world's axis for the camera and the meshes, or for neither",
         *ways(*_left_handed()),
         words="X, Y or Z",

@@ -16,6 +16,7 @@ from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, at_once
 from ..evidence import LEAST_SEEN, Evidence
+from .changes import MOVED, SCALED, TURNED, nearest_rotation
 from .climbing import values_of
 from .fault import (
     AnyFault,
@@ -33,17 +34,7 @@ from .fault import (
     of_object,
     one_of,
 )
-from .pose import (
-    MOVED,
-    TWICE,
-    Sized,
-    about_point,
-    copied,
-    find_sizes,
-    moved,
-    refine_size,
-    sized,
-)
+from .pose import posing
 from .suspects import largest, seen_instances, suspects
 
 NAMED = 4  # objects
@@ -126,15 +117,9 @@ def _rotation(axes: Floats) -> Floats:
     return q * np.where(np.diag(r) < 0, -1, 1)
 
 
-def _nearest_rotation(axes: Floats) -> Floats:
-    """Return the rotation nearest to all three axes (polar decomposition: Higham 1986), (3, 3)."""
-    u, _, v = np.linalg.svd(axes)
-    return u @ v
-
-
 @at_once
 def _sheared(evidence: Evidence) -> list[Option]:
-    """Guess both options for each suspect whose axes are not orthogonal."""
+    """Guess both options for each suspect with axes that are not orthogonal."""
     scene = evidence.case.scene
     found = []
     for name in evidence.suspects:
@@ -146,62 +131,11 @@ def _sheared(evidence: Evidence) -> list[Option]:
     return found
 
 
-def _sized(case: Case, guess: Sized) -> Case | None:
-    """Return the case with an object of another size."""
-    if not instances_named(case.scene, guess.object):
-        return None
-    [factor] = guess.values
-    return case.with_scenes(lambda scene: sized(scene, guess.object, factor, guess.about))
-
-
-def _units_or_fitted(evidence: Evidence) -> Work[list[Sized]]:
-    """Guess factors between units, and fitted ones, for each suspect."""
-    units = yield from suspects(*UNITS)(evidence)
-    return [*map(about_point, units), *(yield from find_sizes(evidence))]
-
-
 def _transposed(evidence: Evidence) -> Work[list[Numbers]]:
     """Guess all objects, and each suspect."""
     some = yield from suspects()(evidence)
     each = [replace(one, words=f"'{one.object}'") for one in some]
     return [Numbers(words="all objects"), *each]
-
-
-def _quarter(axis: int, quarters: int) -> Floats:
-    """Return the rotation by quarters about an axis, (3, 3)."""
-    out = np.eye(3)
-    a, b = (axis + 1) % 3, (axis + 2) % 3
-    c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
-    out[[a, a, b, b], [a, b, a, b]] = c, -s, s, c
-    return out
-
-
-# Changes of an object's own axes, and their names.
-_TURNS: list[tuple[Floats, str]] = [
-    *(
-        (_quarter(axis, quarters), f"turned by {degrees} degrees about its own {'XYZ'[axis]}")
-        for axis in range(3)
-        for quarters, degrees in ((1, "90"), (3, "-90"), (2, "180"))
-    ),
-    *(
-        (np.diag([-1.0 if n == axis else 1.0 for n in range(3)]), f"mirrored along its own {name}")
-        for axis, name in enumerate("XYZ")
-    ),
-]
-
-
-@at_once
-def _turned(evidence: Evidence) -> list[Option]:
-    """Guess each turn of the first suspects."""
-    names = evidence.suspects[:2]
-    turns = enumerate(words for _, words in _TURNS)
-    return [Option(n, object=name, words=words) for n, words in turns for name in names]
-
-
-def _in_turn(case: Case, guess: Option) -> Case | None:
-    """Return the case with an object turned, or mirrored, about its origin."""
-    turn, _ = _TURNS[guess.number]
-    return _with_axes(lambda axes, lengths: axes * lengths @ turn)(case, guess)
 
 
 def _whole(instance: Instance, factor: float) -> Instance:
@@ -210,6 +144,9 @@ def _whole(instance: Instance, factor: float) -> Instance:
     matrix[:3] *= factor
     return replace(instance, world_from_object=matrix)
 
+
+_MOVED, _TURNED, _TWICE = posing(*MOVED), posing(*TURNED), posing(*MOVED, kept=True)
+_SCALED = posing(*SCALED, exact=UNITS)
 
 OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
@@ -225,8 +162,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "object_missing",
         "'{object}' is missing",
-        "Exporters skip what is not a mesh (curves, texts, metaballs), instances, or what is "
-        "hidden in the viewport only; some of them say nothing.",
+        "Exporters skip objects that are no meshes (curves, texts, metaballs), "
+        "instances, or objects that are hidden in the viewport only.",
         "check why it was not exported, or is hidden",
         of_object(lambda instance: None),
         suspects(),
@@ -248,8 +185,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "transform_left_out",
         "the transform of '{object}' is left out",
-        "Vertices are stored in the object's own coordinates. STL and PLY have no transforms, "
-        "so it must be applied to the vertices.",
+        "Vertices are stored in the object's own coordinates. STL and PLY have no "
+        "transforms to go with them.",
         "multiply its vertices by its world matrix",
         of_object(lambda instance: replace(instance, world_from_object=np.eye(4))),
         suspects(),
@@ -268,23 +205,13 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "rotation_transposed",
         "the rotation of {words} is transposed",
-        "numpy and Blender's Python store a matrix row by row, OpenGL, glTF and FBX column by "
-        "column; vectors are rows in some programs, and columns in others.",
+        "numpy and Blender's Python store a matrix row by row, OpenGL, glTF and FBX "
+        "column by column.",
         "the object's axes are the columns of its world matrix",
         _with_axes(lambda axes, lengths: axes.T * lengths),
         _transposed,
         words="an object, or of all",
         witness="cedricpinson/osgexport#8",
-    ),
-    Fault(
-        "object_turned",
-        "'{object}' is {words}",
-        "A file with Y up is read as one with Z up, or turned twice; a negative scale is left out.",
-        "compare its world matrix with the one that the scene has",
-        _in_turn,
-        _turned,
-        words="turned by a quarter or a half, or mirrored",
-        witness="rdb/blender-egg-importer#2",
     ),
     Fault(
         "scale_left_out",
@@ -313,22 +240,24 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "a child that is turned in a parent with a scale is sheared: store its whole world matrix",
         one_of(  # the scale is the length of the axes
             _with_axes(lambda axes, lengths: _rotation(axes) * lengths),
-            _with_axes(lambda axes, lengths: _nearest_rotation(axes) * lengths),
+            _with_axes(lambda axes, lengths: nearest_rotation(axes) * lengths),
         ),
         _sheared,
         witness="donmccurdy/glTF-Transform#1680",
     ),
     Fault(
         "object_scaled",
-        "'{object}' is {factor:.4g} times as large{words}",
-        "FBX files are in centimetres, CAD files often in millimetres, Blender's in metres.",
-        "check the units: a factor of 100 is metres for centimetres",
-        _sized,
-        _units_or_fitted,
-        ("factor",),
-        refine=refine_size,
+        "'{object}' is {words}",
+        "FBX files are in centimetres, CAD files often in millimetres, Blender's in metres. Of "
+        "three factors one is stored; a negative one, or the delta scale, is left out.",
+        "check the units (100 is metres for centimetres), and multiply its vertices by its whole "
+        "world matrix",
+        _SCALED.assume,
+        _SCALED.find,
+        ("factor", "factor_y", "factor_z"),
+        refine=_SCALED.refine,
         effort=Effort.OBJECT,
-        words=", about its origin, its base or its middle",
+        words="some times as large, about its origin, base or middle, or along its own axes",
         witness="assimp/assimp#775",
     ),
     Fault(
@@ -339,6 +268,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         of_object(_whole),
         always(*(Numbers((factor,)) for factor in UNITS)),
         ("factor",),
+        effort=Effort.VIEW,  # with what shows nothing: all that is left of it may be a few pixels
         witness="thodan/obj_pose_eval#1",
     ),
     Fault(
@@ -347,10 +277,10 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "Its delta transform, a constraint or its animation is left out, or the exporter "
         "centred its mesh.",
         "compare its world matrix with the one that the scene has",
-        of_object(moved),
-        MOVED.find,
+        _MOVED.assume,
+        _MOVED.find,
         ("x", "y", "z"),
-        refine=MOVED.refine,
+        refine=_MOVED.refine,
         effort=Effort.OBJECT,
         examples=(
             Example("moved_object", "the largest object moved by a pixel", _a_pixel_to_the_right),
@@ -358,15 +288,29 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         witness="AsoboStudio/Microsoft-Flight-Simulator-2020-glTF-Blender-IO#98",
     ),
     Fault(
+        "object_turned",
+        "'{object}' is turned by {words}",
+        "A file with Y up is read as one with Z up, or turned twice; the delta rotation, or the "
+        "order of the angles, is left out.",
+        "compare its world matrix with the one that the scene has",
+        _TURNED.assume,
+        _TURNED.find,
+        ("degrees", "degrees_y", "degrees_z"),
+        refine=_TURNED.refine,
+        effort=Effort.OBJECT,
+        words="some degrees about an axis, such as one of its own",
+        witness="rdb/blender-egg-importer#2",
+    ),
+    Fault(
         "object_twice",
         "'{object}' is there twice: again at ({x:+.4g}, {y:+.4g}, {z:+.4g}) m from its place",
-        "Blender doesn't draw the object itself where its parent instances it on vertices or "
-        "faces. An exporter that writes both has it twice.",
+        "Blender doesn't draw the object itself where its parent instances it on "
+        "vertices or faces; an exporter writes both.",
         "look for a second export of it, as an instance or a duplicate",
-        copied,
-        TWICE.find,
+        _TWICE.assume,
+        _TWICE.find,
         ("x", "y", "z"),
-        refine=TWICE.refine,
+        refine=_TWICE.refine,
         effort=Effort.ANYTHING,
         witness="LuxCoreRender/BlendLuxCore#366",
     ),

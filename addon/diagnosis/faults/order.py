@@ -109,9 +109,8 @@ ORDER_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "picture_turned",
         "the picture is turned by {words}",
-        "Arrays are indexed by row and column, pictures by x and y. Behind a pinhole the "
-        "picture is upside down. Some viewers apply the orientation that a photo stores, "
-        "others don't.",
+        "Arrays are indexed by row and column, pictures by x and y. Some viewers apply "
+        "the orientation that a photo stores, others don't.",
         "check the order of its rows and columns: both are reversed, or one is taken for the other",
         lambda case, guess: _quarter_turned(case, -guess.number),
         always(*(Option(n, words=words) for n, words in _QUARTERS.items())),

@@ -1,227 +1,181 @@
-"""Fits an object to a picture: where it is, or how large."""
+"""Finds how an object is changed in a picture, in the fewest numbers that explain it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import partial
-from itertools import product
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from ...arrays import Bools, Floats
 from ...causes.case import Case
-from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, Instance, Scene
+from ...scene import Scene
 from ...tracer.progress import Work
-from ...tracer.vector import transform_points
 from ..evidence import Evidence
+from .changes import CHANGES, Change
 from .climbing import values_of
-from .fault import Numbers, Values, instances_named, with_instances
-from .fitting import FINER, FOUND, NEARLY, Fit
+from .fault import Find, Make, Numbers, Refine, Values, instances_named
+from .fitting import FINER, MORE, NEARLY
 from .looked import Looked
-from .matching import Fitted, fitted, matches
-from .search import Search
 
-FINEST = 1 / 128  # pixels
 FIRST = 1 / 4  # of the object's width: the first step
-SMALL = 6.0  # pixels
 TRIED = 2  # objects that are fitted
 NEAR_STEP = 0.5  # pixels: the first step from where edges are found
-
-
-def moved(instance: Instance, x: float, y: float, z: float) -> Instance:
-    """Translate an instance by (x, y, z) m in world space."""
-    matrix = instance.world_from_object.copy()
-    matrix[:3, 3] += (x, y, z)
-    return replace(instance, world_from_object=matrix)
+KEPT = 4  # starts that are followed
+ALL = 0.995  # of the pixels: with as many right, nothing more is tried
+PROMISING = 1.1  # times as many pixels are right as without a change: a start is followed
+CLEAR = 0.9  # of the edges: where one explains as many, changes that explain fewer are not it
 
 
 @dataclass(frozen=True, eq=False)
-class Sized(Numbers):
-    """An object of another size, about one of the points of `ABOUT`."""
+class Posed(Numbers):
+    """An object that is changed in some way."""
 
-    about: int = 0
+    change: Change = field(kw_only=True)
 
-
-# The point that stays: the object's origin, the middle of its base, its middle.
-ABOUT = "", ", about the middle of its base", ", about its middle"
-
-
-def sized(scene: Scene, name: str, factor: float, about: int) -> Scene:
-    """Scale an object's instances, each about its own point."""
-
-    def scaled(instance: Instance) -> Instance:
-        matrix, point = instance.world_from_object.copy(), _staying(scene, instance, about)
-        matrix[:3, :3] *= factor
-        matrix[:3, 3] = point + factor * (matrix[:3, 3] - point)
-        return replace(instance, world_from_object=matrix)
-
-    return with_instances(scene, name, scaled)
+    @classmethod
+    def of(cls, found: Numbers, looked: Looked, change: Change) -> Posed:
+        """Return the numbers that were found of a change, in words."""
+        numbers = found.values, found.low, found.high
+        words = change.words(*found.values)
+        return cls(*numbers, object=looked.name, words=words, change=change)
 
 
-def _staying(scene: Scene, instance: Instance, about: int) -> Floats:
-    """Return the point of `ABOUT` of an instance, (3,) in the world."""
-    matrix = instance.world_from_object
-    corners = np.array(list(product(*scene.meshes[instance.mesh].bounds.T)))
-    low, high = (f(transform_points(matrix, corners.T), axis=1) for f in (np.min, np.max))
-    middle = (low + high) / 2
-    return (matrix[:3, 3].copy(), np.array((*middle[:2], low[2])), middle)[about]
+def _climbed(
+    looked: Looked, change: Change, start: Values, step: float
+) -> Work[tuple[Posed | None, bool]]:
+    """Return the best numbers near a start, and whether nearly all is right with them."""
+    search = change.search(looked, looked.least_right)
+    found = yield from search.guess([start], step, enclose=False)
+    if found is None:
+        return None, False
+    right = yield from search.count(found.values)
+    return Posed.of(found, looked, change), right >= ALL * len(looked.at[0])
 
 
-def copied(case: Case, guess: Numbers) -> Case:
-    """Return the case with a translated copy of an object's instances."""
+def _far(looked: Looked, changes: Sequence[Change]) -> Work[list[tuple[Change, Values]]]:
+    """Return the starts that are right in the most pixels, the smallest changes first.
 
-    def twice(scene: Scene) -> Scene:
-        own = instances_named(scene, guess.object)
-        more = (moved(scene.instances[n], *guess.values) for n in own)
-        return replace(scene, instances=(*scene.instances, *more))
-
-    return case.with_scenes(twice)
-
-
-@dataclass(frozen=True)
-class Pose:
-    """A change of an object in a few numbers, to be fitted."""
-
-    change: Callable[[Scene, Values], Scene | None]  # of a scene with the object alone
-    axes: Floats  # changes of the numbers that move the object by about a pixel, (m, k) columns
-    starts: list[Values]
-    unseen: Floats | None = None  # changes of the numbers that change nothing, (m, j) columns
-    # The camera that sees the unchanged object as it looks after the change.
-    camera: Callable[..., Camera | None] | None = None
-    origin: float = 0.0  # the numbers of no change
+    One that is hardly better than no change is none.
+    """
+    out: list[tuple[int, float, int, Change, Values]] = []
+    for change in changes:
+        search = change.search(looked)
+        least = PROMISING * (yield from search.count(change.none))
+        for start in change.starts(looked):
+            right = yield from search.count(start)
+            size = float(np.abs(np.subtract(start, change.none)).sum())
+            out += [(-right, size, len(out), change, start)] if right >= least else []
+    return [(change, start) for *_, change, start in sorted(out, key=lambda one: one[:3])[:KEPT]]
 
 
-def _placed(looked: Looked) -> Pose:
-    """Return the translation of an object, along the world's axes."""
-    axes, start, unseen = looked.axes(), looked.start(), None
-    if looked.evidence.case.scene.camera.projection is ORTHOGRAPHIC:  # nearer looks the same
-        axes, start, unseen = axes[:, :2], start[:2], axes[:, 2:]
+def _found(looked: Looked, few: Looked) -> Work[tuple[list[Posed], bool]]:
+    """Return how an object may be changed, and whether nearly all is right then.
 
-    def change(scene: Scene, values: Values) -> Scene:
-        return with_instances(scene, "", lambda instance: moved(instance, *values))
+    It is looked for near where edges are found, else far away.
 
-    # Where its middle moved by little, its edges would have been found.
-    far = np.abs(start[:2]).max() >= SMALL or looked.kept
-    starts = [values_of(axes @ start)] if far else []
-    return Pose(change, axes, starts, unseen, _moved_against)
-
-
-def _moved_against(camera: Camera, *by: float) -> Camera:
-    """Translate a camera against (x, y, z) m, as if the world moved by it."""
-    matrix = camera.world_from_camera.copy()
-    matrix[:3, 3] -= by
-    return replace(camera, world_from_camera=matrix)
-
-
-def _nearer(point: Floats, camera: Camera, factor: float) -> Camera | None:
-    """Return the camera that sees all as a camera sees it scaled by a factor about a point."""
-    if factor <= 0:
-        return None
-    matrix = camera.world_from_camera.copy()
-    matrix[:3, 3] = point + (matrix[:3, 3] - point) / factor
-    near = 1 / factor if camera.projection is ORTHOGRAPHIC else 1.0
-    return replace(camera, world_from_camera=matrix, window=camera.window.scaled(near, near))
+    What has more numbers is left out where fewer of the same kind are enough.
+    """
+    matched = {c: f for c in CHANGES if (f := c.matched(looked))}
+    most = max((f.share for f in matched.values()), default=0.0)
+    out: list[Posed] = []
+    enough: set[str] = set()  # kinds
+    for count in sorted({len(c.none) for c in CHANGES}):
+        some = [c for c in CHANGES if len(c.none) == count and c.kind not in enough]
+        least = most - MORE if enough or most >= CLEAR else NEARLY * most
+        near = [c for c in some if c in matched and matched[c].share >= least]
+        tries = [(c, values_of(c.none + c.axes(looked) @ matched[c].units)) for c in near]
+        step = NEAR_STEP
+        for far in (False, True):
+            if far:
+                if enough or most >= CLEAR:
+                    break
+                tries = yield from _far(few, some)
+                step = FIRST * looked.width / (4 if count == 1 else 1)
+            for change, start in tries:
+                guess, is_all = yield from _climbed(looked, change, start, step)
+                out += [guess] if guess else []
+                enough |= {change.kind} if is_all else set()
+    return out, bool(enough)
 
 
-def _sized(about: int) -> Callable[[Looked], Pose]:
-    """Return a function that returns the scale of an object about one of the points."""
-
-    def of(looked: Looked) -> Pose:
-        unit = 2 / max(looked.width, 2.0)
-
-        def change(scene: Scene, values: Values) -> Scene | None:
-            return sized(scene, "", values[0], about) if values[0] > 0 else None
-
-        point = _staying(looked.alone, looked.alone.instances[0], about)
-        view = partial(_nearer, point)
-        return Pose(change, np.array([[unit]]), [(looked.growth,), (1.0,)], None, view, 1.0)
-
-    return of
-
-
-def _matched(looked: Looked, pose: Pose) -> Fitted | None:
-    """Return the change with which the object's edges are where the picture has them."""
-    if not pose.camera:
-        return None
-    evidence, view = looked.evidence, pose.camera
-    own = evidence.case.scene.camera
-    for about in (tuple(looked.start()[:2]), (0.0, 0.0)):
-        found = fitted(
-            matches(evidence, looked.name, looked.seen, about),
-            lambda units: view(own, *(pose.origin + pose.axes @ units)),
-            pose.axes.shape[1],
-        )
-        if found and found.share >= FOUND:
-            return found
-    return None
+def _changed(evidence: Evidence) -> Work[list[Posed]]:
+    """Guess how the suspects are changed (cached: several faults share them)."""
+    key = f"changed {evidence.size}"
+    if key not in evidence.known:
+        out: list[Posed] = []
+        for name in evidence.suspects[:TRIED]:
+            looked = yield from Looked.of(evidence, name)
+            few = yield from Looked.of(evidence.few, name)
+            if looked and few:
+                some, is_all = yield from _found(looked, few)
+                out += some
+                if is_all:
+                    break
+        evidence.known[key] = out
+    found: list[Posed] = evidence.known[key]
+    return found
 
 
-def posing(of: Callable[[Looked], Pose], kept: bool = False) -> Fit:
-    """Return how a pose of each suspect is fitted; with `kept`, of a second copy of it."""
+class Posing(NamedTuple):
+    """How changes of an object are made, and fitted: the fields of a fault."""
+
+    assume: Make[Numbers]
+    find: Find[Numbers]
+    refine: Refine[Numbers]
+
+
+def posing(*changes: Change, exact: Values = (), kept: bool = False) -> Posing:
+    """Return how some changes are made, and fitted to each suspect.
+
+    Parameters
+    ----------
+    changes : Change
+        A guess says which of them it is; one that does not is the first.
+    exact : tuple of float
+        Numbers of the first that are guessed, too.
+    kept : bool
+        Whether a second copy of the object is changed.
+    """
+
+    def change_of(guess: Numbers) -> Change:
+        return guess.change if isinstance(guess, Posed) else changes[0]
+
+    def assume(case: Case, guess: Numbers) -> Case | None:
+        if not instances_named(case.scene, guess.object):
+            return None
+
+        def made(scene: Scene) -> Scene:
+            other = change_of(guess).of(scene, guess.object, guess.values)
+            own = [scene.instances[n] for n in instances_named(scene, guess.object)]
+            return replace(other, instances=(*other.instances, *own)) if kept else other
+
+        return case.with_scenes(made)
 
     def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         looked = yield from Looked.of(evidence, guess.object, kept)
         if looked is None:
             return None
-        pose = of(looked)
-        alone = looked.alone
-
-        def right(values: Values) -> Work[Bools | None]:
-            changed = pose.change(alone, values)
-            return None if changed is None else (yield from looked.right(changed))
-
-        starts, step, axes = pose.starts, FIRST * looked.width, pose.axes
-        if axes.shape[1] == 1:  # a single number: in finer steps
-            step /= 4
-        if pose.camera and not kept:
-            found, moves = _matched(looked, pose), _matched(looked, _placed(looked))
-            if moves and not (found and found.share >= NEARLY * moves.share):
-                return None
-            if found:
-                starts, step = [values_of(pose.origin + axes @ found.units)], NEAR_STEP
-                axes = axes @ found.axes
-        fine = bool(guess.low)
-        if guess.values:
-            starts, step = [guess.values], FINER if fine else 1.0
-        if not starts:
-            return None
-        least = 0.0 if guess.values else looked.least_right
-        search = Search(right, axes, FINEST, least, pose.unseen)
-        return (yield from search.guess(starts, step, guess.object, enclose=fine))
+        change, fine = change_of(guess), bool(guess.low)
+        starts, step = [guess.values], FINER if fine else 1.0
+        found = yield from change.search(looked).guess(starts, step, enclose=fine)
+        return Posed.of(found, looked, change) if found else None
 
     def find(evidence: Evidence) -> Work[list[Numbers]]:
-        out = []
+        out: list[Numbers] = [
+            Posed((v,), object=name, words=changes[0].words(v), change=changes[0])
+            for name in evidence.suspects
+            for v in exact
+        ]
+        if not kept:
+            found = yield from _changed(evidence)
+            return [*out, *(guess for guess in found if guess.change in changes)]
         for name in evidence.suspects[:TRIED]:
-            guess = yield from refine(evidence, Numbers(object=name))
-            if guess:
-                out.append(guess)
+            if looked := (yield from Looked.of(evidence, name, kept)):
+                for start in changes[0].starts(looked):
+                    step = FIRST * looked.width
+                    guess, _ = yield from _climbed(looked, changes[0], start, step)
+                    out += [guess] if guess else []
         return out
 
-    return Fit(find, refine)
-
-
-MOVED, TWICE = posing(_placed), posing(_placed, kept=True)
-_SCALED = [posing(_sized(about)) for about in range(len(ABOUT))]
-
-
-def about_point(guess: Numbers, about: int = 0) -> Sized:
-    """Return a guess of a size with the point that stays."""
-    numbers = guess.values, guess.low, guess.high
-    return Sized(*numbers, object=guess.object, words=ABOUT[about], about=about)
-
-
-def find_sizes(evidence: Evidence) -> Work[list[Sized]]:
-    """Fit the size of each suspect, about each of the points."""
-    out = []
-    for about, fit in enumerate(_SCALED):
-        found = yield from fit.find(evidence)
-        out += [about_point(guess, about) for guess in found]
-    return out
-
-
-def refine_size(evidence: Evidence, guess: Sized) -> Work[Sized | None]:
-    """Fit a size finely, about the same point."""
-    found = yield from _SCALED[guess.about].refine(evidence, guess)
-    return about_point(found, guess.about) if found else None
+    return Posing(assume, find, refine)

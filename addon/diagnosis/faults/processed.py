@@ -30,7 +30,7 @@ GRAIN = {0.9: 0.06, 0.98: 0.2}
 
 @dataclass(frozen=True, eq=False)
 class Processed(Numbers):
-    """A picture whose surfaces' colours were processed."""
+    """A picture with processed colours."""
 
     made: Colors = None  # type: ignore[assignment]
 
@@ -87,7 +87,7 @@ PROCESSED: tuple[AnyFault, ...] = (
         "the picture was processed after rendering: colours are up to {percent:.3g} % of white "
         "off, and all surfaces are where they should be",
         "A JPEG, dithering, a white balance, a saturation or a look, by Blender's color "
-        "management, or by a program that sends, shows or saves pictures.",
+        "management or another program.",
         "store it as PNG or EXR as it was rendered; switch off color management's look and white "
         "balance, dithering, and what a viewer does to photographs",
         unchanged,

@@ -213,7 +213,7 @@ def _find(evidence: Evidence) -> Work[list[Small]]:
                 large = _recoded(own, _grown(small, guess, shape, at), guess)
                 if sampled_right(evidence, large):
                     out.append(guess)
-            yield 0.0
+            yield None
     return out
 
 
@@ -244,8 +244,8 @@ SIZE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "resampled",
         "the picture{words}",
-        "A preview, a thumbnail or a screenshot was rendered or stored small, and enlarged; a JPEG "
-        "and a video have the hues (chroma) at half the size (4:2:0).",
+        "A preview, a thumbnail or a screenshot is small, and enlarged; a JPEG and a "
+        "video have the hues (chroma) at half the size.",
         "compare the picture as it was rendered, at the size at which it was",
         _rendered,
         _find,

@@ -29,19 +29,22 @@ def moved(camera: Camera, right: float, up: float, forward: float = 0.0) -> Came
     return replace(camera, world_from_camera=matrix)
 
 
-def turned(camera: Camera, right: float, up: float, roll: float) -> Camera:
-    """Return the camera turned by degrees to the right, upwards, and anticlockwise.
-
-    Together they are one rotation, about the axis that they are the components of (Rodrigues'
-    formula): it does not matter which comes first.
-    """
-    about = np.radians((up, -right, roll))  # of right, up and backward
+def rotation(about: Floats) -> Floats:
+    """Return the rotation by a vector, (3,) radians about the axis along it (Rodrigues), (3, 3)."""
     angle = float(np.linalg.norm(about))
     x, y, z = about / angle if angle else about
     k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    rotation = np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+    return np.asarray(np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k)
+
+
+def turned(camera: Camera, right: float, up: float, roll: float) -> Camera:
+    """Return the camera turned by degrees to the right, upwards, and anticlockwise.
+
+    Together they are one rotation: it does not matter which comes first.
+    """
+    about = np.radians((up, -right, roll))  # of right, up and backward
     matrix = camera.world_from_camera.copy()
-    matrix[:3, :3] = matrix[:3, :3] @ rotation
+    matrix[:3, :3] = matrix[:3, :3] @ rotation(about)
     return replace(camera, world_from_camera=matrix)
 
 

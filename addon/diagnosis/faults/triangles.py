@@ -121,7 +121,7 @@ PIXELS_PER_TRIANGLE = 4  # else any shape is a sum of triangles
 def _missing_triangles(evidence: Evidence) -> Work[list[Triangles]]:
     """Guess the missing triangles of each suspect, layer by layer.
 
-    Of its instances, those with the most unexplained pixels are looked at.
+    Its instances with the most unexplained pixels are tried.
     """
     seen = evidence.frame.instance_index[evidence.unexplained]
     count = np.bincount(seen[seen >= 0], minlength=len(evidence.case.scene.instance_objects))
@@ -192,8 +192,8 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "other_diagonal",
         "quads are cut along their other diagonal",
-        "OBJ keeps quads, and each reader cuts them in its own way. Where a quad is not flat, "
-        "the two ways give two surfaces.",
+        "OBJ keeps quads, and each reader cuts them in its own way, which shows where a "
+        "quad is not flat.",
         "cut each quad as Blender's loop triangles do",
         of_meshes(_other_diagonal),
         witness="bonjorno7/SourceOps#43",
@@ -201,8 +201,8 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "triangles_missing",
         "'{object}' lacks {count:.0f} of its triangles",
-        "The exporter leaves out faces whose material slot is empty, the reader takes only "
-        "the first three corners of each polygon, or 16-bit indices end at 65,535.",
+        "The exporter leaves out faces with an empty material slot, the reader takes "
+        "only the first three corners of each polygon, or 16-bit indices end at 65,535.",
         "check which faces are exported: hidden ones, large polygons, the end of the list",
         _without_triangles,
         _missing_triangles,

@@ -122,8 +122,7 @@ VIEW_FAULTS = (
     Fault(
         "clip_end",
         "the clip end is {words}",
-        "Many ray tracers have no clip end; rasterisers have one, and a large scene may reach "
-        "beyond its default.",
+        "Many ray tracers have no clip end; a large scene may reach beyond a rasteriser's default.",
         "take the camera's own clip end; it is a depth along the view axis",
         of_camera(_end),
         _find_end,

@@ -53,10 +53,10 @@ def remarks(
     for kind in sorted(repeated & telling):
         if kind in _CRITICAL:
             raise PngError(f"it has more than one chunk {_name(kind)}")
-        yield f"it has more than one chunk {_name(kind)}: the first one was looked at"
+        yield f"it has more than one chunk {_name(kind)}: the first one was read"
     if more:
         said = count_of(more, "byte behind its end is", "bytes behind its end are")
-        yield f"{said} not looked at"
+        yield f"{said} not read"
     unknown = sorted(telling - _CRITICAL - _KNOWN)
     for kind in unknown:
         if not kind[0] & _OPTIONAL:

@@ -14,14 +14,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array, Index, Integers, run_starts
+from ...arrays import Array, Index, Integers, parts, run_starts
 from ...scene import Scene
 from ...tracer import plane
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.shading import by_mesh
-from ...tracer.vector import Vectors, cross, gather, parts
+from ...tracer.vector import Vectors, cross, gather
 from ...tracer.world import world_corners
 
 _LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller

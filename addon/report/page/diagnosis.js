@@ -7,12 +7,12 @@ const NEARLY_ALL = 0.9; // of the unexplained pixels
 
 const diagnosis = page.comparison.diagnosis;
 
-/** Whether what is told accounts for nearly all unexplained pixels. */
+/** Whether the named faults account for nearly all unexplained pixels. */
 const isAccounted = () =>
   diagnosis?.told.length > 0 &&
   diagnosis.left <= (1 - NEARLY_ALL) * page.comparison.pixels.unexplained;
 
-/** The last picture with all put right that is told; the traced one where nothing changes one. */
+/** The last picture with all named faults put right; the traced one where none changes it. */
 function lastPutRight() {
   const isTold = ({ id, of }) => of && !diagnosis.told[id.slice(PUT_RIGHT.length)].alternative;
   return page.pictures.findLast(isTold)?.id ?? "traced";
@@ -64,7 +64,7 @@ function drawDiagnosis() {
       "p",
       { class: "muted" },
       told.length
-        ? `${work} What is told was traced and compared again, pixel by pixel. The verdict stays.`
+        ? `${work} These faults were traced and compared again, pixel by pixel. The verdict stays.`
         : silent
           ? `${silent}.`
           : `${work} None accounts for the unexplained pixels.`,

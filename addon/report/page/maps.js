@@ -1,5 +1,5 @@
 "use strict";
-// The layers that show the scene whatever its colours: each is drawn when it is first looked at.
+// The layers that show the scene whatever its colours: each is drawn when it is first chosen.
 
 const FARTHEST = 0.1; // grey of the farthest hit, so that it does not look like a hole
 const BACK = [255, 102, 102]; // of what is seen from behind, as in `coloring.py`

@@ -85,7 +85,7 @@ function markedPlaces(pane, near) {
   return found;
 }
 
-/** Frame the pixel that is looked at; from afar, a ring around it. */
+/** Frame the chosen pixel; from afar, a ring around it. */
 function drawCursor(context, pane) {
   const s = scaleNow();
   const [left, top] = toPane(pane, state.x, state.y + 1);

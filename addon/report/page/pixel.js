@@ -1,5 +1,5 @@
 "use strict";
-// The inspector: everything that is known of the pixel that is looked at.
+// The inspector: everything that is known of the chosen pixel.
 
 const AROUND = 5; // pixels on each side in the enlargements
 const NEAR = 13; // screen pixels of each of them

@@ -1,7 +1,7 @@
 "use strict";
 // The line below the pictures: the value of the picture under the pointer, in words.
 
-let pointed = null; // where the pointer is on the canvas; null: the pixel that is looked at is told
+let pointed = null; // where the pointer is on the canvas; null: the line tells of the chosen pixel
 
 /** Which picture a pane shows at a place: in the slider, the one on that side of its line. */
 function pictureAt(pane, px) {
@@ -20,7 +20,7 @@ function drawReadout() {
   byId("readout").textContent = byId("readout").title = text;
 }
 
-/** The pictures whose values are told of the pixel that is looked at: those on left and right. */
+/** The pictures on the left and right, with their values in the chosen pixel. */
 function shownNow(pane) {
   if (state.mode === "swap") return pane.ids;
   return state.mode === "slider" && state.split <= 0.02

@@ -83,7 +83,7 @@ function zoomAbout(factor, x = state.x + 0.5, y = state.y + 0.5) {
   setView(x + (state.view.x - x) * keep, y + (state.view.y - y) * keep, next);
 }
 
-/** Move the view so that the pixel that is looked at is in it. */
+/** Move the view so that the chosen pixel is in it. */
 function follow() {
   const [pane] = panes();
   const s = scaleNow();
@@ -95,7 +95,7 @@ function follow() {
   }
 }
 
-/** Move the slider's line off the pixel that is looked at, to its right. */
+/** Move the slider's line off the chosen pixel, to its right. */
 function keepClear() {
   const [pane] = panes();
   const s = scaleNow();

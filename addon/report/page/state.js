@@ -2,7 +2,7 @@
 // What is shown now. `change` sets some of it; whoever asked with `onChange` hears which.
 
 const state = {
-  x: 0, // the pixel that is looked at
+  x: 0, // the chosen pixel
   y: 0,
   left: "traced", // pictures
   right: "blender",

@@ -164,8 +164,8 @@ DEPTH_FAULTS = (
         "depth_normalised",
         ("depth", "distance"),
         "the values are normalised: 0 is at {zero:.6g} m, full scale at {one:.6g} m",
-        "A picture of depths to look at is stretched to some range, such as that of what is seen, "
-        "and often reversed, so that what is near is bright.",
+        "Depths are stretched to some range to be looked at, and often reversed, so that near "
+        "surfaces are bright.",
         "save the depths themselves, before they are normalised to be looked at",
         normalised,
         ("zero", "one"),
@@ -176,8 +176,8 @@ DEPTH_FAULTS = (
             "background_value",
             ("depth", "distance"),
             "where nothing is seen the values are {value:.6g}",
-            "An emptied depth buffer has the far plane's value, which is another than the scene's, "
-            "or a depth is cut off at some value.",
+            "An emptied depth buffer has the value of the far plane, which may be another than the "
+            "scene's.",
             "save 0, an infinity or NaN where nothing is seen, or clip both at one depth",
             _background,
             ("value",),

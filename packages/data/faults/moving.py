@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 from reference_tracer.arrays import Floats, Places
 from reference_tracer.diagnosis.evidence import Evidence, spread
-from reference_tracer.diagnosis.faults.fault import Numbers, instances_named, with_instances
-from reference_tracer.diagnosis.faults.pose import moved
+from reference_tracer.diagnosis.faults.changes import MOVED
+from reference_tracer.diagnosis.faults.fault import Numbers, instances_named
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import Work
@@ -77,7 +77,7 @@ def _alone(scene: Scene, name: str, by: Floats) -> Scene:
     own = set(instances_named(scene, name))
     kept = tuple(i for n, i in enumerate(scene.instances) if n in own)
     alone = replace(scene, instances=kept, planes=())
-    return with_instances(alone, name, lambda instance: moved(instance, *by))
+    return MOVED[0].of(alone, name, tuple(by))
 
 
 def _step(

@@ -160,8 +160,8 @@ VECTOR_FAULTS = (
         "normal_transform",
         ("normals",),
         "the normals are {words}",
-        "A normal is transformed by the inverse transposed; with a scale that is the same along "
-        "all axes the matrix itself gives the same direction.",
+        "A normal is transformed by the inverse transposed of the object's matrix, not by the "
+        "matrix.",
         "transform normals by the inverse transposed of the object's matrix, and normalise them",
         _untransformed,
         words="not transformed, or by the wrong matrix",

@@ -56,18 +56,13 @@ from .pictures import (
 )
 from .simulated import (
     SIMULATIONS,
-    baked_particles,
     baked_rigid_body,
     cloth,
-    dynamic_paint,
-    explode,
-    ocean,
     particles,
     particles_of_collection,
     rigid_body,
     simulation_zone,
     soft_body,
-    wave,
 )
 from .stage import CYAN, ORANGE, PINK, ball, colored, emitter, grid, stage, step_to
 from .surfaces import (

@@ -21,15 +21,6 @@ def particles(build: Any) -> None:
     step_to(10)
 
 
-def baked_particles(build: Any) -> None:
-    system = fountain(build)
-    cache = system.point_cache
-    cache.frame_end = 14
-    with bpy.context.temp_override(point_cache=cache, active_object=system.id_data):
-        bpy.ops.ptcache.bake(bake=True)
-    bpy.context.scene.frame_set(10)
-
-
 def particles_of_collection(build: Any) -> None:
     stage(build)
     chips = [
@@ -65,18 +56,6 @@ def soft_body(build: Any) -> None:
     settings.use_goal, settings.vertex_group_goal = True, "Held"
     settings.goal_default, settings.goal_min = 0.0, 0.0
     step_to(16)
-
-
-def explode(build: Any) -> None:
-    stage(build)
-    obj = ball(
-        build, "Shell", 0.7, location=(0, -0.8, 0.6), material=colored(build, "Orange", ORANGE)
-    )
-    system = emitter(build, obj, None, 60)
-    system.settings.render_type = "NONE"
-    system.settings.frame_end, system.settings.normal_factor = 4, 2.0
-    obj.modifiers.new("Explode", "EXPLODE")
-    step_to(10)
 
 
 def simulation_zone(build: Any) -> None:
@@ -146,60 +125,11 @@ def baked_rigid_body(build: Any) -> None:
     scene.frame_set(16)
 
 
-def wave(build: Any) -> None:
-    stage(build)
-    obj = grid(
-        build, "Pond", 20, 3, location=(0, -0.8, 0), material=colored(build, "Orange", ORANGE)
-    )
-    modifier = obj.modifiers.new("Wave", "WAVE")
-    modifier.height, modifier.width, modifier.narrowness = 0.5, 0.8, 2.0
-    step_to(24)
-
-
-def ocean(build: Any) -> None:
-    stage(build)
-    obj = grid(build, "Sea", 2, 1, location=(0, -0.8, 0), material=colored(build, "Orange", ORANGE))
-    modifier = obj.modifiers.new("Ocean", "OCEAN")
-    modifier.geometry_mode, modifier.resolution, modifier.spatial_size = "GENERATE", 4, 3
-    modifier.size, modifier.wave_scale, modifier.use_normals = 1.0, 1.0, False
-    for frame in (1, 8):
-        modifier.time = frame / 4
-        modifier.keyframe_insert("time", frame=frame)
-    step_to(5)
-
-
-def dynamic_paint(build: Any) -> None:
-    """Waves on a canvas, by a brush that has moved through it."""
-    stage(build)
-    canvas = grid(
-        build, "Canvas", 20, 2.4, location=(0, -0.8, 0), material=colored(build, "Orange", ORANGE)
-    )
-    canvas.modifiers.new("Paint", "DYNAMIC_PAINT")
-    brush = ball(
-        build, "Brush", 0.3, location=(-0.6, -0.8, 0), material=colored(build, "Cyan", CYAN)
-    )
-    brush.modifiers.new("Paint", "DYNAMIC_PAINT")
-    for obj, kind in ((canvas, "CANVAS"), (brush, "BRUSH")):
-        with bpy.context.temp_override(object=obj, active_object=obj):
-            bpy.ops.dpaint.type_toggle(type=kind)
-    surface = canvas.modifiers["Paint"].canvas_settings.canvas_surfaces[0]
-    surface.surface_type, surface.frame_end = "WAVE", 60
-    for frame, x in ((1, -0.6), (12, 0.6)):
-        brush.location.x = x
-        brush.keyframe_insert("location", frame=frame)
-    step_to(14)
-
-
 SIMULATIONS = (
     particles,
-    baked_particles,
     particles_of_collection,
     cloth,
     soft_body,
-    explode,
     simulation_zone,
     baked_rigid_body,
-    wave,
-    ocean,
-    dynamic_paint,
 )

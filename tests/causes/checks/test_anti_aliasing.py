@@ -7,8 +7,8 @@ import pytest
 from reference_tracer.causes.checks.anti_aliasing import NEAR, is_mix
 from reference_tracer.causes.explain import AGREE, ANTI_ALIASING, UNEXPLAINED
 from reference_tracer.causes.hull import distance_to_triangles
-from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.storage import Storage
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings

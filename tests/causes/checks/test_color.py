@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from reference_tracer.causes.explain import AGREE, COLOR, UNEXPLAINED
 from reference_tracer.files.images import curve, curve_undone, decoded
-from reference_tracer.pictures.bounds import Storage
 from reference_tracer.pictures.metrics import boundary
 from reference_tracer.pictures.picture import Picture
+from reference_tracer.pictures.storage import Storage
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 

@@ -11,6 +11,7 @@ from reference_tracer.certified import ladder, measures
 from reference_tracer.certified.sweep import (
     boxes,
     chunks,
+    depth_bins,
     depth_buffer,
     rasterise,
     resolve,
@@ -25,7 +26,6 @@ from ...moved import may, touched
 from ...oracle import scene_sights
 from ...sampled import daily, sampled
 from ...tracer.hostile_scenes import brute_force, hostile_scene, offsets, scaled
-from ...tracer.rational import t_of_pixels
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 SEEDS = 125  # in a part
@@ -103,7 +103,7 @@ def test_as_the_oracle_has_it(make, every):
         found, truth = swept(scene), scene_sights(scene)
         names = list(zip(found.instance.tolist(), found.triangle.tolist(), strict=True))
         assert names == [s.seen for s in truth], seed
-        assert np.array_equal(found.t, t_of_pixels(scene, names)), seed
+        assert np.array_equal(found.t, [s.rounded_t for s in truth]), seed
         assert sorted(found.ties) == [k for k, s in enumerate(truth) if len(touched(s)) > 1], seed
         for k, ties in found.ties.items():
             assert names[k] in ties and may(truth[k]) <= ties <= touched(truth[k]), seed
@@ -120,8 +120,8 @@ DIVISIONS = {
     "triangles by ones": [(sweep, "_TRIANGLES", 1)],
     "boxes by twos": [(boxes, "_TOGETHER", 2)],
     "triangles by threes": [(sweep, "_TRIANGLES", 3)],
-    "one depth bin": [(boxes, "BINS", 2)],
-    "few depth bins": [(boxes, "BINS", 5)],
+    "one depth bin": [(depth_bins, "BINS", 2)],
+    "few depth bins": [(depth_bins, "BINS", 5)],
     "pairs by ones": [(resolve, "_PAIRS", 1), (rasterise, "_BOXES", 1)],
     "pairs by sevens": [(resolve, "_PAIRS", 7), (rasterise, "_BOXES", 7)],
     "cells by ones": [(rasterise, "_CELLS", 1)],
@@ -141,7 +141,7 @@ DIVISIONS = {
     "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
     "chunks of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
     "all small": [
-        (sweep, "_TRIANGLES", 2), (boxes, "BINS", 3), (resolve, "_PAIRS", 5),
+        (sweep, "_TRIANGLES", 2), (depth_bins, "BINS", 3), (resolve, "_PAIRS", 5),
         (rasterise, "_CELLS", 2),
         (rasterise, "_BOXES", 2), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
         *sizes(2, 4),

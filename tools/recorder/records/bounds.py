@@ -6,7 +6,7 @@ import numpy as np
 from reference_tracer.certified.bounds import Fractions, FromPoint, Parallel, plane_fractions
 from reference_tracer.tracer.camera import Rays
 
-from .record import Inputs, Kept, Record
+from .record import Inputs, Kept, Record, named
 
 FIRST = np.zeros(1, np.intp)  # the row of the one triangle
 CORNERS = "ax ay az", "bx by bz", "cx cy cz"
@@ -32,41 +32,26 @@ def parallel(v: Inputs) -> Parallel:
     return Parallel(v.shared("dx dy dz"), *ends, v.matrix(*CORNERS))
 
 
-def _shared(prefix: str) -> str:
-    return {"from_point": "o", "parallel": "d"}[prefix]
+def _edges(prepared: FromPoint | Parallel, v: Inputs, shared: str) -> Kept:
+    edges, error = prepared.edges(v.rows, rays(v, shared))
+    return *edges, error
 
 
-def _edges(prefix: str, prepared: FromPoint | Parallel, v: Inputs) -> Kept:
-    edges, error = prepared.edges(v.rows, rays(v, _shared(prefix)))
-    names = f"{prefix}_ab", f"{prefix}_bc", f"{prefix}_ca"
-    return dict(zip(names, edges, strict=True)) | {f"{prefix}_error": error}
-
-
-def fractions_of(prefix: str, found: Fractions) -> Kept:
-    return {
-        f"{prefix}_T": found.numerator,
-        f"{prefix}_T_error": found.numerator_error,
-        f"{prefix}_D": found.denominator,
-        f"{prefix}_D_error": found.denominator_error,
-    }
-
-
-def _fractions(prefix: str, prepared: FromPoint | Parallel, v: Inputs) -> Kept:
-    return fractions_of(prefix, prepared.fractions(v.rows, rays(v, _shared(prefix))))
+def _numbers(found: Fractions) -> Kept:
+    return found.numerator, found.numerator_error, found.denominator, found.denominator_error
 
 
 def _interval(v: Inputs) -> Kept:
-    low, high = Fractions(*(v.one(name) for name in ("T", "ET", "D", "ED"))).interval()
-    return {"interval_low": low, "interval_high": high}
+    return Fractions(*(v.one(name) for name in ("T", "ET", "D", "ED"))).interval()
+
+
+def _edge_theorems(prefix: str) -> dict[str, str]:
+    return named(prefix, "ab bc ca error", f"Forms.{prefix}_e")
 
 
 def _theorems(prefix: str) -> dict[str, str]:
-    names = {"e": "ab bc ca error", "T": "T T_error", "D": "D D_error"}
-    return {
-        f"{prefix}_{name}": f"Forms.{prefix}_{of}"
-        for of, results in names.items()
-        for name in results.split()
-    }
+    top, bottom = (named(prefix, f"{k} {k}_error", f"Forms.{prefix}_{k}") for k in "TD")
+    return top | bottom
 
 
 RECORDS = (
@@ -74,37 +59,35 @@ RECORDS = (
         "from_point",
         "bounds.FromPoint.edges",
         _TRIANGLE | _RAY | _REACH,
-        lambda v: _edges("from_point", from_point(v), v),
-        _theorems("from_point"),
+        lambda v: _edges(from_point(v), v, "o"),
+        _edge_theorems("from_point"),
     ),
     Record(
         "from_point",
         "bounds.FromPoint.fractions",
         _TRIANGLE | _RAY | _REACH,
-        lambda v: _fractions("from_point", from_point(v), v),
+        lambda v: _numbers(from_point(v).fractions(v.rows, rays(v, "o"))),
         _theorems("from_point"),
     ),
     Record(
         "parallel",
         "bounds.Parallel.edges",
         _TRIANGLE | _RAY | _BOX,
-        lambda v: _edges("parallel", parallel(v), v),
-        _theorems("parallel"),
+        lambda v: _edges(parallel(v), v, "d"),
+        _edge_theorems("parallel"),
     ),
     Record(
         "parallel",
         "bounds.Parallel.fractions",
         _TRIANGLE | _RAY | _BOX,
-        lambda v: _fractions("parallel", parallel(v), v),
+        lambda v: _numbers(parallel(v).fractions(v.rows, rays(v, "d"))),
         _theorems("parallel"),
     ),
     Record(
         "plane",
         "bounds.plane_fractions",
         _PLANE | _RAY,
-        lambda v: fractions_of(
-            "plane", plane_fractions(rays(v), v.shared("px py pz"), v.shared("nx ny nz"))
-        ),
+        lambda v: _numbers(plane_fractions(rays(v), v.shared("px py pz"), v.shared("nx ny nz"))),
         _theorems("plane"),
     ),
     Record(
@@ -112,6 +95,6 @@ RECORDS = (
         "bounds.Fractions.interval",
         dict(T=5.0, ET=1e-15, D=2.0, ED=1e-15),
         _interval,
-        {"interval_low": "Pairs.interval_right", "interval_high": "Pairs.interval_right"},
+        named("interval", "low high", "Pairs.interval_right"),
     ),
 )

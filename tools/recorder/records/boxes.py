@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import product
 from types import SimpleNamespace
 from unittest import mock
 
@@ -16,7 +15,7 @@ from . import film
 from .bounds import FIRST
 from .camera import MATRIX, PIXELS, REGION
 from .film import BOUNDS, DOMAIN, PLACE
-from .record import BY_HAND, Inputs, Kept, Record, numpy_with
+from .record import BY_HAND, Inputs, Kept, Record, named, numpy_with
 
 _ENDS = ("low_x", "low_y", "minus_high_x", "minus_high_y")
 _FIELDS = dict(p=320.0, q=240.0, w=2.0, depth=2.0) | dict.fromkeys(_ENDS, -100.0)
@@ -26,7 +25,7 @@ _BOX = dict(width=640.0, height=480.0, clip_start=0.1, clip_end=100.0, weight=1e
 _MESH = dict(lx=-1.0, ly=-2.0, lz=-3.0, hx=1.5, hy=2.5, hz=3.5)
 
 
-def _instance(v: Inputs, prefix: str, projection: Projection) -> Kept:
+def _instance(v: Inputs, projection: Projection) -> Kept:
     """The box's eight corners on the film are variables: `Film.enter` is recorded by itself."""
     own = film.of(v, projection, "place", "weight", "ray_error", "depth_error")
     own.camera.region = region(v)
@@ -46,14 +45,7 @@ def _instance(v: Inputs, prefix: str, projection: Projection) -> Kept:
         numpy_with(boxes, nan_to_num=lambda depth: depth),  # it only sorts
     ):
         found = InstanceBoxes.of(None, own)
-    return {
-        f"{prefix}_in_view": found.in_view,
-        f"{prefix}_low_x": found.low[0],
-        f"{prefix}_low_y": found.low[1],
-        f"{prefix}_high_x": found.high[0],
-        f"{prefix}_high_y": found.high[1],
-        f"{prefix}_nearest": found.nearest,
-    }
+    return found.in_view, *found.low, *found.high, found.nearest
 
 
 def region(v: Inputs) -> SimpleNamespace:
@@ -71,13 +63,10 @@ def _corners(v: Inputs) -> Kept:
         instance_matrices=v.stacked(matrix),
     )
     corners, size = boxes._corners(scene)
-    names = product("xyz", range(8))
-    return {f"box_corner_{n}_{k}": corners["xyz".index(k), n] for k, n in names} | {
-        "box_size": size
-    }
+    return *(corners[k, n] for k in range(3) for n in range(8)), size
 
 
-def _are_small(v: Inputs, prefix: str) -> Kept:
+def _are_small(v: Inputs) -> Kept:
     own = SimpleNamespace(
         camera=SimpleNamespace(width=v.scalar("width"), height=v.scalar("height"))
     )
@@ -85,7 +74,7 @@ def _are_small(v: Inputs, prefix: str) -> Kept:
     vertices = SimpleNamespace(certain=certain)
     expanded = SimpleNamespace(vertices=vertices, corners=np.array([[0], [1], [2]]))
     ends = v.vector("low_x low_y"), v.vector("high_x high_y")
-    return {prefix: small_boxes.are_small(own, expanded, *ends, FIRST)}
+    return [small_boxes.are_small(own, expanded, *ends, FIRST)]
 
 
 _SMALL = dict(low_x=3.0, low_y=4.0, high_x=7.0, high_y=9.0, width=640.0, height=480.0)
@@ -97,14 +86,8 @@ RECORDS = (
             f"instance_{name}",
             "boxes.InstanceBoxes.of",
             _CORNERS | _AHEAD | _BOX | BOUNDS | REGION | PLACE,
-            lambda v, name=name, of=of: _instance(v, f"instance_{name}", of),
-            dict.fromkeys(
-                (
-                    *(f"instance_{name}_{k}" for k in ("in_view", "nearest")),
-                    *(f"instance_{name}_{k}_{a}" for k in ("low", "high") for a in "xy"),
-                ),
-                BY_HAND,
-            ),
+            lambda v, of=of: _instance(v, of),
+            named(f"instance_{name}", "in_view low_x low_y high_x high_y nearest", BY_HAND),
             of.name,
             DOMAIN
             | dict.fromkeys(REGION, PIXELS)
@@ -117,7 +100,7 @@ RECORDS = (
         "boxes._corners",
         MATRIX | _MESH,
         _corners,
-        {f"box_corner_{n}_{k}": BY_HAND for n in range(8) for k in "xyz"} | {"box_size": BY_HAND},
+        {f"box_corner_{n}_{k}": BY_HAND for k in "xyz" for n in range(8)} | {"box_size": BY_HAND},
         "the box of a mesh",
     ),
     *(
@@ -125,7 +108,7 @@ RECORDS = (
             name,
             "small_boxes.are_small",
             _SMALL | dict(certain_a=True, certain_b=True, certain_c=last),
-            lambda v, name=name: _are_small(v, name),
+            _are_small,
             {name: BY_HAND},
             note,
             _SMALL_DOMAIN,

@@ -12,9 +12,8 @@ from reference_tracer.tracer import camera, candidates, vector
 from .bounds import CORNERS
 from .film import AXES, DOMAIN, DUAL, PLACE, WINDOW
 from .film import camera as camera_of
-from .record import BY_HAND, Inputs, Kept, Record
+from .record import BY_HAND, Inputs, Kept, Record, named
 
-_XYZ = "xyz"
 PIXELS = tuple(map(float, range(-64, 65)))
 REGION = dict(region_x=3.0, region_y=4.0, region_x_end=600.0, region_y_end=400.0)
 _BOX = (
@@ -28,27 +27,21 @@ _BOX = (
 MATRIX = {f"m{i}{k}": 0.5 + 0.25 * i - 0.125 * k for i in range(3) for k in range(4)}
 
 
-def _rays(v: Inputs, prefix: str, projection: Projection) -> Kept:
+def _rays(v: Inputs, projection: Projection) -> Kept:
     found = camera.camera_rays(camera_of(v, projection), v.one("px"), v.one("py"))
-    ends = {f"{prefix}_origin": found.origins, f"{prefix}_direction": found.directions}
-    return {
-        f"{name}_{k}": row for name, rows in ends.items() for k, row in zip(_XYZ, rows, strict=True)
-    }
+    return *found.origins, *found.directions
 
 
 def _positions(v: Inputs) -> Kept:
     """Of the first pixel of a region: which one it is, is counted in integers."""
     tile = SimpleNamespace(width=640, x0=v.scalar("region_x"), y0=v.scalar("region_y"))
-    px, py = camera.film_positions(
-        tile, v.scalar("dx"), v.scalar("dy"), np.zeros(v.columns, np.int32)
-    )
-    return {"film_position_x": px, "film_position_y": py}
+    first = np.zeros(v.columns, np.int32)
+    return camera.film_positions(tile, v.scalar("dx"), v.scalar("dy"), first)
 
 
 def _dual(v: Inputs) -> Kept:
     dual = camera.dual_axes(camera_of(v, PERSPECTIVE))
-    rows = ("right", "up", "depth")
-    return {f"dual_{row}_{k}": dual[i, n] for i, row in enumerate(rows) for n, k in enumerate(_XYZ)}
+    return (dual[i, n] for i in range(3) for n in range(3))
 
 
 def _dual_axes(v: Inputs):
@@ -60,33 +53,21 @@ def _dual_axes(v: Inputs):
 def _project(v: Inputs) -> Kept:
     with _dual_axes(v):
         found = camera.project(camera_of(v, PERSPECTIVE), v.vector("vx vy vz"))
-    names = "project", "project_magnitude"
-    return {
-        f"{name}_{k}": row
-        for name, rows in zip(names, found, strict=True)
-        for k, row in zip(("right", "up", "depth"), rows, strict=True)
-    }
+    return (row for rows in found for row in rows)
 
 
-def _pixel_bounds(v: Inputs, prefix: str, projection: Projection) -> Kept:
+def _pixel_bounds(v: Inputs, projection: Projection) -> Kept:
     own = camera_of(v, projection)
     ends = {k: v.scalar(f"region_{k[0]}{'_end' * (k[1] == '1')}") for k in ("x0", "x1", "y0", "y1")}
     own.region = SimpleNamespace(**ends)
     with _dual_axes(v), mock.patch.object(candidates, "has_sound_axes", lambda _: True):
-        bounds = candidates.pixel_bounds(own, v.matrix(*CORNERS), v.scalar("reach"))
-    names = f"{prefix}_x0", f"{prefix}_x1", f"{prefix}_y0", f"{prefix}_y1"
-    return dict(zip(names, bounds, strict=True))
+        return candidates.pixel_bounds(own, v.matrix(*CORNERS), v.scalar("reach"))
 
 
 def _transform(v: Inputs) -> Kept:
     rows = [[v.scalar(f"m{i}{k}") for k in range(4)] for i in range(3)]
     matrix = v.stacked([v.stacked(row) for row in rows])
-    found = vector.transform_points(matrix, v.vector("vx vy vz"))
-    return {f"transform_{k}": row for k, row in zip(_XYZ, found, strict=True)}
-
-
-def _named(prefix: str, names: str, theorem: str) -> dict[str, str]:
-    return {f"{prefix}_{name}": theorem for name in names.split()}
+    return vector.transform_points(matrix, v.vector("vx vy vz"))
 
 
 _PROJECTIONS = (("perspective", PERSPECTIVE), ("parallel", ORTHOGRAPHIC))
@@ -98,8 +79,8 @@ RECORDS = (
             f"ray_{name}",
             "camera.camera_rays",
             WINDOW | AXES | PLACE | dict(px=100.5, py=99.5),
-            lambda v, name=name, of=of: _rays(v, f"ray_{name}", of),
-            _named(f"ray_{name}", _VECTORS, f"FilmCode.{name}_ray"),
+            lambda v, of=of: _rays(v, of),
+            named(f"ray_{name}", _VECTORS, f"FilmCode.{name}_ray"),
             of.name,
             DOMAIN,
         )
@@ -110,7 +91,7 @@ RECORDS = (
         "camera.film_positions",
         dict(region_x=3.0, region_y=4.0, dx=0.125, dy=-0.25),
         _positions,
-        _named("film_position", "x y", "FilmCode.position_x"),
+        named("film_position", "x y", "FilmCode.position_x"),
         domain=dict(region_x=PIXELS, region_y=PIXELS),
     ),
     Record(
@@ -118,23 +99,23 @@ RECORDS = (
         "camera.dual_axes",
         AXES,
         _dual,
-        _named("dual", " ".join(DUAL), "FilmCode.dual_rows"),
+        named("dual", " ".join(DUAL), "FilmCode.dual_rows"),
     ),
     Record(
         "project",
         "camera.project",
         PLACE | DUAL | dict(vx=0.75, vy=0.5, vz=-2.0),
         _project,
-        _named("project", "right up depth", BY_HAND)
-        | _named("project_magnitude", "right up depth", BY_HAND),
+        named("project", "right up depth", BY_HAND)
+        | named("project_magnitude", "right up depth", BY_HAND),
     ),
     *(
         Record(
             f"pixel_bounds_{name}",
             "candidates.pixel_bounds",
             _BOX,
-            lambda v, name=name, of=of: _pixel_bounds(v, f"pixel_bounds_{name}", of),
-            _named(f"pixel_bounds_{name}", "x0 x1 y0 y1", BY_HAND),
+            lambda v, of=of: _pixel_bounds(v, of),
+            named(f"pixel_bounds_{name}", "x0 x1 y0 y1", BY_HAND),
             of.name,
             DOMAIN | dict.fromkeys(REGION, PIXELS),
         )
@@ -145,6 +126,6 @@ RECORDS = (
         "vector.transform_points",
         MATRIX | dict(vx=0.75, vy=0.5, vz=-2.0),
         _transform,
-        _named("transform", "x y z", BY_HAND),
+        named("transform", "x y z", BY_HAND),
     ),
 )

@@ -9,7 +9,7 @@ import numpy as np
 from reference_tracer.certified import ladder, order
 from reference_tracer.tracer.camera import Rays
 
-from .record import Inputs, Kept, Record, locals_of
+from .record import Inputs, Kept, Record, locals_of, named
 
 _EDGES = dict(e1=0.5, e2=0.25, e3=0.75, error=1e-15)
 _RANGE = dict(low=2.0, high=2.5, end=100.0, sure=True)
@@ -22,18 +22,16 @@ def _sides(v: Inputs) -> Kept:
     edges = v.vector("e1 e2 e3"), v.one("error")
     prepared = SimpleNamespace(edges=lambda row, rays: edges)
     sure, _ = ladder.sides(prepared, v.rows, None)
-    return {"sides_possible": v.chosen(0), "sides_sure": sure}
+    return v.chosen(0), sure
 
 
-def _in_range(v: Inputs, prefix: str) -> Kept:
+def _in_range(v: Inputs) -> Kept:
     fractions = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
     ends = v.scalar("start"), v.scalar("end")
-    low, high, outside, doubt = ladder.in_range(fractions, v.one("sure"), *ends)
-    names = f"{prefix}_low", f"{prefix}_high", f"{prefix}_outside", f"{prefix}_doubt"
-    return dict(zip(names, (low, high, outside, doubt), strict=True))
+    return ladder.in_range(fractions, v.one("sure"), *ends)
 
 
-def _order(v: Inputs, prefix: str, shared: bool) -> Kept:
+def _order(v: Inputs, shared: bool) -> Kept:
     """Integers make the table (`order._difference`): here its numbers are variables."""
     many = np.zeros((3, 2))  # (3, 1) is shared by all rays
     directions = v.vector("dx dy dz") if shared else many
@@ -45,8 +43,7 @@ def _order(v: Inputs, prefix: str, shared: bool) -> Kept:
         locals_of(order.order_of) as found,
     ):
         out = order.order_of(around, Rays(origin, directions), None, 0 * v.rows, 0 * v.rows)
-    kept = {f"{prefix}_{name}": found[name] for name in ("value", "error", "known")}
-    return {prefix: out} | kept
+    return out, found["value"], found["error"], found["known"]
 
 
 class _Several:
@@ -61,16 +58,12 @@ class _Several:
         return self._first
 
 
-def _range_theorems(prefix: str) -> dict[str, str]:
-    names = (f"{prefix}_{name}" for name in ("low", "high", "outside", "doubt"))
-    return dict.fromkeys(names, f"CodeRange.{prefix}_is")
-
-
 def _order_theorems(prefix: str) -> dict[str, str]:
-    names = (prefix, *(f"{prefix}_{k}" for k in ("value", "error", "known")))
-    return dict.fromkeys(names, "CodeOrder.code_order_right")
+    theorem = "CodeOrder.code_order_right"
+    return {prefix: theorem} | named(prefix, "value error known", theorem)
 
 
+_RANGE_RESULTS = "low high outside doubt"
 RECORDS = (
     Record(
         "sides",
@@ -83,23 +76,23 @@ RECORDS = (
         "in_range",
         "ladder.in_range",
         _RANGE | {"start": 0.5},
-        lambda v: _in_range(v, "in_range"),
-        _range_theorems("in_range"),
+        _in_range,
+        named("in_range", _RANGE_RESULTS, "CodeRange.in_range_is"),
         "start not negative",
     ),
     Record(
         "in_range_behind",
         "ladder.in_range",
         _RANGE | {"start": -0.5},
-        lambda v: _in_range(v, "in_range_behind"),
-        _range_theorems("in_range_behind"),
+        _in_range,
+        named("in_range_behind", _RANGE_RESULTS, "CodeRange.in_range_behind_is"),
         "start negative",
     ),
     Record(
         "order_from_point",
         "order.order_of",
         _TABLE | _RAY,
-        lambda v: _order(v, "order_from_point", True),
+        lambda v: _order(v, True),
         _order_theorems("order_from_point"),
         "rays from one point",
         _SIGN,
@@ -108,7 +101,7 @@ RECORDS = (
         "order_parallel",
         "order.order_of",
         _TABLE | _RAY,
-        lambda v: _order(v, "order_parallel", False),
+        lambda v: _order(v, False),
         _order_theorems("order_parallel"),
         "parallel rays",
         _SIGN,

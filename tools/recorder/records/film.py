@@ -10,11 +10,12 @@ from unittest import mock
 
 import numpy as np
 from reference_tracer.certified.sweep import film
-from reference_tracer.certified.sweep.film import Film, Vertices
+from reference_tracer.certified.sweep.film import Film
+from reference_tracer.certified.sweep.vertices import Vertices
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 
 from ..arrays import holds, most
-from .record import BY_HAND, Inputs, Kept, Record, locals_of
+from .record import BY_HAND, Inputs, Kept, Record, locals_of, named
 
 WINDOW = dict(left=-0.5, right=0.5, bottom=-0.4, top=0.4, width=640.0, height=480.0)
 PLACE = dict(ox=0.5, oy=-0.25, oz=1.5)
@@ -42,12 +43,15 @@ _PROVEN = {
     "box": ("Perspective.box_holds", "Orthographic.box_holds'"),
     "ray_error": ("FilmCode.ray_error_code", "FilmCode.ray_error_code'"),
 }
-_THEOREMS = (
-    ("place", "p q w depth size finite"),
-    ("ahead", "ahead"),
-    ("certain", "x y certain"),
+# What a vertex gets, in its order, with what proves it.
+_RESULTS = (
+    ("place", "p q w depth size"),
+    ("certain", "x y"),
     ("nearest", "nearest"),
-    ("box", "margin lowest_x lowest_y minus_highest_x minus_highest_y"),
+    ("ahead", "ahead"),
+    ("certain", "certain"),
+    ("place", "finite"),
+    ("box", "lowest_x lowest_y minus_highest_x minus_highest_y margin"),
 )
 _FIELDS = ("p", "q", "w", "depth", "size", "x", "y", "nearest", "ahead", "certain", "finite")
 
@@ -95,15 +99,13 @@ def of(v: Inputs, projection: Projection, *known: str) -> Film:
     return out
 
 
-def _enter(v: Inputs, prefix: str, projection: Projection) -> Kept:
+def _enter(v: Inputs, projection: Projection) -> Kept:
     own = of(v, projection, "dual", "place", "weight", "ray_error", "depth_error")
     with python(film), locals_of(Film._enter_positions) as local:
         vertices = Vertices.empty(v.columns, np.int32)
         own.enter(vertices, 0, v.vector("vx vy vz"))
-    kept = {f"{prefix}_{name}": getattr(vertices, name) for name in _FIELDS}
-    ends = ("lowest_x", "lowest_y", "minus_highest_x", "minus_highest_y")
-    kept |= {f"{prefix}_{name}": vertices.box[:, k] for k, name in enumerate(ends)}
-    return kept | {f"{prefix}_margin": local["margin"]}
+    fields = (getattr(vertices, name) for name in _FIELDS)
+    return *fields, *(vertices.box[:, k] for k in range(4)), local["margin"]
 
 
 def _of_film(
@@ -119,10 +121,6 @@ def _of_film(
     return call
 
 
-def _place(prefix: str) -> Callable[[Film, Inputs], Kept]:
-    return lambda f, _: {f"{prefix}_constant": f.place[0], f"{prefix}_slope": f.place[1]}
-
-
 def _pairs() -> Iterator[Record]:
     """Records of what differs between the projections."""
     for name, of in (("perspective", PERSPECTIVE), ("parallel", ORTHOGRAPHIC)):
@@ -131,10 +129,10 @@ def _pairs() -> Iterator[Record]:
             prefix,
             "film.Film.enter",
             {k: v for k, v in _ENTER.items() if not (of.shares_direction and k == "weight")},
-            lambda v, prefix=prefix, of=of: _enter(v, prefix, of),
+            lambda v, of=of: _enter(v, of),
             {
                 f"{prefix}_{k}": _PROVEN[what][of.shares_direction]
-                for what, names in _THEOREMS
+                for what, names in _RESULTS
                 for k in names.split()
             },
             of.name,
@@ -145,7 +143,7 @@ def _pairs() -> Iterator[Record]:
             f"film_ray_error_{name}",
             "film.Film.ray_error",
             reach | AXES | (PLACE if of.shares_direction else {}),
-            _of_film(lambda f, _, name=name: {f"film_ray_error_{name}": f.ray_error}, of),
+            _of_film(lambda f, _: [f.ray_error], of),
             {f"film_ray_error_{name}": _PROVEN["ray_error"][of.shares_direction]},
             of.name,
             DOMAIN,
@@ -154,11 +152,8 @@ def _pairs() -> Iterator[Record]:
             f"film_place_{name}",
             "film.Film.place",
             reach | dict(ray_error=1e-14),
-            _of_film(_place(f"film_place_{name}"), of, "ray_error"),
-            dict.fromkeys(
-                (f"film_place_{name}_constant", f"film_place_{name}_slope"),
-                _PROVEN["place"][of.shares_direction],
-            ),
+            _of_film(lambda f, _: f.place, of, "ray_error"),
+            named(f"film_place_{name}", "constant slope", _PROVEN["place"][of.shares_direction]),
             of.name,
             DOMAIN,
         )
@@ -167,9 +162,7 @@ def _pairs() -> Iterator[Record]:
             "film.Film.certain_error",
             BOUNDS | dict(width=640.0, height=480.0, nearness=0.5),
             _of_film(
-                lambda f, v, name=name: {
-                    f"film_certain_error_{name}": f.certain_error(v.one("nearness"))
-                },
+                lambda f, v: [f.certain_error(v.one("nearness"))],
                 of,
                 "place",
                 "ray_error",
@@ -183,12 +176,7 @@ def _pairs() -> Iterator[Record]:
             f"film_certain_nearness_{name}",
             "film.Film.certain_nearness",
             dict(depth=2.0),
-            _of_film(
-                lambda f, v, name=name: {
-                    f"film_certain_nearness_{name}": f.certain_nearness(v.one("depth"))
-                },
-                of,
-            ),
+            _of_film(lambda f, v: [f.certain_nearness(v.one("depth"))], of),
             {f"film_certain_nearness_{name}": BY_HAND},
             of.name,
         )
@@ -200,30 +188,21 @@ RECORDS = (
         "film_spread",
         "film.Film._spread",
         DUAL,
-        _of_film(lambda f, _: {"film_spread": f._spread}, PERSPECTIVE, "dual"),
+        _of_film(lambda f, _: [f._spread], PERSPECTIVE, "dual"),
         {"film_spread": "FilmCode.spread_near"},
     ),
     Record(
         "film_weight",
         "film.Film.weight",
         dict(spread=4.5),
-        _of_film(lambda f, _: {"film_weight": f.weight}, PERSPECTIVE),
+        _of_film(lambda f, _: [f.weight], PERSPECTIVE),
         {"film_weight": "Bounds.weight_holds"},
     ),
     Record(
         "film_depth_error",
         "film.Film.depth_error",
         dict(spread=4.5, ray_error=1e-14),
-        _of_film(
-            lambda f, _: {
-                "film_depth_error_constant": f.depth_error[0],
-                "film_depth_error_slope": f.depth_error[1],
-            },
-            ORTHOGRAPHIC,
-            "ray_error",
-        ),
-        dict.fromkeys(
-            ("film_depth_error_constant", "film_depth_error_slope"), "FilmCode.depth_error_code"
-        ),
+        _of_film(lambda f, _: f.depth_error, ORTHOGRAPHIC, "ray_error"),
+        named("film_depth_error", "constant slope", "FilmCode.depth_error_code"),
     ),
 )

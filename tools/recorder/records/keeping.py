@@ -19,24 +19,20 @@ from reference_tracer.tracer import camera
 from reference_tracer.tracer.camera import Rays
 
 from . import film
-from .record import Inputs, Kept, Record
+from .record import Inputs, Kept, Record, named
 
 _HIT = dict(low=2.0, high=2.5, start=0.5, end=100.0, farthest=3.0, sure=True)
 _PAIR = dict(least=0.5, most=0.75, nearness=0.625, inside=True, outside=False, sure=True)
 _RAYS = dict(x1=0.5, y1=-1.5, z1=0.25, x2=-0.75, y2=2.5, z2=1.25)
 
 
-def _candidates(v: Inputs, prefix: str) -> Kept:
+def _candidates(v: Inputs) -> Kept:
     """t's interval is variables: `Fractions.interval` and `in_range` are recorded by themselves."""
     own = Ladder.__new__(Ladder)
     own._clip, own._farthest = (v.scalar("start"), v.scalar("end")), v.one("farthest")
     fractions = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
     own._candidates(v.rows, v.rows, fractions, v.one("sure"))
-    return {
-        f"{prefix}_certain": v.chosen(1, is_path=True),
-        f"{prefix}_kept": v.chosen(2),
-        f"{prefix}_farthest": own._farthest,
-    }
+    return v.chosen(1, is_path=True), v.chosen(2), own._farthest
 
 
 def _prepare(v: Inputs, shares_origin: bool) -> Kept:
@@ -49,23 +45,13 @@ def _prepare(v: Inputs, shares_origin: bool) -> Kept:
         mock.patch.object(ladder, "FromPoint", lambda _, reach, __: [reach]),
         mock.patch.object(ladder, "Parallel", lambda _, low, high, __: [low, high]),
     ):
-        found = own._prepare(None)
-    names = ("reach",) if shares_origin else ("low", "high")
-    return {
-        f"around_{name}_{k}": value
-        for name, vector in zip(names, found, strict=True)
-        for k, value in zip("xyz", vector, strict=True)
-    }
+        return (value for vector in own._prepare(None) for value in vector)
 
 
 def _corner_rays(v: Inputs) -> Kept:
     with mock.patch.object(camera, "camera_rays", lambda _, px, py: (px, py)):
         found = camera.corner_rays(film.camera(v, PERSPECTIVE), v.scalar("dx"), v.scalar("dy"))
-    return {
-        f"corner_ray_{k}{n}": values[n : n + 1]
-        for k, values in zip(("px", "py"), found, strict=True)
-        for n in range(4)
-    }
+    return (values[n : n + 1] for values in found for n in range(4))
 
 
 def _of_pairs(v: Inputs, prefix: str) -> Kept:
@@ -93,7 +79,7 @@ def _taken(v: Inputs) -> Kept:
     own._planes, own._edges = 0, np.zeros((10, v.columns))
     with mock.patch.object(Prepared, "_weights", lambda *_: v.vector("s1 s2 s3")):
         _, sure, _ = own.meet(None, v.rows)
-    return {"taken_as_it_is": sure}
+    return [sure]
 
 
 def _hidden(v: Inputs) -> Kept:
@@ -102,7 +88,7 @@ def _hidden(v: Inputs) -> Kept:
     )
     region = SimpleNamespace(x0=0, x1=1, y0=0, y1=1)
     depths = SimpleNamespace(region=region, farthest_around=lambda *_: v.scalar("farthest"))
-    return {"hidden_instance": own.hidden(v.rows, depths)}
+    return [own.hidden(v.rows, depths)]
 
 
 def _not_hidden(v: Inputs) -> Kept:
@@ -111,18 +97,14 @@ def _not_hidden(v: Inputs) -> Kept:
         _depths=SimpleNamespace(farthest_in=lambda *_: v.one("farthest")),
     )
     Sweep.not_hidden(own, None, None, v.one("nearest"))
-    return {"not_hidden_box": v.chosen(0)}
+    return [v.chosen(0)]
 
 
 def _fragment(v: Inputs) -> Kept:
     depths = DepthBuffer.__new__(DepthBuffer)
     depths.nearness = v.one("nearness")
     depths.not_hidden(Fragments(v.rows, v.rows, v.one("nearest")))
-    return {"not_hidden_fragment": v.chosen(0)}
-
-
-def _named(theorem: str, names: str) -> dict[str, str]:
-    return dict.fromkeys(names.split(), theorem)
+    return [v.chosen(0)]
 
 
 _HIDDEN = dict(nearest=0.5, farthest=0.25)
@@ -132,8 +114,8 @@ RECORDS = (
             name,
             "ladder.Ladder._candidates",
             _HIT | dict(sure=sure),
-            lambda v, name=name: _candidates(v, name),
-            _named("CodeRange.candidates_is", f"{name}_certain {name}_kept {name}_farthest"),
+            _candidates,
+            named(name, "certain kept farthest", "CodeRange.candidates_is"),
             note,
         )
         for name, sure, note in (
@@ -146,7 +128,7 @@ RECORDS = (
         "ladder.Ladder._prepare",
         _RAYS,
         lambda v: _prepare(v, True),
-        _named("AroundRays.reach_is", "around_reach_x around_reach_y around_reach_z"),
+        named("around", "reach_x reach_y reach_z", "AroundRays.reach_is"),
         "rays from one point, two of them",
     ),
     Record(
@@ -154,9 +136,7 @@ RECORDS = (
         "ladder.Ladder._prepare",
         _RAYS,
         lambda v: _prepare(v, False),
-        _named(
-            "AroundRays.box_is", " ".join(f"around_{e}_{k}" for e in ("low", "high") for k in "xyz")
-        ),
+        named("around", "low_x low_y low_z high_x high_y high_z", "AroundRays.box_is"),
         "parallel rays, two of them",
     ),
     Record(
@@ -164,10 +144,7 @@ RECORDS = (
         "camera.corner_rays",
         dict(width=640.0, height=480.0, dx=0.125, dy=-0.25),
         _corner_rays,
-        _named(
-            "AroundRays.between_corners",
-            " ".join(f"corner_ray_{k}{n}" for k in ("px", "py") for n in "0123"),
-        ),
+        named("corner_ray", "px0 px1 px2 px3 py0 py1 py2 py3", "AroundRays.between_corners"),
         "film positions",
         film.DOMAIN,
     ),
@@ -177,7 +154,7 @@ RECORDS = (
             "sweep.Sweep.of_pairs",
             _PAIR | dict(sure=sure),
             lambda v, name=name: _of_pairs(v, name),
-            _named("Cells.all_kept", f"{name}_enters {name}_stays"),
+            named(name, "enters stays", "Cells.all_kept"),
             note,
         )
         for name, sure, note in (
@@ -190,27 +167,27 @@ RECORDS = (
         "measures.Prepared.meet",
         dict(t=2.5, sure=True, s1=0.5, s2=0.25, s3=0.25),
         _taken,
-        _named("CodeRange.taken_is_finite", "taken_as_it_is"),
+        {"taken_as_it_is": "CodeRange.taken_is_finite"},
     ),
     Record(
         "hidden_instance",
         "boxes.InstanceBoxes.hidden",
         _HIDDEN,
         _hidden,
-        _named("Cells.least_is_bound", "hidden_instance"),
+        {"hidden_instance": "Cells.least_is_bound"},
     ),
     Record(
         "not_hidden_box",
         "sweep.Sweep.not_hidden",
         _HIDDEN,
         _not_hidden,
-        _named("Cells.around_large", "not_hidden_box"),
+        {"not_hidden_box": "Cells.around_large"},
     ),
     Record(
         "not_hidden_fragment",
         "depth_buffer.DepthBuffer.not_hidden",
         dict(nearest=0.5, nearness=0.25),
         _fragment,
-        _named("Sweep.sweep_sees_what_plain_does", "not_hidden_fragment"),
+        {"not_hidden_fragment": "Sweep.sweep_sees_what_plain_does"},
     ),
 )

@@ -17,7 +17,7 @@ from reference_tracer.scene import Region
 
 from . import edges
 from .bounds import FIRST
-from .record import Inputs, Kept, Record, locals_of, numpy_with
+from .record import Inputs, Kept, Record, locals_of, named, numpy_with
 
 _PIXELS = tuple(map(float, range(-64, 65)))
 _SMALL = dict(
@@ -39,23 +39,17 @@ def _block(v: Inputs) -> Kept:
     found = edges.variables(v)
     with locals_of(rasterise._block) as local:
         out = rasterise._block(found, boxes, depths)
-    return {
-        "block_edge": local["least"].reshape(-1),
-        "block_inside": v.chosen(0),
-        "block_least": out.least,
-        "block_most": out.most,
-        "block_sure": out.sure,
-    }
+    return local["least"].reshape(-1), v.chosen(0), out.least, out.most, out.sure
 
 
 def _may_be_seen(v: Inputs) -> Kept:
     depths = SimpleNamespace(corner=v.vector("region_x region_y"))
     boxes = Boxes(FIRST, v.vector("x y"), v.vector("x_end y_end"))
     rasterise._may_be_seen(edges.variables(v), boxes, v.one("farthest"), depths)
-    return {"may_be_seen": v.chosen(0)}
+    return [v.chosen(0)]
 
 
-def _small(v: Inputs, prefix: str, width: int) -> Kept:
+def _small(v: Inputs, width: int) -> Kept:
     """A box of one pixel is its own case; of another, any pixel: `up` and `right` say which."""
     depths = {"x": "xa xb xc", "y": "ya yb yc", "depth": "na nb nc"}
     vertices = SimpleNamespace(**{k: v.vector(names).reshape(-1) for k, names in depths.items()})
@@ -72,20 +66,18 @@ def _small(v: Inputs, prefix: str, width: int) -> Kept:
         low = v.vector("x0 y0")
         some = Boxes(FIRST, low, low)
         out = small_boxes._pairs(film, expanded, some, [(0, 1, 1, width)], None, [])
-        kept = {f"{prefix}_T": local["volume"], f"{prefix}_edge": local["least"][:1]}
-    kept[f"{prefix}_inside"] = v.chosen(1)
-    found = {f"{prefix}_least": out.least, f"{prefix}_most": out.most, f"{prefix}_sure": out.sure}
-    return kept | {name: value[:1] for name, value in found.items()}
+    first = (value[:1] for value in (out.least, out.most, out.sure))
+    return local["volume"], local["least"][:1], v.chosen(1), *first
 
 
-def _clip(v: Inputs, prefix: str, projection: Projection) -> Kept:
+def _clip(v: Inputs, projection: Projection) -> Kept:
     ends = dict(clip_start=v.scalar("start"), clip_end=v.scalar("end"))
     clip = ClipRange(SimpleNamespace(projection=projection, **ends))
     between = v.one("least"), v.one("most")
-    return {f"{prefix}_inside": clip.inside(*between), f"{prefix}_outside": clip.outside(*between)}
+    return clip.inside(*between), clip.outside(*between)
 
 
-def _plane(v: Inputs, prefix: str, projection: Projection) -> Kept:
+def _plane(v: Inputs, projection: Projection) -> Kept:
     """The plane's interval of t is variables: `bounds.plane_fractions` is recorded by itself."""
     region, kept = Region(0, 0, 1, 1), []
     infinite = SimpleNamespace(point=np.zeros(3), normal=np.ones(3))
@@ -105,8 +97,7 @@ def _plane(v: Inputs, prefix: str, projection: Projection) -> Kept:
         for _ in sweep.Sweep.enter_planes(this):
             pass
     [pairs] = kept
-    names = f"{prefix}_least", f"{prefix}_most", f"{prefix}_sure"
-    return dict(zip(names, (pairs.least, pairs.most, pairs.sure), strict=True))
+    return pairs.least, pairs.most, pairs.sure
 
 
 def _enter(v: Inputs) -> Kept:
@@ -115,15 +106,11 @@ def _enter(v: Inputs) -> Kept:
     depths.nearness, depths._most = v.one("winner_least"), v.one("winner_most")
     depths._surface, depths._stale = np.zeros(1, np.int64), np.zeros((1, 1), bool)
     depths.enter(FIRST, np.ones(1, np.int64), v.one("least"), v.one("most"))
-    return {
-        "enter_nearer": v.chosen(0, is_path=True),
-        "enter_winner_may_be_nearer": v.chosen(1, is_path=True),
-        "enter_nearness": depths.nearness,
-    }
+    return v.chosen(0, is_path=True), v.chosen(1, is_path=True), depths.nearness
 
 
 def _theorems(prefix: str, names: str) -> dict[str, str]:
-    return {f"{prefix}_{name}": f"SweepPixels.{prefix}_right" for name in names.split()}
+    return named(prefix, names, f"SweepPixels.{prefix}_right")
 
 
 _PAIRS = "edge inside least most sure"
@@ -150,14 +137,14 @@ RECORDS = (
         "small",
         "small_boxes.small_pairs",
         _SMALL,
-        lambda v: _small(v, "small", 2),
+        lambda v: _small(v, 2),
         _theorems("small", f"T {_PAIRS}"),
     ),
     Record(
         "small_one",
         "small_boxes.small_pairs",
         _SMALL | dict(x0=6.0, y0=9.0),
-        lambda v: _small(v, "small_one", 1),
+        lambda v: _small(v, 1),
         _theorems("small_one", f"T {_PAIRS}"),
         "a box of one pixel",
     ),
@@ -166,7 +153,7 @@ RECORDS = (
             f"clip_{name}",
             "depth_buffer.ClipRange",
             dict(start=0.5, end=100.0, least=0.25, most=0.5),
-            lambda v, name=name, of=of: _clip(v, f"clip_{name}", of),
+            lambda v, of=of: _clip(v, of),
             _theorems(f"clip_{name}", "inside outside"),
             of.name,
         )
@@ -177,7 +164,7 @@ RECORDS = (
             f"plane_pixel_{name}",
             "sweep.Sweep.enter_planes",
             dict(low=2.0, high=2.5),
-            lambda v, name=name, of=of: _plane(v, f"plane_pixel_{name}", of),
+            lambda v, of=of: _plane(v, of),
             _theorems(f"plane_pixel_{name}", "least most sure"),
             of.name,
         )

@@ -10,7 +10,7 @@ from reference_tracer.certified.quotient import Quotients
 from reference_tracer.tracer.camera import Rays
 
 from .bounds import CORNERS
-from .record import Inputs, Kept, Record, locals_of
+from .record import Inputs, Kept, Record, locals_of, named
 
 _TRIANGLE = dict(ax=-1.1, ay=-0.9, az=-5.2, bx=1.3, by=-0.8, bz=-5.7, cx=0.2, cy=1.4, cz=-4.9)
 _ORIGIN, _DIRECTION = dict(ox=0.11, oy=0.07, oz=0.3), dict(dx=0.01, dy=-0.02, dz=-1.0)
@@ -38,38 +38,32 @@ _NOTES = {
 }
 
 
-def _named(names: str, values) -> Kept:
-    return dict(zip(names.split(), values, strict=True))
-
-
 def _columns(case: str) -> list[str]:
     return [*_HALVES, *_REST[case]]
 
 
-def _dot(v: Inputs, prefix: str, has_low: bool) -> Kept:
+def _dot(v: Inputs, has_low: bool) -> Kept:
     normal = v.vector(" ".join(_HALVES))
     rest = v.vector("v2x v2y v2z") if has_low else 0.0
-    found = quotient._dot(v.vector("vx vy vz"), rest, v.one("unit"), normal)
-    return _named(f"{prefix}_high {prefix}_low", found)
+    return quotient._dot(v.vector("vx vy vz"), rest, v.one("unit"), normal)
 
 
 def _cross(v: Inputs) -> Kept:
     first = v.vector("ux uy uz"), v.vector("u2x u2y u2z")
     (high, low), size = quotient._cross(first, (v.vector("vx vy vz"), v.vector("v2x v2y v2z")))
-    names = "cross_x cross_y cross_z", "cross_low_x cross_low_y cross_low_z"
-    return _named(names[0], high) | _named(names[1], low) | {"cross_M": size}
+    return *high, *low, size
 
 
 def _quotient(v: Inputs) -> Kept:
     over, under = ([v.one(name) for name in names] for names in (_T, _D))
-    return _named("quotient_t quotient_sure", quotient._quotient(over, under))
+    return quotient._quotient(over, under)
 
 
-def _unit(v: Inputs, prefix: str) -> Kept:
+def _unit(v: Inputs) -> Kept:
     """Of several rays it is the same of the largest components: here there is one."""
     origins = v.shared("qx qy qz" if "qx" in v else "ox oy oz")
     own = Quotients(Rays(origins, v.vector("dx dy dz"), one_origin=True), 1)
-    return {prefix: own._unit}
+    return [own._unit]
 
 
 def _triangle(v: Inputs) -> Kept:
@@ -79,8 +73,7 @@ def _triangle(v: Inputs) -> Kept:
     with mock.patch.object(Quotients, "_enter", lambda *some: kept.append(some)):
         Quotients.of(rays, v.matrix(*CORNERS))
     [(_, _, _, (high, low), size)] = kept
-    names = "normal_x normal_y normal_z", "normal_low_x normal_low_y normal_low_z"
-    return _named(names[0], high) | _named(names[1], low) | {"normal_M": size}
+    return *high, *low, size
 
 
 def _prepared(v: Inputs, case: str) -> Quotients:
@@ -98,7 +91,7 @@ def _table(v: Inputs, case: str) -> Kept:
     table = quotient.np.empty((len(columns), v.columns))
     normal = v.vector("nx ny nz"), v.vector("n2x n2y n2z")
     own._enter(table, v.vector("px py pz"), normal, v.one("M"))
-    return _named(" ".join(f"table_{case}_{name}" for name in columns), table)
+    return table
 
 
 def _meet(v: Inputs, case: str) -> Kept:
@@ -110,16 +103,13 @@ def _meet(v: Inputs, case: str) -> Kept:
     rays = SimpleNamespace(origins=v.vector(origins) if origins else None, directions=direction)
     with locals_of(quotient._quotient) as local:
         own.meet(rays, v.rows)
-    parts = *local["numerator"], *local["denominator"]
-    return _named(" ".join(f"meet_{case}_{name}" for name in (*_T, *_D)), parts)
+    return *local["numerator"], *local["denominator"]
 
 
 def _simple(name: str, function: str, values: dict, call, theorem: str, **options) -> Record:
-    """Return a record, all of whose results are of one theorem."""
-    names = options.pop("names", name).split()
-    return Record(
-        name, f"quotient.{function}", values, call, dict.fromkeys(names, theorem), **options
-    )
+    """Return a record with one theorem for all results: the endings of their names, if several."""
+    theorems = named(name, options.pop("ends", ""), theorem) or {name: theorem}
+    return Record(name, f"quotient.{function}", values, call, theorems, **options)
 
 
 def _cases():
@@ -129,14 +119,13 @@ def _cases():
         "alone": ({}, {}),
     }
     for case, (shared, unit) in given.items():
-        columns = _columns(case)
         yield _simple(
             f"table_{case}",
             "Quotients._enter",
             _NORMAL | _POINT | dict(M=32.0) | shared | unit,
             lambda v, case=case: _table(v, case),
             f"QuotientBinary.binary_{case}",
-            names=" ".join(f"table_{case}_{name}" for name in columns),
+            ends=" ".join(_columns(case)),
             note=_NOTES[case],
             domain=_UNIT | dict(M=_POWERS),
         )
@@ -151,60 +140,60 @@ def _cases():
             _HALVES | _REST[case] | rays | unit,
             lambda v, case=case: _meet(v, case),
             f"QuotientBinary.binary_{case}",
-            names=" ".join(f"meet_{case}_{name}" for name in (*_T, *_D)),
+            ends=" ".join((*_T, *_D)),
             note=_NOTES[case],
             domain=_UNIT,
         )
 
 
-_NAMES = " ".join(f"{name}_{k}" for name in ("cross", "cross_low") for k in "xyz") + " cross_M"
+_HIGH_LOW, _NORMAL_ENDS = "high low", "x y z low_x low_y low_z M"
 
 RECORDS = (
     _simple(
         "two_sum",
         "two_sum",
         dict(a=1.0, b=1e-20),
-        lambda v: _named("two_sum_high two_sum_low", quotient.two_sum(v.one("a"), v.one("b"))),
+        lambda v: quotient.two_sum(v.one("a"), v.one("b")),
         "Digits.two_sum_exact",
-        names="two_sum_high two_sum_low",
+        ends=_HIGH_LOW,
     ),
     _simple(
         "halves",
         "halves",
         dict(v=0.7, unit=1.0),
-        lambda v: _named("halves_high halves_low", quotient.halves(v.one("v"), v.one("unit"))),
+        lambda v: quotient.halves(v.one("v"), v.one("unit")),
         "Digits.halves_exact",
-        names="halves_high halves_low",
+        ends=_HIGH_LOW,
         domain=_UNIT,
     ),
     _simple(
         "highest",
         "highest",
         dict(a=0.7),
-        lambda v: {"highest": quotient.highest(v.one("a"))},
+        lambda v: [quotient.highest(v.one("a"))],
         "Digits.highest_digits",
     ),
     _simple(
         "power_above",
         "power_above",
         _V,
-        lambda v: {"power_above": quotient.power_above(v.vector("vx vy vz"))},
+        lambda v: [quotient.power_above(v.vector("vx vy vz"))],
         "CrossProduct.power_above_spec",
     ),
     _simple(
         "product_error",
         "_error",
         dict(unit=1.0, size=4.0),
-        lambda v: {"product_error": quotient._error(v.one("unit"), v.one("size"))},
+        lambda v: [quotient._error(v.one("unit"), v.one("size"))],
         "Quotient.dot_known",
     ),
     _simple(
         "product",
         "_dot",
         _V | _LOW | _HALVES | dict(unit=1.0),
-        lambda v: _dot(v, "product", True),
+        lambda v: _dot(v, True),
         "ScalarProduct.dot_near",
-        names="product_high product_low",
+        ends=_HIGH_LOW,
         note="of a sum of two floats",
         domain=_UNIT,
     ),
@@ -212,27 +201,27 @@ RECORDS = (
         "product_of_one",
         "_dot",
         _V | _HALVES | dict(unit=1.0),
-        lambda v: _dot(v, "product_of_one", False),
+        lambda v: _dot(v, False),
         "ScalarProduct.dot_near",
-        names="product_of_one_high product_of_one_low",
+        ends=_HIGH_LOW,
         note="of one float",
         domain=_UNIT,
     ),
-    _simple("cross", "_cross", _SIDES, _cross, "CrossProduct.cross_known", names=_NAMES),
+    _simple("cross", "_cross", _SIDES, _cross, "CrossProduct.cross_known", ends=_NORMAL_ENDS),
     _simple(
         "normal",
         "Quotients.of",
         _TRIANGLE | _ORIGIN | _DIRECTION,
         _triangle,
         "CrossProduct.cross_known",
-        names=_NAMES.replace("cross", "normal"),
+        ends=_NORMAL_ENDS,
         note="a triangle",
     ),
     _simple(
         "unit_from_point",
         "Quotients",
         _ORIGIN | _DIRECTION,
-        lambda v: _unit(v, "unit_from_point"),
+        _unit,
         "CrossProduct.power_above_spec",
         note=_NOTES["from_point"],
     ),
@@ -243,6 +232,6 @@ RECORDS = (
         _T | _D,
         _quotient,
         "Ziv.quotient_correct",
-        names="quotient_t quotient_sure",
+        ends="t sure",
     ),
 )

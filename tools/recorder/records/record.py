@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -17,7 +17,8 @@ from ..functions import recording
 from ..nodes import Node, RefusedError, every, node
 
 Values = Mapping[str, float | bool]
-Kept = Mapping[str, Any]  # arrays of one number, or of none where it was not reached
+# Arrays of one number, or of none where it was not reached; by their names, where runs differ.
+Kept = Mapping[str, Any] | Iterable[Any]
 
 
 class Inputs:
@@ -88,9 +89,9 @@ class Record:
     """A call of one function.
 
     `values` are those of its variables that it is recorded with: they decide which way it goes.
-    `theorems` has the Coq name of each result, and of the theorem about it with its file, as in
-    Forms.plane_T; or `BY_HAND`. Of a variable that is no number of any size, `domain` has some
-    values.
+    `theorems` has the Coq name of each result, in the order of `call`, and of the theorem about it
+    with its file, as in Forms.plane_T; or `BY_HAND`. Of a variable that is no number of any size,
+    `domain` has some values.
     """
 
     name: str
@@ -100,6 +101,17 @@ class Record:
     theorems: Mapping[str, str] = field(default_factory=dict)
     note: str = ""
     domain: Mapping[str, Sequence[float]] = field(default_factory=dict)
+
+    def results(self, inputs: Inputs) -> dict[str, Any]:
+        """Call the function; return its results by their names."""
+        found = self.call(inputs)
+        named = found if isinstance(found, Mapping) else zip(self.theorems, found, strict=True)
+        return dict(named)
+
+
+def named(prefix: str, names: str, theorem: str) -> dict[str, str]:
+    """Return the names of results, with the theorem that all of them have."""
+    return {f"{prefix}_{name}": theorem for name in names.split()}
 
 
 @dataclass(frozen=True)
@@ -125,7 +137,7 @@ def recorded(record: Record, values: Values, columns: int = 1) -> list[tuple[Out
     with recording() as choices, np.errstate(all="ignore"):
         inputs = Inputs(values, choices, columns)
         try:
-            kept = dict(record.call(inputs))
+            kept = record.results(inputs)
         except RefusedError as refused:
             refused.add_note(f"while {record.function} was recorded")
             raise
@@ -143,7 +155,7 @@ def recorded(record: Record, values: Values, columns: int = 1) -> list[tuple[Out
 def computed(record: Record, values: Values) -> dict[str, NDArray | None]:
     """Call a function on plain numbers; a result is empty, or None, where it cannot be seen."""
     with np.errstate(all="ignore"):
-        return dict(record.call(Inputs(values)))
+        return record.results(Inputs(values))
 
 
 def _words(record: Record, name: str) -> str:

@@ -14,7 +14,7 @@ from ....causes.case import Variant
 from ....scene import Instance, Scene
 from .origin import Origin
 
-MOST = 6  # objects that are looked at alone
+MOST = 6  # objects that are tried alone
 NEAR = 1e-5
 
 Placed = Callable[[Any], Any]  # of an object, its other world matrix

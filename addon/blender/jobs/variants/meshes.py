@@ -15,7 +15,7 @@ from ...reading.export import export
 from ...reading.meshes import read_mesh
 from .origin import Origin
 
-MOST = 6  # objects that are looked at alone
+MOST = 6  # objects that are tried alone
 LEVELS = (-1, 1, -2, 2)  # of subdivision more, or less
 MOST_TRIANGLES = 300_000  # of the scene, where a level is added: each makes four of one
 DEFORMING = {"ARMATURE", "HOOK", "LATTICE", "CURVE", "MESH_DEFORM", "SURFACE_DEFORM"}

@@ -1,0 +1,64 @@
+"""Work that is done in turns with Blender, which evaluates and draws in between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from typing import Any, Generic, TypeAlias, TypeVar
+
+from ..tracer.signals import check
+
+T = TypeVar("T")
+# Work in turns: it is sent an evaluated depsgraph, and yields to have it drawn, saying whether that
+# is not the last picture; it goes on when that is written, and yields for the next evaluation.
+Turns: TypeAlias = Generator[bool, Any, T]
+
+
+class InTurns(Generic[T]):
+    """Work that is done in turns with Blender.
+
+    Blender's handlers print what is raised in them, and forget it: so it is raised at the end. A
+    signal is heard at the next turn, and ends the work.
+    """
+
+    def __init__(self, work: Turns[T]) -> None:
+        self._work = work
+        self._ended: list[Callable[[], T]] = []
+        self.wants_more = False  # than the picture that is to be drawn
+        self.go_on()
+
+    def go_on(self, depsgraph: Any = None) -> bool:
+        """Do the work's next turn; return whether it has ended."""
+        self.hear()
+        return self._do(lambda: self._work.send(depsgraph))
+
+    def hear(self) -> None:
+        """Have the work end, if a signal was heard."""
+        try:
+            check()
+        except KeyboardInterrupt as interrupt:
+            self.fail(interrupt)
+
+    def fail(self, error: BaseException) -> None:
+        """Have the work fail where it is, unless it has ended."""
+        self._do(lambda: self._work.throw(error))
+
+    def result(self) -> T:
+        """Return what the work returned, or raise what it raised."""
+        return self._ended[0]()
+
+    def _do(self, turn: Callable[[], bool]) -> bool:
+        if not self._ended:
+            self.wants_more = False
+            try:
+                self.wants_more = turn()
+            except StopIteration as stop:
+                value: T = stop.value
+                self._ended.append(lambda: value)
+            except BaseException as raised:
+                error = raised
+                self._ended.append(lambda: _raise(error))
+        return bool(self._ended)
+
+
+def _raise(error: BaseException) -> Any:
+    raise error

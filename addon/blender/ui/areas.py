@@ -1,0 +1,42 @@
+"""The areas of all windows: to find what they show, to draw them again, to work within one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+
+# Types of areas that show progress, and of regions in them.
+_SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
+
+
+def areas(*kinds: str) -> Iterator[tuple[Any, Any]]:
+    """Yield the areas of some types, with their windows: those of the context's window first."""
+    context: Any = bpy.context
+    for window in sorted(context.window_manager.windows, key=lambda w: w != context.window):
+        yield from ((window, area) for area in window.screen.areas if area.type in kinds)
+
+
+@contextmanager
+def within(window: Any, area: Any) -> Iterator[Any]:
+    """Have operators work in the main region of an area for a while, and give it."""
+    inside = next(r for r in area.regions if r.type == "WINDOW")
+    context: Any = bpy.context
+    with context.temp_override(window=window, area=area, region=inside):
+        yield inside
+
+
+def redraw(context: Any) -> None:
+    """Have the context's window drawn again, where there is one."""
+    for area in context.window.screen.areas if context.window else ():
+        area.tag_redraw()
+
+
+def redraw_said() -> None:
+    """Have what says how far the work is drawn again, and nothing that costs more."""
+    for _, area in areas(*dict(_SAID_IN)):
+        for region in area.regions:
+            if (area.type, region.type) in _SAID_IN:
+                region.tag_redraw()

@@ -1,0 +1,144 @@
+"""Shows pictures and texts in data-blocks of Blender's: ours, which no file and no undo step has.
+
+Blender stores no data-block that is marked as runtime data. A picture is shown from a file of the
+session's, so there is nothing in it to be saved. Undo takes them away, and they are put back.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from .areas import areas
+
+if TYPE_CHECKING:
+    from ...arrays import Colors
+
+TRACED = "Reference Tracer Traced"
+BLENDER = "Reference Tracer Blender"
+DIFFERENCE = "Reference Tracer Difference"
+CAUSES = "Reference Tracer Causes"
+PUT_RIGHT = "Reference Tracer Put Right"
+PICTURES = TRACED, BLENDER, DIFFERENCE, CAUSES, PUT_RIGHT
+MARK = "reference_tracer_result"  # a custom property of our images and texts: their name
+_SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of an area
+
+_files: dict[str, tuple[str, str]] = {}  # of our images, with their colour spaces, and texts
+_made: dict[str, int] = {}  # from these: the latest one's `session_uid`
+_seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
+
+
+def show(name: str, color: Colors) -> Any:
+    """Show linear RGBA (h, w, 4) as our image of this name, in place of the one that there is."""
+    import numpy as np
+
+    height, width = color.shape[:2]
+    image: Any = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+    linear = image.colorspace_settings.name
+    image.colorspace_settings.is_data = True  # it is written as it is
+    image.alpha_mode = "CHANNEL_PACKED"
+    image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
+    image.filepath_raw = str(Path(bpy.app.tempdir, f"{name}.exr"))
+    image.file_format = "OPEN_EXR"
+    image.save()
+    _files[name] = image.filepath_raw, linear
+    bpy.data.images.remove(image)
+    remember_editors()
+    shown = _loaded(name)
+    _fill_editors()
+    return shown
+
+
+def _loaded(name: str) -> Any:
+    """Load our image or text from its file, in place of the one that there is."""
+    path, linear = _files[name]
+    block: Any
+    if linear:
+        block = bpy.data.images.load(path)
+        block.colorspace_settings.name = linear
+    else:
+        block = bpy.data.texts.load(path, internal=True)
+    _give_up(name, block)
+    block.name = name
+    block[MARK] = name
+    block.is_runtime_data = True
+    _made[name] = block.session_uid
+    return block
+
+
+def remove(name: str) -> None:
+    """Remove our image or text of a name, if there is one."""
+    _give_up(name)
+    _files.pop(name, None)
+
+
+def _give_up(name: str, successor: Any = None) -> None:
+    """Remove a block of ours, and give its users another; one that was saved to a file stays."""
+    old = ours(name)
+    if old and old.filepath and _file(old.filepath) != _file(_files[name][0]):
+        del old[MARK]
+        old.is_runtime_data = False
+        old.name = Path(old.filepath).name
+    elif old:
+        if successor:
+            old.user_remap(successor)
+        _blocks(name).remove(old)
+
+
+def _file(path: str) -> Path:
+    return Path(bpy.path.abspath(path)).resolve()
+
+
+def ours(name: str) -> Any:
+    """Return our image or text of a name, or None."""
+    return next((b for b in _blocks(name) if b.get(MARK) == name and b.is_runtime_data), None)
+
+
+def _blocks(name: str) -> Any:
+    _path, linear = _files.get(name, ("", ""))
+    return bpy.data.images if linear else bpy.data.texts
+
+
+def show_text(name: str, content: str) -> Any:
+    """Put a text into our text of this name, and show it in a text editor."""
+    path = Path(bpy.app.tempdir, f"{name}.md")
+    path.write_text(content, encoding="utf-8")
+    _files[name] = str(path), ""
+    text = _loaded(name)
+    for _, area in list(areas("TEXT_EDITOR"))[:1]:
+        area.spaces.active.text = text
+        area.spaces.active.top = 0
+    return text
+
+
+@bpy.app.handlers.persistent
+def remember_editors(*_: Any) -> None:
+    """Remember which editors show ours, before undo takes it away."""
+    _seen.clear()
+    for _, area in areas(*_SHOWN_AS):
+        shown = getattr(area.spaces.active, _SHOWN_AS[area.type])
+        if shown and MARK in shown:
+            _seen.append((area, shown[MARK]))
+
+
+@bpy.app.handlers.persistent
+def put_back(*_: Any) -> None:
+    """Make again what undo has taken away, or has put an older one in the place of."""
+    for name in _files:
+        block = ours(name)
+        if block is None or block.session_uid != _made[name]:
+            _loaded(name)
+    _fill_editors()
+
+
+def _fill_editors() -> None:
+    for area, name in _seen:
+        setattr(area.spaces.active, _SHOWN_AS[area.type], ours(name))
+
+
+def remove_all() -> None:
+    """Remove all of ours."""
+    for name in tuple(_files):
+        remove(name)

@@ -1,0 +1,98 @@
+"""The operators that add to a scene, or write it; the work is done elsewhere."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ...tracer.progress import Work
+from ...wording import count_of, say
+from .long_work import Answer, LongWork, named, with_ending
+
+
+@named
+class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
+    bl_label = "Add a Camera That Frames All"
+    bl_description = (
+        "Add a camera that sees all that a render shows, from the front, the right and above, "
+        "and make it the scene's"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Any) -> Answer:
+        from ..jobs.choice import frame_all
+
+        camera = frame_all(context.scene, context.view_layer)
+        camera.name = "Camera"
+        camera.data.name = "Camera"
+        return {"FINISHED"}
+
+
+@named
+class REFERENCE_TRACER_OT_write_colors(bpy.types.Operator):
+    bl_label = "Write the Colors"
+    bl_description = (
+        "Add a copy of the scene, of plain meshes whose materials emit the colours of a "
+        "comparison. Render it with any engine, then press Trace and Compare there"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it where there is a camera."""
+        return context.scene.camera is not None
+
+    def execute(self, context: Any) -> Answer:
+        from ...pictures.palette import By
+        from ..jobs.colors_scene import colors_scene
+
+        made = colors_scene(context, By(context.scene.reference_tracer.colors.lower()))
+        if context.window:
+            context.window.scene = made
+        said = rpt_("'{}' is added: render it with any engine, then press Trace and Compare")
+        self.report({"INFO"}, said.format(made.name))
+        return {"FINISHED"}
+
+
+@named
+class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper is no operator
+    ExportHelper, LongWork, bpy.types.Operator
+):
+    bl_label = "Export Reference Tracer Scene"
+    bl_description = (
+        "Write what the camera sees, as a render has it, to a file that `reftrace trace "
+        "FILE.npz` traces without Blender"
+    )
+    bl_options = set()  # it leaves nothing in Blender
+    filename_ext = ".npz"
+    needs_camera = True
+    announced = "Blender evaluates the scene"
+
+    filepath: StringProperty(
+        name="File",
+        description="The file to write; its name ends in .npz",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE"},
+    )
+    filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Export the scene as a render has it, and write it: it is whole, or not there."""
+        from ...files.scenes import save_scene
+        from ...report import folders
+        from ..jobs.open_file import export_open_file
+
+        path = with_ending(self.filepath, self.filename_ext)
+        scene, manifest, _ = export_open_file(context)
+        yield None
+        with folders.made_for_file(path), folders.replacing_file(path) as new:
+            save_scene(new, scene, manifest)
+        say(*manifest.lines())
+        return scene
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        return "INFO", f"{count_of(result.triangle_count, 'triangle')}: {self.filepath}"
