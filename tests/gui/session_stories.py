@@ -21,8 +21,8 @@ from story import (
 )
 
 
-def images():
-    """The names of the images that the user may see."""
+def image_names():
+    """Of all images, but what Blender itself draws into."""
     return sorted(i.name for i in bpy.data.images if i.source != "VIEWER")
 
 
@@ -105,7 +105,7 @@ def seen(name, path):
     image = area and area.spaces.active.image
     noted["steps"][name] = {
         "size": path.stat().st_size,
-        "images": images(),
+        "images": image_names(),
         "dirty": [i.name for i in bpy.data.images if i.is_dirty],
         "shown": image and image.name,
         "fresh": bool(image and shows_latest()),
@@ -148,21 +148,21 @@ def elsewhere():
     yield
     before = kept.read_bytes()
     yield from compared_in(of_first)
-    noted["saved"] = [kept.read_bytes() == before, images(), shown_in(area)]
+    noted["saved"] = [kept.read_bytes() == before, image_names(), shown_in(area)]
     first.camera.data.type = "PANO"
     with bpy.context.temp_override(window=of_first):
         bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
     yield from until(ended, 20)
-    noted["refused"] = [images(), shown_in(area), verdict(of_first)]
+    noted["refused"] = [image_names(), shown_in(area), verdict(of_first)]
     yield
     screenshot("session_refused")
     first.camera.data.type = "PERSP"
     yield from compared_in(of_first)
     bpy.ops.reference_tracer.explain(x=3, y=4)
-    noted["before"] = [images(), [t.name for t in bpy.data.texts]]
+    noted["before"] = [image_names(), [t.name for t in bpy.data.texts]]
     bpy.ops.preferences.addon_disable(module=MODULE)
     yield
-    noted["disabled"] = [images(), [t.name for t in bpy.data.texts], shown_in(area)]
+    noted["disabled"] = [image_names(), [t.name for t in bpy.data.texts], shown_in(area)]
     screenshot("session_disabled")
     bpy.ops.preferences.addon_enable(module=MODULE)
 
