@@ -12,6 +12,7 @@ PACKAGES = {  # by the folder that each stands in
     "packages/meshes": "reference_tracer_meshes",
     "packages/rays": "reference_tracer_rays",
     "packages/processes": "reference_tracer_processes",
+    "packages/visible": "reference_tracer_visible",
     "packages/verify": "reference_tracer_verify",
     "packages/scene_diff": "reference_tracer_scene_diff",
 }

@@ -159,13 +159,13 @@ def trace(
     statistics = statistics or Statistics()
     settings = resolved(settings or Settings(), statistics)
     method = Method(settings.method)
-    if every and not rays:
-        rays = camera_rays(scene.camera, *film_positions(scene.camera.region))
-    if rays:
+    if rays or every:
+        rays = rays or camera_rays(scene.camera, *film_positions(scene.camera.region))
         if not (np.isfinite(rays.origins).all() and np.isfinite(rays.directions).all()):
             raise SceneError("a ray's origin or direction is not finite")
         if every:
-            return only("rays", "all hits of rays").every_hit(scene, rays)
+            clip = scene.camera.clip_start, scene.camera.clip_end
+            return result_of(only("rays", "all hits of rays").all_hits(scene, rays, clip))
         o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
         rays = replace(rays, origins=o, directions=d)
         return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))

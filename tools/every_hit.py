@@ -1,20 +1,17 @@
 """Counts the wrong answers of others to what docs/every.md is about, and their seconds, in a table.
 
-    .venv/bin/python tools/every_hit.py [--picture docs/images/every.svg]
+    .venv/bin/python tools/every_hit.py
 
-Beside `trace(..., every=True)`: Embree through embreex, asked again and again from a little behind
-each hit; trimesh's `intersects_id`, which does so with embreex; trimesh's own test without it.
-Beside `inside`: trimesh's `contains`. A ray is wrong if another number of surfaces is told; the
-parity, if that is odd where ours is even, or the reverse. CPU seconds are of all rays, but for
-trimesh's own test, which gets the first thousand. It takes half a minute.
+Beside `trace(..., every=True)`: Embree through embreex, called again and again from a little behind
+each hit; trimesh's `intersects_id`, which does so with embreex. Beside `inside`: trimesh's
+`contains`. A ray is wrong if the number of surfaces is another; the parity, if that is odd where
+ours is even, or the reverse. It takes some seconds.
 """
 
 from __future__ import annotations
 
-import argparse
 import time
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import trimesh
@@ -23,10 +20,8 @@ from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 from reference_tracer import Camera, Instance, Mesh, Rays, Scene, ViewWindow, inside, trace
 from reference_tracer.projections import ORTHOGRAPHIC
-from trimesh.ray.ray_triangle import RayMeshIntersector
 
 Points = NDArray[np.float64]  # (n, 3)
-FEW = 1000  # rays that trimesh's own test gets
 MOST = 64  # hits of a ray
 
 
@@ -68,14 +63,6 @@ def by_trimesh(shape: trimesh.Trimesh, origins: Points, directions: Points) -> N
     return np.bincount(ray, minlength=len(origins))
 
 
-def without_embree(
-    shape: trimesh.Trimesh, origins: Points, directions: Points
-) -> NDArray[np.int64]:
-    """Count the places that trimesh's own test finds, of the first rays."""
-    some = RayMeshIntersector(shape).intersects_location(origins[:FEW], directions[:FEW])
-    return np.bincount(some[1], minlength=len(origins[:FEW]))
-
-
 def timed(count: Callable[..., NDArray], *inputs: object) -> tuple[NDArray, str]:
     """Return what is counted, and the CPU seconds."""
     began = time.process_time()
@@ -86,11 +73,10 @@ def timed(count: Callable[..., NDArray], *inputs: object) -> tuple[NDArray, str]
 def row_of_rays(name: str, shape: trimesh.Trimesh, origins: Points, directions: Points) -> str:
     """Return a row of the table of rays."""
     right, seconds = timed(ours, shape, origins, directions)
-    cells = [name, f"{len(origins):,}", f"{right.sum():,}", seconds]
-    for count in (loop, by_trimesh, without_embree):
+    cells = [name, f"{len(origins):,}", seconds]
+    for count in (loop, by_trimesh):
         told, seconds = timed(count, shape, origins, directions)
-        own = right[: len(told)]
-        wrong, parity = (told != own).sum(), (told % 2 != own % 2).sum()
+        wrong, parity = (told != right).sum(), (told % 2 != right % 2).sum()
         cells.append(f"{wrong:,} ({parity:,}), {seconds}")
     return f"| {' | '.join(cells)} |"
 
@@ -142,8 +128,8 @@ def tables() -> str:
         row_of_points("between 12 shells", shells, near),
     ]
     head = (
-        "| rays, a ball | rays | hits | ours | Embree in a loop: wrong (parity) | trimesh, embreex "
-        f"| trimesh alone, of {FEW:,} |\n|---|---|---|---|---|---|---|"
+        "| rays, a ball | rays | ours | Embree in a loop: wrong (parity) | trimesh, embreex |\n"
+        "|---|---|---|---|---|"
     )
     second = (
         "| points, a ball | points | ours | `contains`: wrong | on the surface |\n"
@@ -152,44 +138,5 @@ def tables() -> str:
     return "\n".join([head, *rays, "", second, *points])
 
 
-def picture() -> str:
-    """Return the drawing: a ball from the eye, and where rays to corners and edges count wrong."""
-    ball = trimesh.creation.icosphere(3)
-    eye = np.array([0.31, 0.22, 3.0])
-    edges = np.array(ball.vertices)[ball.edges_unique]
-    targets = np.concatenate((ball.vertices, edges.mean(axis=1)))
-    origins = np.tile(eye, (len(targets), 1))
-    told = loop(ball, origins, targets - eye)
-    right = ours(ball, origins, targets - eye)
-    front = ((eye - targets) * targets).sum(axis=1) > 0
-
-    def on_film(point: Points) -> Points:
-        seen = (point - eye) / (eye - point)[..., 2:] + eye / eye[2]
-        return 200 + 520 * seen[..., :2] * (1, -1)
-
-    facing = ((eye - edges) * edges).sum(axis=2).min(axis=1) > 0
-    lines = "".join(
-        f"M{a[0]:.0f} {a[1]:.0f}L{b[0]:.0f} {b[1]:.0f}" for a, b in on_film(edges[facing])
-    )
-    wrong = np.flatnonzero(front & (told % 2 != right % 2))
-    dots = "".join(f'<circle cx="{x:.0f}" cy="{y:.0f}" r="5"/>' for x, y in on_film(targets[wrong]))
-    return (
-        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 400" width="400" height="400">'
-        f'<rect width="400" height="400" fill="#fff"/><path d="{lines}" stroke="#8aa" fill="none"/>'
-        f'<g fill="none" stroke="#d22" stroke-width="2.5">{dots}</g></svg>\n'
-    )
-
-
-def main() -> None:
-    """Print the tables, or draw."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--picture", type=Path, help="the SVG to write in place of the tables")
-    given = parser.parse_args()
-    if given.picture:
-        given.picture.write_text(picture(), encoding="utf-8")
-    else:
-        print(tables())
-
-
 if __name__ == "__main__":
-    main()
+    print(tables())

@@ -86,14 +86,7 @@ def rotation(q: Floats) -> Floats:
     length = float(np.linalg.norm(q))
     if not length:
         raise SceneError(f"{IMAGES}: a quaternion is zero")
-    w, x, y, z = q / length
-    return np.array(
-        (
-            (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
-            (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
-            (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
-        )
-    )
+    return frame.of_quaternion(*(q / length))
 
 
 def _folder(path: Path) -> Path:

@@ -56,6 +56,17 @@ def pose(rotation: Floats, translation: Floats) -> Floats:
     return out
 
 
+def of_quaternion(w: float, x: float, y: float, z: float) -> Floats:
+    """Return the rotation (3, 3) of a unit quaternion."""
+    return np.array(
+        (
+            (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
+            (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
+            (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
+        )
+    )
+
+
 def camera_from_world(camera: Camera, axes: Floats = OPENCV) -> Floats:
     """Return the matrix that takes world space to a camera space, (4, 4)."""
     return axes @ inverse(camera.world_from_camera)

@@ -18,6 +18,7 @@ import numpy as np
 from ..arrays import Floats
 from ..files.checked_json import Content, numbers
 from ..scene import SceneError
+from .frame import of_quaternion, pose
 
 VISIBILITY = "KHR_node_visibility"
 _HEADER = struct.Struct("<4sII")  # magic, version of the container, length of the whole file
@@ -197,18 +198,5 @@ def _local(node: Content, where: str, notes: dict[str, None]) -> Floats:
     if abs(length - 1) > _QUANTISED:
         notes["Rotations are not of length 1, as they must be; they are made so."] = None
     place, scale = (numbers(rest, key, where, (3,)) for key in ("translation", "scale"))
-    return _composed(place, rotation / length, scale)
-
-
-def _composed(translation: Floats, rotation: Floats, scale: Floats) -> Floats:
-    """Return T · R · S of vectors and a unit quaternion (x, y, z, w), (4, 4)."""
-    x, y, z, w = rotation
-    out = np.eye(4)
-    out[:3, :3] = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
-        (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
-        (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
-    )
-    out[:3, :3] *= scale
-    out[:3, 3] = translation
-    return out
+    x, y, z, w = rotation / length
+    return pose(of_quaternion(w, x, y, z) * scale, place)

@@ -112,7 +112,8 @@ class Guessing:
 
         Faults without numbers to fit are tried before the others: where one of them does it
         all, a fit that does as well says no more. What may be anything, and cannot be sampled,
-        comes last: it takes most work, and is not told where something exact does as well.
+        comes last: it takes most work, and is not told where something exact does as well. Where a
+        fault of the view accounts for most, no object's is looked for until that is put right.
         """
         unexplained = float(evidence.unexplained.sum())
         most = of.unexplained.sum()
@@ -128,6 +129,9 @@ class Guessing:
         order = Effort if is_everywhere(evidence) else IN_PLACES
         for number, effort in enumerate(order, 1):
             some = [fault for fault in faults if fault.effort == effort]
+            of_view = [t for t in out if not t.guess.object and of is evidence]
+            if effort == Effort.OBJECT and any(_may_be_first(of, t) for t in of_view):
+                break
             yield Progress(None, f"{number}/{len(order)}: trying {TRIED[effort]}")
             scored = yield from self._scored(evidence, some)
             unknown += [one for one in scored if one[1].vague and not one[1].sampled]
@@ -248,20 +252,25 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
     trials = yield from guessing.trials(evidence, evidence)
     if best := _best(evidence, trials):
         return [best]
-    for first in trials[:STARTS]:
-        least = MAIN if first.broken else SHARE
-        if first.gain < least * evidence.unexplained.sum() or first.perfect:
-            continue
-        if first.broken > LOST * first.settled or first.own < COMPLETE:
-            continue
-        seconds = yield from guessing.trials(carried(evidence, first), evidence)
-        if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
-            return [[first], best]
     for first in (yield from _turned(guessing, evidence)):
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
         if best := _best(evidence, seconds):
             return [[first], best]
+    for first in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
+        seconds = yield from guessing.trials(carried(evidence, first), evidence)
+        if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
+            return [[first], best]
     return []
+
+
+def _may_be_first(evidence: Evidence, trial: Trial, of_little: bool = False) -> bool:
+    """Return whether a second fault may account for what this one, or one of little, leaves."""
+    return bool(
+        trial.gain >= (SHARE if of_little else MAIN) * evidence.unexplained.sum()
+        and trial.broken <= LOST * trial.settled
+        and trial.own >= COMPLETE
+        and trial.evidence.unexplained.any()
+    )
 
 
 def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:

@@ -1,8 +1,8 @@
 """Long work in small steps: generators that yield events; their value is their result.
 
 An event is `Progress`, where more is known of how far the work is or what it does; `Found`, for a
-result that is there before the end; or nothing: then a step is over. The caller decides what to
-show, and stops the work by not asking for more.
+result that is there before the end; or None, which ends nothing: a step is over. The caller decides
+what to show, and stops the work by not asking for more.
 """
 
 from __future__ import annotations

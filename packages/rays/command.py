@@ -5,20 +5,19 @@ from __future__ import annotations
 from argparse import Namespace
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.any_rays import nearest_hits
 from reference_tracer.certified.arithmetic import check_assumptions
-from reference_tracer.certified.triangle_tree import TriangleTree
 from reference_tracer.cli.camera_options import add_parts, choice_from
 from reference_tracer.cli.opening import SOURCES, open_file
 from reference_tracer.cli.parser import AGREE, Parser, number
 from reference_tracer.cli.running import progress_bar
 from reference_tracer.framing import Choice
 from reference_tracer.report import folders
-from reference_tracer.scene import Scene, SceneError
-from reference_tracer.tracer.camera import Rays
+from reference_tracer.scene import SceneError
 from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
 from reference_tracer.tracer.progress import Work, result_of, scaled
 from reference_tracer.tracer.world import refused
@@ -103,14 +102,22 @@ def rays(options: RaysOptions) -> int:
     check_assumptions()
     of_points = options.what == "parity"
     given = (load_points if of_points else load_rays)(options.rays)
+    clip = options.start, options.end
     with folders.made_for_file(options.out):
         opened = open_file(options.scene, options.choice, whole=True)
         scene = opened.scene
         show(*opened.manifest.lines())
         statistics = Statistics(refused=refused(scene))
+        work: Work[Any]
+        if of_points:
+            work = places(scene, given)
+        elif options.what == "every":
+            work = all_hits(scene, given, clip)
+        else:
+            statistics.method = "certified"
+            work = nearest_hits(scene, given, clip, statistics, options.what == "first")
         with progress_bar() as progress:
-            work = scaled(_work(options, scene, given, statistics), 0.0, 1.0, "tracing")
-            found = result_of(work, progress)
+            found: Any = result_of(scaled(work, 0.0, 1.0, "tracing"), progress)
         with folders.replacing_file(options.out) as new:
             save(new, scene, given.count, found)
     counts = count_of(given.count, "point" if of_points else "ray")
@@ -119,23 +126,11 @@ def rays(options: RaysOptions) -> int:
     return AGREE
 
 
-def _work(
-    options: RaysOptions, scene: Scene, given: Rays, statistics: Statistics
-) -> Work[Hits | Crossings | Inside]:
-    """Return the work that was chosen."""
-    clip = options.start, options.end
-    if options.what == "parity":
-        return places(scene, given)
-    if options.what == "every":
-        return all_hits(scene, given, clip, TriangleTree.of(scene))
-    statistics.method = "certified"
-    return nearest_hits(scene, given, clip, statistics, options.what == "first")
-
-
 def _said(found: Hits | Crossings | Inside) -> str:
     if isinstance(found, Inside):
-        words = "outside", "inside", "on a surface"
-        counts = (f"{(found.place == k).sum():,} {word}" for k, word in enumerate(words))
-        return "; ".join([", ".join(counts), *found.notes])
+        said = "{:,} outside, {:,} inside, {:,} on a surface"
+        if found.winding is None:
+            said += "; no winding numbers, as faces of a mesh are turned against one another"
+        return said.format(*np.bincount(found.place, minlength=3))
     met = count_of(int((found.instance != NOTHING).sum()), "hit")
     return f"{met}, {(found.certainty == Certainty.AMBIGUOUS).sum():,} ambiguous"

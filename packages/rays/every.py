@@ -12,7 +12,7 @@ from functools import cmp_to_key
 from typing import Any
 
 import numpy as np
-from reference_tracer.arrays import Bools, Bytes, Floats, Index, Places, parts
+from reference_tracer.arrays import Bools, Bytes, Floats, Index, Places, parts, run_starts
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.arithmetic import sound_steps
@@ -70,11 +70,14 @@ class Crossings(Arrays):
 
 
 @sound_steps
-def all_hits(scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree) -> Work[Crossings]:
+def all_hits(
+    scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree | None = None
+) -> Work[Crossings]:
     """Find all hits of n finite rays with start <= t <= end, the clip range, with proof, in steps.
 
-    `tree` is the scene's.
+    `tree` is the scene's, if it is there.
     """
+    tree = tree or TriangleTree.of(scene)
     found = []
     for some in parts(rays.count, RAYS) or [slice(0, 0)]:
         yield Progress(some.start / max(rays.count, 1))
@@ -89,7 +92,7 @@ def all_hits(scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree) -> Work[C
 def _crossings(scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree) -> Crossings:
     """Return all hits of some rays; `enters` as if no instance were mirrored."""
     none = np.zeros(0, np.int32)
-    found: list[tuple[Index, Index, Index, Bools, Index]] = [(none, none, none, none > 0, none)]
+    found: list[Any] = [(none, none, none, none > 0, none)]
     for number, plane in enumerate(scene.planes, len(scene.instances)):
         ladder = Ladder(rays, Surfaces([(plane.point, plane.normal)], number), clip)
         hits = result_of(ladder.hits(Statistics()))
@@ -97,7 +100,7 @@ def _crossings(scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree) -> Cros
         names = hits.instance[met], hits.triangle[met]
         found.append((met, *names, met < 0, hits.certainty[met]))
     for pairs in tree.pairs(rays, *clip):
-        how = decide(rays.take(pairs.pixel), pairs.triangles.corners, *clip, row=pairs.row)
+        how = decide(rays.take(pairs.pixel), pairs.corners, *clip)
         met = np.flatnonzero(how.crossed)
         some = pairs.take(met)
         certainty = (Certainty.BOUND + how.exact + how.edge)[met]  # an edge is decided in integers
@@ -119,27 +122,19 @@ def _crossings(scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree) -> Cros
 
 def _in_order(rays: Rays, hits: Crossings, surfaces: Surfaces, surface: Index) -> Crossings:
     """Return hits that are sorted by ray, t and name, those of one t in the moved ray's order."""
-    follows = np.zeros(len(hits), bool)
-    follows[1:] = (hits.ray[1:] == hits.ray[:-1]) & (hits.t[1:] == hits.t[:-1])
+    follows = np.ones(len(hits), bool)
+    follows[run_starts(hits.ray, hits.t + 0.0)] = False  # -0 is 0
     some = np.flatnonzero(follows | np.append(follows[1:], False))
     batch, *pairs = surfaces.integers(rays, hits.ray[some], surface[some])
     hit_of = map(batch.hit, *(v.tolist() for v in pairs))
     met: dict[Any, Any] = dict(zip(some.tolist(), hit_of, strict=True))
+    ray = hits.ray.tolist()
+    rank = cmp_to_key(lambda a, b: ray[a] - ray[b] or sign_of_difference(met[a], met[b]))
     order = np.arange(len(hits))
-
-    def compare(a: int, b: int) -> int:
-        return hits.ray.item(a) - hits.ray.item(b) or sign_of_difference(met[a], met[b])
-
-    order[some] = sorted(met, key=cmp_to_key(compare))  # which is stable: else by name
+    order[some] = sorted(met, key=rank)  # which is stable: else by name
     hits = hits.take(order)
     for k in np.flatnonzero(follows).tolist():
         if gap(met[order[k - 1]], met[order[k]]) == 0:
             hits.same_t[k] = True
             hits.certainty[k - 1 : k + 1] = Certainty.AMBIGUOUS
     return hits
-
-
-def every_hit(scene: Scene, rays: Rays) -> Crossings:
-    """Find all hits of finite rays in the camera's clip range."""
-    clip = scene.camera.clip_start, scene.camera.clip_end
-    return result_of(all_hits(scene, rays, clip, TriangleTree.of(scene)))

@@ -15,7 +15,7 @@ from reference_tracer.tracer.vector import spread
 from .every import Crossings
 from .inside import Inside, rays_from
 
-ORIGINS, DIRECTIONS, POINTS = "origins", "directions", "points"
+ORIGINS, DIRECTIONS = "origins", "directions"
 
 
 def load_rays(path: Path) -> Rays:
@@ -43,7 +43,7 @@ def load_rays(path: Path) -> Rays:
 def load_points(path: Path) -> Rays:
     """Read n points, `points`, (n, 3), as the origins of rays; it raises what `load_rays` does."""
     with npz.opened(path) as held:
-        return rays_from(_vectors(held, POINTS))
+        return rays_from(_vectors(held, "points"))
 
 
 @np.errstate(all="ignore")  # what a number becomes is compared
@@ -52,22 +52,21 @@ def _vectors(held: npz.Arrays, name: str) -> Floats:
     if name not in held:
         raise SceneError(f"it has no array '{name}': (n, 3) numbers, a row each")
     given = np.atleast_2d(held[name])
-    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
+    if given.shape[1:] != (3,) or given.dtype.kind not in "fiu":
         raise SceneError(f"{name} holds {given.shape} of {given.dtype}, not (n, 3) numbers")
     vectors = given.T.astype(np.float64)
-    rounded = given.dtype.kind in "iu" and (vectors.astype(given.dtype) != given.T).any()
-    if rounded or given.dtype.itemsize > 8:
-        raise SceneError(f"{name} holds numbers that float64 does not: round them")
     if (bad := np.flatnonzero(~np.isfinite(vectors).all(axis=0))).size:
         raise SceneError(f"row {bad[0]} of {name} is not finite")
+    if (vectors.astype(given.dtype) != given.T).any():
+        raise SceneError(f"{name} holds numbers that float64 does not: round them")
     return vectors
 
 
 def save(path: Path, scene: Scene, count: int, found: Hits | Crossings | Inside) -> None:
     """Write what n rays meet, or where n points are, as `docs/rays.md` and `docs/every.md` say."""
     if isinstance(found, Inside):
-        winding = {} if found.winding is None else {"winding": found.winding}
-        return npz.save(path, {"place": found.place} | winding)
+        there = {name: array for name, array in vars(found).items() if array is not None}
+        return npz.save(path, there)
     arrays = {
         "t": found.t,
         "object": scene.instance_objects[found.instance],

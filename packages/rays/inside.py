@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from reference_tracer.arrays import Bytes, Floats, Integers, parts
+from reference_tracer.arrays import Bytes, Floats, Integers
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.arithmetic import sound_steps
 from reference_tracer.certified.exact import IntegerBatch
@@ -26,14 +26,12 @@ from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import Pairs, refused
-from reference_tracer.wording import count_of
 
-from .every import RAYS, all_hits
-from .every import every_hit as every_hit
+from .every import all_hits
 
 OUTSIDE, INSIDE, ON = range(3)
 # Uneven, so that few rays through a regular mesh meet its edges, and integers have less to do.
-_ALONG = 0.8291, 0.4673, 0.3067
+_ALONG = ((0.8291,), (0.4673,), (0.3067,))
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,18 +45,15 @@ class Inside:
     winding : (n,) int32, or None
         How often all meshes together wind about the point; of one on a surface, about those just
         beside it, where its ray goes. None where a mesh is not oriented.
-    notes : list of str
-        Why no winding number is defined.
     """
 
     place: Bytes
     winding: Integers | None
-    notes: list[str]
 
 
 def rays_from(points: Floats) -> Rays:
     """Return a ray from each of n points, (3, n) float64: each has a direction of its own."""
-    return Rays(points, np.tile(_ALONG, (points.shape[1], 1)).T)
+    return Rays(points, np.broadcast_to(_ALONG, points.shape))
 
 
 @sound_steps
@@ -70,23 +65,21 @@ def places(scene: Scene, rays: Rays) -> Work[Inside]:
     SceneError
         If a mesh is not closed; the message has its name, and the length of its boundary.
     """
-    notes = require_closed(scene)
+    oriented = require_closed(scene)
     tree = TriangleTree.of(scene)
     hits = yield from all_hits(scene, rays, (0.0, np.inf), tree)
     name, times = np.unique((hits.ray, hits.instance), axis=1, return_counts=True)
     place = np.zeros(rays.count, np.uint8)
     place[name[0, times % 2 == 1]] = INSIDE
-    for some in parts(rays.count, RAYS):
-        own = rays.take(np.arange(rays.count)[some])
-        for pairs in tree.pairs(own, 0.0, 0.0):
-            place[some][_held(own, pairs)] = ON
-    winding = np.bincount(hits.ray, np.where(hits.enters, -1, 1), rays.count).astype(np.int32)
-    return Inside(place, None if notes else winding, notes)
+    for pairs in tree.pairs(rays, 0.0, 0.0):
+        place[_held(rays, pairs)] = ON
+    winding = np.bincount(hits.ray, 1 - 2 * hits.enters, rays.count).astype(np.int32)
+    return Inside(place, winding if oriented else None)
 
 
 def inside(scene: Scene, points: ArrayLike) -> Inside:
     """Find where points lie; see `reference_tracer.inside`."""
-    given = np.atleast_2d(np.asarray(points, np.float64))
+    given = np.atleast_2d(points)
     return result_of(places(scene, rays_from(finite(given, (len(given), 3), "points").T)))
 
 
@@ -95,9 +88,9 @@ def _held(rays: Rays, pairs: Pairs) -> list[int]:
 
     A ray from it along an axis, to which the triangle is not parallel, meets that at t = 0.
     """
-    decision = decide(rays.take(pairs.pixel), pairs.triangles.corners, 0.0, 0.0, pairs.row)
+    decision = decide(rays.take(pairs.pixel), pairs.corners, 0.0, 0.0)
     some = pairs.take(np.flatnonzero(decision.exact))
-    origins = rays.origins.take(some.pixel, axis=1)
+    origins = rays.take(some.pixel).origins
     found = []
     for axis in np.eye(3):
         batch = IntegerBatch(Rays(origins, axis[:, None]), some.corners, start=-np.inf)
@@ -108,33 +101,30 @@ def _held(rays: Rays, pairs: Pairs) -> list[int]:
     return found
 
 
-def require_closed(scene: Scene) -> list[str]:
-    """Say which meshes are not oriented; raise a SceneError if one is not closed."""
-    wrong = [f"'{scene.objects[plane.object]}' is an infinite plane" for plane in scene.planes]
-    notes = []
+def require_closed(scene: Scene) -> bool:
+    """Return whether all meshes are oriented; raise a SceneError if one is not closed."""
     edges = [open_edges(mesh) for mesh in scene.meshes]
+    wrong = [f"'{scene.objects[plane.object]}' is an infinite plane" for plane in scene.planes]
     for instance in scene.instances:
-        ends, oriented = edges[instance.mesh]
-        name = scene.objects[instance.object]
+        ends, _ = edges[instance.mesh]
         a, b = (transform_points(instance.world_from_object, v.T) for v in ends)
-        if ends.size:
-            length = sum(map(math.dist, a.T, b.T))
-            wrong.append(f"'{name}' has a boundary of {length:.6g} m")
-        if not oriented:
-            notes.append(f"no winding numbers: faces of '{name}' are turned against one another")
+        if length := sum(map(math.dist, a.T, b.T)):
+            wrong.append(f"'{scene.objects[instance.object]}' has a boundary of {length:.6g} m")
     if count := refused(scene):
-        wrong.append(f"{count_of(count, 'triangle')} with corners that are not finite")
+        wrong.append(f"{count:,} triangles with corners that are not finite")
     if wrong:
         raise SceneError(f"only a closed mesh has an inside: {'; '.join(wrong)}")
-    return notes
+    return all(edges[instance.mesh][1] for instance in scene.instances)
 
 
 def open_edges(mesh: Mesh) -> tuple[Floats, bool]:
-    """Return the ends of edges of an odd number of triangles, (2, e, 3); and if it is oriented."""
+    """Return the ends of edges of an odd number of triangles, (2, e, 3); and if it is oriented.
+
+    Those of no length are no edges, and take no part in the length of a boundary.
+    """
     points, place = np.unique(mesh.vertices, axis=0, return_inverse=True)
     ways = place.reshape(-1)[mesh.triangles[:, [0, 1, 1, 2, 2, 0]]].reshape(-1, 2)
-    ways = ways[ways[:, 0] != ways[:, 1]]
     key = np.sort(ways, axis=1) @ (len(points), 1)
     edge, which, times = np.unique(key, return_inverse=True, return_counts=True)
-    net = np.bincount(which, np.sign(ways[:, 1] - ways[:, 0]))
-    return points[np.stack(np.divmod(edge[times % 2 == 1], max(len(points), 1)))], not net.any()
+    net = np.bincount(which, np.sign(np.diff(ways)[:, 0]))
+    return points[np.stack(np.divmod(edge[times % 2 == 1], len(points)))], not net.any()

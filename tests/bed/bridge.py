@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import json
+import tempfile
+from pathlib import Path
+
 import numpy as np
 from reference_tracer.causes.case import Case
 from reference_tracer.manifest import Manifest, ObjectEntry
+from reference_tracer.pictures.given import Making
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.pictures.source import Source
@@ -12,8 +17,10 @@ from reference_tracer.pictures.storage import Storage
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Instance, Mesh, Region, Scene, ViewWindow
 from reference_tracer.tracer.settings import Settings
+from reference_tracer_data.given import GivenData, picture_of_data
 
 from .description import Description, Film, Item, Lens, Shape
+from .making import ids_of
 
 
 def window_of(lens: Lens, film: Film) -> ViewWindow:
@@ -113,3 +120,17 @@ def case_of(
         sampling=Sampling(filter_radius=filter_radius),
     )
     return Case(scene, manifest_of(description, scene), Settings(), picture, curves=())
+
+
+def case_of_data(description: Description, values: np.ndarray, holds: str) -> Case:
+    """Return the case of data (h, w), row 0 at the *top*; of ids, with a table of them."""
+    scene = scene_of(description)
+    with tempfile.TemporaryDirectory() as folder:
+        names = Path(folder) / "names.json"
+        numbers = ids_of(np.arange(len(scene.objects))).tolist()
+        names.write_text(json.dumps(dict(zip(scene.objects, numbers, strict=True))))
+        ids = holds == "ids"
+        held = np.ascontiguousarray(values[::-1], np.uint16 if ids else np.float32)
+        given = GivenData(holds, held, names=names if ids else None)
+        shown = picture_of_data(given, scene, Making())
+    return Case(scene, manifest_of(description, scene), Settings(), shown)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .camera_faults import CAMERA_FAULTS
+from .data_faults import DATA_FAULTS
 from .description import Description
 from .making import Fault, together
 from .picture_faults import PICTURE_FAULTS
 from .scene_faults import SCENE_FAULTS
 from .scenes import scenes
 
-SINGLE = (*CAMERA_FAULTS, *SCENE_FAULTS, *PICTURE_FAULTS)
+SINGLE = (*CAMERA_FAULTS, *SCENE_FAULTS, *PICTURE_FAULTS, *DATA_FAULTS)
 
 
 def of(key: str, label: str = "") -> Fault:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .description import RGBA, Description
-from .renderer import Camera, Solid, render
+from .renderer import Camera, Solid, Tracer, render
 from .setup import camera_of, solids_of
 
 LEVELS = 255  # of a file of eight bits
@@ -27,6 +27,7 @@ class Made:
     draw: Callable[[Made], np.ndarray] | None = None
     after: Callable[[np.ndarray], np.ndarray] | None = None  # changes the finished picture
     levels: int = 0  # of the file that it is stored in; 0 for floats
+    holds: str = ""  # the data in place of colours: depth, or ids
     filter_radius: float = 0.0  # pixels: of the filter that the renderer *says* it has
 
     def picture(self) -> np.ndarray:
@@ -95,8 +96,17 @@ def premultiplied(color: RGBA) -> tuple[float, ...]:
 
 
 def once(made: Made, samples: int = 1) -> np.ndarray:
-    """Return the picture of n x n samples a pixel."""
+    """Return the picture of n x n samples a pixel, or data (h, w, 1) of one."""
+    if made.holds:
+        seen = Tracer(made.camera, made.solids)
+        held = seen.depths() if made.holds == "depth" else ids_of(seen.owners())
+        return held[..., None]
     return render(made.camera, made.solids, premultiplied(made.background), samples)
+
+
+def ids_of(owners: np.ndarray) -> np.ndarray:
+    """Return the id of each solid by its number; 0 for none."""
+    return np.where(owners < 0, 0, 3 * owners + 5)
 
 
 def encoded(linear: np.ndarray) -> np.ndarray:

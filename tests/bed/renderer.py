@@ -96,11 +96,12 @@ class Tracer:
         self._camera = camera
         # What is subtracted in float64 first loses nothing far from the world's origin.
         corners = [(s.vertices - camera.center)[s.triangles].reshape(-1, 3) for s in solids]
+        self._corners = np.concatenate([*corners, np.zeros((0, 3))])
         of_each = [np.full(len(s.triangles), n) for n, s in enumerate(solids)]
         self._owner = np.append(np.concatenate([*of_each, np.zeros(0, int)]), -1).astype(int)
         self._scene = None
         if len(self._owner) > 1:
-            vertices = np.concatenate(corners).astype(np.float32)
+            vertices = self._corners.astype(np.float32)
             self._scene = EmbreeScene()
             TriangleMesh(
                 self._scene, vertices, np.arange(len(vertices), dtype=np.int32).reshape(-1, 3)
@@ -109,6 +110,19 @@ class Tracer:
     def owners(self, dx: float = 0.5, dy: float = 0.5) -> np.ndarray:
         """Return which solid each pixel sees at (dx, dy) from its upper left corner; -1: none."""
         return self._owner[self.triangles(dx, dy)]
+
+    def depths(self) -> np.ndarray:
+        """Return how deep along the view axis each pixel's centre sees a surface; inf: none."""
+        c, triangle = self._camera, self.triangles()
+        seen = triangle >= 0
+        v, u = np.nonzero(seen)
+        origins, directions = c.rays(u + 0.5, v + 0.5)
+        first, second, third = self._corners.reshape(-1, 3, 3)[triangle[seen]].transpose(1, 0, 2)
+        normal = np.cross(second - first, third - first)
+        t = ((first - origins) * normal).sum(axis=1) / (directions * normal).sum(axis=1)
+        out = np.full(seen.shape, np.inf)
+        out[seen] = c.near + t
+        return out
 
     def triangles(self, dx: float = 0.5, dy: float = 0.5) -> np.ndarray:
         """Return which triangle of them all each pixel sees there; -1: none."""

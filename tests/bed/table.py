@@ -27,6 +27,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -35,7 +36,7 @@ from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.tracer.progress import result_of
 
-from .bridge import case_of
+from .bridge import case_of, case_of_data
 from .damage import COUNT, damaged
 from .description import Description
 from .faults import cells
@@ -79,13 +80,17 @@ def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, Fault | No
     [(fault, scene)] = found
     wrong = fault.make(scene, right(scene))
     shown = None if wrong is None else wrong.stored()
-    if shown is None or same(shown, right(scene).picture()) or says_nothing(shown):
+    if shown is None or says_nothing(shown):
+        return None
+    if same(shown, replace(right(scene), holds=wrong.holds).picture()):
         return None
     return scene, shown, wrong, fault
 
 
 def compared(scene: Description, picture: np.ndarray, made: Made | None = None) -> Comparison:
     """Return the comparison with a picture (h, w, 4), row 0 at the top, and what it was made by."""
+    if made and made.holds:
+        return result_of(trace_and_compare(case_of_data(scene, picture[..., 0], made.holds)))
     known = (made.levels, made.filter_radius) if made else ()
     return result_of(trace_and_compare(with_variants(case_of(scene, picture, *known), scene)))
 

@@ -333,28 +333,3 @@ def test_no_false_excuse(make, damage, build, sound_cases):
         plain &= ~around(shown_otherwise(sound)[:, ::-1])
     assert plain.sum() > SEEN
     assert (found.causes.cause[plain] == UNEXPLAINED).mean() > 0.9
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        hard.particle_hair,
-        *(
-            pytest.param(make, marks=pytest.mark.torture)
-            for make in (
-                hard.glass_pane,
-                hard.in_front,
-                hard.instanced_hair,
-                hard.grease_pencil,
-                hard.hair_on_points,
-            )
-        ),
-    ],
-    ids=name_of,
-)
-def test_the_self_check_misses_nothing(make, build, compare):
-    make(build)
-    found = compare(judge="WORKBENCH", self_check=True)
-    results = {row.name: row.result for row in found.self_check}
-    assert "missed" not in results.values(), results
-    assert sum(result == "caught" for result in results.values()) >= 10

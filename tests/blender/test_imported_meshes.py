@@ -6,7 +6,6 @@ The right area and place are worked out from the rules of the specification, by 
 from __future__ import annotations
 
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -209,15 +208,6 @@ def test_the_process_that_imports_leaves_this_blender_as_it_is(tmp_path):
     stage(tmp_path / "a.usda").Save()
     load_meshes(tmp_path / "a.usda")
     assert [*bpy.data.objects.keys()] == before
-
-
-def test_the_command_traces_a_package(tmp_path):
-    stage(tmp_path / "in.usdc").Save()
-    UsdUtils.CreateNewUsdzPackage(str(tmp_path / "in.usdc"), str(tmp_path / "a.usdz"))
-    words = ["trace", str(tmp_path / "a.usdz"), "--out", str(tmp_path / "a.npz")]
-    subprocess.run([sys.executable, "-m", "reference_tracer.cli", *words], check=True)
-    with np.load(tmp_path / "a.npz") as found:
-        assert np.isfinite(found["depth"]).mean() > 0.1
 
 
 def test_the_formats_that_are_named_are_those_that_are_read(tmp_path):

@@ -172,4 +172,4 @@ def test_parity_refuses_what_it_can_not_say(scene, run, make):
     mesh = make.scene(make.camera(4, 4), make.mesh(cube, name="Box"))
     code, found, printed = run(mesh, "--parity", points=points)
     assert code == 0 and list(found) == ["place"]
-    assert "no winding numbers: faces of 'Box'" in printed
+    assert "no winding numbers, as faces" in printed

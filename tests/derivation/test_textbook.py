@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.derivation.expressions import evaluate, parse, printed
-from reference_tracer.derivation.formulas import PLANE, TRIANGLE
+from reference_tracer.derivation.formulas import TRIANGLE
 from reference_tracer.derivation.textbook import (
     FLOATS,
     Arithmetic,
@@ -16,7 +16,6 @@ from reference_tracer.derivation.textbook import (
     surface_steps,
 )
 from reference_tracer.projections import PROJECTIONS
-from reference_tracer.tracer import plane
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.nearest import within_clip
 from reference_tracer.tracer.triangle import textbook, textbook_literal
@@ -57,23 +56,6 @@ def test_triangles_are_the_tracers(make, rng, kind):
         assert said.accepted == (hit & seen)[k], said
         assert said.literal == (literal & seen)[k]
         assert said.accepted != bool(said.reasons)
-
-
-@pytest.mark.parametrize("kind", FLOATS)
-def test_planes_are_the_tracers(make, rng, kind):
-    camera, dtype = make.camera(clip_start=0.1, clip_end=1e3), np.dtype(kind.value)
-    for _ in range(100):
-        o, d, p, n = rng.normal(size=(4, 3)) * 10.0 ** rng.choice((-3, 0, 3), (4, 1))
-        if rng.random() < 0.2:
-            d, n = np.array([1.0, 2, 0]), np.array([0, 0, 3.0])
-        found = surface_steps(PLANE, *(kind.vector(v) for v in (o, d, p, n)))
-        rays = Rays(*(v[:, None].astype(dtype) for v in (o, d)))
-        t = plane.intersect(rays, p[:, None].astype(dtype), n[:, None].astype(dtype))
-        if np.isnan(t[0]):
-            assert found["towards"] == 0
-        else:
-            np.testing.assert_array_equal(dtype.type(found["t"]), t[0])
-        assert judge(found, camera).accepted == within_clip(camera, t)[0]
 
 
 @pytest.mark.parametrize("kind", FLOATS)

@@ -11,8 +11,8 @@ import trimesh
 from reference_tracer.causes.case import MOST_VARIANTS, WHOLE, Variant
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.colors import Painted
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
+from reference_tracer.diagnosis.faults.painted import Painted
 from reference_tracer.diagnosis.faults.picture import Rolled
 from reference_tracer.diagnosis.faults.triangles import Triangles
 from reference_tracer.diagnosis.variants import ASKING

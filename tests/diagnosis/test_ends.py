@@ -11,7 +11,6 @@ from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.report.lines import lines
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import case_of
@@ -57,11 +56,11 @@ def _salted(scene):
 
 @pytest.mark.parametrize("steps", [1, 20, 150])
 def test_it_ends_inside_a_guess_and_says_what_was_not_looked_for(pair, steps):
-    moved = pictured(pair, "pixel_offset", Numbers((0.4, 0.2)))
+    moved = pictured(pair, "pixel_offset", Numbers((2.4, 1.2)))
     before = result_of(trace_and_compare(case_of(pair, Picture(moved), curves=())))
     found = within(before, steps).diagnosis
     assert found.steps == steps and "pixel_offset" in found.untried
-    said = [line for line in lines(found) if "a limit of work ended" in line]
+    said = [line for line in found.lines() if "a limit of work ended" in line]
     assert len(said) == 1 and " more)" in said[0]
     assert found.to_dict()["ended"] and found.to_dict()["untried"] == list(found.untried)
 

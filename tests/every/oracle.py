@@ -1,21 +1,21 @@
-"""What rays cross and where points lie, in fractions: it shares nothing with the tracer.
+"""What rays cross and where points lie, in fractions: by a ray that is really moved.
 
-The ray is really moved, by powers of two that are small beside all that occurs; where it meets a
-plane is a point, and whether that is in the triangle is seen in two coordinates. A point is counted
-about along directions that no other part of this project uses, until one meets no edge.
+It shares with the tracer what `moved_rays.py` does: nothing. Where points lie is counted along
+directions at random, until one of them meets no edge.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
+from ..moved_rays import THE_RULE, Surface, crosses, dot, in_integers, meet, moved, sub
+
 
 class Hit(NamedTuple):
-    """A hit: of the moved ray t, then the triangle's number; t of the ray as it is."""
+    """A hit: t of the moved ray, then the triangle's number; t of the ray as it is."""
 
     moved_t: Fraction
     triangle: int
@@ -23,91 +23,46 @@ class Hit(NamedTuple):
     enters: bool
 
 
-def exact(values):
-    """Return floats as lists of fractions."""
-    return [[Fraction(float(x)) for x in row] for row in np.asarray(values).reshape(-1, 3)]
-
-
-def _minus(a, b):
-    return [x - y for x, y in zip(a, b, strict=True)]
-
-
-def _times(a, b):
-    return sum(x * y for x, y in zip(a, b, strict=True))
-
-
-def _across(a, b):
-    return [a[k - 2] * b[k - 1] - a[k - 1] * b[k - 2] for k in range(3)]
-
-
-def _whole(rows):
-    """Return rows of floats in whole numbers, as fractions, and what they were multiplied by."""
-    rows = [row for v in rows for row in exact(v)]
-    numbers = [x for row in rows for x in row if x]
-    by = Fraction(max(x.denominator for x in numbers))
-    by /= min((x * by).numerator & -(x * by).numerator for x in numbers)
-    return [[x * by for x in row] for row in rows], by
-
-
-def side(point, corners, normal):
-    """Return 1, 0 or -1 for a point of the plane inside of a triangle, at its edge, outside."""
-    away = max(range(3), key=lambda k: abs(normal[k]))
-    x, y = (away + 1) % 3, (away + 2) % 3
-    areas = [
-        (b[x] - a[x]) * (point[y] - a[y]) - (b[y] - a[y]) * (point[x] - a[x])
-        for a, b in pairwise([*corners, corners[0]])
-    ]
-    if min(areas) < 0 < max(areas):
-        return -1
-    return int(0 not in areas)
+def _t(o, d, surface):
+    return Fraction(dot(sub(surface.points[0], o), surface.normal), dot(d, surface.normal))
 
 
 def every_hit(origin, direction, triangles, start=0.0, end=np.inf):
     """Return the hits of a ray in their order; triangles (n, 3, 3)."""
-    (o, *points), lengths = _whole([origin, triangles])
-    (d,), by = _whole([direction])
-    small = Fraction(1, 1 << 10 * max(abs(int(x)) for v in (o, d, *points) for x in v).bit_length())
-    moved = [x + small**k for k, x in enumerate(d, 1)]
     found = []
-    for number, (a, b, c) in enumerate(zip(points[::3], points[1::3], points[2::3], strict=True)):
-        normal = _across(_minus(b, a), _minus(c, a))
-        along = _times(d, normal)
-        arm = _times(_minus(a, o), normal)
-        if along == 0 or side(_at(o, arm / along, d), (a, b, c), normal) < 0:
-            continue
-        t = arm / along * by / lengths
-        if not start <= t <= end or t == start == 0:
-            continue
-        moved_t = arm / _times(moved, normal)
-        if side(_at(o, moved_t, moved), (a, b, c), normal) == 1:
-            found.append(Hit(moved_t, number, t, along < 0))
-    return sorted(found)
-
-
-def _at(origin, t, direction):
-    return [x + t * y for x, y in zip(origin, direction, strict=True)]
+    for number, corners in enumerate(triangles):
+        o, d, [surface] = in_integers(origin, direction, [Surface((0, number), list(corners))])
+        way, inside, _ = _met(o, d, surface)
+        if inside >= 0:
+            rows = ([Fraction(float(x)) for x in v] for v in (origin, direction, *corners))
+            start_at, along, *points = rows
+            t = _t(start_at, along, Surface((0, number), points))
+            if start <= t <= end and not t == start == 0:
+                found.append((number, t, way < 0))
+    given = [Surface((0, number), list(triangles[number])) for number, _, _ in found]
+    o, d, surfaces = moved(*in_integers(origin, direction, given), THE_RULE)
+    each = zip(found, surfaces, strict=True)
+    return sorted(Hit(_t(o, d, s), *own) for own, s in each if crosses(o, d, s))
 
 
 def place(point, triangles):
-    """Return whether a point is on a triangle with an area; else None, and how often they wind."""
-    (o, *points), _ = _whole([point, triangles])
-    meshes = list(zip(points[::3], points[1::3], points[2::3], strict=True))
-    seed = 0
-    while True:
-        rng = np.random.default_rng(seed)
-        d = [Fraction(int(k)) for k in rng.integers(-(10**6), 10**6, 3)]
-        winding = 0
-        for a, b, c in meshes:
-            normal = _across(_minus(b, a), _minus(c, a))
-            along, arm = _times(d, normal), _times(_minus(a, o), normal)
-            if any(normal) and arm == 0 and side(o, (a, b, c), normal) >= 0:
-                return "on", 0
-            if not along or arm / along <= 0:
-                continue
-            at = side(_at(o, arm / along, d), (a, b, c), normal)
-            if at == 0:
-                break  # this direction meets an edge
-            winding += (1 if along > 0 else -1) * (at == 1)
-        else:
-            return None, winding
-        seed += 1
+    """Return 2 for a point on a triangle with an area, else its parity; and how often they wind."""
+    given = [Surface((0, k), list(corners)) for k, corners in enumerate(triangles)]
+    o, _, surfaces = in_integers(point, (1, 0, 0), given)
+    if any(_met(o, s.normal, s)[1:] in ((0, 0), (1, 0)) for s in surfaces):
+        return 2, 0
+    for seed in range(99):
+        d = np.random.default_rng(seed).integers(-(10**6), 10**6, 3).tolist()
+        ahead = [met for s in surfaces if (met := _met(o, d, s))[2] > 0 <= met[1]]
+        if all(inside for _, inside, _ in ahead):  # else this direction meets an edge
+            winding = sum(way for way, _, _ in ahead)
+            return len(ahead) % 2, winding
+    raise AssertionError("every direction meets an edge")
+
+
+def _met(o, d, surface):
+    """Return 1 where a line leaves by a triangle; if it is inside, 0 at an edge; the sign of t."""
+    det, u, v, t = meet(o, d, *surface.points)
+    way = -1 if det > 0 else 1
+    least = min(w * -way for w in (u, v, det - u - v)) if det else -1
+    return way, (least > 0) - (least < 0), (t * det > 0) - (t * det < 0)

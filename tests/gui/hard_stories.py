@@ -75,7 +75,6 @@ PLAYED = (
 DAILY = (
     hard.particles,
     hard.cloth,
-    hard.explode,
     hard.edited,
     hard.edited_shared,
     hard.particle_hair,

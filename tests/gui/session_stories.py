@@ -6,7 +6,7 @@ import subprocess
 import bpy
 import numpy as np
 from hands import close, found, windows
-from seen_stories import at_rest, editor, front, ours
+from seen_stories import at_rest, editor, front
 from story import (
     MODULE,
     OUT,
@@ -19,6 +19,11 @@ from story import (
     until,
     window,
 )
+
+
+def image_names():
+    """Of all images, but what Blender itself draws into."""
+    return sorted(i.name for i in bpy.data.images if i.source != "VIEWER")
 
 
 def second_day():
@@ -100,7 +105,7 @@ def seen(name, path):
     image = area and area.spaces.active.image
     noted["steps"][name] = {
         "size": path.stat().st_size,
-        "images": sorted(ours()),
+        "images": image_names(),
         "dirty": [i.name for i in bpy.data.images if i.is_dirty],
         "shown": image and image.name,
         "fresh": bool(image and shows_latest()),
@@ -143,21 +148,21 @@ def elsewhere():
     yield
     before = kept.read_bytes()
     yield from compared_in(of_first)
-    noted["saved"] = [kept.read_bytes() == before, sorted(ours()), shown_in(area)]
+    noted["saved"] = [kept.read_bytes() == before, image_names(), shown_in(area)]
     first.camera.data.type = "PANO"
     with bpy.context.temp_override(window=of_first):
         bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
     yield from until(ended, 20)
-    noted["refused"] = [sorted(ours()), shown_in(area), verdict(of_first)]
+    noted["refused"] = [image_names(), shown_in(area), verdict(of_first)]
     yield
     screenshot("session_refused")
     first.camera.data.type = "PERSP"
     yield from compared_in(of_first)
     bpy.ops.reference_tracer.explain(x=3, y=4)
-    noted["before"] = [sorted(ours()), [t.name for t in bpy.data.texts]]
+    noted["before"] = [image_names(), [t.name for t in bpy.data.texts]]
     bpy.ops.preferences.addon_disable(module=MODULE)
     yield
-    noted["disabled"] = [sorted(ours()), [t.name for t in bpy.data.texts], shown_in(area)]
+    noted["disabled"] = [image_names(), [t.name for t in bpy.data.texts], shown_in(area)]
     screenshot("session_disabled")
     bpy.ops.preferences.addon_enable(module=MODULE)
 

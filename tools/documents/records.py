@@ -14,10 +14,21 @@ from reference_tracer.causes.cause import Cause
 from reference_tracer.causes.explain import CAUSES
 from reference_tracer.diagnosis import faults
 from reference_tracer.diagnosis.faults import FAULTS
-from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault
+from reference_tracer.diagnosis.faults.fault import TRIED, AnyFault, Effort
 from reference_tracer.diagnosis.guessing import IN_PLACES
 from reference_tracer.methods import Method
 from reference_tracer_data.faults import DATA_FAULTS
+
+_COST = {  # what one try takes
+    Effort.NOTHING: "some hundred pixels are traced",
+    Effort.VIEW: "the same",
+    Effort.FILM: "one or two numbers are fitted to edges in the picture, then to a thousand pixels",
+    Effort.CAMERA: "the same, of two to six numbers",
+    Effort.LEFT_OUT: "some hundred pixels are traced",
+    Effort.PIXELS: "some hundred pixels in some dozen ways",
+    Effort.OBJECT: "up to three numbers of two objects are fitted to edges; each is traced alone",
+    Effort.ANYTHING: "the whole picture is traced",
+}
 
 
 class _Name(str):
@@ -85,14 +96,14 @@ def _list(*lines: tuple[str, str]) -> str:
 
 
 def order_of_faults() -> str:
-    """Return a table of the steps of the search, in their order."""
+    """Return a table of the steps of the search, in their order, with what each costs."""
     rows = [
-        f"| {words} | {number} | {1 + IN_PLACES.index(effort)} | "
+        f"| {words} | {_COST[effort]} | {number} | {1 + IN_PLACES.index(effort)} | "
         f"{sum(f.effort == effort for f in FAULTS)} |"
         for number, (effort, words) in enumerate(TRIED.items(), 1)
     ]
-    head = "| tried | place | where most of the picture agrees | faults |"
-    return "\n".join((head, "|---|---|---|---|", *rows))
+    head = "| tried | at which cost | place | where most of the picture agrees | faults |"
+    return "\n".join((head, "|---|---|---|---|---|", *rows))
 
 
 def faults_by_family() -> str:

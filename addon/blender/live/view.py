@@ -60,7 +60,7 @@ class Job:
     def step(self) -> None:
         """Do one step of the work; a generator that has ended holds nothing."""
         began = time.perf_counter()
-        self.is_done = next(self._work, None) is None
+        self.is_done = next(self._work, self) is self
         self.seconds += time.perf_counter() - began
 
 

@@ -64,6 +64,7 @@ COMMANDS = {  # in the order of `--help`
     "explain": Command(
         "show the maths of one pixel's ray: every step, in float32, float64 and exactly", _explain
     ),
+    "visible": Command("find which faces a camera sees, each with a witness or a proof", None),
     "rays": Command("find what any rays meet in a scene, certified, in bulk", None),
     "judge": Command("judge students' own ray/triangle tests (this runs their code)", None),
     "conform": Command("judge a renderer or an exporter on forty small scenes", None),

@@ -89,7 +89,7 @@ def _mended(case: Case, guess: Mended) -> Case:
 
 @at_once
 def _mixed(evidence: Evidence) -> list[Mended]:
-    """Guess which pixels hold a mean of ids around them: nobody's, but between some of them."""
+    """Guess which pixels hold a mean of ids around them: none of these, but between some."""
     data = data_of(evidence)
     if data.raw is None:
         return []
@@ -98,23 +98,22 @@ def _mixed(evidence: Evidence) -> list[Mended]:
     nothing = evidence.frame.object_index == NOTHING
     if (data.blank & nothing).any():
         raw[nothing] = data.raw[data.blank & nothing][0]
-    pure = data.blank.copy()
     for number in np.unique(made[~nothing]):
         same = data.values[..., 0] == number
-        pure |= same
         if same.any():
             raw[made[..., 0] == number] = data.raw[same][0]
-    rows, columns = np.nonzero(evidence.unexplained & ~pure)
+    rows, columns = np.nonzero(evidence.unexplained)
+    held, own = data.raw[rows, columns], np.zeros(len(rows), bool)
     low, high = (np.full((len(rows), raw.shape[2]), np.nan) for _ in range(2))
-    height, width = pure.shape
+    height, width = nothing.shape
     for y, x in product(range(-_REACH, _REACH + 1), repeat=2):
         beside = raw[np.clip(rows + y, 0, height - 1), np.clip(columns + x, 0, width - 1)]
         low, high = np.fmin(low, beside), np.fmax(high, beside)
-    held = data.raw[rows, columns]
-    between = ((low <= held) & (held <= high)).all(axis=1)
+        own |= (beside == held).all(axis=1)
+    between = ((low <= held) & (held <= high)).all(axis=1) & ~own
     if between.sum() < _LEAST:
         return []
-    mixed = np.zeros_like(pure)
+    mixed = np.zeros_like(nothing)
     mixed[rows[between], columns[between]] = True
     values = np.where((mixed & ~nothing)[..., None], made, data.values)
     return [Mended(replace(data, values=values, blank=data.blank | (mixed & nothing)))]

@@ -1,0 +1,118 @@
+"""`reftrace visible`: which faces a camera sees, each with a witness or a proof."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from reference_tracer.camera_files.files import of_frames
+from reference_tracer.cli.arguments import check_frames
+from reference_tracer.cli.camera_options import add_camera, choice_from
+from reference_tracer.cli.opening import SOURCES, open_blend, open_file
+from reference_tracer.cli.parser import AGREE, POSITIVE, Parser
+from reference_tracer.cli.running import meanwhile
+from reference_tracer.comparison.animation import frames_named
+from reference_tracer.framing import Choice
+from reference_tracer.manifest import Manifest
+from reference_tracer.report import folders
+from reference_tracer.scene import Scene, SceneError
+from reference_tracer.wording import show
+
+from .files import Total
+from .visible import LIMIT, visible
+
+
+@dataclass(frozen=True)
+class VisibleOptions:
+    """The options of `reftrace visible`."""
+
+    scene: Path
+    out: Path
+    choice: Choice
+    frames: str | None  # as they are typed
+    limit: float
+
+    @classmethod
+    def parsed(cls, given: Namespace) -> VisibleOptions:
+        """Return what was parsed; raises SceneError if options contradict one another."""
+        if folders.place_of(given.out) == folders.place_of(given.scene):
+            raise SceneError(f"--out '{given.out}' is the scene that is read: choose another")
+        if given.frames is not None:
+            check_frames(given, ())
+        choice = choice_from(given, given.scene, given.frames is not None)
+        return cls(given.scene, given.out, choice, given.frames, given.limit)
+
+
+def add(parser: Parser) -> None:
+    """Add the command's options."""
+    parser.runs(
+        lambda given: find(VisibleOptions.parsed(given)),
+        "reftrace visible scene.blend --out visible.npz\n"
+        "  reftrace visible scene.blend --frames all --out visible.npz",
+    )
+    parser.add_scene(SOURCES)
+    parser.add_argument(
+        "--out",
+        required=True,
+        type=parser.path_ending(".npz"),
+        metavar="FILE.npz",
+        help="the file to write: seen (0 hidden, 1 seen, 2 undecided), witness and area of each "
+        "face; FILE.json beside it has the counts of each object",
+    )
+    parser.add_argument(
+        "--limit",
+        type=POSITIVE,
+        default=LIMIT,
+        metavar="AREA",
+        help="leave undecided of which no more may be seen, in square pixels (default %(default)g)",
+    )
+    parser.add_argument(
+        "--frames",
+        metavar="FRAMES",
+        help="what is seen in any of these frames of a .blend, and in how many: 1-250, 1-250:5 or "
+        "all",
+    )
+    add_camera(parser)
+
+
+def find(options: VisibleOptions) -> int:
+    """Decide every face, and write what is found."""
+    with folders.made_for_file(options.out):
+        total = None
+        frames = []
+        said: dict[str, None] = {}
+        for frame, scene, manifest in _scenes(options):
+            said |= dict.fromkeys(manifest.remarks())
+            with meanwhile("looking for faces that are seen"):
+                found = visible(scene, options.limit)
+            total = total.add(scene, found, frame) if total else Total.of(scene, found, frame)
+            frames.append(frame)
+        if total is None:
+            raise SceneError("--frames names none")
+        total.save(options.out, frames if options.frames else [], options.limit)
+    show(*said, *total.lines(), f"{total.summary()}: {options.out}")
+    return AGREE
+
+
+def _scenes(options: VisibleOptions) -> Iterator[tuple[int, Scene, Manifest]]:
+    """Yield the scene of each frame; of what has no frames, one."""
+    if options.frames is None:
+        opened = open_file(options.scene, options.choice, whole=True)
+        yield 0, opened.scene, opened.manifest
+        return
+    with open_blend(options.scene, options.choice) as blender:
+        from reference_tracer.blender.jobs.animation import frames_of
+        from reference_tracer.blender.jobs.choice import seen_by
+        from reference_tracer.blender.jobs.open_file import export_open_file
+        from reference_tracer.blender.jobs.stepping import bake_bodies, stepped
+
+        user = blender.context.scene
+        frames = frames_named(options.frames) or frames_of(user)
+        views = of_frames(options.choice.views, frames) if options.choice.views else {}
+        bake_bodies(user, frames[-1])
+        for frame in stepped(user, [*frames]):
+            with seen_by(user, views.get(frame)):
+                scene, manifest, _ = export_open_file(blender.context, whole=True)
+            yield frame, scene, manifest

@@ -1,0 +1,226 @@
+"""Which faces are seen: never a seen one that is hidden, nor the reverse."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from reference_tracer.certified.definition import seen_by
+from reference_tracer.projections import PROJECTIONS
+from reference_tracer.scene import (
+    Camera,
+    Instance,
+    Mesh,
+    Plane,
+    Region,
+    Scene,
+    SceneError,
+    ViewWindow,
+)
+from reference_tracer.tracer.camera import camera_rays
+from reference_tracer_visible import HIDDEN, SEEN, UNDECIDED, visible
+
+from .arrangement import seen_areas
+
+pytestmark = pytest.mark.slow
+
+PERSPECTIVE, ORTHOGRAPHIC = PROJECTIONS["perspective"], PROJECTIONS["orthographic"]
+GREY = np.full((1, 4), 0.5, np.float32)
+
+
+def camera(projection=PERSPECTIVE, at=(0, 0, 4), axes=None, **others):
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.eye(3) if axes is None else axes
+    matrix[:3, 3] = at
+    half = 0.5 if projection is PERSPECTIVE else 2.0
+    given = {"clip_start": 0.25, "clip_end": 64.0, "width": 16, "height": 16} | others
+    window = given.pop("window", ViewWindow(-half, half, -half, half))
+    return Camera(matrix, window, projection=projection, **given)
+
+
+def scene_of(*meshes, camera=None, matrices=None, planes=()):
+    """Return a scene of meshes (vertices, triangles), an instance each."""
+    made = [Mesh(np.array(v, np.float64), np.array(t, np.int32)) for v, t in meshes]
+    places = matrices or [np.eye(4)] * len(made)
+    instances = [Instance(k, 0, place, GREY) for k, place in enumerate(places)]
+    return Scene(camera, tuple(made), tuple(instances), planes, objects=("things",))
+
+
+def triangles(points):
+    """Return a mesh of triangles (n, 3, 3) that share no vertex."""
+    points = np.asarray(points, np.float64).reshape(-1, 3)
+    return points, np.arange(len(points)).reshape(-1, 3)
+
+
+def cube(size=1.0):
+    v = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return v, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+
+
+def judged(scene, **options):
+    """Return what is found, held against the oracle; every witness is traced again."""
+    found = visible(scene, **options)
+    for face, area in enumerate(seen_areas(scene)):
+        state = found.seen[face]
+        assert state != SEEN or area > 0, f"face {face} is seen, but hidden"
+        assert state != HIDDEN or area == 0, (
+            f"face {face} is hidden, but {float(area)} px² are seen"
+        )
+        if state == UNDECIDED:
+            assert area <= Fraction(found.area[face]) + Fraction(1, 10**12), face
+    check_witnesses(scene, found)
+    return found
+
+
+def check_witnesses(scene, found):
+    seen = np.flatnonzero(found.seen == SEEN)
+    assert (
+        np.isfinite(found.witness[seen]).all() and np.isnan(found.witness[found.seen != SEEN]).all()
+    )
+    rays = camera_rays(scene.camera, *found.witness[seen].T)
+    clip = scene.camera.clip_start, scene.camera.clip_end
+    for face, ray in zip(seen.tolist(), seen_by(scene, rays, clip), strict=True):
+        instance = int(np.searchsorted(found.start, face, side="right")) - 1
+        assert ray.name == (instance, face - found.start[instance])
+
+
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+@pytest.mark.parametrize("seed", range(5))
+def test_lattice(projection, seed):
+    """Corners on a coarse lattice: many share edges and planes, and many are edge-on."""
+    random = np.random.default_rng(seed)
+    points = random.integers(-4, 5, (random.integers(4, 40), 3, 3)) / 2
+    points[..., 2] = np.minimum(points[..., 2], 1.5)
+    found = judged(scene_of(triangles(points), camera=camera(projection)))
+    assert (found.seen == SEEN).any()
+
+
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+@pytest.mark.parametrize("seed", range(6))
+def test_closed_meshes(projection, seed):
+    """Cubes in and before one another, turned, mirrored, and instances of one mesh."""
+    random = np.random.default_rng(seed)
+    matrices = []
+    for _ in range(random.integers(1, 6)):
+        place = np.eye(4)
+        place[:3, :3] = random.permutation(np.eye(3)) * random.choice([-1, 1, 0.5], 3)
+        if seed % 2:
+            place[:3, :3] += random.normal(0, 0.3, (3, 3))
+        place[:3, 3] = random.integers(-4, 4, 3) / 2
+        matrices.append(place)
+    axes = np.linalg.qr(random.normal(size=(3, 3)))[0] if seed > 3 else None
+    at = (0, 0, 4) if axes is None else axes[:, 2] * 4
+    own = camera(projection, at, axes)
+    found = judged(scene_of(*[cube()] * len(matrices), camera=own, matrices=matrices))
+    assert (found.seen == HIDDEN).any()
+
+
+@pytest.mark.parametrize("width", [2.0**-10, 2.0**-16, 2.0**-20])
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+def test_a_sliver_between_two_walls(projection, width):
+    """The wall behind a gap is seen, and found, however few pixels' centres look through."""
+    pixel = 0.25
+    gap = width * pixel
+    wall = [(-4, -4, 0), (4, -4, 0), (4, 4, 0), (-4, 4, 0)]
+    quads = [(0, 1, 2), (0, 2, 3)]
+
+    def part(x0, x1, z):
+        return [(x0, -4, z), (x1, -4, z), (x1, 4, z), (x0, 4, z)], quads
+
+    x = 0.3125
+    meshes = (part(-4, x, 1.0), part(x + gap, 4, 1.0), (np.array(wall) * (2, 2, 1), quads))
+    found = judged(scene_of(*meshes, camera=camera(projection)))
+    assert (found.seen == SEEN).all()
+    closed = part(-4, x, 1.0), part(x, 4, 1.0), meshes[2]
+    found = judged(scene_of(*closed, camera=camera(projection)))
+    assert (found.seen[4:] == HIDDEN).all()
+
+
+def test_coplanar_faces():
+    """Of faces in one plane the first is seen; of doubled ones only that."""
+    small = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]
+    large = [(-4, -4, 0), (4, -4, 0), (0, 6, 0)]
+    both = camera(), camera(ORTHOGRAPHIC)
+    for own in both:
+        found = judged(scene_of(triangles([small, small, large]), camera=own))
+        assert found.seen.tolist() == [SEEN, HIDDEN, SEEN]
+        found = judged(scene_of(triangles([large, small]), camera=own))
+        assert found.seen.tolist() == [SEEN, HIDDEN]
+
+
+def test_both_sides_are_told_apart():
+    front = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]
+    for own in (camera(), camera(ORTHOGRAPHIC)):
+        mirrored = np.diag([-1.0, 1, 1, 1])
+        mirrored[0, 3] = 3
+        faces = triangles([front])
+        turned = triangles([front[::-1]])
+        one = judged(scene_of(faces, camera=own))
+        assert one.seen.tolist() == [SEEN] and not one.behind[0]
+        assert judged(scene_of(turned, camera=own)).behind[0]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_through_the_camera_and_the_clip_range(seed):
+    """Faces around the eye, through its plane, and through both ends of the clip range."""
+    random = np.random.default_rng(seed)
+    points = random.integers(-8, 9, (20, 3, 3)) / 4
+    for projection in (PERSPECTIVE, ORTHOGRAPHIC):
+        start = 0.25 if projection is PERSPECTIVE else -1.0
+        own = camera(projection, (0, 0, 0.5), clip_start=start, clip_end=1.5)
+        judged(scene_of(triangles(points), camera=own))
+
+
+def test_edge_on_faces_are_hidden():
+    wall = triangles([[(0.5, -1, 0), (0.5, 1, 0), (0.5, 0, -3)]])
+    found = judged(scene_of(wall, camera=camera(ORTHOGRAPHIC)))
+    assert found.seen.tolist() == [HIDDEN]
+    found = judged(scene_of(wall, camera=camera(at=(0.5, 0, 4))))
+    assert found.seen.tolist() == [HIDDEN]
+
+
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+def test_border_shift_and_planes(projection):
+    """What is beside the region counts no more than what a plane hides."""
+    random = np.random.default_rng(5)
+    points = random.integers(-8, 9, (24, 3, 3)) / 4
+    points[..., 2] = np.minimum(points[..., 2], 2)
+    plane = Plane(0, np.array([0.0, 0.0, -0.25]), np.array([0.0, 0.25, 1.0]), GREY[0])
+    half = 0.5 if projection is PERSPECTIVE else 2.0
+    window = ViewWindow(-half, half, -half, half).moved(0.25, -0.125)
+    own = camera(projection, window=window, region=Region(3, 5, 9, 14))
+    found = judged(scene_of(triangles(points), camera=own, planes=(plane,)))
+    assert (found.seen == SEEN).any() and (found.seen == HIDDEN).any()
+
+
+def test_tiny_faces_are_seen_between_pixels():
+    """Faces far smaller than a pixel, which no pixel's centre meets."""
+    random = np.random.default_rng(3)
+    at = random.uniform(-1.5, 1.5, (20, 1, 3)) * (1, 1, 0)
+    points = at + random.uniform(-1, 1, (20, 3, 3)) * 0.004
+    found = judged(scene_of(triangles(points), camera=camera()))
+    assert (found.seen == SEEN).sum() >= 15
+
+
+def test_nothing_to_see():
+    empty = scene_of(triangles(np.zeros((0, 3, 3))), camera=camera())
+    assert len(visible(empty).seen) == 0
+    beside = triangles([[(50, 0, 0), (51, 0, 0), (50, 1, 0)]])
+    assert judged(scene_of(beside, camera=camera())).seen.tolist() == [HIDDEN]
+
+
+def test_what_is_not_finite_is_hidden():
+    matrix = np.diag([1e300, 1, 1, 1])
+    matrix[0, 3] = 1e308
+    far = triangles([[(1e200, 0, 0), (1, 0, 0), (0, 1, 0)]])
+    near = triangles([[(-1, -1, 0), (1, -1, 0), (0, 1, 0)]])
+    found = visible(scene_of(far, near, camera=camera(), matrices=[matrix, np.eye(4)]))
+    assert found.seen.tolist() == [HIDDEN, SEEN]
+
+
+def test_a_panorama_is_refused():
+    own = camera(PROJECTIONS["equirectangular"], window=ViewWindow(-1, 1, -1, 1))
+    with pytest.raises(SceneError, match="'Camera' is equirectangular"):
+        visible(scene_of(cube(), camera=own))
