@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from reference_tracer.arrays import Bools, Bytes, Floats, Index
+from reference_tracer.arrays import Bools, Bytes, Floats, Index, parts
 from reference_tracer.certified.arithmetic import sound
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.vector import parts, spread
+from reference_tracer.tracer.vector import spread
 
 from .faces import Faces
 from .hiding import Cells, covers, reached, surely_in
