@@ -13,7 +13,8 @@ from reference_tracer.certified.bounds import FromPoint, Parallel
 from reference_tracer.certified.integers import cross, dot, integers, sub
 from reference_tracer.certified.sweep.depth_buffer import ClipRange
 from reference_tracer.certified.sweep.edge_functions import set_up
-from reference_tracer.certified.sweep.film import DELTA, Film, Vertices
+from reference_tracer.certified.sweep.film import DELTA, Film
+from reference_tracer.certified.sweep.vertices import Vertices
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.vector import transform_points
