@@ -180,8 +180,14 @@ class Evidence:
     def scored(self, right: Bools) -> Score:
         """Score the sample, given which of its n pixels agree."""
         wrong, weights = self.unexplained_sampled, self._weights[self.sample]
-        settled, broken = right & wrong, ~right & ~wrong
+        settled, broken = right & wrong, ~right & ~wrong & self._breakable
         return Score(float(weights[settled].sum()), float(weights[broken].sum()))
+
+    @cached_property
+    def _breakable(self) -> Bools:
+        """The n sampled pixels that show a traced colour: a filter explains others as it did."""
+        mixes = self.case.picture.sampling.filter_radius > 0
+        return self.picture.shows(self.frame)[self.sample] | (not mixes)
 
     @cached_property
     def film(self) -> Floats:

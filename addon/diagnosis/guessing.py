@@ -72,7 +72,7 @@ IN_PLACES = (  # where most of the picture agrees
 # The limit of work; a search that reaches it is given up. A step is a bounded number of rays, pairs
 # or pixels, the same on each machine.
 STEPS = 16_000
-PART = 3  # of them: one fault, or one trial, has no more than one part in as many
+PART = 3  # of them: in one round, one fault has no more than one part in as many
 NONE = Score(0.0, 0.0)
 
 
@@ -85,6 +85,7 @@ class Guessing:
         self.steps = 0
         self.guesses = 0
         self.untried: set[str] = set()  # names of faults whose search was not finished
+        self._spent: Counter[str] = Counter()  # steps of each fault, in this round
 
     @property
     def ended(self) -> bool:
@@ -92,15 +93,15 @@ class Guessing:
         return self.steps >= self.limit
 
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
-        """Run work that looks for a fault; None if it, or all work, reaches its limit of steps."""
-        last = self.steps + self.limit / PART
-        while not self.ended and self.steps < last:
+        """Run work that looks for a fault; None if that fault, or all work, reaches its limit."""
+        while not self.ended and self._spent[fault.name] < self.limit / PART:
             try:
                 next(work)
             except StopIteration as stop:
                 found: T = stop.value
                 return found
             self.steps += 1
+            self._spent[fault.name] += 1
             yield None
         work.close()
         self.untried.add(fault.name)
@@ -255,17 +256,19 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
         if best := _best(evidence, seconds):
             return [[first], best]
-    for first in (t for t in trials[:STARTS] if _may_be_first(evidence, t)):
+    for first in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
-        if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
+        own = first.guess.object  # two changes of one object are one that is not known
+        others = [t for t in seconds if not own or t.guess.object != own]
+        if best := _best(evidence, [t for t in others if t.gain > first.gain]):
             return [[first], best]
     return []
 
 
-def _may_be_first(evidence: Evidence, trial: Trial) -> bool:
-    """Return whether a second fault may account for what this one leaves."""
+def _may_be_first(evidence: Evidence, trial: Trial, of_little: bool = False) -> bool:
+    """Return whether a second fault may account for what this one, or one of little, leaves."""
     return bool(
-        trial.gain >= MAIN * evidence.unexplained.sum()
+        trial.gain >= (SHARE if of_little else MAIN) * evidence.unexplained.sum()
         and trial.broken <= LOST * trial.settled
         and trial.own >= COMPLETE
         and trial.evidence.unexplained.any()

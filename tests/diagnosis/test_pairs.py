@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from reference_tracer.diagnosis.faults.fault import Numbers
@@ -71,6 +73,31 @@ def test_a_picture_turned_in_a_part_is_not_turned(scene):
     color = reversed_channels(render(scene).color)
     color[:, :48] = color[::-1, :48]
     assert not set(names(diagnosis_of(scene, color))) & {*TURNED, "channels"}
+
+
+def smoothed(scene, weights):
+    """Render n x n samples in each pixel, and weigh their rows and columns alike."""
+    n, c = len(weights), scene.camera
+    more = replace(c, width=n * c.width, height=n * c.height, region=None)
+    samples = render(scene.seen_by(more)).color.astype(np.float64)
+    tiles = samples.reshape(c.height, n, c.width, n, 4)
+    return np.einsum("ayxbc,y,b->axc", tiles, weights, weights).astype(np.float32)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("weights", [(0.25, 0.25, 0.25, 0.25), (0.05, 0.25, 0.4, 0.25, 0.05)])
+def test_another_angle_of_view_is_found_in_an_anti_aliased_picture(few, weights):
+    """Whose edges are mixed as far as a filter reaches; one that is smooth alone has no other."""
+    scene = few(160, 100)
+    window = scene.camera.window.scaled(1 / 1.05, 1 / 1.05)
+    wider = scene.seen_by(replace(scene.camera, window=window))
+    found = diagnosis_of(scene, smoothed(wider, weights))
+    first, second = found.diagnosis.told
+    assert first.fault.name == "focal_length" and found.diagnosis.left == 0
+    assert abs(first.guess.values[0] - 5) < 0.3
+    smooth = {"supersampled", "filter_radius"}
+    assert second.fault.name in smooth
+    assert {*names(diagnosis_of(scene, smoothed(scene, weights)))} <= smooth
 
 
 @pytest.mark.torture

@@ -34,6 +34,7 @@ VALID = 0.3  # the least share of the sample that a camera must see in the trace
 KEPT = 3  # starts that are looked up and fitted, at most
 FOUND = 0.5  # of the edges: a camera that explains fewer is not where they moved
 NEARLY = 0.8  # of the edges that some camera explains: one that explains fewer is the wrong one
+CLEAR = 0.95  # of the edges: where colours are mixed there, no ray says more than they do
 MORE = 0.05  # of the edges: as many more must a change explain than none
 LOOKED_UP = 512  # pixels in which the traced picture is looked up
 FINER = 1 / 8  # pixels: the first step of a refinement
@@ -154,10 +155,13 @@ def fitting(family: Family, *rivals: Family) -> Fit:
 
     def find(evidence: Evidence) -> Work[list[Numbers]]:
         out: list[Numbers] = []
+        found, own = family.matched(evidence), evidence.case.scene.camera
         for start in (yield from _likely(evidence, family, rivals)):
             few = evidence.few if len(start) > 1 else evidence
             guess = yield from refine(few, Numbers(start))
-            if guess:
+            if not guess and found and found.share >= CLEAR:
+                out.append(Numbers(start, start, start, words=family.words(own, *start)))
+            elif guess:
                 out.append(guess)
                 right = yield from Traced(few, family.camera).right(guess.values)
                 if right is not None and right.mean() >= ENOUGH:

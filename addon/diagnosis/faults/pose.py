@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -24,7 +25,7 @@ NEAR_STEP = 0.5  # pixels: the first step from where edges are found
 KEPT = 4  # starts that are followed
 ALL = 0.995  # of the pixels: with as many right, nothing more is tried
 PROMISING = 1.1  # times as many pixels are right as without a change: a start is followed
-CLEAR = 0.9  # of the edges: where one explains as many, changes that explain fewer are not it
+CLEAR = 0.9  # of the edges: where one explains as many, what explains fewer comes last
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +70,8 @@ def _far(looked: Looked, changes: Sequence[Change]) -> Work[list[tuple[Change, V
     return [(change, start) for *_, change, start in sorted(out, key=lambda one: one[:3])[:KEPT]]
 
 
-def _found(looked: Looked, few: Looked) -> Work[tuple[list[Posed], bool]]:
-    """Return how an object may be changed, and whether nearly all is right then.
+def _found(looked: Looked, few: Looked, out: list[Posed]) -> Work[bool]:
+    """Add how an object may be changed; return whether nearly all is right then.
 
     It is looked for near where edges are found, else far away.
 
@@ -78,42 +79,39 @@ def _found(looked: Looked, few: Looked) -> Work[tuple[list[Posed], bool]]:
     """
     matched = {c: f for c in CHANGES if (f := c.matched(looked))}
     most = max((f.share for f in matched.values()), default=0.0)
-    out: list[Posed] = []
     enough: set[str] = set()  # kinds
-    for count in sorted({len(c.none) for c in CHANGES}):
+    stages = list(product((1, 3), (False, True)))  # numbers, and whether far away
+    if most >= CLEAR:
+        stages.sort(key=lambda stage: stage[1])
+    for count, far in stages:
         some = [c for c in CHANGES if len(c.none) == count and c.kind not in enough]
-        least = most - MORE if enough or most >= CLEAR else NEARLY * most
-        near = [c for c in some if c in matched and matched[c].share >= least]
-        tries = [(c, values_of(c.none + c.axes(looked) @ matched[c].units)) for c in near]
-        step = NEAR_STEP
-        for far in (False, True):
-            if far:
-                if enough or most >= CLEAR:
-                    break
-                tries = yield from _far(few, some)
-                step = FIRST * looked.width / (4 if count == 1 else 1)
-            for change, start in tries:
-                guess, is_all = yield from _climbed(looked, change, start, step)
-                out += [guess] if guess else []
-                enough |= {change.kind} if is_all else set()
-    return out, bool(enough)
+        if far and enough:
+            continue
+        if far:
+            tries = yield from _far(few, some)
+            step = FIRST * looked.width / (4 if count == 1 else 1)
+        else:
+            least = most - MORE if enough or most >= CLEAR else NEARLY * most
+            near = [c for c in some if c in matched and matched[c].share >= least]
+            tries = [(c, values_of(c.none + c.axes(looked) @ matched[c].units)) for c in near]
+            step = NEAR_STEP
+        for change, start in tries:
+            guess, is_all = yield from _climbed(looked, change, start, step)
+            out += [guess] if guess else []
+            enough |= {change.kind} if is_all else set()
+    return bool(enough)
 
 
 def _changed(evidence: Evidence) -> Work[list[Posed]]:
-    """Guess how the suspects are changed (cached: several faults share them)."""
-    key = f"changed {evidence.size}"
-    if key not in evidence.known:
-        out: list[Posed] = []
+    """Guess how the suspects are changed (cached): several faults share what one has work for."""
+    if "changed" not in evidence.known:
+        out = evidence.known["changed"] = []
         for name in evidence.suspects[:TRIED]:
             looked = yield from Looked.of(evidence, name)
             few = yield from Looked.of(evidence.few, name)
-            if looked and few:
-                some, is_all = yield from _found(looked, few)
-                out += some
-                if is_all:
-                    break
-        evidence.known[key] = out
-    found: list[Posed] = evidence.known[key]
+            if looked and few and (yield from _found(looked, few, out)):
+                break
+    found: list[Posed] = evidence.known["changed"]
     return found
 
 
