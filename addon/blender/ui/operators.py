@@ -52,9 +52,9 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Print the comparison; report its first line."""
-        from ...report.lines import lines
+        from ...report.lines import describe
 
-        said = lines(result)  # of the comparison: the context's scene may be another one by now
+        said = describe(result)  # of the comparison: the context's scene may be another one by now
         say(*result.manifest.lines(), *said)
         return "INFO" if result.verdict == "agree" else "WARNING", said[0]
 
