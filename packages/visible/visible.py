@@ -247,7 +247,10 @@ class _Search:
         faces = self._faces
         near = faces.at_points(face, *at)[3] - faces.nearness_error[face]
         found = self._sights.look(at[0], at[1], np.nan_to_num(near, nan=-np.inf, posinf=-np.inf))
-        own = found == face
+        r = self._scene.camera.region
+        x, y = at
+        # A ray along the picture's border may see what is wholly beyond it.
+        own = (found == face) & (r.x0 < x) & (x < r.x1) & (r.y0 < y) & (y < r.y1)
         self._enter(face[own], at[:, own])
         return found
 

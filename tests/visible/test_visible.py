@@ -197,6 +197,15 @@ def test_border_shift_and_planes(projection):
     assert (found.seen == SEEN).any() and (found.seen == HIDDEN).any()
 
 
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+def test_what_touches_the_border_from_outside_is_not_seen(projection):
+    """By an edge or a corner; a face of which a strip is within is seen."""
+    beside = [[(2, -1, 0), (2, 1, 0), (3, 0, 0)], [(0, 2, 0), (1, 3, 0), (-1, 3, 0)]]
+    within = [[(-1, -1.999, 0), (1, -1.999, 0), (0, -3, 0)]]
+    found = judged(scene_of(triangles([*beside, *within]), camera=camera(projection)))
+    assert (found.seen[:2] != SEEN).all() and found.seen[2] == SEEN
+
+
 def test_tiny_faces_are_seen_between_pixels():
     """Faces far smaller than a pixel, which no pixel's centre meets."""
     random = np.random.default_rng(3)
