@@ -1,6 +1,6 @@
 """Counts the wrong answers of others to what docs/every.md is about, and their seconds, in a table.
 
-    .venv/bin/python tools/every_hit.py
+    .venv/bin/python tools/every_hit.py [--picture docs/images/every.svg]
 
 Beside `trace(..., every=True)`: Embree through embreex, called again and again from a little behind
 each hit; trimesh's `intersects_id`, which does so with embreex. Beside `inside`: trimesh's
@@ -10,8 +10,10 @@ ours is even, or the reverse. It takes some seconds.
 
 from __future__ import annotations
 
+import argparse
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import trimesh
@@ -138,5 +140,44 @@ def tables() -> str:
     return "\n".join([head, *rays, "", second, *points])
 
 
+def picture() -> str:
+    """Return the drawing: a ball from the eye, and where rays to corners and edges count wrong."""
+    ball = trimesh.creation.icosphere(3)
+    eye = np.array([0.31, 0.22, 3.0])
+    edges = np.array(ball.vertices)[ball.edges_unique]
+    targets = np.concatenate((ball.vertices, edges.mean(axis=1)))
+    origins = np.tile(eye, (len(targets), 1))
+    told = loop(ball, origins, targets - eye)
+    right = ours(ball, origins, targets - eye)
+    front = ((eye - targets) * targets).sum(axis=1) > 0
+
+    def on_film(point: Points) -> Points:
+        seen = (point - eye) / (eye - point)[..., 2:] + eye / eye[2]
+        return 200 + 520 * seen[..., :2] * (1, -1)
+
+    facing = ((eye - edges) * edges).sum(axis=2).min(axis=1) > 0
+    lines = "".join(
+        f"M{a[0]:.0f} {a[1]:.0f}L{b[0]:.0f} {b[1]:.0f}" for a, b in on_film(edges[facing])
+    )
+    wrong = np.flatnonzero(front & (told % 2 != right % 2))
+    dots = "".join(f'<circle cx="{x:.0f}" cy="{y:.0f}" r="5"/>' for x, y in on_film(targets[wrong]))
+    return (
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 400" width="400" height="400">'
+        f'<rect width="400" height="400" fill="#fff"/><path d="{lines}" stroke="#8aa" fill="none"/>'
+        f'<g fill="none" stroke="#d22" stroke-width="2.5">{dots}</g></svg>\n'
+    )
+
+
+def main() -> None:
+    """Print the tables, or draw."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--picture", type=Path, help="the SVG to write in place of the tables")
+    given = parser.parse_args()
+    if given.picture:
+        given.picture.write_text(picture(), encoding="utf-8")
+    else:
+        print(tables())
+
+
 if __name__ == "__main__":
-    print(tables())
+    main()

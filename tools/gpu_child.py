@@ -34,7 +34,7 @@ def compared(path):
     work = compare.compare_open_file(bpy.context, diagnose=False, **chosen)
     found = ours("tracer.progress").result_of(work)
     again = compare.gather_case(bpy.context, **chosen).picture
-    differs = ours("pictures.bounds").differing(found.picture, again.color)
+    differs = ours("pictures.storage").differing(found.picture, again.color)
     return found.counts, int(np.count_nonzero(differs))
 
 

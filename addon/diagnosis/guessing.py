@@ -258,7 +258,9 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
             return [[first], best]
     for first in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
-        if best := _best(evidence, [t for t in seconds if t.gain > first.gain]):
+        own = first.guess.object  # two changes of one object are one that is not known
+        others = [t for t in seconds if not own or t.guess.object != own]
+        if best := _best(evidence, [t for t in others if t.gain > first.gain]):
             return [[first], best]
     return []
 

@@ -132,5 +132,5 @@ def _said(found: Hits | Crossings | Inside) -> str:
         if found.winding is None:
             said += "; no winding numbers, as faces of a mesh are turned against one another"
         return said.format(*np.bincount(found.place, minlength=3))
-    met = count_of(int((found.instance != NOTHING).sum()), "hit")
+    met = count_of((found.instance != NOTHING).sum(), "hit")
     return f"{met}, {(found.certainty == Certainty.AMBIGUOUS).sum():,} ambiguous"

