@@ -11,7 +11,7 @@ from reference_tracer.camera_files.files import of_frames
 from reference_tracer.cli.arguments import check_frames
 from reference_tracer.cli.camera_options import add_camera, choice_from
 from reference_tracer.cli.opening import SOURCES, open_blend, open_file
-from reference_tracer.cli.parser import AGREE, POSITIVE, Parser
+from reference_tracer.cli.parser import AGREE, COUNT, POSITIVE, Parser
 from reference_tracer.cli.running import meanwhile
 from reference_tracer.comparison.animation import frames_named
 from reference_tracer.framing import Choice
@@ -21,7 +21,7 @@ from reference_tracer.scene import Scene, SceneError
 from reference_tracer.wording import show
 
 from .files import Total
-from .visible import LIMIT, visible
+from .visible import LIMIT, WORK, visible
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,7 @@ class VisibleOptions:
     choice: Choice
     frames: str | None  # as they are typed
     limit: float
+    work: int
 
     @classmethod
     def parsed(cls, given: Namespace) -> VisibleOptions:
@@ -42,7 +43,7 @@ class VisibleOptions:
         if given.frames is not None:
             check_frames(given, ())
         choice = choice_from(given, given.scene, given.frames is not None)
-        return cls(given.scene, given.out, choice, given.frames, given.limit)
+        return cls(given.scene, given.out, choice, given.frames, given.limit, given.work)
 
 
 def add(parser: Parser) -> None:
@@ -69,6 +70,13 @@ def add(parser: Parser) -> None:
         help="leave undecided of which no more may be seen, in square pixels (default %(default)g)",
     )
     parser.add_argument(
+        "--work",
+        type=COUNT,
+        default=WORK,
+        metavar="CELLS",
+        help="leave undecided what more cells than these would decide (default %(default)s)",
+    )
+    parser.add_argument(
         "--frames",
         metavar="FRAMES",
         help="what is seen in any of these frames of a .blend, and in how many: 1-250, 1-250:5 or "
@@ -86,7 +94,7 @@ def find(options: VisibleOptions) -> int:
         for frame, scene, manifest in _scenes(options):
             said |= dict.fromkeys(manifest.remarks())
             with meanwhile("looking for faces that are seen"):
-                found = visible(scene, options.limit)
+                found = visible(scene, options.limit, options.work)
             total = total.add(scene, found, frame) if total else Total.of(scene, found, frame)
             frames.append(frame)
         if total is None:

@@ -19,9 +19,10 @@ from .sights import TOP, Centres, Sights, start_cells
 
 HIDDEN, SEEN, UNDECIDED = 0, 1, 2
 LIMIT = 1e-6  # square pixels
+WORK = 1 << 20  # cells of at most one pixel, each with a face
 _DEEPEST = -12  # the level of the smallest cells
 _SMALL = -6  # in which a face is left undecided, if so little may be seen of it
-_CELLS = 1024  # of a face, that are divided further
+_CELLS = 256  # of a face, that are divided further
 _LOOKS = 4, 64  # rays of each face in cells of one pixel, and in smaller ones of a level
 _ROOM = 1 / 16  # of a cell's size, on each side: so that no cell has only a corner of a face
 _TOGETHER = 1 << 15
@@ -54,13 +55,15 @@ class Visible:
 
 @sound
 @np.errstate(all="ignore")
-def visible(scene: Scene, limit: float = LIMIT) -> Visible:
+def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
     """Decide which faces of a scene its camera sees.
 
     Parameters
     ----------
     limit : float
         Square pixels: a face of which no more may be seen is not looked at further.
+    work : int
+        About how many cells may be looked at, counted for each face: then the rest is undecided.
 
     Raises
     ------
@@ -74,7 +77,7 @@ def visible(scene: Scene, limit: float = LIMIT) -> Visible:
             "for perspective and orthographic cameras"
         )
     faces = Faces(scene)
-    search = _Search(scene, faces, limit)
+    search = _Search(scene, faces, limit, work)
     search.run()
     seen = np.flatnonzero(search.seen == SEEN)
     behind = np.zeros(faces.count, bool)
@@ -113,9 +116,10 @@ class _Items:
 class _Search:
     """Finds a witness of each face, or proves in ever smaller cells that it is hidden."""
 
-    def __init__(self, scene: Scene, faces: Faces, limit: float) -> None:
+    def __init__(self, scene: Scene, faces: Faces, limit: float, work: int) -> None:
         self._faces = faces
         self._limit = limit
+        self._work = work
         self.seen = np.full(faces.count, HIDDEN, np.uint8)
         self.seen[faces.may_show] = UNDECIDED
         self.witness = np.full((2, faces.count), np.nan)
@@ -146,6 +150,7 @@ class _Search:
                 open_ = np.union1d(np.flatnonzero(self.seen == SEEN), items.face)
                 self._sights = Sights(self._scene, faces, open_, self._centres.corner)
             if now <= 0:
+                self._work -= len(items.face)
                 items = self._in_parts(self._look_closer, items, now)
                 items = items.take(self.seen[items.face] != SEEN)
                 given_up = self._given_up(items, now)
@@ -253,7 +258,7 @@ class _Search:
         np.add.at(self.area, items.face, area)
         many = np.bincount(items.face, minlength=1)[items.face] > _CELLS
         little = (self.area[items.face] <= self._limit) & (level <= _SMALL)
-        return (level == _DEEPEST) | many | little
+        return (level == _DEEPEST) | (self._work < 0) | many | little
 
 
 def _cells_of(face: Index, ends: Index) -> _Items:
