@@ -1,7 +1,7 @@
 """200 pictures with damage that is no fault which the diagnosis knows: it must name none.
 
-Ten pictures of each of twenty kinds, of the first six scenes in turn; everything comes from the picture's
-number.
+Ten pictures of each of twenty kinds, of the first six scenes in turn; everything comes from the
+picture's number.
 """
 
 from __future__ import annotations
