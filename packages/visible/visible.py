@@ -23,7 +23,7 @@ WORK = 1 << 20  # cells of at most one pixel, each with a face
 _DEEPEST = -12  # the level of the smallest cells
 _SMALL = -6  # in which a face is left undecided, if so little may be seen of it
 _CELLS = 256  # of a face, that are divided further
-_LOOKS = 4, 64  # rays of each face in cells of one pixel, and in smaller ones of a level
+_LOOKS = 4, 16  # rays of each face in cells of one pixel, and in smaller ones of a level
 _ROOM = 1 / 16  # of a cell's size, on each side: so that no cell has only a corner of a face
 _TOGETHER = 1 << 15
 
