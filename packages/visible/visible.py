@@ -13,7 +13,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.vector import spread
 
 from .faces import Faces
-from .hiding import Cells, covers, reached, surely_in
+from .hiding import Cells, behind_planes, covers, reached, surely_in
 from .polygons import in_cells
 from .sights import TOP, Centres, Sights, start_cells
 
@@ -173,7 +173,10 @@ class _Search:
         farthest = self._centres.nearness_in(level, items.cell)
         some = np.flatnonzero(~(faces.nearest[items.face] < farthest))
         items, farthest = items.take(some), farthest[some]
-        found = reached(faces, items.face, self._cells(items, level))
+        cells = self._cells(items, level)
+        if level <= 0:
+            farthest = np.maximum(farthest, behind_planes(self._scene, faces, cells))
+        found = reached(faces, items.face, cells)
         return items.take(~(found.missed | (found.nearest < farthest)))
 
     def _cover_cells(self) -> None:
