@@ -30,7 +30,7 @@ from .pictures.given import GivenPicture, Making, picture_of_array, picture_of_f
 from .rendering import render as render
 from .rendering import trace as trace
 from .report.cameras import SceneCamera, write_cameras
-from .report.lines import lines as lines
+from .report.lines import describe as describe
 from .scene import Camera as Camera
 from .scene import Instance as Instance
 from .scene import Mesh as Mesh
@@ -139,7 +139,7 @@ def compare(
     -------
     Comparison
         ``verdict``, ``counts``, ``metrics``, ``causes`` of each pixel, ``diagnosis``; ``to_dict()``
-        is what ``comparison.json`` holds. ``lines`` has the sentences that the command prints.
+        is what ``comparison.json`` holds. ``describe`` has the sentences that the command prints.
 
     Raises
     ------

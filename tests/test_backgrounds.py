@@ -15,7 +15,7 @@ from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.storage import Storage
 from reference_tracer.rendering import render
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
@@ -69,11 +69,11 @@ def test_its_background_is_named(scene, background, name, opaque, verdict):
     assert said["text"].endswith("compared with the picture's")
     np.testing.assert_allclose(said["picture"], background, atol=0.01)
     np.testing.assert_allclose(said["scene"], WORLD, atol=1e-6)
-    assert said["text"] in lines(found) and found.verdict == verdict
+    assert said["text"] in describe(found) and found.verdict == verdict
     assert said["pixels"] == (found.frame.instance_index < 0).sum()
     # A wall of that colour would look the same: the verdict's own line says so.
     of_a_color = verdict == "warnings"
-    last = lines(found)[-1]
+    last = describe(found)[-1]
     assert last.startswith(f"verdict: {verdict}") and (name in last) == of_a_color
     assert (said["not_judged"] is not None) == of_a_color
     assert (f"{said['pixels']:,} px" in last) == of_a_color

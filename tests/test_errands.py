@@ -180,7 +180,7 @@ import json
 from reference_tracer.causes.case import Case
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.pictures.picture import Picture
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.manifest import Manifest
 from reference_tracer.tracer.progress import result_of
 manifest = Manifest("a.blend", "Scene", "ViewLayer", 1, "FILE", "Camera")
@@ -198,7 +198,7 @@ found = result_of(trace_and_compare(case))
 pixels = found.counts
 assert pixels.by_cause["comet"] == pixels.explained == pixels.differ == 8
 assert pixels.unexplained == 0 and found.verdict == "warnings"
-assert "  comet: 8, as at (4, 3)" in "\\n".join(lines(found))
+assert "  comet: 8, as at (4, 3)" in "\\n".join(describe(found))
 held = json.loads(json.dumps(found.to_dict()))["causes"]["comet"]
 assert held["number"] == 42 and held["unit"] == "km", held
 assert (cause_picture(found)[3:5, 4:8, :3] == np.float32((0.9, 0.8, 0.1))).all()
@@ -214,7 +214,7 @@ from dataclasses import replace
 found = result_of(trace_and_compare(replace(case, self_check=True)))
 [row] = [row for row in found.self_check if row.name == "dark"]
 assert row.result == "caught"
-assert "no light" in "\\n".join(lines(found))
+assert "no light" in "\\n".join(describe(found))
 assert "no light" in [row["text"] for row in found.to_dict()["self_check"]]
 """
 )

@@ -85,7 +85,7 @@ class Guessing:
         self.steps = 0
         self.guesses = 0
         self.untried: set[str] = set()  # names of faults whose search was not finished
-        self._spent: Counter[str] = Counter()  # steps of each fault, in this round
+        self.spent: Counter[str] = Counter()  # steps of each fault, in this round
 
     @property
     def ended(self) -> bool:
@@ -94,14 +94,14 @@ class Guessing:
 
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
         """Run work that looks for a fault; None if that fault, or all work, reaches its limit."""
-        while not self.ended and self._spent[fault.name] < self.limit / PART:
+        while not self.ended and self.spent[fault.name] < self.limit / PART:
             try:
                 next(work)
             except StopIteration as stop:
                 found: T = stop.value
                 return found
             self.steps += 1
-            self._spent[fault.name] += 1
+            self.spent[fault.name] += 1
             yield None
         work.close()
         self.untried.add(fault.name)
@@ -249,6 +249,7 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
     Of two, the first one alone must lose few pixels, and with the second one more must agree.
     """
+    guessing.spent.clear()
     trials = yield from guessing.trials(evidence, evidence)
     if best := _best(evidence, trials):
         return [best]

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 from ..comparison.comparison import Comparison
 from ..comparison.verdict import Verdict
 from ..wording import count_of
-from .lines import ended, lines
+from .lines import describe, ended
 
 _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -66,4 +66,4 @@ def wrong_in(found: Comparison) -> str:
 
 def of_comparison(name: str, found: Comparison, seconds: float = 0.0) -> Judged:
     """Return a comparison as a thing that was judged: only one that agrees passes."""
-    return Judged(name, wrong_in(found), "\n".join(lines(found)), seconds)
+    return Judged(name, wrong_in(found), "\n".join(describe(found)), seconds)

@@ -12,7 +12,7 @@ from ..tracer.hits import NOTHING
 from ..wording import count_of
 
 
-def lines(found: Comparison) -> list[str]:
+def describe(found: Comparison) -> list[str]:
     """Return a comparison in sentences: what a person wants to know first, a fact a line."""
     counts = found.counts
     settings, traced = found.case.settings, found.frame.statistics

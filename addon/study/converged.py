@@ -18,11 +18,7 @@ from ..tracer.settings import Settings
 # is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are
 # about CONVERGED_RAYS, but at least twice as many as what is held against it.
 CONVERGED = 16
-
-
 CONVERGED_RAYS = 4_000_000
-
-
 BAND = 1 << 18  # rays of it that are held at a time: some 40 MiB
 
 

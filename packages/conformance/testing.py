@@ -16,7 +16,7 @@ from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.report import comparison as comparison_report
 from reference_tracer.report import page as comparison_page
 from reference_tracer.report.junit import wrong_in
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.scene import Camera, Scene
 from reference_tracer.tracer.progress import result_of
 
@@ -86,7 +86,7 @@ def assert_sees(
 
 
 def _message(found: Comparison, page: str | Path | None) -> str:
-    said = [f"the picture is not what the camera sees: {wrong_in(found)}", *lines(found)]
+    said = [f"the picture is not what the camera sees: {wrong_in(found)}", *describe(found)]
     if page is not None:
         result_of(comparison_report.write(page, found))
         said.append(f"its page: {Path(page, comparison_page.NAME)}")

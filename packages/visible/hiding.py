@@ -66,8 +66,8 @@ def reached(faces: Faces, face: Index, cells: Cells) -> Reached:
     inside = least[:3] > error
     beside = (most[:3] < -error).any(axis=0)
     # One that is not sure may have the other orientation.
-    missed = beside & (faces.sure[face] | inside.any(axis=0))
-    missed |= (faces.low[:, face] > cells.high).any(axis=0)
+    beside &= faces.sure[face] | inside.any(axis=0)
+    missed = beside | (faces.low[:, face] > cells.high).any(axis=0)
     missed |= (faces.high[:, face] < cells.low).any(axis=0)
     nearest = np.fmin(most[3] + own, faces.nearest[face])
     missed |= faces.clip.outside(least[3] - own, nearest)

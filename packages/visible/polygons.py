@@ -44,7 +44,7 @@ def in_cells(
     sides = [(zero, one, zero), (width, -one, zero), (zero, zero, one), (height, zero, -one)]
     points, area = _corners(np.concatenate((*lines, np.array(sides))))
     middle = np.where(area > 0, points, np.stack((width, height)) / 2)
-    return cells.low + middle, area
+    return np.clip(cells.low + middle, cells.low, cells.high), area
 
 
 def _corners(lines: Floats) -> tuple[Floats, Floats]:

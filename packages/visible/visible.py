@@ -157,6 +157,7 @@ class _Search:
                 left[items.face[given_up]] = True
                 items = items.take(~given_up)
         self.seen[(self.seen == UNDECIDED) & ~left] = HIDDEN
+        self.area[self.seen != UNDECIDED] = 0
 
     def _in_parts(self, work: Callable[[_Items, int], _Items], items: _Items, level: int) -> _Items:
         size = len(items.face)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 
 SMOOTH = "FXAA", "5", "8", "32"
 
@@ -61,7 +61,7 @@ def test_examples_say_where(build, compare):
     assert len(places) == 10
     for x, y in places:
         assert comparison.causes.cause[y, x] != 0
-    assert f"({places[0][0]}, {places[0][1]})" in "\n".join(lines(comparison))
+    assert f"({places[0][0]}, {places[0][1]})" in "\n".join(describe(comparison))
 
 
 SMOOTHED = [(n, s) for n in ("exercise_triangle", "suzanne", "shifted_room") for s in SMOOTH]

@@ -10,7 +10,7 @@ import pytest
 from reference_tracer.blender.drawing import drawings
 from reference_tracer.causes.cause import UNEXPLAINED
 from reference_tracer.pictures.palette import By
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 
 PANES = 5
 
@@ -71,7 +71,7 @@ def test_an_honest_scene_has_no_alarm(panes, compare, colors, identity):
     assert seen.mean() > 0.1 and found.causes.behind is not None
     np.testing.assert_array_equal(found.causes.behind, seen)
     assert found.counts.behind == (seen.sum(), 0)
-    assert any("what is behind transparent surfaces" in line for line in lines(found))
+    assert any("what is behind transparent surfaces" in line for line in describe(found))
     assert [m.diffuse_color[3] for m in bpy.data.materials] == alphas
     assert [o.hide_render for o in bpy.data.objects] == hidden
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 
 from .scenes import HALF_FLOAT
 
@@ -186,6 +186,6 @@ def test_an_empty_scene_is_a_valid_picture_and_a_warning(build, compare):
     build.camera()
     comparison = compare()
     assert comparison.verdict == "warnings"
-    assert "the picture is empty: no ray meets anything" in lines(comparison)
+    assert "the picture is empty: no ray meets anything" in describe(comparison)
     assert comparison.counts.agree == comparison.counts.total == 96 * 54
     assert not comparison.frame.color.any()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.comparison.comparing import compared
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.tracer.progress import result_of
 
 
@@ -55,7 +55,7 @@ def test_what_is_advised_helps(make, verdict):
     assert found.verdict == verdict and found.counts.unexplained == 0
     (advice,) = found.excused.advice
     start = re.search(r"raise the clip start from .* m to (\S+) m: surfaces", advice)
-    assert any(advice in line for line in lines(found))
+    assert any(advice in line for line in describe(found))
     bpy.context.scene.camera.data.clip_start = float(start[1])
     assert _compared().verdict == "agree"
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.scene import SceneError
 
 from .missing import found
@@ -72,7 +72,7 @@ def test_an_empty_picture_for_want_of_a_library(build, saved, export, compare):
     for run in export.modes.values():
         assert found(run()[1]) == {"missing library": ("//library.blend", "collection 'Kit'")}
     said = "verdict: warnings (missing library of '//library.blend'; the picture is empty)"
-    assert lines(compare())[-1] == said
+    assert describe(compare())[-1] == said
     bpy.context.view_layer.layer_collection.children[0].exclude = True
     assert found(export.render()[1]) == {}
 

@@ -15,7 +15,7 @@ from reference_tracer.files import images
 from reference_tracer.pictures import colors_file
 from reference_tracer.pictures.palette import By
 from reference_tracer.pictures.picture import Picture
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.scene import GREY, SceneError
 from reference_tracer.tracer.progress import result_of
 
@@ -164,7 +164,7 @@ def test_another_picture_in_colors_of_a_file(ordinary, compare, tmp_path):
     hidden.hide_render = True  # the picture is of before
     case = gather_against(bpy.context, shown, found.case.settings, colors=given)
     again = result_of(compared(case))
-    assert any("'Right'" in line for line in lines(again)) and not again.counts.unexplained
+    assert any("'Right'" in line for line in describe(again)) and not again.counts.unexplained
 
 
 def test_colors_of_a_file_by_material(ordinary, build, compare, tmp_path):

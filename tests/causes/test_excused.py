@@ -12,7 +12,7 @@ from reference_tracer.causes.excused import Excused, Unjudged
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import WORKBENCH, case_of, owners_of
@@ -30,7 +30,7 @@ def farther(scene):
 
 def advised(found, pattern):
     (advice,) = found.excused.advice
-    assert any(advice in line for line in lines(found))
+    assert any(advice in line for line in describe(found))
     assert advice in found.to_dict()["excused"]["advice"]
     return float(re.search(pattern, advice)[1])
 
@@ -105,20 +105,20 @@ def test_surfaces_in_one_place_do_not_count_for_the_picture(make, gap):
     assert found.verdict == "warnings"
     (one,) = found.excused.objects
     assert (one.object, one.pixels, one.total) == (scene.objects[0], ties, ties)
-    assert f"'{one.object}' was not judged: {ties} of the {ties} px" in "\n".join(lines(found))
+    assert f"'{one.object}' was not judged: {ties} of the {ties} px" in "\n".join(describe(found))
     last = f"verdict: warnings: {ties} px at depth ties ('{one.object}' rests on rounding alone)"
-    assert lines(found)[-1] == last  # once, not of the picture, too
+    assert describe(found)[-1] == last  # once, not of the picture, too
     by_cause = {**found.counts.by_cause, "not_decidable": 5}
     found = replace(
         found,
         counts=replace(found.counts, by_cause=by_cause),
         excused=replace(found.excused, objects=(one, one, one)),
     )
-    assert lines(found)[-1].endswith(
+    assert describe(found)[-1].endswith(
         f"5 px not decidable ('{one.object}' and 2 other objects rest on rounding alone)"
     )
     helps = "raise the clip start" if gap == 1e-4 else "leave one of them out"
-    assert any(helps in line for line in lines(found))
+    assert any(helps in line for line in describe(found))
 
 
 def shown_with_its_objects(scene, of):

@@ -19,7 +19,7 @@ from reference_tracer.pictures.picture import Picture
 from reference_tracer.pictures.sampling import Sampling
 from reference_tracer.pictures.source import Source
 from reference_tracer.rendering import render
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
@@ -81,7 +81,9 @@ def test_what_is_not_decidable_is_not_comparable(make):
     )
     found = compared(far, render(far).color)
     assert found.verdict == "not comparable" and found.counts.not_decidable == 48
-    assert any(line.startswith("100 % of this picture is not decidable") for line in lines(found))
+    assert any(
+        line.startswith("100 % of this picture is not decidable") for line in describe(found)
+    )
 
 
 def test_cancelled(scene):
@@ -100,7 +102,7 @@ def test_a_verdict_says_what_it_leaves_out(scene):
     cause[1] = UNEXPLAINED  # which no agreement leaves out
     said = "Differences: 5 px unexplained, 3 px at edges"
     assert Verdict.DIFFERENCES.in_words(Counts.of(cause)) == said
-    assert lines(mixed(scene))[-1].startswith("verdict: differences: ")
+    assert describe(mixed(scene))[-1].startswith("verdict: differences: ")
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.diagnosis.diagnosis import diagnose
 from reference_tracer.rendering import render
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.tracer.progress import result_of
 
 from .conftest import SOME
@@ -35,7 +35,7 @@ def test_a_constant_gets_no_name(judged, traced, kind, value):
     assert said.lines()[0] == f"diagnosis: {found.case.picture.data.kind.words} {SAYS_NOTHING}"
     found = replace(found, diagnosis=said)
     assert found.verdict is Verdict.DIFFERENCES
-    assert not any("colours" in line for line in lines(found))
+    assert not any("colours" in line for line in describe(found))
 
 
 def test_what_is_nearly_constant_has_its_fault_named(told, solids, traced):

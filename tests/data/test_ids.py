@@ -12,7 +12,7 @@ from reference_tracer.pictures import colors_file
 from reference_tracer.pictures.colors_file import in_colors
 from reference_tracer.pictures.palette import By, eight_bits
 from reference_tracer.rendering import render
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.scene import Region, SceneError
 
 from .conftest import SOME
@@ -37,9 +37,9 @@ def test_exchanged_ids_agree_unless_a_table_names_them(judged, told, traced, tmp
     for numbers in (NUMBERS, EXCHANGED):
         found = judged("ids", ids_of(traced, numbers))
         assert found.verdict == Verdict.AGREE
-        assert lines(found)[-1].endswith("objects that exchanged theirs agree)")
+        assert describe(found)[-1].endswith("objects that exchanged theirs agree)")
     found = judged("ids", ids_of(traced), names=names)
-    assert found.verdict == Verdict.AGREE and "exchanged" not in lines(found)[-1]
+    assert found.verdict == Verdict.AGREE and "exchanged" not in describe(found)[-1]
     wrong = ids_of(traced, EXCHANGED)
     assert judged("ids", wrong, names=names).counts.unexplained > 90
     assert told("ids", wrong, faults=SOME, names=names) == ["id_exchanged"]

@@ -18,7 +18,7 @@ from reference_tracer.diagnosis.faults.triangles import Triangles
 from reference_tracer.diagnosis.variants import ASKING
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.tracer.progress import Progress, result_of
 
 from ..cases import case_of
@@ -90,7 +90,7 @@ def test_a_fault_gets_its_name_and_its_numbers(solids, name, guess):
         [low], [high] = told.guess.low, told.guess.high
         assert low <= guess.values[0] <= high
     assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["diagnosis"]["told"]
-    assert any(line.startswith("diagnosis: ") for line in lines(found))
+    assert any(line.startswith("diagnosis: ") for line in describe(found))
 
 
 @pytest.mark.torture

@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
+from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers
+from reference_tracer.diagnosis.guessing import Guessing, accounting
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
@@ -63,6 +65,22 @@ def test_it_ends_inside_a_guess_and_says_what_was_not_looked_for(pair, steps):
     said = [line for line in found.lines() if "a limit of work ended" in line]
     assert len(said) == 1 and " more)" in said[0]
     assert found.to_dict()["ended"] and found.to_dict()["untried"] == list(found.untried)
+
+
+def test_in_each_round_a_fault_has_its_own_part_of_the_work(pair):
+    """What was looked for in one round is looked for in the next, too."""
+
+    def find(evidence):
+        for _ in range(900):
+            yield None
+        return []
+
+    found = result_of(trace_and_compare(case_of(pair, Picture(_salted(pair)), curves=())))
+    evidence = Evidence(found.case, found.frame, found.causes)
+    guessing = Guessing((replace(BY_NAME["mirrored_x"], find=find),), 3000)
+    for number in (1, 2):
+        assert result_of(accounting(guessing, evidence)) == []
+        assert guessing.steps >= 900 * number and not guessing.untried
 
 
 @pytest.mark.slow

@@ -20,7 +20,7 @@ from reference_tracer.diagnosis.trial import same_shapes, traced_anew
 from reference_tracer.manifest import Effect, ObjectEntry, Unmodelled
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
-from reference_tracer.report.lines import lines
+from reference_tracer.report.lines import describe
 from reference_tracer.scene import without
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
@@ -179,7 +179,7 @@ def test_in_a_comparison_on_request(case):
     held = json.loads(json.dumps(with_check.to_dict(), allow_nan=False))["self_check"]
     assert {row["result"] for row in held} == {"caught", "cannot be seen here"}
     caught = sum(row["result"] == "caught" for row in held)
-    assert any(f"self-check: {caught} of {caught}" in line for line in lines(with_check))
+    assert any(f"self-check: {caught} of {caught}" in line for line in describe(with_check))
     assert result_of(trace_and_compare(case)).self_check == ()
     missed = replace(with_check, self_check=(FaultRow("a", "b", 5, 5, 5, 0),))
     assert missed.verdict == "warnings"

@@ -70,6 +70,8 @@ def judged(scene, **options):
         )
         if state == UNDECIDED:
             assert area <= Fraction(found.area[face]) + Fraction(1, 10**12), face
+        else:
+            assert found.area[face] == 0, face
     check_witnesses(scene, found)
     return found
 

@@ -88,7 +88,7 @@ cli/main.py main
                   report/comparison.py write
                     report/page/__init__.py write
               cli/commands/compare.py _told_comparison
-                report/lines.py lines
+                report/lines.py describe
                 cli/commands/compare.py _told
                   comparison/verdict.py Verdict.exit_code
 """,

@@ -52,9 +52,9 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Print the comparison; report its first line."""
-        from ...report.lines import lines
+        from ...report.lines import describe
 
-        said = lines(result)  # of the comparison: the context's scene may be another one by now
+        said = describe(result)  # of the comparison: the context's scene may be another one by now
         say(*result.manifest.lines(), *said)
         return "INFO" if result.verdict == "agree" else "WARNING", said[0]
 
@@ -114,18 +114,16 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         if context.screen and context.screen.is_animation_playing:
             raise SceneError("The animation is playing: stop it, then compare it.")
         self._folder = self.folder() or results.session_folder() / "animation"
-        frames = animation.frames_of(context.scene)
-
-        return animation.compare_frames(str(self._folder), frames)
+        self._frames = animation.frames_of(context.scene)
+        return animation.compare_frames(str(self._folder), self._frames)
 
     def show(self, context: Any, result: Any) -> Work[None]:
         """Keep the rows of the frames so far."""
         from ...comparison.animation import worst_first
         from ...report import animation as frames_report
-        from ..jobs.animation import frames_of
 
         content = self._folder / frames_report.PAGE, worst_first(result)
-        lines = frames_report.lines(frames_of(context.scene), result)
+        lines = frames_report.lines(self._frames, result)
         found = results.keep(Kind.FRAMES, content, lines, context.scene.name)
         self.left = ", ".join(found.lines[-2:])
         redraw(context)

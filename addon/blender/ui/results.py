@@ -49,7 +49,7 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
     from ...causes.maps import cause_map, difference_map
     from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
-    from ...report.lines import lines
+    from ...report.lines import describe
 
     traced, picture = comparison.frame.color, comparison.picture
     try:
@@ -68,7 +68,7 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
             right[number] = color
             yield None
         blocks.remove(blocks.PUT_RIGHT)
-        kept = keep(Kind.COMPARISON, comparison, lines(comparison), comparison.manifest.scene)
+        kept = keep(Kind.COMPARISON, comparison, describe(comparison), comparison.manifest.scene)
         _latest[Kind.COMPARISON] = replace(kept, regions=regions, put_right=right)
         return _latest[Kind.COMPARISON]
     finally:

@@ -27,7 +27,7 @@ from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
 from ...report.junit import Judged, junit, of_comparison
-from ...report.lines import lines
+from ...report.lines import describe
 from ...scene import Scene, SceneError
 from ...tracer.progress import Event, Work, result_of
 from ...wording import show
@@ -174,7 +174,7 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
     """Print a comparison; return the exit code."""
     if options.colors_out:
         _write_colors(options.colors_out, comparison.scene, comparison.manifest.owners)
-    show(*comparison.manifest.lines(), *lines(comparison))
+    show(*comparison.manifest.lines(), *describe(comparison))
     _write_junit(options, [of_comparison(options.scene.name, comparison)])
     return _told(options, comparison.verdict, options.out / page.NAME)
 

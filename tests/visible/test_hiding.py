@@ -1,0 +1,45 @@
+"""What is known of faces in cells of the film: never more than is sure."""
+
+from __future__ import annotations
+
+import numpy as np
+from reference_tracer.certified.any_rays import decide
+from reference_tracer.tracer.camera import camera_rays
+from reference_tracer_visible.faces import Faces
+from reference_tracer_visible.hiding import Cells, reached
+from reference_tracer_visible.polygons import in_cells
+
+from .test_visible import ORTHOGRAPHIC, camera, scene_of, triangles
+
+
+def test_a_face_nearly_edge_on_is_beside_no_cell_that_it_covers():
+    """In planes that pass by the eye at its rounding, the side that is seen is not known."""
+    random = np.random.default_rng(0)
+    share = random.uniform(-3, 3, (1000, 3, 2, 1))
+    points = (share * random.normal(size=(1000, 1, 2, 3))).sum(axis=2)
+    points[..., 2] += 4
+    points += random.normal(size=points.shape) * 2.0**-52
+    scene = scene_of(triangles(points), camera=camera())
+    faces = Faces(scene)
+    some = np.flatnonzero(faces.may_show)
+    at = random.uniform(0, 16, (2, len(some)))
+    touched = reached(faces, some, Cells(at, at + 2.0**-6)).touched
+    rays = camera_rays(scene.camera, *(at + 2.0**-7))
+    met = decide(rays, faces.points[:, faces.corners[:, some]].swapaxes(0, 1)).crossed
+    assert met.sum() > 9 and touched[met].all()
+    assert not faces.sure[some[met]].all()
+
+
+def test_what_is_traced_for_a_cell_is_in_it():
+    """Also if hardly more than a corner of the face is there."""
+    random = np.random.default_rng(0)
+    tip = random.uniform(-1, 1, (1, 2, 200))
+    corners = np.concatenate((tip, tip + random.normal(size=(2, 2, 200))))
+    points = np.concatenate((corners, np.zeros((3, 1, 200))), axis=1).transpose(2, 0, 1)
+    faces = Faces(scene_of(triangles(points), camera=camera(ORTHOGRAPHIC)))
+    every = np.arange(200)
+    faces.need(every)
+    low = (tip[0] + 2) * 4 + random.choice([-1e-11, 1e-11], (2, 200))
+    cells = Cells(low, low + 0.25)
+    at, area = in_cells(faces, every, cells)
+    assert (area > 0).any() and (cells.low <= at).all() and (at <= cells.high).all()
