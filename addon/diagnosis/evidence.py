@@ -180,14 +180,15 @@ class Evidence:
     def scored(self, right: Bools) -> Score:
         """Score the sample, given which of its n pixels agree."""
         wrong, weights = self.unexplained_sampled, self._weights[self.sample]
-        settled, broken = right & wrong, ~right & ~wrong & self._breakable
+        settled, broken = right & wrong, ~right & self.breakable[self.sample]
         return Score(float(weights[settled].sum()), float(weights[broken].sum()))
 
     @cached_property
-    def _breakable(self) -> Bools:
-        """The n sampled pixels that show a traced colour: a filter explains others as it did."""
-        mixes = self.case.picture.sampling.filter_radius > 0
-        return self.picture.shows(self.frame)[self.sample] | (not mixes)
+    def breakable(self) -> Bools:
+        """The judged pixels (h, w) that are right, and not by a filter, which may mix others."""
+        if not self.case.picture.sampling.filter_radius:
+            return self.judged
+        return self.judged & self.picture.shows(self.frame)
 
     @cached_property
     def film(self) -> Floats:

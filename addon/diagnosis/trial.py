@@ -149,8 +149,7 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
     right = picture.shows(frame)
     right &= ~picture.other_object(frame.instance_index)
     settled = int((right & before.unexplained).sum())
-    was = before.picture.shows(before.frame)
-    broken = int((~right & (was | (not mixes)) & before.judged).sum())
+    broken = int((~right & before.breakable).sum())
     # Where colours are mixed, it may be that only the checks can say so.
     return settled > HOPE * broken or bool(mixes and settled == broken == 0)
 

@@ -19,6 +19,11 @@ from typing import NamedTuple
 
 import numpy as np
 from reference_tracer.arrays import Bools, Floats, Index
+from reference_tracer.certified.bounds import Fractions, plane_fractions
+from reference_tracer.certified.rounding import rounding
+from reference_tracer.certified.sweep.depth_buffer import ROUNDING, nearness
+from reference_tracer.scene import Scene
+from reference_tracer.tracer.camera import camera_rays
 
 from .faces import Faces
 
@@ -67,6 +72,32 @@ def reached(faces: Faces, face: Index, cells: Cells) -> Reached:
     nearest = np.fmin(most[3] + own, faces.nearest[face])
     missed |= faces.clip.outside(least[3] - own, nearest)
     return Reached(missed, least, nearest, inside, ~beside)
+
+
+def behind_planes(scene: Scene, faces: Faces, cells: Cells) -> Floats:
+    """Return the nearness that infinite planes have at least in all of n cells, (n,); -inf if none.
+
+    There is room for the rounding of the rays at the corners, and of those between.
+    """
+    camera = scene.camera
+    parallel = camera.projection.shares_direction
+    out = np.full(cells.low.shape[1], -np.inf)
+    for plane in scene.planes:
+        rays = camera_rays(camera, *(v.ravel() for v in cells.corners))
+        found = plane_fractions(rays, plane.point[:, None], plane.normal[:, None])
+        off = 2 * rounding(scene).ray * np.abs(plane.normal).max()
+        moved = Fractions(
+            found.numerator,
+            found.numerator_error + (off if parallel else 0.0),
+            found.denominator,
+            found.denominator_error + (0.0 if parallel else off),
+        )
+        low, high = (np.broadcast_to(end, rays.count) for end in moved.interval())
+        least, most = nearness(camera, low, high, ROUNDING)
+        sure = np.isfinite(high) & faces.clip.inside(least, most)
+        least = np.where(sure, least, -np.inf).reshape(4, -1).min(axis=0)
+        out = np.maximum(out, least)
+    return out
 
 
 class Covers(NamedTuple):

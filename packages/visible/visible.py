@@ -13,7 +13,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.vector import spread
 
 from .faces import Faces
-from .hiding import Cells, covers, reached, surely_in
+from .hiding import Cells, behind_planes, covers, reached, surely_in
 from .polygons import in_cells
 from .sights import TOP, Centres, Sights, start_cells
 
@@ -23,7 +23,7 @@ WORK = 1 << 20  # cells of at most one pixel, each with a face
 _DEEPEST = -12  # the level of the smallest cells
 _SMALL = -6  # in which a face is left undecided, if so little may be seen of it
 _CELLS = 256  # of a face, that are divided further
-_LOOKS = 4, 64  # rays of each face in cells of one pixel, and in smaller ones of a level
+_LOOKS = 4, 16  # rays of each face in cells of one pixel, and in smaller ones of a level
 _ROOM = 1 / 16  # of a cell's size, on each side: so that no cell has only a corner of a face
 _TOGETHER = 1 << 15
 
@@ -174,7 +174,10 @@ class _Search:
         farthest = self._centres.nearness_in(level, items.cell)
         some = np.flatnonzero(~(faces.nearest[items.face] < farthest))
         items, farthest = items.take(some), farthest[some]
-        found = reached(faces, items.face, self._cells(items, level))
+        cells = self._cells(items, level)
+        if level <= 0:
+            farthest = np.maximum(farthest, behind_planes(self._scene, faces, cells))
+        found = reached(faces, items.face, cells)
         return items.take(~(found.missed | (found.nearest < farthest)))
 
     def _cover_cells(self) -> None:

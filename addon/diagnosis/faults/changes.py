@@ -28,7 +28,6 @@ from .search import Search
 from .stand import rotation
 
 FINEST = 1 / 128  # pixels
-SMALL = 6.0  # pixels
 TURNS = (*range(-165, 0, 15), *range(15, 181, 15))  # degrees, where edges say nothing
 FACTORS = (-1.0, 0.25, 0.35, 0.5, 0.7, 1.4, 2.0, 2.8, 4.0)  # likewise, along one axis
 
@@ -106,11 +105,9 @@ def _unseen_moves(looked: Looked) -> Floats | None:
 
 
 def _places(looked: Looked) -> Iterable[Values]:
-    """Yield where its middle is shown: where that moved by little, edges would have been found."""
+    """Return where its middle is shown."""
     axes = _moves(looked)
-    start = looked.start()[: axes.shape[1]]
-    if np.abs(start[:2]).max() >= SMALL or looked.kept:
-        yield values_of(axes @ start)
+    return [values_of(axes @ looked.start()[: axes.shape[1]])]
 
 
 # The point that stays: the object's origin, the middle of its base, its middle.

@@ -24,6 +24,7 @@ WIDE = {1: 4, 2: 2}
 NARROW = {1: 2}
 COARSE = 1 / 2  # of a unit: smaller steps have fewer neighbours
 ASKEW = 8  # random directions besides those of three axes and more
+NOISE = 2.0**12  # last places of the largest number
 SMALL = 1 / 8  # of a unit: the first step where a place is nearly the best
 
 
@@ -87,8 +88,9 @@ class Climb:
 
 
 def values_of(numbers: Floats) -> Values:
-    """Return numbers (m,) as a tuple."""
-    return tuple(numbers.tolist())
+    """Return numbers (m,) as a tuple, without their last digits: BLAS adds in any order."""
+    last = np.spacing(np.abs(numbers).max(initial=0.0)) * NOISE
+    return tuple((np.rint(numbers / last) * last).tolist())
 
 
 def _directions(count: int, far: Mapping[int, int]) -> Array:

@@ -40,11 +40,10 @@ MANY = 60  # unexplained pixels: with fewer nobody knows
 
 
 class Matches(NamedTuple):
-    """The places of n points at edges, as traced and as the picture shows them."""
+    """Points at edges, and where the picture shows them."""
 
     points: Floats  # (3, n) in the world
-    film: Floats  # (2, n) where the camera has them, in pixels
-    moved: Floats  # (2, n) pixels, to where they are shown
+    shown: Floats  # (2, n) film positions where they are shown
     sure: Floats  # (n, 2, 2) the inverse of the covariance of that; 0 where nothing is known
 
 
@@ -92,7 +91,7 @@ def fitted(found: Matches, seen: Callable[[Floats], Floats | None], count: int) 
     def off(values: Floats) -> Floats | None:
         with np.errstate(all="ignore"):
             film = seen(values)
-            return None if film is None else found.moved + found.film - film
+            return None if film is None else found.shown - film
 
     now = off(units)
     for number in range(ROUNDS if count else 0):
@@ -155,7 +154,7 @@ def _matched(evidence: Evidence, where: Bools, about: Floats) -> Matches:
     camera = evidence.case.scene.camera
     film = np.stack((columns + camera.region.x0 + 0.5, rows + camera.region.y0 + 0.5))
     points = camera_rays(camera, *film).at(in_front(evidence)[0][rows, columns])
-    return Matches(points, film, (moved + mean)[:, known], each[known])
+    return Matches(points, film + (moved + mean)[:, known], each[known])
 
 
 def _gray(colors: Array) -> Floats:

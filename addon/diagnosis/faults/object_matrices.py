@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...scene import Instance
-from ...tracer.progress import Work, at_once
+from ...tracer.progress import at_once
 from ..evidence import Evidence
 from .changes import nearest_rotation
 from .fault import (
@@ -17,7 +17,6 @@ from .fault import (
     Fault,
     Guess,
     Make,
-    Numbers,
     Option,
     instances_named,
     of_object,
@@ -69,11 +68,11 @@ def _sheared(evidence: Evidence) -> list[Option]:
     return found
 
 
-def _transposed(evidence: Evidence) -> Work[list[Numbers]]:
+@at_once
+def _transposed(evidence: Evidence) -> list[Guess]:
     """Guess all objects, and each suspect."""
-    some = yield from suspects()(evidence)
-    each = [replace(one, words=f"'{one.object}'") for one in some]
-    return [Numbers(words="all objects"), *each]
+    each = (Guess(object=name, words=f"'{name}'") for name in evidence.suspects)
+    return [Guess(words="all objects"), *each]
 
 
 OBJECT_MATRIX_FAULTS: tuple[AnyFault, ...] = (
@@ -84,7 +83,7 @@ OBJECT_MATRIX_FAULTS: tuple[AnyFault, ...] = (
         "transforms to go with them.",
         "multiply its vertices by its world matrix",
         of_object(lambda instance: replace(instance, world_from_object=np.eye(4))),
-        suspects(),
+        suspects,
         witness="OpenNaja/cobra-blender#19",
     ),
     Fault(
@@ -94,7 +93,7 @@ OBJECT_MATRIX_FAULTS: tuple[AnyFault, ...] = (
         "Angle, and stays as it was.",
         "multiply its vertices by its whole world matrix",
         _with_axes(lambda axes, lengths: np.diag(np.where(lengths > 0, lengths, 1))),
-        suspects(),
+        suspects,
         witness="taniwha/io_object_mu#8",
     ),
     Fault(
@@ -115,7 +114,7 @@ OBJECT_MATRIX_FAULTS: tuple[AnyFault, ...] = (
         "scale.",
         "multiply its vertices by its whole world matrix",
         _with_axes(lambda axes, lengths: axes),
-        suspects(),
+        suspects,
         witness="X-Plane/XPlane2Blender#257",
     ),
     Fault(
@@ -124,7 +123,7 @@ OBJECT_MATRIX_FAULTS: tuple[AnyFault, ...] = (
         "Only the (3, 3) part of the matrix was used, or each asset was exported at the origin.",
         "multiply its vertices by its whole world matrix",
         of_object(_at_origin),
-        suspects(),
+        suspects,
         witness="X-Plane/XPlane2Blender#214",
     ),
     Fault(

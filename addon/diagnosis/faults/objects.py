@@ -91,10 +91,6 @@ def _whole(instance: Instance, factor: float) -> Instance:
     return replace(instance, world_from_object=matrix)
 
 
-_MOVED, _TURNED, _TWICE = posing(*MOVED), posing(*TURNED), posing(*MOVED, kept=True)
-_SCALED = posing(*SCALED, exact=UNITS)
-
-
 OBJECT_FAULTS: tuple[AnyFault, ...] = (
     Fault(
         "nothing_shown",
@@ -113,7 +109,7 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "instances, or objects that are hidden in the viewport only.",
         "check why it was not exported, or is hidden",
         of_object(lambda instance: None),
-        suspects(),
+        suspects,
         removes=True,
         examples=(Example("dropped_instance", "the largest object left out", largest),),
         witness="KhronosGroup/glTF-Blender-IO#2726",
@@ -137,10 +133,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "three factors one is stored; a negative one, or the delta scale, is left out.",
         "check the units (100 is metres for centimetres), and multiply its vertices by its whole "
         "world matrix",
-        _SCALED.assume,
-        _SCALED.find,
-        ("factor", "factor_y", "factor_z"),
-        refine=_SCALED.refine,
+        **posing(*SCALED, exact=UNITS),
+        numbers=("factor", "factor_y", "factor_z"),
         effort=Effort.OBJECT,
         words="some times as large, about its origin, base or middle, or along its own axes",
         witness="assimp/assimp#775",
@@ -162,10 +156,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "Its delta transform, a constraint or its animation is left out, or the exporter "
         "centred its mesh.",
         "compare its world matrix with the one that the scene has",
-        _MOVED.assume,
-        _MOVED.find,
-        ("x", "y", "z"),
-        refine=_MOVED.refine,
+        **posing(*MOVED),
+        numbers=("x", "y", "z"),
         effort=Effort.OBJECT,
         examples=(
             Example("moved_object", "the largest object moved by a pixel", _a_pixel_to_the_right),
@@ -178,10 +170,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "A file with Y up is read as one with Z up, or turned twice; the delta rotation, or the "
         "order of the angles, is left out.",
         "compare its world matrix with the one that the scene has",
-        _TURNED.assume,
-        _TURNED.find,
-        ("degrees", "degrees_y", "degrees_z"),
-        refine=_TURNED.refine,
+        **posing(*TURNED),
+        numbers=("degrees", "degrees_y", "degrees_z"),
         effort=Effort.OBJECT,
         words="some degrees about an axis, such as one of its own",
         witness="rdb/blender-egg-importer#2",
@@ -192,10 +182,8 @@ OBJECT_FAULTS: tuple[AnyFault, ...] = (
         "Blender doesn't draw the object itself where its parent instances it on "
         "vertices or faces; an exporter writes both.",
         "look for a second export of it, as an instance or a duplicate",
-        _TWICE.assume,
-        _TWICE.find,
-        ("x", "y", "z"),
-        refine=_TWICE.refine,
+        **posing(*MOVED, kept=True),
+        numbers=("x", "y", "z"),
         effort=Effort.ANYTHING,
         witness="LuxCoreRender/BlendLuxCore#366",
     ),

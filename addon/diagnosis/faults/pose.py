@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ...tracer.progress import Work
 from ..evidence import Evidence
 from .changes import CHANGES, Change
 from .climbing import values_of
-from .fault import Find, Make, Numbers, Refine, Values, instances_named
+from .fault import Numbers, Values, instances_named
 from .fitting import FINER, MORE, NEARLY
 from .looked import Looked
 
@@ -115,16 +115,8 @@ def _changed(evidence: Evidence) -> Work[list[Posed]]:
     return found
 
 
-class Posing(NamedTuple):
-    """How changes of an object are made, and fitted: the fields of a fault."""
-
-    assume: Make[Numbers]
-    find: Find[Numbers]
-    refine: Refine[Numbers]
-
-
-def posing(*changes: Change, exact: Values = (), kept: bool = False) -> Posing:
-    """Return how some changes are made, and fitted to each suspect.
+def posing(*changes: Change, exact: Values = (), kept: bool = False) -> dict[str, Any]:
+    """Return how some changes are made, and fitted to each suspect: fields of a fault.
 
     Parameters
     ----------
@@ -176,4 +168,4 @@ def posing(*changes: Change, exact: Values = (), kept: bool = False) -> Posing:
                     out += [guess] if guess else []
         return out
 
-    return Posing(assume, find, refine)
+    return {"assume": assume, "find": find, "refine": refine}

@@ -7,17 +7,14 @@ import numpy as np
 from ...causes.case import Case
 from ...tracer.frame import Frame
 from ...tracer.progress import at_once
-from .fault import Find, Guess, Numbers, Values
+from ..evidence import Evidence
+from .fault import Guess
 
 
-def suspects(*values: float) -> Find[Numbers]:
-    """Return a function that guesses each suspected object with each of some numbers."""
-    chosen: list[Values] = [(value,) for value in values] or [()]
-    return at_once(
-        lambda evidence: [
-            Numbers(some, object=name) for name in evidence.suspects for some in chosen
-        ]
-    )
+@at_once
+def suspects(evidence: Evidence) -> list[Guess]:
+    """Guess each suspected object."""
+    return [Guess(object=name) for name in evidence.suspects]
 
 
 def largest(case: Case, frame: Frame) -> Guess | None:
