@@ -17,11 +17,11 @@ from ..causes.cause import Causes
 from ..tracer.frame import Frame
 from ..tracer.progress import Work
 from ..wording import count_of
-from .evidence import Evidence
+from .evidence import LEAST_SETTLED, Evidence
 from .faults import FAULTS
 from .faults.fault import AnyFault, Guess
 from .faults.fitting import ENCLOSED
-from .guessing import LEAST_SETTLED, ROUGHLY, STEPS, Guessing, accounting
+from .guessing import ROUGHLY, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
 from .trial import Trial, counted
 from .variants import carried, in_its_colors, with_variants

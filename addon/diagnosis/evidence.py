@@ -33,6 +33,7 @@ SAMPLE = 512  # sampled pixels of each kind
 FEW = 128  # those of the small sample, which comes first
 DENSE = 1 << 12  # pixels: more are traced as a picture is, fewer through trees
 SEED = 27
+LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 WORTH = 0.2  # of the unexplained pixels: a guess that settles fewer is dropped
 NOISE = 0.03  # of all sampled pixels: as many may be wrong for another reason
 LEAST_SEEN = 4  # unexplained pixels for which an object is suspected
@@ -254,6 +255,11 @@ def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) ->
     # A panorama's or perspective's rays pass one point: any point of them will do.
     x, y, _ = film_of(camera, rays.at(np.ones(rays.count)))
     return np.stack((x, y))
+
+
+def least_with(numbers: int) -> float:
+    """Return how many pixels a guess with so many fitted numbers must settle, at least."""
+    return LEAST_SETTLED * (1 + numbers / 2)
 
 
 def spread(where: Bools, most: int) -> Places:

@@ -31,7 +31,7 @@ from ..causes.checks.color import find_transform
 from ..pictures.metrics import boundary
 from ..scene import SceneError
 from ..tracer.progress import Progress, Work
-from .evidence import FEW, Evidence, Score
+from .evidence import FEW, LEAST_SETTLED, Evidence, Score, least_with
 from .faults import FAULTS
 from .faults.fault import TRIED, AnyFault, Effort, Guess
 from .faults.fitting import ENCLOSED
@@ -44,7 +44,6 @@ T = TypeVar("T")
 
 COMPLETE = 0.75  # the least recall of a guess, in the regions that it touches
 FITTED = 0.9  # that of fitted numbers: a fit of the wrong kind is nearly right in small regions
-LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 SHARE = 0.2  # of the unexplained pixels
 AS_GOOD = 0.98  # of the best gain on the sample: others are not tried once a guess does it all
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
@@ -121,7 +120,7 @@ class Guessing:
             f
             for f in self.faults
             if not (f.everywhere and evidence.of_object)
-            and _least_with(len(f.numbers) if f.refine else 0) <= most
+            and least_with(1 if f.refine else 0) <= most
         ]
         pool: list[tuple[float, AnyFault, Guess]] = []
         unknown: list[tuple[float, AnyFault, Guess]] = []
@@ -215,11 +214,6 @@ def _least(evidence: Evidence) -> float:
     return float(max(LEAST_SETTLED, SHARE * evidence.unexplained.sum()))
 
 
-def _least_with(numbers: int) -> float:
-    """Return how many pixels a guess with so many fitted numbers must settle, at least."""
-    return LEAST_SETTLED * (1 + numbers / 2)
-
-
 def _may_be_finer(evidence: Evidence, score: Score) -> bool:
     """Return whether a rough fit may break as many pixels as there are to settle."""
     unexplained = int(evidence.unexplained.sum())
@@ -307,7 +301,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
         t
         for t in trials
         if t.precision >= PRECISE
-        and t.settled >= _least_with(t.cost)
+        and t.settled >= least_with(t.cost)
         and t.settled >= SHARE * unexplained
         and min(t.recall, t.own) >= (FITTED if t.cost else COMPLETE)
         and not t.unseen

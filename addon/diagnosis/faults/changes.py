@@ -66,7 +66,7 @@ class Change:
     def _matched(self, looked: Looked, about: Floats) -> Fitted | None:
         evidence, axes, own = looked.evidence, self.axes(looked), looked.alone.instances[0]
         camera, bounds = evidence.case.scene.camera, looked.alone.meshes[own.mesh].bounds
-        places = matches(evidence, looked.name, looked.rim, tuple(about))
+        places = matches(evidence, looked.name, looked.seen, tuple(about))
         points = transform_points(np.linalg.pinv(own.world_from_object), places.points)
 
         def seen(units: Floats) -> Floats:

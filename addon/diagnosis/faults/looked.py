@@ -19,7 +19,6 @@ from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
 from ..evidence import WORTH, Evidence, shows_colors, spread
 from .fault import instances_named
-from .matching import in_front
 
 AROUND = 6  # pixels around the object, on both sides, that are compared, too
 
@@ -76,12 +75,6 @@ class Looked:
         behind = yield from out.traced(rest)
         out = replace(out, behind=behind)
         return out if out._may_settle >= WORTH * evidence.unexplained.sum() else None
-
-    @cached_property
-    def rim(self) -> Bools:
-        """The pixels (h, w) where it is traced, but for those beside what is in front of it."""
-        own = instances_named(self.evidence.case.scene, self.name)
-        return self.seen & np.isin(in_front(self.evidence)[1], own)
 
     def traced(self, scene: Scene) -> Work[Hits]:
         """Trace a scene in the n pixels."""

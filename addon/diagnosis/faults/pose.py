@@ -12,8 +12,8 @@ import numpy as np
 from ...causes.case import Case
 from ...scene import Scene
 from ...tracer.progress import Work
-from ..evidence import Evidence
-from .changes import CHANGES, Change
+from ..evidence import Evidence, least_with
+from .changes import CHANGES, MOVED, Change
 from .climbing import values_of
 from .fault import Numbers, Values, instances_named
 from .fitting import FINER, MORE, NEARLY
@@ -70,46 +70,57 @@ def _far(looked: Looked, changes: Sequence[Change]) -> Work[list[tuple[Change, V
     return [(change, start) for *_, change, start in sorted(out, key=lambda one: one[:3])[:KEPT]]
 
 
-def _found(looked: Looked, few: Looked, out: list[Posed]) -> Work[bool]:
-    """Add how an object may be changed; return whether nearly all is right then.
+def _near(looked: Looked, changes: Sequence[Change], is_some: bool) -> list[tuple[Change, Values]]:
+    """Return the starts where edges are found; that of a move where it is, too."""
+    matched = {c: f for c in CHANGES if (f := c.matched(looked))}
+    most = max((f.share for f in matched.values()), default=0.0)
+    least = most - MORE if is_some or most >= CLEAR else NEARLY * most
+    some = [c for c in changes if c in matched and matched[c].share >= least]
+    starts = [(c, values_of(c.none + c.axes(looked) @ matched[c].units)) for c in some]
+    return starts + [(c, c.none) for c in changes if c in MOVED]
 
-    It is looked for near where edges are found, else far away.
+
+def _found(
+    evidence: Evidence, name: str, far: bool, counts: Sequence[int], out: list[Posed]
+) -> Work[set[str]]:
+    """Add how an object may be changed; return the kinds with which nearly all is right.
 
     What has more numbers is left out where fewer of the same kind are enough.
     """
-    matched = {c: f for c in CHANGES if (f := c.matched(looked))}
-    most = max((f.share for f in matched.values()), default=0.0)
-    enough: set[str] = set()  # kinds
-    stages = list(product((1, 3), (False, True)))  # numbers, and whether far away
-    if most >= CLEAR:
-        stages.sort(key=lambda stage: stage[1])
-    for count, far in stages:
+    enough: set[str] = set()
+    looked = yield from Looked.of(evidence, name)
+    few = yield from Looked.of(evidence.few, name)
+    if not (looked and few):
+        return enough
+    for count in counts:
         some = [c for c in CHANGES if len(c.none) == count and c.kind not in enough]
-        if far and enough:
-            continue
         if far:
             tries = yield from _far(few, some)
             step = FIRST * looked.width / (4 if count == 1 else 1)
         else:
-            least = most - MORE if enough or most >= CLEAR else NEARLY * most
-            near = [c for c in some if c in matched and matched[c].share >= least]
-            tries = [(c, values_of(c.none + c.axes(looked) @ matched[c].units)) for c in near]
-            step = NEAR_STEP
+            tries, step = _near(looked, some, bool(enough)), NEAR_STEP
         for change, start in tries:
             guess, is_all = yield from _climbed(looked, change, start, step)
             out += [guess] if guess else []
             enough |= {change.kind} if is_all else set()
-    return bool(enough)
+        if far and enough:
+            break
+    return enough
 
 
 def _changed(evidence: Evidence) -> Work[list[Posed]]:
-    """Guess how the suspects are changed (cached): several faults share what one has work for."""
+    """Guess how the suspects are changed (cached): several faults share what one has work for.
+
+    Each is looked for near where it is, or where edges are found; and only then far away.
+    """
     if "changed" not in evidence.known:
         out = evidence.known["changed"] = []
-        for name in evidence.suspects[:TRIED]:
-            looked = yield from Looked.of(evidence, name)
-            few = yield from Looked.of(evidence.few, name)
-            if looked and few and (yield from _found(looked, few, out)):
+        counts = [n for n in (1, 3) if evidence.unexplained.sum() >= least_with(n)]
+        for far, name in product((False, True), evidence.suspects[:TRIED]):
+            enough = yield from _found(evidence, name, far, counts, out)
+            if enough and not far and "moved" not in enough:  # one number may do, far away
+                yield from _found(evidence, name, True, (1,), out)
+            if enough:
                 break
     found: list[Posed] = evidence.known["changed"]
     return found
