@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
-from reference_tracer.comparison.comparing import trace_and_compare
+from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.rendering import render as trace
 from reference_tracer.tracer.progress import result_of
 
@@ -20,6 +20,8 @@ from .names import picture_of, right_names, same, says_nothing
 from .renderer import Camera, Solid, render
 from .scenes import scenes
 from .setup import FLIP, camera_through, intrinsics
+from .table import compared as compared_cell
+from .table import made_of
 from .variants import variants_of
 
 EVERY = pytest.mark.parametrize("scene", scenes(), ids=lambda s: s.name)
@@ -277,3 +279,11 @@ def test_damage_is_what_it_says():
     bent = done(damage.radial)
     assert np.array_equal(bent[middle], base[middle])
     assert not done(damage.noise).min() < 0
+
+
+@pytest.mark.slow
+def test_a_moved_object_is_reached_behind_a_suspect_in_its_place():
+    """The roller is suspected first: to look for it far away took the whole share of the work."""
+    scene, picture, made, _ = made_of("object_moved (first by 0.4, -0.3, 0.2 m) | 4")
+    told = result_of(diagnosed(compared_cell(scene, picture, made))).diagnosis.told
+    assert len(told) == 1 and told[0].sentence.startswith("'Ball' is moved by")

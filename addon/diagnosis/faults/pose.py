@@ -126,57 +126,59 @@ def _changed(evidence: Evidence) -> Work[list[Posed]]:
     return found
 
 
-def posing(*changes: Change, exact: Values = (), kept: bool = False) -> dict[str, Any]:
-    """Return how some changes are made, and fitted to each suspect: fields of a fault.
+@dataclass(frozen=True)
+class Posing:
+    """How some changes are made, and fitted to each suspect."""
 
-    Parameters
-    ----------
-    changes : Change
-        A guess says which of them it is; one that does not is the first.
-    exact : tuple of float
-        Numbers of the first that are guessed, too.
-    kept : bool
-        Whether a second copy of the object is changed.
-    """
+    changes: tuple[Change, ...]  # a guess says which of them it is; one that does not is the first
+    exact: Values  # numbers of the first that are guessed, too
+    kept: bool  # whether a second copy of the object is changed
 
-    def change_of(guess: Numbers) -> Change:
-        return guess.change if isinstance(guess, Posed) else changes[0]
-
-    def assume(case: Case, guess: Numbers) -> Case | None:
+    def assume(self, case: Case, guess: Numbers) -> Case | None:
+        """Return the case with an object changed; None if it has none of that name."""
         if not instances_named(case.scene, guess.object):
             return None
 
         def made(scene: Scene) -> Scene:
-            other = change_of(guess).of(scene, guess.object, guess.values)
+            other = self._change_of(guess).of(scene, guess.object, guess.values)
             own = [scene.instances[n] for n in instances_named(scene, guess.object)]
-            return replace(other, instances=(*other.instances, *own)) if kept else other
+            return replace(other, instances=(*other.instances, *own)) if self.kept else other
 
         return case.with_scenes(made)
 
-    def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
-        looked = yield from Looked.of(evidence, guess.object, kept)
+    def refine(self, evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
+        """Return the numbers found near a guess; with their ranges if it was fitted before."""
+        looked = yield from Looked.of(evidence, guess.object, self.kept)
         if looked is None:
             return None
-        change, fine = change_of(guess), bool(guess.low)
+        change, fine = self._change_of(guess), bool(guess.low)
         starts, step = [guess.values], FINER if fine else 1.0
         found = yield from change.search(looked).guess(starts, step, enclose=fine)
         return Posed.of(found, looked, change) if found else None
 
-    def find(evidence: Evidence) -> Work[list[Numbers]]:
+    def find(self, evidence: Evidence) -> Work[list[Numbers]]:
+        """Guess how each suspect is changed."""
+        first = self.changes[0]
         out: list[Numbers] = [
-            Posed((v,), object=name, words=changes[0].words(v), change=changes[0])
+            Posed((v,), object=name, words=first.words(v), change=first)
             for name in evidence.suspects
-            for v in exact
+            for v in self.exact
         ]
-        if not kept:
+        if not self.kept:
             found = yield from _changed(evidence)
-            return [*out, *(guess for guess in found if guess.change in changes)]
+            return [*out, *(guess for guess in found if guess.change in self.changes)]
         for name in evidence.suspects[:TRIED]:
-            if looked := (yield from Looked.of(evidence, name, kept)):
-                for start in changes[0].starts(looked):
-                    step = FIRST * looked.width
-                    guess, _ = yield from _climbed(looked, changes[0], start, step)
+            if looked := (yield from Looked.of(evidence, name, kept=True)):
+                for start in first.starts(looked):
+                    guess, _ = yield from _climbed(looked, first, start, FIRST * looked.width)
                     out += [guess] if guess else []
         return out
 
-    return {"assume": assume, "find": find, "refine": refine}
+    def _change_of(self, guess: Numbers) -> Change:
+        return guess.change if isinstance(guess, Posed) else self.changes[0]
+
+
+def posing(*changes: Change, exact: Values = (), kept: bool = False) -> dict[str, Any]:
+    """Return a :class:`Posing` as fields of a fault."""
+    own = Posing(changes, exact, kept)
+    return {"assume": own.assume, "find": own.find, "refine": own.refine}
