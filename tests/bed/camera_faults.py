@@ -16,6 +16,8 @@ from .setup import camera_of, camera_through, posed, solids_of
 # From Z up to Y up: (x, y, z) becomes (x, z, -y).
 Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 
+Z_TURN = np.array([[0.0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+
 
 def moved(x: float, y: float) -> np.ndarray:
     """Return what moves the film's content by pixels to the right and down, (3, 3)."""
@@ -296,6 +298,8 @@ CAMERA_FAULTS = (
     Fault("matrix_inverted", "", pose(np.linalg.inv)),
     Fault("y_up", "the camera turned", pose(lambda m: Y_UP @ m)),
     Fault("y_up", "the scene turned", pose(lambda m: Y_UP.T @ m)),
+    Fault("quarter_turn", "half a turn about X", pose(lambda m: np.diag((1.0, -1, -1, 1)) @ m)),
+    Fault("quarter_turn", "about Z", pose(lambda m: Z_TURN @ m)),
     Fault("forward", "z", axes(1, 1, -1)),
     Fault("forward", "y and z", axes(1, -1, -1)),
     Fault("camera_scale", "", with_camera(_scaled), only=(4,)),
