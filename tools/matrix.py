@@ -35,7 +35,6 @@ CRASHES = (
     "blender/test_cli_blend.py",
     "blender/test_engine_faults.py::test_a_picture_that_does_not_fit_is_refused_in_words",
     "blender/test_engine_faults.py::test_a_script_ends_with_an_exit_code[none]",
-    "blender/test_frames.py::test_reftrace_goes_on_where_it_ended",
     "blender/test_handlers.py::test_data_may_come_and_go",
     "blender/test_hard_cases.py::test_rigid_bodies_fall_on_after_a_comparison",
 )

@@ -119,6 +119,7 @@ def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> Wo
             work = _Band(frame, band, each, shade, together and bool(each.offsets))
             yield from scaled(work.steps(trace_band), done, share)
             done += share
+            yield Progress(done)
     yield Progress(1.0)
 
 

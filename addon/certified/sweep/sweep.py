@@ -57,9 +57,9 @@ def sweep(
     statistics = statistics or Statistics()
     pairs = statistics.pairs_tested
     culling = statistics.culling.copy()
-    whole = Sweep(scene, Film(scene.camera, dx, dy), region, statistics)
-    try:
-        return (yield from whole.steps(memory))
+    film = Film(scene.camera, dx, dy)
+    try:  # without a name for what is given up where memory ends
+        return (yield from Sweep(scene, film, region, statistics).steps(memory))
     except _FullError as full:
         share = full.share
     statistics.pairs_tested = pairs  # each pair counts once
