@@ -42,7 +42,6 @@ CRASHES = (
 # a traceback, and these want none.
 COMPLAINS = (
     "blender/test_cli_blend.py::test_input_errors",
-    "blender/test_cli_blend.py::test_too_large_a_picture",
     "blender/test_engine_faults.py::test_a_picture_that_does_not_fit_is_refused_in_words",
     "test_extension.py::test_installs_works_and_leaves_its_folder_as_it_is",
 )
