@@ -149,13 +149,17 @@ def trace(
         Any rays to trace instead. The camera's clip range applies to t, in lengths of a direction.
         Where there are many, a tree of boxes says which triangles each may meet.
     every : bool
-        Whether to return all that the rays meet, certified: see ``docs/every.md``.
+        Whether to return all that the rays meet, certified: see ``docs/every.md``. Nothing is
+        counted then.
 
     Raises
     ------
     SceneError
-        If a ray is not finite: nothing is proven of it.
+        If a ray is not finite: nothing is proven of it. If `every` is asked for by a method that is
+        not certified.
     """
+    if every and settings and not settings.method.is_proven:
+        raise SceneError(f"all hits are certified, and not traced by {settings.method}")
     statistics = statistics or Statistics()
     settings = resolved(settings or Settings(), statistics)
     method = Method(settings.method)

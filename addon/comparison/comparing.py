@@ -25,7 +25,7 @@ from .methods import list_methods
 _TRACING, _METHODS = 0.4, 0.35
 _CHECKING = 0.8
 _CAUSES = 0.8  # of comparing: the rest is for metrics and counts
-_COMPARING = 0.6  # before a diagnosis, of which nobody knows how long it takes
+_COMPARING = 0.6  # of the work; nobody knows how long a diagnosis takes
 
 
 def compared(case: Case, diagnose: bool = False, literally: bool = False) -> Work[Comparison]:

@@ -67,7 +67,8 @@ def add(parser: Parser) -> None:
         type=POSITIVE,
         default=LIMIT,
         metavar="AREA",
-        help="leave undecided of which no more may be seen, in square pixels (default %(default)g)",
+        help="square pixels: a face that may show no more than this stays undecided (default "
+        "%(default)g)",
     )
     parser.add_argument(
         "--work",

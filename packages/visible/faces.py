@@ -143,7 +143,7 @@ class Faces:
         return of_1 + of_y * (y - y0) + of_x * (x - x0)
 
     def nearness_at(self, faces: Index, x: Floats, y: Floats) -> Floats:
-        """Return the nearness at film positions (..., n), of which each face has some."""
+        """Return the nearness of n faces at film positions (..., n)."""
         of_1, of_y, of_x = self._functions(faces)[:, 3]
         x0, y0 = self._origin[:, faces]
         return of_1 + of_y * (y - y0) + of_x * (x - x0)

@@ -61,7 +61,7 @@ def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
     Parameters
     ----------
     limit : float
-        Square pixels: a face of which no more may be seen is not looked at further.
+        Square pixels: if no more than that may be seen of a face, it stays undecided.
     work : int
         About how many cells may be looked at, counted for each face: then the rest is undecided.
 

@@ -10,7 +10,8 @@ import trimesh
 from reference_tracer import Rays, trace
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.definition import seen_by
-from reference_tracer.scene import Instance, Mesh, Plane, Scene
+from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError
+from reference_tracer.tracer.settings import Settings
 
 from .oracle import every_hit
 
@@ -191,3 +192,11 @@ def test_rays_that_are_none_or_the_cameras(make):
     none = trace(scene, rays=Rays(np.zeros((3, 0)), np.zeros((3, 0))), every=True)
     assert len(none) == 0 and none.start(0).tolist() == [0]
     assert len(trace(scene, every=True).start(16)) == 17
+
+
+def test_a_method_that_proves_nothing_is_refused(make):
+    """Else the hits would be taken for the method's."""
+    scene = make.scene(make.camera(), make.mesh(trimesh.creation.box()))
+    with pytest.raises(SceneError, match="textbook"):
+        trace(scene, Settings("textbook"), every=True)
+    assert trace(scene, Settings("certified"), every=True).t.size

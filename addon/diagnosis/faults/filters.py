@@ -27,7 +27,7 @@ RADII = (0.5, 0.75, 1.0, 1.5, 2.0)  # of filters that are tried, in pixels
 EDGES = 0.2  # the least share of edges that must be mixed
 PARTS = 0.8  # the least share of the picture's parts with edges in which some must be
 MIXED = 0.5  # the least share of unexplained pixels that must show no colour of the scene
-ASKED = 48  # differing pixels, of which a filter must explain nearly all to be tried
+ASKED = 48  # differing pixels: a filter is tried if it explains nearly all of these
 MEANS = (2, 3, 4)  # samples each way
 MOST_SAMPLES = 1 << 24  # of a picture that is traced with several a pixel
 
