@@ -183,9 +183,3 @@ def test_it_opens_where_the_button_is_and_looks_through_its_camera(name):
     spaces = {area.type: area.spaces.active for area in bpy.data.screens["Layout"].areas}
     assert spaces["PROPERTIES"].context == "RENDER"
     assert spaces["VIEW_3D"].region_3d.view_perspective == "CAMERA"
-
-
-def test_an_unknown_scene_is_refused(capsys):
-    with pytest.raises(SystemExit):
-        make_scenes.main(["no_such_scene"])
-    assert "no_such_scene" in capsys.readouterr().err
