@@ -125,7 +125,7 @@ def test_types_that_a_view_leaves_out(build, kept):
     empty.instance_type, empty.instance_collection = "COLLECTION", kit
     bpy.context.view_layer.update()
     view, depsgraph = space(), bpy.context.evaluated_depsgraph_get()
-    assert [i.name for i in depsgraph.ids]  # looked at: see test_instances
+    assert [i.name for i in depsgraph.ids]  # looked at: see test_export
     for kind, shown in (
         ("mesh", set()),
         ("empty", {"Cube", "Text", "In Kit"}),
