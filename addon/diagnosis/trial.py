@@ -11,7 +11,6 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
-from ..pictures.bounds import largest_within
 from ..pictures.storage import differing_pixels
 from ..rendering import steps
 from ..scene import Scene, SceneError
@@ -20,6 +19,7 @@ from ..tracer.frame import Frame
 from ..tracer.progress import Work
 from .evidence import Evidence
 from .faults.fault import AnyFault, Guess
+from .regions import labels
 
 HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
 LOOKED_AT = 1 << 14  # differing pixels that are checked, at most
@@ -176,13 +176,9 @@ def _of_object(name: str, before: Evidence, after: Evidence) -> float:
 
 
 def _connected(seed: Bools, within: Bools) -> Bools:
-    """Return the 8-connected components of a mask (h, w) that contain a seed (flood fill)."""
-    out = seed & within
-    while True:
-        more = (largest_within(out.astype(np.int8), 1) > 0) & within
-        if (more == out).all():
-            return out
-        out = more
+    """Return the 8-connected components of a mask (h, w) that contain a seed."""
+    label = labels(within)
+    return within & np.isin(label, label[seed & within])
 
 
 def left_unexplained(evidence: Evidence) -> Bools:
