@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from operator import is_
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from ..tracer.progress import Work
 from .evidence import Evidence
 from .faults.fault import AnyFault, Guess
 from .regions import labels
+from .seen import identical
 
 HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
 LOOKED_AT = 1 << 14  # differing pixels that are checked, at most
@@ -124,16 +124,11 @@ def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
 
 def same_shapes(one: Scene, other: Scene) -> bool:
     """Return whether two scenes, one made of the other, differ in nothing but colours."""
-    records = (one.camera, *one.meshes, *one.planes), (other.camera, *other.meshes, *other.planes)
-    pairs = list(zip(one.instances, other.instances, strict=False))
+    records = ((s.camera, *s.meshes, *s.planes) for s in (one, other))
     return (
-        len(records[0]) == len(records[1])
-        and all(map(is_, *records))
-        and len(pairs) == len(one.instances) == len(other.instances)
-        and all(
-            i.mesh == j.mesh and np.array_equal(i.world_from_object, j.world_from_object)
-            for i, j in pairs
-        )
+        identical(*records)
+        and np.array_equal(one.instance_meshes, other.instance_meshes)
+        and np.array_equal(one.instance_matrices, other.instance_matrices)
     )
 
 
