@@ -31,7 +31,6 @@ from .seen import Trees
 
 SAMPLE = 512  # sampled pixels of each kind
 FEW = 128  # those of the small sample, which comes first
-DENSE = 1 << 12  # pixels: more are traced as a picture is, fewer through trees
 SEED = 27
 LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 WORTH = 0.2  # of the unexplained pixels: a guess that settles fewer is dropped
@@ -149,12 +148,6 @@ class Evidence:
         """Trace a scene in n pixels, by row and column, or in the sampled ones."""
         rows, columns = self.sample if at is None else at
         r = scene.camera.region
-        if len(rows) > DENSE:
-            wanted = np.zeros(self.unexplained.shape, bool)
-            wanted[rows, columns] = True
-            made = yield from plan(scene, SOUND, 0.0)
-            probe = yield from Probe.of(made, r, wanted.ravel())
-            return (yield from probe.trace())
         rays = camera_rays(scene.camera, columns + r.x0 + 0.5, rows + r.y0 + 0.5)
         return (yield from self.trees.trace(scene, rays))
 

@@ -19,12 +19,11 @@ from ...scene import Instance, Scene
 from ...tracer.camera import film_of
 from ...tracer.progress import Work
 from ...tracer.vector import transform_points
-from .climbing import values_of
 from .fault import Values, with_instances
 from .fitting import FOUND
 from .looked import Looked
 from .matching import Fitted, fitted, matches
-from .search import Search
+from .search import Search, values_of
 from .stand import rotation
 
 FINEST = 1 / 128  # pixels
