@@ -149,6 +149,18 @@ def percentage(build):
     build.corner_camera(lens=40)
 
 
+def bordered(build, crop=False):
+    render = build.scene(61, 47).render
+    render.use_border, render.use_crop_to_border = True, crop
+    render.border_min_x, render.border_max_x = 0.37, 0.81
+    render.border_min_y, render.border_max_y = 0.22, 0.9
+    build.corner_camera(shift_x=0.1)
+
+
+def cropped(build):
+    bordered(build, True)
+
+
 @pytest.mark.parametrize(
     "setting",
     [
@@ -165,6 +177,8 @@ def percentage(build):
         clipped,
         through_the_eye,
         percentage,
+        bordered,
+        cropped,
     ],
     ids=lambda setting: setting.__name__,
 )

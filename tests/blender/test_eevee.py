@@ -85,20 +85,6 @@ def test_a_sample_scene(name, opened, compare):
     assert found.verdict == ("warnings" if name == "far_away" else "agree")
 
 
-@pytest.mark.torture
-@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "RANDOM"])
-def test_the_same_colors(color_type, solids, build, compare):
-    bpy.context.scene.display.shading.color_type = color_type
-    build.color_attribute(bpy.data.objects["Green"], "POINT")
-    slots = bpy.data.objects["Red"].data
-    for material in (None, build.material("Second", 0.7, 0.6, 0.1)):
-        slots.materials.append(material)
-    for polygon in slots.polygons:
-        polygon.material_index = polygon.index % 4
-    found = compare(judge="EEVEE")
-    assert found.counts.unexplained == 0 and found.verdict == "agree"
-
-
 def test_a_colour_attribute_that_not_all_have_is_refused(solids, build, compare):
     bpy.context.scene.display.shading.color_type = "VERTEX"
     build.color_attribute(bpy.data.objects["Green"], "POINT")

@@ -118,13 +118,6 @@ def test_the_preference_is_set_and_put_back(dirty):
     assert (preferences.system.viewport_aa, preferences.is_dirty) == ("8", dirty)
 
 
-def test_the_temporary_scene_goes_with_an_error(scene):
-    with pytest.raises(KeyError), temporary_scene(scene) as copy:
-        assert copy.name != scene.name
-        raise KeyError
-    assert [s.name for s in bpy.data.scenes] == [scene.name]
-
-
 def test_the_shading_of_a_view_is_copied(scene):
     source = scene.copy().display.shading
     source.light, source.color_type, source.single_color = "FLAT", "SINGLE", (0.1, 0.2, 0.3)
