@@ -18,10 +18,10 @@ from reference_tracer.framing import Choice
 from reference_tracer.manifest import Manifest
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
+from reference_tracer.visible.visible import LIMIT, WORK, visible
 from reference_tracer.wording import show
 
 from .files import Total
-from .visible import LIMIT, WORK, visible
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,8 @@ from reference_tracer.arrays import Array, Bools, Index
 from reference_tracer.files import npz
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
+from reference_tracer.visible import HIDDEN, SEEN, UNDECIDED, Visible
 from reference_tracer.wording import count_of
-
-from .visible import HIDDEN, SEEN, UNDECIDED, Visible
 
 SCHEMA = "reference_tracer.visible/1"
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.tracer.camera import camera_rays
-from reference_tracer_visible.faces import Faces
-from reference_tracer_visible.hiding import Cells, reached
-from reference_tracer_visible.polygons import in_cells
+from reference_tracer.visible.faces import Faces
+from reference_tracer.visible.hiding import Cells, reached
+from reference_tracer.visible.polygons import in_cells
 
 from .test_visible import ORTHOGRAPHIC, camera, scene_of, triangles
 

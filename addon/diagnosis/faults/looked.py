@@ -125,12 +125,6 @@ class Looked:
         return float((~unexplained).sum() + WORTH * unexplained.sum())
 
     @property
-    def pixel(self) -> float:
-        """The width of a pixel at the object, in metres."""
-        camera = self.evidence.case.scene.camera
-        return pixel_size(camera)[0] * camera.projection.scale(self.depth)
-
-    @property
     def growth(self) -> float:
         """The width of the object as shown, relative to that as traced."""
         return float(np.sqrt(int(self.shown.sum()) / int(self.seen.sum())))
@@ -162,7 +156,8 @@ class Looked:
         r = camera.region
         ray = camera_rays(camera, np.array([columns + r.x0]), np.array([rows + r.y0]))
         away = self.depth / self._depth_units * ray.directions[:, 0]
-        return np.stack((self.pixel * camera.right, self.pixel * camera.up, away), axis=1)
+        width, height = (v * camera.projection.scale(self.depth) for v in pixel_size(camera))
+        return np.stack((width * camera.right, height * camera.up, away), axis=1)
 
 
 def _shown(evidence: Evidence, own: list[int]) -> Bools:

@@ -18,13 +18,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from reference_tracer.arrays import Bools, Floats, Index
-from reference_tracer.certified.bounds import Fractions, plane_fractions
-from reference_tracer.certified.rounding import rounding
-from reference_tracer.certified.sweep.depth_buffer import ROUNDING, nearness
-from reference_tracer.scene import Scene
-from reference_tracer.tracer.camera import camera_rays
 
+from ..arrays import Bools, Floats, Index
+from ..certified.bounds import Fractions, plane_fractions
+from ..certified.rounding import rounding
+from ..certified.sweep.depth_buffer import ROUNDING, nearness
+from ..scene import Scene
+from ..tracer.camera import camera_rays
 from .faces import Faces
 
 _ROUNDS = 6  # of faces that continue those before

@@ -8,8 +8,8 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-from reference_tracer.arrays import Floats, Index
 
+from ..arrays import Floats, Index
 from .faces import Faces
 from .hiding import Cells
 

@@ -7,19 +7,19 @@ centre is the corner of four cells of one pixel. A cell of level k is 2^k pixels
 from __future__ import annotations
 
 import numpy as np
-from reference_tracer.arrays import Floats, Index
-from reference_tracer.certified.ladder import Ladder
-from reference_tracer.certified.sweep.depth_buffer import ROUNDING, nearness
-from reference_tracer.methods import Method
-from reference_tracer.rendering import trace
-from reference_tracer.scene import Scene
-from reference_tracer.tracer.camera import camera_rays, film_positions
-from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
-from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Settings
-from reference_tracer.tracer.vector import spread
-from reference_tracer.tracer.world import Pairs, WorldTriangles
 
+from ..arrays import Floats, Index
+from ..certified.ladder import Ladder
+from ..certified.sweep.depth_buffer import ROUNDING, nearness
+from ..methods import Method
+from ..rendering import trace
+from ..scene import Scene
+from ..tracer.camera import camera_rays, film_positions
+from ..tracer.hits import NOTHING, Hits, Statistics
+from ..tracer.progress import result_of
+from ..tracer.settings import Settings
+from ..tracer.vector import spread
+from ..tracer.world import Pairs, WorldTriangles
 from .faces import Faces
 
 TOP = 7  # the level of the largest cells, which may be any number beside one another

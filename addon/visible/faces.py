@@ -8,16 +8,17 @@ and nearness. On which side of a plane a point lies, `certified/bounds.py` says.
 from __future__ import annotations
 
 import numpy as np
-from reference_tracer.arrays import Bools, Floats, Index
-from reference_tracer.certified.bounds import FromPoint, Parallel
-from reference_tracer.certified.integers import cross, dot, integers, sub
-from reference_tracer.certified.sweep.depth_buffer import ClipRange
-from reference_tracer.certified.sweep.edge_functions import set_up
-from reference_tracer.certified.sweep.film import DELTA, Film
-from reference_tracer.certified.sweep.vertices import Vertices
-from reference_tracer.scene import Scene
-from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.vector import transform_points
+
+from ..arrays import Bools, Floats, Index
+from ..certified.bounds import FromPoint, Parallel
+from ..certified.integers import cross, dot, integers, sub
+from ..certified.sweep.depth_buffer import ClipRange
+from ..certified.sweep.edge_functions import set_up
+from ..certified.sweep.film import DELTA, Film
+from ..certified.sweep.vertices import Vertices
+from ..scene import Scene
+from ..tracer.camera import Rays
+from ..tracer.vector import transform_points
 
 _ROOM = 4  # pixels around a face in which its functions are evaluated, too
 _SET_UP = 1 << 14  # faces set up together

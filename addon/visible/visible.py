@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from reference_tracer.arrays import Bools, Bytes, Floats, Index, parts
-from reference_tracer.certified.arithmetic import sound
-from reference_tracer.scene import Scene, SceneError
-from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.vector import spread
 
+from ..arrays import Bools, Bytes, Floats, Index, parts
+from ..certified.arithmetic import sound
+from ..scene import Scene, SceneError
+from ..tracer.hits import NOTHING
+from ..tracer.vector import spread
 from .faces import Faces
 from .hiding import Cells, behind_planes, covers, reached, surely_in
 from .polygons import in_cells
