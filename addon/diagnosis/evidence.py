@@ -208,7 +208,8 @@ class Evidence:
     def suspects(self) -> tuple[str, ...]:
         """The objects that are seen in unexplained pixels, or shown in them, the most first.
 
-        All that a moved object makes wrong involves it; less of that involves what is around it.
+        All that a moved object makes wrong involves it; less of that involves what is around it, or
+        as much: a floor is seen in more pixels.
         """
         scene = self.case.scene
         rows, columns = (v[self.unexplained_sampled] for v in self.sample)
@@ -216,7 +217,9 @@ class Evidence:
         shown = self._shown_objects()
         both = np.concatenate((seen, shown[shown != seen]))
         count = np.bincount(both[both >= 0], minlength=len(scene.objects))
-        order = np.argsort(-count, kind="stable")
+        everywhere = scene.instance_objects[self.frame.instance_index]
+        area = np.bincount(everywhere[everywhere >= 0], minlength=len(scene.objects))
+        order = np.lexsort((area, -count))
         least = max(LEAST_SEEN, INVOLVED * int(np.max(count, initial=0)))
         return tuple(scene.objects[n] for n in order if count[n] >= least)[:MOST_SUSPECTS]
 

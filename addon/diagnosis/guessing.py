@@ -266,7 +266,7 @@ def _may_be_first(evidence: Evidence, trial: Trial, of_little: bool = False) -> 
         trial.gain >= (SHARE if of_little else MAIN) * evidence.unexplained.sum()
         and trial.broken <= LOST * trial.settled
         and trial.own >= COMPLETE
-        and trial.evidence.unexplained.any()
+        and trial.evidence.unexplained.sum() >= LEAST_SETTLED
     )
 
 
