@@ -121,24 +121,6 @@ def test_border_without_crop(solids, rendered, export):
     assert not passes["Combined"].any()
 
 
-def test_animation(solids, export, multilayer, tmp_path):
-    red = bpy.data.objects["Red"]
-    for number, x in ((1, -1.1), (2, 0.4)):
-        red.location.x = x
-        red.keyframe_insert("location", frame=number)
-    solids.frame_start, solids.frame_end = 1, 2
-    multilayer.set(solids, tmp_path / "frame_####")
-    assert bpy.ops.render.render(animation=True) == {"FINISHED"}
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["frame_0001.exr", "frame_0002.exr"]
-    pictures = []
-    for number in (1, 2):
-        solids.frame_set(number)
-        frame = render(export.render()[0])
-        pictures.append(frame.color)
-        assert_same(multilayer.read(tmp_path / f"frame_{number:04}.exr")["ViewLayer"], frame)
-    assert (pictures[0] != pictures[1]).any()
-
-
 def test_two_view_layers(solids, build, rendered, export):
     build.collection("Extra", build.cube("Extra", 1, link=False, location=(0, 0, 1.5)), link=True)
     other = solids.view_layers.new("Other")
