@@ -121,23 +121,6 @@ def test_an_exception_midway_fails_the_render(kind, scene, no_file, monkeypatch)
         bpy.ops.render.render(write_still=True)
 
 
-@pytest.mark.parametrize("fault", [no_camera, panoramic], ids=lambda fault: fault.__name__)
-def test_an_animation_stops_at_the_first_frame(fault, scene, no_file):
-    fault(scene)
-    scene.frame_start, scene.frame_end = 1, 3
-    with pytest.raises(RuntimeError, match="Error: "):
-        bpy.ops.render.render(animation=True)
-
-
-def test_the_next_render_works(scene, tmp_path):
-    scene.camera.data.type = "PANO"
-    with pytest.raises(RuntimeError):
-        bpy.ops.render.render(write_still=True)
-    scene.camera.data.type = "PERSP"
-    assert bpy.ops.render.render(write_still=True) == {"FINISHED"}
-    assert (tmp_path / "out" / "picture.png").is_file()
-
-
 LONG = pytest.mark.torture  # each is a Blender of its own
 SCRIPT = """
 import bpy, reference_tracer

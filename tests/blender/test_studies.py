@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from pathlib import Path
 from urllib.parse import urlparse
 from urllib.request import url2pathname
@@ -92,12 +91,3 @@ def test_the_commands(solids, tmp_path, capsys):
     solids.camera = None
     assert in_blender.run(trade) == 4
     assert "has no camera" in capsys.readouterr().err
-
-
-def test_the_command_for_the_extremes_runs_all(tmp_path, monkeypatch, capsys):
-    """All of them take minutes: what is left of them here is one."""
-    [fan] = [s for s in extremes.SCENARIOS if s.name == "closed_fan"]
-    monkeypatch.setattr(extremes, "measure", partial(extremes.measure, [fan]))
-    assert in_blender.run(["extremes", "--out", str(tmp_path / "out"), "--rays", "12"]) == 0
-    assert "closed" in capsys.readouterr().out.lower()
-    assert (tmp_path / "out" / "extremes.json").is_file()

@@ -107,9 +107,11 @@ def state():
                 obj.select_get(),
                 obj.as_pointer(),
                 [c.name for c in obj.users_collection],
+                obj.get("bend"),
             )
             for obj in scene.objects
         },
+        "materials": {m.name: list(m.diffuse_color) for m in bpy.data.materials},
         "collections": {c.name: [o.name for o in c.objects] for c in bpy.data.collections},
         "preferences": snapshot(preferences.system, 0) | {"is_dirty": preferences.is_dirty},
         "names": names,
@@ -123,12 +125,26 @@ def state():
     }
 
 
+def animated_and_moved(obj):
+    """Animate values of an object and its material, and change them by hand since."""
+    material = obj.material_slots[0].material
+    obj["bend"] = 1.0
+    for owner, path in ((obj, "location"), (material, "diffuse_color"), (obj, '["bend"]')):
+        owner.keyframe_insert(path, frame=1)
+    track = obj.animation_data.nla_tracks.new()
+    track.strips.new("Strip", 1, obj.animation_data.action)
+    obj.location.x += 0.5
+    material.diffuse_color = (0.1, 0.2, 0.3, 1)
+    obj["bend"] = 3.0
+
+
 @pytest.fixture
 def user_scene(build, tmp_path):
     """A scene with much that a comparison could upset: all of it other than what it sets."""
     scene = build.scene()
     build.solids()
     build.corner_camera()
+    animated_and_moved(bpy.data.objects["Red"])
     hidden = build.collection("Hidden", build.cube("In Hidden", link=False), link=True)
     hidden.hide_render = True
     plane = build.square("Ground", link=False, location=(0, 0, -1.5))

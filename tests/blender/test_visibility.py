@@ -113,25 +113,3 @@ def test_display_type_matters_in_the_viewport_alone(mode, display, build, export
     assert [(u.object, u.feature) for u in manifest.unmodelled] == (
         [] if drawn else [("Cube", "display type")]
     )
-
-
-@pytest.mark.parametrize("display", ["WIRE", "BOUNDS"])
-def test_workbench_draws_wire_and_bounds_as_solids(display, build, compare):
-    build.scene()
-    build.camera()
-    build.cube(rotation=(0.3, 0.4, 0)).display_type = display
-    comparison = compare()
-    assert comparison.verdict == "agree"
-    assert comparison.frame.color.any()
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_a_hidden_collection_is_still_seen_through_its_instances(mode, build, export):
-    build.camera()
-    collection = build.collection("Kit", build.cube(link=False), link=True)
-    bpy.context.view_layer.layer_collection.children["Kit"].exclude = True
-    empty = build.empty("Empty")
-    empty.instance_type, empty.instance_collection = "COLLECTION", collection
-    scene, _ = export.modes[mode]()
-    assert scene.objects == ("Cube",)
-    assert len(scene.instances) == 1
