@@ -12,8 +12,6 @@ import pytest
 from reference_tracer.blender import registration
 from reference_tracer.blender.ui import long_work, menus, preferences, samples
 from reference_tracer.blender.ui.properties import GROUPS as OWNED
-from reference_tracer.cli.commands import export
-from reference_tracer.cli.parser import Parser
 
 PRESETS = Path(menus.__file__).parent / "presets" / "reference_tracer"
 GROUPS = [group for _, group in OWNED]
@@ -181,28 +179,9 @@ def test_results_go_to_the_folder_that_is_preferred(preferred, solids, tmp_path)
     assert (named / "comparison.json").exists()
 
 
-def test_export_writes_what_reftrace_does(solids, tmp_path, capsys):
+def test_export_writes_what_reftrace_does(solids, tmp_path, reftrace):
     file, ours, theirs = (tmp_path / name for name in ("a.blend", "ours.npz", "theirs.npz"))
     bpy.ops.wm.save_as_mainfile(filepath=str(file))
     assert bpy.ops.reference_tracer.export(filepath=str(ours)) == {"FINISHED"}
-    parser = Parser("reftrace export")
-    export.add(parser)
-    given = parser.parse_args([str(file), "--out", str(theirs)])
-    registration.unregister()  # as there, it is registered anew
-    try:
-        assert given.run(given) == 0
-    finally:
-        registration.register()
+    assert reftrace("export", file, "--out", theirs).returncode == 0
     assert ours.read_bytes() == theirs.read_bytes()
-
-
-def test_export_says_what_is_wrong(solids, tmp_path):
-    with pytest.raises(RuntimeError, match=r"must end in .npz"):
-        bpy.ops.reference_tracer.export(filepath=str(tmp_path / "scene.obj"))
-    solids.camera.data.type = "PANO"
-    with pytest.raises(RuntimeError, match="Reference Tracer models perspective"):
-        bpy.ops.reference_tracer.export(filepath=str(tmp_path / "scene.npz"))
-    assert not list(tmp_path.iterdir())
-    solids.camera = None
-    with pytest.raises(RuntimeError, match="poll"):
-        bpy.ops.reference_tracer.export(filepath=str(tmp_path / "scene.npz"))
