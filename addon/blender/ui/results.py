@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.types import Scene
 
 from ...tracer.progress import Work, by_rows
 from . import blocks
@@ -93,13 +94,13 @@ def keep(
     return _latest[kind]
 
 
-def latest(kind: Kind, scene: Any) -> Result | None:
+def latest(kind: Kind, scene: Scene) -> Result | None:
     """Return the latest result of a kind, if it is of this scene."""
     found = _latest.get(kind)
     return found if found and found.scene in (None, scene.session_uid) else None
 
 
-def content(kind: Kind, scene: Any) -> Any:
+def content(kind: Kind, scene: Scene) -> Any:
     """Return what :func:`latest` has of a kind; None if there is none."""
     found = latest(kind, scene)
     return found and found.content
@@ -124,7 +125,7 @@ def forget(*_: Any) -> None:
     blocks.remove_all()
 
 
-def shown_put_right(scene: Any) -> Told:
+def shown_put_right(scene: Scene) -> Told:
     """Return the fault of a scene's latest comparison that our picture shows put right.
 
     Raises

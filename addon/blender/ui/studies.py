@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import EnumProperty, IntProperty
+from bpy.types import Context
 
 from ...methods import Method
 from ...tracer.progress import Work
@@ -45,7 +46,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         max=16,
     )
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         """Export the scene at once, as a render has it; return the work of measuring."""
         from ...study import tradeoff
         from ..jobs.open_file import export_open_file
@@ -54,7 +55,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         scene, manifest, _ = export_open_file(context)
         return tradeoff.measure(scene, self.width, self.samples, manifest.scene)
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         from ...report import trade as trade_report
 
         if self._folder:
@@ -86,7 +87,7 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         soft_max=10000,
     )
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         """Return the work."""
         from ...study.extremes import measure
         from ...study.scenarios.sweeps import SCENARIOS
@@ -95,7 +96,7 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         scenarios = [s for s in SCENARIOS if self.scenario in (choices.EVERY, s.name)]
         return measure(scenarios, self.rays or None)
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         from ...report import extremes as extremes_report
 
         if self._folder:
