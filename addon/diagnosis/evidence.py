@@ -31,7 +31,6 @@ from .seen import Trees
 
 SAMPLE = 512  # sampled pixels of each kind
 FEW = 128  # those of the small sample, which comes first
-DENSE = 1 << 12  # pixels: more are traced as a picture is, fewer through trees
 SEED = 27
 LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 WORTH = 0.2  # of the unexplained pixels: a guess that settles fewer is dropped
@@ -149,12 +148,6 @@ class Evidence:
         """Trace a scene in n pixels, by row and column, or in the sampled ones."""
         rows, columns = self.sample if at is None else at
         r = scene.camera.region
-        if len(rows) > DENSE:
-            wanted = np.zeros(self.unexplained.shape, bool)
-            wanted[rows, columns] = True
-            made = yield from plan(scene, SOUND, 0.0)
-            probe = yield from Probe.of(made, r, wanted.ravel())
-            return (yield from probe.trace())
         rays = camera_rays(scene.camera, columns + r.x0 + 0.5, rows + r.y0 + 0.5)
         return (yield from self.trees.trace(scene, rays))
 
@@ -215,7 +208,8 @@ class Evidence:
     def suspects(self) -> tuple[str, ...]:
         """The objects that are seen in unexplained pixels, or shown in them, the most first.
 
-        All that a moved object makes wrong involves it; less of that involves what is around it.
+        All that a moved object makes wrong involves it; less of that involves what is around it, or
+        as much: a floor is seen in more pixels.
         """
         scene = self.case.scene
         rows, columns = (v[self.unexplained_sampled] for v in self.sample)
@@ -223,7 +217,9 @@ class Evidence:
         shown = self._shown_objects()
         both = np.concatenate((seen, shown[shown != seen]))
         count = np.bincount(both[both >= 0], minlength=len(scene.objects))
-        order = np.argsort(-count, kind="stable")
+        everywhere = scene.instance_objects[self.frame.instance_index]
+        area = np.bincount(everywhere[everywhere >= 0], minlength=len(scene.objects))
+        order = np.lexsort((area, -count))
         least = max(LEAST_SEEN, INVOLVED * int(np.max(count, initial=0)))
         return tuple(scene.objects[n] for n in order if count[n] >= least)[:MOST_SUSPECTS]
 

@@ -55,17 +55,9 @@ class BlenderPeer:
         }
         self._ask(**self._opened)
 
-    def bvhtree(self, budget: float) -> tuple[Timed, float]:
-        """Cast the open scene's rays, or a sample that takes about `budget` seconds.
-
-        Returns
-        -------
-        timed : Timed
-        build : float
-            Seconds that its tree took.
-        """
-        found = self._ask(do="bvhtree", budget=budget)
-        return Timed(found["seconds"], found["rays"]), found["build"]
+    def bvhtree(self, budget: float) -> Timed:
+        """Cast the open scene's rays, or a sample that takes about `budget` seconds."""
+        return Timed(**self._ask(do="bvhtree", budget=budget))
 
     def render(self, engine: str) -> float:
         """Render the open scene with one of ENGINES, one sample; returns seconds of the call."""

@@ -24,6 +24,7 @@ from reference_tracer.tracer.settings import Settings
 
 from .scenes import build, mesh_of
 
+LATE = -1  # in place of a peak
 LONGEST = 15.0  # seconds for an unproven method's picture: 100,000 slivers would take minutes
 
 
@@ -35,14 +36,13 @@ class Job:
     height: int
     camera: str
     method: str
-    precision: str
     whole: bool
 
 
 def peaks(name: str, cache: Path, jobs: list[Job]) -> Generator[int | None, None, None]:
     """Yield each job's peak in bytes, beside scene and libraries.
 
-    None where it cannot be known, and where an unproven method takes longer than LONGEST.
+    None where it cannot be known; LATE where an unproven method takes longer than LONGEST.
     """
     if not hasattr(os, "fork"):
         yield from (None for _ in jobs)
@@ -55,12 +55,12 @@ def peaks(name: str, cache: Path, jobs: list[Job]) -> Generator[int | None, None
         start_new_session=True,
     )
     try:
-        request: dict[str, object] = {
+        request = {
             "name": name,
             "cache": str(cache),
             "jobs": [asdict(job) for job in jobs],
+            "longest": LONGEST,
         }
-        request["longest"] = LONGEST
         process.stdin.write(json.dumps(request))
         process.stdin.close()
         for _ in jobs:
@@ -83,7 +83,7 @@ def _answer(request: dict) -> None:
 def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int | None:
     """Return by how much a fork's peak rises for the second picture, bytes.
 
-    None if it fails, or if it is an unproven method's and takes longer than `longest` seconds.
+    None if it fails, LATE if it is an unproven method's and takes longer than `longest` seconds.
     """
     reads, writes = os.pipe()
     if child := os.fork():
@@ -91,12 +91,15 @@ def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int |
         patience = None if Method(job.method).is_proven else longest
         if not select.select([reads], [], [], patience)[0]:
             os.kill(child, signal.SIGKILL)
+            os.close(reads)
+            os.waitpid(child, 0)
+            return LATE
         with os.fdopen(reads) as file:
             said = file.read()
         os.waitpid(child, 0)
         return int(said) if said else None
     try:
-        work, settings = render if job.whole else trace, Settings(job.method, job.precision)
+        work, settings = render if job.whole else trace, Settings(job.method)
         _ = work(pictures[0], settings).t  # pages of libraries come in once they are used
         before = _peak()
         result = work(pictures[1], settings)

@@ -12,13 +12,14 @@ from reference_tracer.cli.arguments import check_frames
 from reference_tracer.cli.camera_options import add_camera, choice_from
 from reference_tracer.cli.opening import SOURCES, open_blend, open_file
 from reference_tracer.cli.parser import AGREE, COUNT, POSITIVE, Parser
-from reference_tracer.cli.running import meanwhile
+from reference_tracer.cli.running import progress_bar
 from reference_tracer.comparison.animation import frames_named
 from reference_tracer.framing import Choice
 from reference_tracer.manifest import Manifest
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.visible.visible import LIMIT, WORK, visible
+from reference_tracer.tracer.progress import result_of, scaled
+from reference_tracer.visible.visible import LIMIT, WORK, steps
 from reference_tracer.wording import show
 
 from .files import Total
@@ -94,8 +95,10 @@ def find(options: VisibleOptions) -> int:
         said: dict[str, None] = {}
         for frame, scene, manifest in _scenes(options):
             said |= dict.fromkeys(manifest.remarks())
-            with meanwhile("looking for faces that are seen"):
-                found = visible(scene, options.limit, options.work)
+            with progress_bar() as progress:
+                words = f"frame {frame}" if options.frames else ""
+                work = scaled(steps(scene, options.limit, options.work), 0.0, None, words)
+                found = result_of(work, progress)
             total = total.add(scene, found, frame) if total else Total.of(scene, found, frame)
             frames.append(frame)
         if total is None:

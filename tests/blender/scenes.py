@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from itertools import pairwise
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 HALF_FLOAT = 2 * 2.0**-11  # Blender hands its colours over in 11 bits: two roundings up to 1
+SAME = 1e-5  # metres: what float32 sines and cosines of different Blender builds may differ by
 
 CUBE_FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
@@ -212,3 +214,34 @@ def assert_same_colors(comparison, distinct: int = 2) -> None:
     assert seen.mean() > 0.05
     colors = np.unique(np.round(comparison.frame.color[seen], 3), axis=0)
     assert len(colors) >= distinct
+
+
+def assert_same_scene(one: Any, other: Any, texts: Collection[str] = ()) -> None:
+    """Two scenes are the same but for float32; of `texts` the triangles may be other ones."""
+    from pytest import approx  # late: Blender's window, which makes scenes too, has none
+
+    near = {"rtol": 1e-6, "atol": SAME}
+    assert one.objects == other.objects and one.triangle_count == other.triangle_count > 0
+    for name in ("width", "height", "region", "projection", "clip_start", "clip_end"):
+        assert getattr(one.camera, name) == getattr(other.camera, name), name
+    np.testing.assert_allclose(one.camera.world_from_camera, other.camera.world_from_camera, **near)
+    assert vars(one.camera.window) == approx(vars(other.camera.window))
+    for mine, theirs in zip(one.meshes, other.meshes, strict=True):
+        if mine.name in texts:
+            np.testing.assert_allclose(mine.bounds, theirs.bounds, **near)
+            assert area(mine) == approx(area(theirs))
+        else:
+            corners = (m.vertices[m.triangles] for m in (mine, theirs))
+            np.testing.assert_allclose(*corners, err_msg=mine.name, **near)
+    for kind, names in (
+        ("instances", ("mesh", "object", "world_from_object", "colors")),
+        ("planes", ("object", "point", "normal", "color")),
+    ):
+        for mine, theirs in zip(getattr(one, kind), getattr(other, kind), strict=True):
+            for name in names:
+                np.testing.assert_allclose(getattr(mine, name), getattr(theirs, name), **near)
+
+
+def area(mesh: Any) -> float:
+    a, b, c = np.moveaxis(mesh.vertices[mesh.triangles], 1, 0)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

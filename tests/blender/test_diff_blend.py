@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import bpy
 import pytest
-from reference_tracer.blender import registration
-from reference_tracer.cli.main import main
 
 
 @pytest.fixture
@@ -25,16 +23,14 @@ def exported(build, tmp_path):
     return tmp_path
 
 
-def test_what_exporters_leave_out_is_named(exported, addon, capsys):
-    registration.unregister()  # the command registers by itself, in a process of its own
-    try:
-        for name, code, said in (
-            ("plain.glb", 2, "modifiers are left out: 'Behind'"),
-            ("applied.glb", 2, "modifiers are as in the viewport, not as in a render: 'Behind'"),
-            ("render.obj", 0, "5 objects and 5 objects: the same"),
-        ):
-            command = ["diff", str(exported / "scene.blend"), str(exported / name)]
-            assert main(command) == code, capsys.readouterr().out
-            assert said in capsys.readouterr().out
-    finally:
-        registration.register()
+@pytest.mark.parametrize(
+    ("name", "code", "said"),
+    [
+        ("plain.glb", 2, "modifiers are left out: 'Behind'"),
+        ("applied.glb", 2, "modifiers are as in the viewport, not as in a render: 'Behind'"),
+        ("render.obj", 0, "5 objects and 5 objects: the same"),
+    ],
+)
+def test_what_exporters_leave_out_is_named(name, code, said, exported, reftrace):
+    done = reftrace("diff", exported / "scene.blend", exported / name)
+    assert done.returncode == code and said in done.stdout

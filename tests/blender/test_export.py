@@ -93,6 +93,13 @@ def on_faces(build):
     on_vertices(build, "FACES")
 
 
+def of_an_excluded_collection(build):
+    collection = build.collection("Kit", build.cube(link=False), link=True)
+    bpy.context.view_layer.layer_collection.children["Kit"].exclude = True
+    empty = build.empty("Empty")
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+
+
 def one_with_a_modifier(build):
     """Of two that have one mesh."""
     second = build.link(bpy.data.objects.new("Second", build.cube().data))
@@ -114,6 +121,7 @@ INSTANCES = {
         hair,
         on_vertices,
         on_faces,
+        of_an_excluded_collection,
         one_with_a_modifier,
         of_no_picture,
     )

@@ -31,17 +31,6 @@ def test_a_half_pixel_fault_of_an_engine_is_named(toy, solids):
     assert found.diagnosis.told[0].guess.values == pytest.approx((0.5, 0), abs=0.02)
 
 
-def test_another_fault_has_another_name(toy, solids):
-    toy.left_out = "Green"
-    solids.reference_tracer.judge = "ENGINE"
-    solids.reference_tracer.engine = "TOY_TRACER"
-    OPS.compare()
-    [found] = results.content(Kind.COMPARISON, solids).diagnosis.told
-    assert found.guess.object == "Green" and found.fault.name != "pixel_offset"
-    assert OPS.select_object(name="Green") == {"FINISHED"}
-    assert bpy.context.selected_objects == [bpy.data.objects["Green"]]
-
-
 def test_only_what_is_registered_is_a_judge(toy, solids, compare):
     assert others()["toy_tracer"].label == "Toy Tracer" and "cycles" not in others()
     assert judge_named("Toy_Tracer", background=True).engine == "TOY_TRACER"

@@ -11,8 +11,6 @@ from pathlib import Path
 import bpy
 import pytest
 from reference_tracer.blender.reading import opened
-from reference_tracer.cli.opening import open_blend
-from reference_tracer.scene import SceneError
 
 KNOWN, UNKNOWN = 113, 300  # channels of a sequencer, which has 128
 
@@ -105,12 +103,3 @@ def test_a_report_is_of_its_own_file(reported, build, tmp_path, reftrace):
     assert "note:" not in reftrace("export", other, "--out", tmp_path / "b.npz").stdout
     shutil.copy(other, reported)
     assert "note:" not in reftrace(*export).stdout
-
-
-def test_a_folder_is_none(tmp_path):
-    (tmp_path / "folder.blend").mkdir()
-    with (
-        pytest.raises(SceneError, match="no file but a folder"),
-        open_blend(tmp_path / "folder.blend"),
-    ):
-        pass

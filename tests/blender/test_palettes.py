@@ -120,21 +120,6 @@ def test_base_colors_of_materials(ordinary, build, compare):
     assert compare(colors=By.MATERIAL, judge="CYCLES").verdict == "agree"
 
 
-def test_what_is_instanced_has_the_color_of_what_instances_it(build, compare):
-    build.scene()
-    kit = build.collection("Kit", build.cube("Part", 0.8, link=False))
-    for k in range(2):
-        empty = build.empty(f"Empty {k}", location=(2 * k - 1, 0, 0))
-        empty.instance_type, empty.instance_collection = "COLLECTION", kit
-    plane = build.square("Ground", location=(0, 0, -1))
-    plane.reference_tracer.infinite_plane = True
-    build.camera(rotation=(0.1, 0, 0))
-    found = compare()
-    assert found.verdict == "agree" and len(found.manifest.notes) == 1
-    shown = {tuple(i.colors[0].tolist()) for i in found.scene.instances}
-    assert len(shown | {tuple(found.scene.planes[0].color.tolist())}) == 3
-
-
 def test_colors_that_an_animation_sets_stay(ordinary, compare):
     obj = bpy.data.objects["Left"]
     obj.color = (0.3, 0.9, 0.1, 1)

@@ -57,17 +57,6 @@ def test_on_request_of_the_command_and_the_panel(saved, tmp_path, capsys):
     assert len(found["self_check"]) > 15
 
 
-def test_an_engine_that_cannot_is_named(saved, build, tmp_path, capsys):
-    empty = build.empty("Empty")
-    empty.instance_type = "COLLECTION"
-    empty.instance_collection = build.collection("Kit", build.cube("Child", 0.3, link=False))
-    saved.display.shading.color_type = "RANDOM"
-    assert in_blender.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 1
-    assert "cycles     no picture: Cycles cannot draw" in capsys.readouterr().out
-    found = json.loads((tmp_path / "out/engines.json").read_text(encoding="utf-8"))
-    assert [row["verdict"] for row in found["engines"]] == ["agree", "failed", "failed"]
-
-
 def test_no_engine_at_all_is_an_error(saved, tmp_path, capsys):
     saved.camera = None
     assert in_blender.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 4

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from pathlib import Path
 from urllib.parse import urlparse
 from urllib.request import url2pathname
@@ -85,19 +84,3 @@ def test_the_commands(solids, tmp_path, capsys):
     assert in_blender.run(trade) == 0
     assert {p.name for p in out.iterdir()} == TRADE_FILES
     assert "float32" in capsys.readouterr().out
-    assert in_blender.run([*trade[:-1], "65"]) == 4
-    assert "samples is 65" in capsys.readouterr().err
-    assert in_blender.run(["extremes", "--out", str(out), "--rays", "0"]) == 4
-    assert "--rays: 0 is not an integer of at least 1" in capsys.readouterr().err
-    solids.camera = None
-    assert in_blender.run(trade) == 4
-    assert "has no camera" in capsys.readouterr().err
-
-
-def test_the_command_for_the_extremes_runs_all(tmp_path, monkeypatch, capsys):
-    """All of them take minutes: what is left of them here is one."""
-    [fan] = [s for s in extremes.SCENARIOS if s.name == "closed_fan"]
-    monkeypatch.setattr(extremes, "measure", partial(extremes.measure, [fan]))
-    assert in_blender.run(["extremes", "--out", str(tmp_path / "out"), "--rays", "12"]) == 0
-    assert "closed" in capsys.readouterr().out.lower()
-    assert (tmp_path / "out" / "extremes.json").is_file()

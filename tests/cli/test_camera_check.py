@@ -63,7 +63,11 @@ FILES = {
         2,
         "the camera's shift is in another unit",
     ),
-    "degrees": (in_degrees(), 4, "camera_angle_x is 42.3225: it must be in radians, not in degrees"),
+    "degrees": (
+        in_degrees(),
+        4,
+        "is 42.3225: it must be in radians, not in degrees",
+    ),
 }
 
 

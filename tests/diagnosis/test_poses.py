@@ -13,12 +13,14 @@ from reference_tracer.diagnosis.faults.changes import SCALED
 from reference_tracer.diagnosis.faults.changes import TURNED as TURNS
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
 from reference_tracer.diagnosis.faults.fitting import Traced
+from reference_tracer.diagnosis.faults.looked import Looked
 from reference_tracer.diagnosis.faults.pose import Posed
 from reference_tracer.diagnosis.faults.stand import TURNED
 from reference_tracer.pictures.picture import Picture
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
+from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import case_of
@@ -56,6 +58,20 @@ def test_a_camera_is_told_and_no_object(few, name, values, rivals):
     scene = few(48, 30)
     found = told(scene, pictured(scene, name, Numbers(values)), name, *rivals)
     assert list(found) == [name]
+
+
+def test_a_unit_of_a_move_is_a_pixel_across_and_up(few):
+    """Also where pixels are higher than wide: a search begins in these units."""
+    scene = few()
+    camera = replace(scene.camera, window=scene.camera.window.scaled(1, 2))
+    scene = scene.seen_by(camera)
+    color = pictured(scene, "object_moved", Numbers((0.1, 0, 0.1), object="Box"))
+    found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
+    looked = result_of(Looked.of(Evidence(found.case, found.frame, found.causes), "Box"))
+    middle = camera.origin + looked.depth * camera.forward
+    places = np.column_stack((middle, middle[:, None] + looked.axes()[:, :2]))
+    x, y, _ = film_of(camera, places)
+    assert x - x[0] == pytest.approx([0, 1, 0]) and y - y[0] == pytest.approx([0, 0, 1])
 
 
 @pytest.mark.torture

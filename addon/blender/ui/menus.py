@@ -19,6 +19,7 @@ from .long_work import named
 from .outcome import draw_in_header
 from .properties import ReferenceTracerScene
 from .samples import REFERENCE_TRACER_MT_samples
+from .select_seen import REFERENCE_TRACER_MT_select_seen
 from .shown import chosen, draw_switch
 
 _GROUP = ReferenceTracerScene.__name__
@@ -92,15 +93,23 @@ def _draw_in_new(menu: Menu, context: Context) -> None:
     menu.layout.menu(REFERENCE_TRACER_MT_samples.__name__)
 
 
+def _draw_in_select(menu: Any, context: Any) -> None:
+    menu.layout.separator()
+    menu.layout.menu(REFERENCE_TRACER_MT_select_seen.__name__)
+
+
 MENUS = {
     "TOPBAR_MT_render": _draw_in_render,
     "IMAGE_MT_image": _draw_in_image,
     "TOPBAR_MT_file_export": _draw_in_export,
+    "TOPBAR_MT_file_new": _draw_in_new,
+    "VIEW3D_MT_select_object": _draw_in_select,
+    "VIEW3D_MT_select_edit_mesh": _draw_in_select,
 }
 
 
 _register, _unregister = bpy.utils.register_classes_factory(
-    (REFERENCE_TRACER_PT_presets, REFERENCE_TRACER_MT_samples)
+    (REFERENCE_TRACER_PT_presets, REFERENCE_TRACER_MT_samples, REFERENCE_TRACER_MT_select_seen)
 )
 
 
@@ -110,7 +119,6 @@ def register() -> None:
     bpy.utils.register_preset_path(_SHIPPED)
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).append(draw)
-    bpy.types.TOPBAR_MT_file_new.append(_draw_in_new)
     bpy.types.IMAGE_HT_header.prepend(_draw_in_header)  # a small window shows the first of it
 
 
@@ -118,7 +126,6 @@ def unregister() -> None:
     """Undo :func:`register`."""
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).remove(draw)
-    bpy.types.TOPBAR_MT_file_new.remove(_draw_in_new)
     bpy.types.IMAGE_HT_header.remove(_draw_in_header)
     bpy.utils.unregister_preset_path(_SHIPPED)
     _unregister()

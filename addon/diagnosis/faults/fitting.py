@@ -22,10 +22,9 @@ from ...scene import Camera
 from ...tracer.camera import film_of
 from ...tracer.progress import Work
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
-from .climbing import values_of
 from .fault import Find, Numbers, Refine, Values
 from .matching import Fitted, fitted, is_everywhere, matches, seen_by
-from .search import Search
+from .search import Search, values_of
 
 REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
 FINE_REACH = 1.0  # the same in a refinement: fewer triangles are near

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...arrays import Array, Bools, Floats, Integers, Places
+from ...pictures.bounds import largest_within
 from ...pictures.metrics import beside_edges
 from ...scene import Camera
 from ...tracer.camera import camera_rays, film_of
@@ -153,7 +154,10 @@ def _matched(evidence: Evidence, where: Bools, about: Floats) -> Matches:
     rows, columns = rows[known], columns[known]
     camera = evidence.case.scene.camera
     film = np.stack((columns + camera.region.x0 + 0.5, rows + camera.region.y0 + 0.5))
-    points = camera_rays(camera, *film).at(in_front(evidence)[0][rows, columns])
+    t = evidence.frame.t
+    far = BEYOND * float(np.max(t[np.isfinite(t)], initial=1.0))
+    nearest = -largest_within(-np.where(np.isfinite(t), t, far), 1)  # at an edge, what is in front
+    points = camera_rays(camera, *film).at(nearest[rows, columns])
     return Matches(points, film + (moved + mean)[:, known], each[known])
 
 
@@ -200,29 +204,6 @@ def _compared(
             2 * count >= len(y), differ.sum(axis=1) / np.maximum(count, 1), 1.0
         )
     return wrong, steps.astype(np.float64)
-
-
-def in_front(evidence: Evidence) -> tuple[Floats, Integers]:
-    """Return the depth and the instance of what is nearest in and beside each pixel, (h, w) each.
-
-    Of an edge, what is in front moves.
-    """
-    t = evidence.frame.t
-    far = BEYOND * float(np.max(t[np.isfinite(t)], initial=1.0))
-    height, width = t.shape
-
-    def around(values: Array) -> Array:
-        padded = np.pad(values, 1, mode="edge")
-        return np.stack([padded[y : y + height, x : x + width] for y in range(3) for x in range(3)])
-
-    depth = around(np.where(np.isfinite(t), t, far))
-    first = depth.argmin(axis=0)[None]
-    near = (
-        np.take_along_axis(v, first, axis=0)[0]
-        for v in (depth, around(evidence.frame.instance_index))
-    )
-    out: tuple[Floats, Integers] = tuple(near)
-    return out
 
 
 def is_everywhere(evidence: Evidence) -> bool:

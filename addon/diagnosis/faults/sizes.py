@@ -229,7 +229,7 @@ def _find(evidence: Evidence) -> Work[list[Small]]:
 
 def _downs(n: int, name: str, remains: bool) -> Iterator[list[Small]]:
     """Yield the guesses of each way to come to a picture smaller by n; a row may remain."""
-    corners = [*product((0.0, 0.5), repeat=2)]
+    corners = [*product((0.0, 0.5), (0.0, 0.5))]
     downs: list[tuple[Way | None, tuple[float, float], bool]] = [
         (None, (0.0, 0.0), True),
         (Way.MEAN, (0.0, 0.0), False),
