@@ -88,7 +88,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         if self.source == "PUT_RIGHT":
             told = results.shown_put_right(context.scene)
             said = rpt_("With this put right: {}. {}").format(told.sentence, said)
-        results.keep(Kind.PIXEL, found, [said], context.scene.name)
+        results.keep(Kind.PIXEL, found, [said], context.scene.session_uid)
         blocks.show_text(TEXT, document.document_markdown(found))
         if self.draw_ray:
             draw: Any = bpy.ops.reference_tracer.draw_ray  # type: ignore[attr-defined]

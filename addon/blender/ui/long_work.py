@@ -77,6 +77,7 @@ class LongWork(Mixin):
     left: str = "nothing was changed"  # at Esc
     announced: ClassVar[str] = ""  # what is done in one go at the beginning, and takes long
     pressed: bool = False  # by a user, who is to see the result
+    scene: int  # the `session_uid` of the scene that it is of
 
     directory: StringProperty(
         name="Folder",
@@ -135,6 +136,7 @@ class LongWork(Mixin):
 
     def _begun(self, context: Context) -> Work[Any]:
         """Begin once what is announced has been drawn, which is before the timer's first event."""
+        self.scene = context.scene.session_uid  # its name, and the window's scene, may change
         with closing(self.begin(context)) as work:
             while True:
                 try:

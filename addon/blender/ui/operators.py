@@ -42,7 +42,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def show(self, context: Context, result: Any) -> Work[None]:
         """Keep a comparison, and show the user the traced picture, once."""
-        yield from results.keep_comparison(result)
+        yield from results.keep_comparison(result, self.scene)
         self.left = rpt_("the comparison stays, without a diagnosis")
         redraw(context)
         if not self._is_shown:
@@ -82,7 +82,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         from ...report import engines as engines_report
 
         lines = engines_report.lines(result)
-        say(*results.keep(Kind.ENGINES, tuple(result), lines, context.scene.name).lines)
+        say(*results.keep(Kind.ENGINES, tuple(result), lines, self.scene).lines)
         verdict = engines.worst(result)
         text = ", ".join(f"{row.engine}: {row.verdict}" for row in result)
         return "INFO" if verdict == "agree" else "WARNING", text[0].upper() + text[1:]
@@ -125,7 +125,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
 
         content = self._folder / frames_report.PAGE, worst_first(result)
         lines = frames_report.lines(self._frames, result)
-        found = results.keep(Kind.FRAMES, content, lines, context.scene.name)
+        found = results.keep(Kind.FRAMES, content, lines, self.scene)
         self.left = ", ".join(found.lines[-2:])
         redraw(context)
         yield None

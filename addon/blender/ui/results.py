@@ -45,8 +45,11 @@ class Result:
 _latest: dict[Kind, Result] = {}
 
 
-def keep_comparison(comparison: Comparison) -> Work[Result]:
-    """Remember a comparison, and show its pictures; ended in between, there is none."""
+def keep_comparison(comparison: Comparison, scene: int) -> Work[Result]:
+    """Remember a comparison of the scene of a `session_uid`, and show its pictures.
+
+    Ended in between, there is none.
+    """
     from ...causes.maps import cause_map, difference_map
     from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
@@ -69,7 +72,7 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
             right[number] = color
             yield None
         blocks.remove(blocks.PUT_RIGHT)
-        kept = keep(Kind.COMPARISON, comparison, describe(comparison), comparison.manifest.scene)
+        kept = keep(Kind.COMPARISON, comparison, describe(comparison), scene)
         _latest[Kind.COMPARISON] = replace(kept, regions=regions, put_right=right)
         return _latest[Kind.COMPARISON]
     finally:
@@ -85,12 +88,10 @@ def session_folder() -> Path:
 
 
 def keep(
-    kind: Kind, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
+    kind: Kind, content: Any, lines: Iterable[str], scene: int | None = None, page: str = ""
 ) -> Result:
-    """Remember a result of a kind, of the scene of a name, for :func:`latest`."""
-    uids = {s.name: s.session_uid for s in bpy.data.scenes}
-    own = None if scene is None else uids.get(scene, 0)
-    _latest[kind] = Result(content, tuple(lines), own, page)
+    """Remember a result of a kind, of the scene of a `session_uid`, for :func:`latest`."""
+    _latest[kind] = Result(content, tuple(lines), scene, page)
     return _latest[kind]
 
 

@@ -60,7 +60,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
 
         if self._folder:
             trade_report.write(self._folder, result)
-        keep_trade(result)
+        keep_trade(result, self.scene)
         show(*trade_report.table(result).split("\n"))
         return "INFO", result.advice
 
@@ -106,12 +106,12 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         return "INFO", said
 
 
-def keep_trade(trade: Trade) -> results.Result:
-    """Remember a trade, and write its plot for the browser."""
+def keep_trade(trade: Trade, scene: int) -> results.Result:
+    """Remember a trade of the scene of a `session_uid`, and write its plot for the browser."""
     from ...report import trade as trade_report
 
     page = _page("trade", trade_report.page(trade))
-    return results.keep(results.Kind.TRADE, trade, [trade.advice], trade.scene, page)
+    return results.keep(results.Kind.TRADE, trade, [trade.advice], scene, page)
 
 
 def keep_extremes(rows: Sequence[ExtremesRow]) -> results.Result:
