@@ -27,7 +27,7 @@ _UNITS = {
     "leaking": "edges that two triangles share, a ray through which misses both: not in the score",
     "stride": "every so many pixels were judged, in both directions",
     "pixel": "[x, y] of the picture, or of its border, from the lower left",
-    "origin": "metres, world space; so are direction and triangle (p1, p2, p3)",
+    "given": "of a scene in metres, world space",
     "lost": "rays that see another surface than the certified one",
     "seconds": "that the student's function itself has taken",
 }

@@ -9,7 +9,6 @@ from typing import Any
 import bpy
 import numpy as np
 from mathutils import Euler, Matrix
-from pytest import approx
 
 HALF_FLOAT = 2 * 2.0**-11  # Blender hands its colours over in 11 bits: two roundings up to 1
 SAME = 1e-5  # metres: what float32 sines and cosines of different Blender builds may differ by
@@ -219,6 +218,8 @@ def assert_same_colors(comparison, distinct: int = 2) -> None:
 
 def assert_same_scene(one: Any, other: Any, texts: Collection[str] = ()) -> None:
     """Two scenes are the same but for float32; of `texts` the triangles may be other ones."""
+    from pytest import approx  # late: Blender's window, which makes scenes too, has none
+
     near = {"rtol": 1e-6, "atol": SAME}
     assert one.objects == other.objects and one.triangle_count == other.triangle_count > 0
     for name in ("width", "height", "region", "projection", "clip_start", "clip_end"):

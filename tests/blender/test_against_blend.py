@@ -159,19 +159,3 @@ def test_the_wrong_frame(scene, drawn, judged):
         "the picture is of frame 2, the scene is at 1"
     ]
     assert found["pixels"]["unexplained"] == 0 and code == 1
-
-
-@pytest.mark.parametrize(
-    ("wrong", "fault"), [("scale", "parent_scale"), ("parent", "parent_left_out")]
-)
-def test_a_parents_scale_that_was_left_out_is_named(wrong, fault, scene, drawn, judged, build):
-    """Of a picture of a scene in which the parent has none; another mistake has another name."""
-    parent = build.empty("Parent", location=(0.4, 0.2, 0.1), rotation=(0.1, 0.2, 0.3))
-    green = bpy.data.objects["Green"]
-    green.parent = None if wrong == "parent" else parent
-    drawn(view_transform="Standard")
-    green.parent = parent
-    parent.scale = (1.6, 0.7, 1.3)
-    _, found, _ = judged()
-    told = [one["fault"] for one in found["diagnosis"]["told"]]
-    assert told == [fault]

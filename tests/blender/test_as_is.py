@@ -26,17 +26,6 @@ def test_light_and_anti_aliasing_are_named(build, compare, judge):
     assert comparison.verdict == "warnings"
 
 
-def test_like_for_like_takes_one_sample(build, compare):
-    """Blender's picture has one: edges of a smoother one would look like faults."""
-    scene = build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
-    scene.reference_tracer.samples = 4
-    comparison = compare()
-    assert comparison.case.settings.samples == 1
-    assert comparison.verdict == "agree"
-
-
 @pytest.mark.parametrize("as_is", [False, True])
 def test_what_a_render_shows_does_not_change_a_comparison(as_is, build, compare):
     """Blender draws the objects' colours: so does the tracer, and the self-check finds all."""

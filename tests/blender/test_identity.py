@@ -18,19 +18,6 @@ def shown(comparison) -> set[str]:
     return {identity.names[i] for i in np.unique(identity.shown) if i != NOTHING}
 
 
-def test_instances_show_what_instances_them(build, compare):
-    build.scene()
-    child = build.cube("Child", 0.5, link=False)
-    collection = build.collection("Kit", child)
-    for name, x in (("Left", -1), ("Right", 1)):
-        empty = build.empty(name, location=(x, 0, 0))
-        empty.instance_type, empty.instance_collection = "COLLECTION", collection
-    points = build.square("Points", 1, location=(0, 1, 0))
-    build.instances_on_points(points, child)
-    build.camera()
-    assert shown(compare()) == {"Left", "Right", "Points"}
-
-
 def test_corners_that_carry_children(build, compare):
     """What is parented to them shows the parent's colour."""
     build.scene()

@@ -84,10 +84,3 @@ def test_the_commands(solids, tmp_path, capsys):
     assert in_blender.run(trade) == 0
     assert {p.name for p in out.iterdir()} == TRADE_FILES
     assert "float32" in capsys.readouterr().out
-    assert in_blender.run([*trade[:-1], "65"]) == 4
-    assert "samples is 65" in capsys.readouterr().err
-    assert in_blender.run(["extremes", "--out", str(out), "--rays", "0"]) == 4
-    assert "--rays: 0 is not an integer of at least 1" in capsys.readouterr().err
-    solids.camera = None
-    assert in_blender.run(trade) == 4
-    assert "has no camera" in capsys.readouterr().err

@@ -185,26 +185,14 @@ def differences(before, after, path=""):
 
 @pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
 @pytest.mark.parametrize("shading", ["LIKE_FOR_LIKE", "AS_IS"])
-def test_nothing_is_changed(shading, judge, user_scene):
+def test_nothing_is_changed(shading, judge, user_scene, tmp_path):
+    """Nor by a second comparison, which adds no image, and writes files."""
     user_scene.reference_tracer.judge, user_scene.reference_tracer.shading = judge, shading
     before = state()
-    assert bpy.ops.reference_tracer.compare() == {"FINISHED"}
-    assert differences(before, state()) == []
-    assert {i.name for i in bpy.data.images} == OURS
-
-
-def test_nothing_is_changed_when_files_are_written(user_scene, tmp_path):
-    before = state()
-    assert bpy.ops.reference_tracer.compare(directory=str(tmp_path / "out")) == {"FINISHED"}
-    assert differences(before, state()) == []
-
-
-def test_a_second_comparison_adds_nothing(user_scene):
-    bpy.ops.reference_tracer.compare()
-    before = state()
-    bpy.ops.reference_tracer.compare()
-    assert differences(before, state()) == []
-    assert {i.name for i in bpy.data.images} == OURS
+    for folder in ("", str(tmp_path / "out")):
+        assert bpy.ops.reference_tracer.compare(directory=folder) == {"FINISHED"}
+        assert differences(before, state()) == []
+        assert {i.name for i in bpy.data.images} == OURS
 
 
 @pytest.mark.parametrize(
