@@ -11,7 +11,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import bpy
 import numpy as np
+from bpy.types import Object
 
 from ...arrays import Bools, Colors, Integers
 from ...scene import Mesh, drop_non_finite
@@ -20,7 +22,7 @@ Read = tuple[Mesh, int]  # with the number of triangles left out
 
 
 def read_mesh(
-    obj: Any,
+    obj: Object,
     name: str,
     with_colors: bool,
     viewport: bool = False,
@@ -75,7 +77,7 @@ def read_mesh(
     return Mesh(vertices, triangles, numbers, colors, name), left_out
 
 
-def _hides_faces(obj: Any, viewport: bool) -> bool:
+def _hides_faces(obj: Object, viewport: bool) -> bool:
     """Return whether Blender draws an evaluated object without its mesh's hidden faces.
 
     It does where it draws the editor's own mesh: in Edit Mode without modifiers that show there,
@@ -98,7 +100,7 @@ def _hidden(mesh: Any) -> Bools:
 
 
 @contextmanager
-def _whole_mesh(obj: Any) -> Iterator[Any]:
+def _whole_mesh(obj: Object) -> Iterator[Any]:
     """Give an evaluated object's mesh with all of its faces and attributes.
 
     In Edit Mode it is a wrapper that has none, or those of the mesh in the editor.
@@ -122,9 +124,9 @@ def _slots(mesh: Any, name: str) -> Integers:
     return np.maximum(slots, 0)
 
 
-def _corner_colors(mesh: Any, triangles: Integers, loops: Integers) -> Colors | None:
+def _corner_colors(mesh: bpy.types.Mesh, triangles: Integers, loops: Integers) -> Colors | None:
     """Return the active colour attribute at each triangle's corners, (n, 3, 4) linear RGBA."""
-    attribute = mesh.color_attributes.active_color
+    attribute: Any = mesh.color_attributes.active_color
     if attribute is None:
         return None
     values = _floats(attribute.data, "color", 4)
