@@ -99,8 +99,7 @@ def collection_instances(build: Build, rng: Random) -> None:
     inner.instance_type, inner.instance_collection, inner.location = "COLLECTION", kit, (0, 1, 1)
     double = build.collection("Double", inner, build.cube("Pole", 0.4, link=False))
     for k, collection in enumerate((kit, double, double)):
-        empty = build.empty(f"Copy {k}", location=(3.2 * k - 3, 0, 0), rotation=turn(rng))
-        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        build.instances(f"Copy {k}", collection, location=(3.2 * k - 3, 0, 0), rotation=turn(rng))
 
 
 def linked_duplicates(build: Build, rng: Random) -> None:

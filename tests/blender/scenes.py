@@ -16,6 +16,11 @@ SAME = 1e-5  # metres: what float32 sines and cosines of different Blender build
 CUBE_FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 
+def save(path: Any) -> None:
+    """Save the open file."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+
+
 class Build:
     """Small scenes: each method adds one thing to the scene and returns it."""
 
@@ -87,6 +92,12 @@ class Build:
 
     def empty(self, name: str, **place: Any) -> Any:
         return self.place(self.link(bpy.data.objects.new(name, None)), **place)
+
+    def instances(self, name: str, collection: Any, **place: Any) -> Any:
+        """An empty that shows a collection."""
+        empty = self.empty(name, **place)
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        return empty
 
     def collection(self, name: str, *objects: Any, link: bool = False) -> Any:
         collection = bpy.data.collections.new(name)
@@ -198,6 +209,15 @@ class Build:
                 rotation=(0.4 + x, 0.3, x),
                 material=self.material(name, *rgba),
             )
+
+    def room(
+        self, width: int = 96, height: int = 54, color_type: str = "MATERIAL", **camera: Any
+    ) -> Any:
+        """The solids, as the camera in the corner sees them; returns the scene."""
+        scene = self.scene(width, height, color_type)
+        self.solids()
+        self.corner_camera(**camera)
+        return scene
 
     def corner_camera(self, **data: Any) -> Any:
         """A camera that looks at the solids from the front, right and above."""

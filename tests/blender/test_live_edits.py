@@ -29,9 +29,7 @@ class Edits:
         key.keyframe_insert("value", frame=20)
         build.text("Text", location=(0, 3, 0))
         source = build.cube("Source", link=False)
-        empty = build.empty("Empty", location=(-3, 0, 0))
-        empty.instance_type = "COLLECTION"
-        empty.instance_collection = build.collection("Kit", source)
+        build.instances("Empty", build.collection("Kit", source), location=(-3, 0, 0))
         build.collection("Shelf", build.cube("On Shelf", link=False), link=True)
         build.instances_on_points(build.square("Points"), "GeometryNodeMeshCube")
         build.instances_on_points(build.square("Points of Source"), source)

@@ -60,9 +60,12 @@ def edited_shared(build: Any) -> None:
     other = build.link(bpy.data.objects.new("Other", obj.data))
     other.location, other.scale = (1.1, -1.2, 0.4), (0.8, 0.8, 0.8)
     instanced = bpy.data.objects.new("Instanced", obj.data)
-    empty = build.empty("Instances", location=(-0.9, -1.2, -0.4), scale=(0.6, 0.6, 0.6))
-    empty.instance_type = "COLLECTION"
-    empty.instance_collection = build.collection("Kit", instanced)
+    build.instances(
+        "Instances",
+        build.collection("Kit", instanced),
+        location=(-0.9, -1.2, -0.4),
+        scale=(0.6, 0.6, 0.6),
+    )
     _edit()
 
 

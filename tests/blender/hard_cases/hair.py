@@ -72,8 +72,7 @@ def instanced_hair(build: Any) -> None:
         "Cube", 0.4, link=False, location=(0, 0.3, 0.2), material=colored(build, "Cyan", CYAN)
     )
     kit = build.collection("Kit", _hair_curves(build, link=False), tuft, cube)
-    empty = build.empty("Instances", location=(-0.4, -1.3, -0.8))
-    empty.instance_type, empty.instance_collection = "COLLECTION", kit
+    build.instances("Instances", kit, location=(-0.4, -1.3, -0.8))
 
 
 def _grease_pencil(build: Any, kind: str) -> None:
