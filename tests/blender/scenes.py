@@ -35,12 +35,15 @@ class Build:
         (collection or bpy.context.scene.collection).objects.link(obj)
         return obj
 
+    def object(self, name: str, data: Any = None, **place: Any) -> Any:
+        return self.place(self.link(bpy.data.objects.new(name, data)), **place)
+
     def camera(self, location=(0.0, 0.0, 5.0), rotation=(0.0, 0.0, 0.0), **data: Any) -> Any:
         """By default straight above the origin, looking down, +Y upwards in the picture."""
         camera = bpy.data.cameras.new("Camera")
         for name, value in data.items():
             setattr(camera, name, value)
-        obj = self.link(bpy.data.objects.new("Camera", camera))
+        obj = self.object("Camera", camera)
         obj.location, obj.rotation_euler = location, rotation
         bpy.context.scene.camera = obj
         return obj
@@ -91,7 +94,7 @@ class Build:
         return material
 
     def empty(self, name: str, **place: Any) -> Any:
-        return self.place(self.link(bpy.data.objects.new(name, None)), **place)
+        return self.object(name, **place)
 
     def instances(self, name: str, collection: Any, **place: Any) -> Any:
         """An empty that shows a collection."""
@@ -140,7 +143,7 @@ class Build:
     def text(self, name: str = "Text", **place: Any) -> Any:
         curve = bpy.data.curves.new(name, "FONT")
         curve.body, curve.extrude = "Ray", 0.1
-        return self.place(self.link(bpy.data.objects.new(name, curve)), **place)
+        return self.object(name, curve, **place)
 
     def bevelled_curve(self, name: str = "Curve", **place: Any) -> Any:
         curve = bpy.data.curves.new(name, "CURVE")
@@ -149,7 +152,7 @@ class Build:
         spline.bezier_points.add(1)
         for point, x in zip(spline.bezier_points, (-1, 1), strict=True):
             point.co, point.handle_left, point.handle_right = (x, 0, 0), (x, -1, 0), (x, 1, 1)
-        return self.place(self.link(bpy.data.objects.new(name, curve)), **place)
+        return self.object(name, curve, **place)
 
     def surface(self, name: str = "Surface", **place: Any) -> Any:
         bpy.ops.surface.primitive_nurbs_surface_sphere_add(radius=1)
@@ -162,7 +165,7 @@ class Build:
         ball.resolution = ball.render_resolution = 0.4
         ball.elements.new().co = (0, 0, 0)
         ball.elements.new().co = (1, 0, 0)
-        return self.place(self.link(bpy.data.objects.new(name, ball)), **place)
+        return self.object(name, ball, **place)
 
     def color_attribute(
         self, obj: Any, domain: str, kind: str = "FLOAT_COLOR", seed: int = 5

@@ -99,7 +99,7 @@ def of_an_excluded_collection(build):
 
 def one_with_a_modifier(build):
     """Of two that have one mesh."""
-    second = build.link(bpy.data.objects.new("Second", build.cube().data))
+    second = build.object("Second", build.cube().data)
     second.modifiers.new("Array", "ARRAY").count = 3
 
 

@@ -17,7 +17,7 @@ class Edits:
         build.far_camera()
         red = build.material("Red", 1, 0, 0)
         cube = build.cube("Cube", material=red)
-        build.link(bpy.data.objects.new("Linked", cube.data)).location.x = 3
+        build.object("Linked", cube.data).location.x = 3
         build.cube("Modified").modifiers.new("Array", "ARRAY")
         keyed = build.square("Keyed")
         for name in ("Basis", "Key"):
@@ -67,7 +67,7 @@ class Edits:
 
     def new(self):
         data = self.one("MESH").data if self.count % 2 else bpy.data.meshes.new("Faceless")
-        self.build.link(bpy.data.objects.new(f"New {self.count}", data))
+        self.build.object(f"New {self.count}", data)
 
     def other_data(self):
         self.one("MESH").data = self.one("MESH").data

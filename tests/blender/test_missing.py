@@ -88,7 +88,7 @@ def test_linked_mesh_and_material(build, saved, export, entries):
     path = library(build, saved)
     save(saved.folder / "scene.blend")
     wanted = linked(path, meshes=["Lent"], materials=["Lent Red"])
-    build.link(bpy.data.objects.new("User", wanted.meshes[0]))
+    build.object("User", wanted.meshes[0])
     build.cube("Own", 1).data.materials.append(wanted.materials[0])
     path.unlink()
     saved.reopen()
@@ -106,9 +106,9 @@ def test_what_is_not_seen_is_no_warning(build, saved, export):
     save(saved.folder / "scene.blend")
     wanted = linked(path, objects=["Lent"], meshes=["Lent"])
     bpy.data.scenes.new("Other").collection.objects.link(wanted.objects[0])
-    hidden = build.link(bpy.data.objects.new("Hidden", wanted.meshes[0]))
+    hidden = build.object("Hidden", wanted.meshes[0])
     hidden.hide_render = hidden.hide_viewport = True
-    aside = build.link(bpy.data.objects.new("Aside", wanted.meshes[0]))
+    aside = build.object("Aside", wanted.meshes[0])
     bpy.context.scene.collection.objects.unlink(aside)
     build.collection("Aside", aside, link=True)
     bpy.context.view_layer.layer_collection.children["Aside"].exclude = True

@@ -57,7 +57,7 @@ def volume(build, folder: Path) -> Path:
     (folder / "cloud.vdb").write_bytes(b"VDB")
     data = bpy.data.volumes.new("Cloud")
     data.filepath = str(folder / "cloud.vdb")
-    holder = build.link(bpy.data.objects.new("Holder", data))
+    holder = build.object("Holder", data)
     build.cube("User").modifiers.new("Mesh", "VOLUME_TO_MESH").object = holder
     return folder / "cloud.vdb"
 

@@ -107,12 +107,12 @@ def point_cloud(build: Any) -> None:
     radius = cloud.attributes.get("radius") or cloud.attributes.new("radius", "FLOAT", "POINT")
     radius.data.foreach_set("value", np.full(80, 0.06, np.float32))
     cloud.materials.append(colored(build, "Orange", ORANGE))
-    build.place(build.link(bpy.data.objects.new("Cloud", cloud)), location=(0, -1.2, 0.1))
+    build.object("Cloud", cloud, location=(0, -1.2, 0.1))
 
 
 def empty_volume(build: Any) -> None:
     stage(build)
-    build.link(bpy.data.objects.new("Volume", bpy.data.volumes.new("Volume")))
+    build.object("Volume", bpy.data.volumes.new("Volume"))
 
 
 def _nodes_beside_mesh(build: Any, name: str) -> tuple[Any, Any, Any]:
