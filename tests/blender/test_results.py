@@ -95,10 +95,10 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
     cause[:] = AGREE
     cause[2:6, 3:5] = cause[2, 40] = EDGE
     told = replace(own, causes=replace(own.causes, cause=cause))
-    found = result_of(results.keep_comparison(told)).regions
+    found = result_of(results.keep_comparison(told, bpy.context.scene.session_uid)).regions
     assert [r.pixels for r in found] == [8, 1]
     cause[20, 40:43] = UNEXPLAINED  # then these alone are
-    found = result_of(results.keep_comparison(told)).regions
+    found = result_of(results.keep_comparison(told, bpy.context.scene.session_uid)).regions
     assert [(r.left, r.bottom, r.pixels) for r in found] == [(40, 20, 3)]
     assert bpy.ops.reference_tracer.frame_region(number=0) == {"FINISHED"}
     assert not bpy.context.selected_objects  # it moves the picture alone
@@ -110,7 +110,7 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
     assert texts_of(found[0])[0] == f"3 px unexplained (40, 20): {found[0].objects[0]}"
     cause[20, 40:43] = AGREE
     cause[-2:, :2] = EDGE  # where both sides see nothing
-    found = result_of(results.keep_comparison(told)).regions
+    found = result_of(results.keep_comparison(told, bpy.context.scene.session_uid)).regions
     height = len(cause)
     assert [texts_of(r)[0] for r in found][1:2] == [f"4 px at edges (0, {height - 2}): Background"]
 
@@ -119,7 +119,7 @@ def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, co
     build.scene()
     build.solids()
     build.corner_camera()
-    result_of(results.keep_comparison(compare()))
+    result_of(results.keep_comparison(compare(), bpy.context.scene.session_uid))
     for name in ("first", "second"):
         bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / f"{name}.blend"))
         assert results.latest(Kind.COMPARISON, bpy.context.scene).regions is not None
@@ -130,13 +130,18 @@ def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, co
     assert results.latest(Kind.COMPARISON, bpy.context.scene) is None
 
 
-def test_the_result_follows_its_scene_and_not_a_name(build, compare):
+def test_the_result_follows_its_scene_and_not_a_name(build, monkeypatch):
     scene = build.scene()
     build.solids()
     build.corner_camera()
-    name = scene.name
-    result_of(results.keep_comparison(compare()))
-    scene.name = "Renamed"
+    name, keep = scene.name, results.keep_comparison
+
+    def renamed_before(*args):
+        scene.name = "Renamed"
+        return keep(*args)
+
+    monkeypatch.setattr(results, "keep_comparison", renamed_before)
+    bpy.ops.reference_tracer.compare()
     other = bpy.data.scenes.new(name)
     assert results.latest(Kind.COMPARISON, scene)
     assert results.latest(Kind.COMPARISON, other) is None
@@ -185,7 +190,7 @@ def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, c
     build.solids()
     build.corner_camera()
     first, second = compare(), compare()
-    work = results.keep_comparison(second)
+    work = results.keep_comparison(second, bpy.context.scene.session_uid)
     next(work)
     work.close()
     assert not named()
@@ -194,7 +199,7 @@ def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, c
         (replace(first, diagnosis=None), first),  # of the same pictures
         (second, None),
     ):
-        work = results.keep_comparison(found)
+        work = results.keep_comparison(found, bpy.context.scene.session_uid)
         if found is first:
             result_of(work)
         next(work, None)

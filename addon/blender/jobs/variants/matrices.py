@@ -36,7 +36,7 @@ def variants(origin: Origin) -> Iterator[Variant]:
     yield from _instances(origin)
 
 
-def without_scale(matrix: Any) -> Any:
+def without_scale(matrix: Matrix) -> Matrix:
     """Return the place and the rotation of a matrix of Blender's, as it takes them apart."""
     place, rotation, _ = matrix.decompose()
     return Matrix.LocRotScale(place, rotation, None)
