@@ -7,9 +7,10 @@ leaves the latter as they are.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -29,9 +30,10 @@ from ..tracer.nearest import plan
 from ..tracer.progress import Work
 from .seen import Trees
 
+T = TypeVar("T")
+
 SAMPLE = 512  # sampled pixels of each kind
 FEW = 128  # those of the small sample, which comes first
-DENSE = 1 << 12  # pixels: more are traced as a picture is, fewer through trees
 SEED = 27
 LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 WORTH = 0.2  # of the unexplained pixels: a guess that settles fewer is dropped
@@ -69,6 +71,13 @@ class Evidence:
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # a cache that faults share
     trees: Trees = field(default_factory=Trees)
+
+    def once(self, key: str, make: Callable[[], T]) -> T:
+        """Return what several faults need, made once."""
+        if key not in self.known:
+            self.known[key] = make()
+        found: T = self.known[key]
+        return found
 
     @cached_property
     def unexplained(self) -> Bools:
@@ -149,12 +158,6 @@ class Evidence:
         """Trace a scene in n pixels, by row and column, or in the sampled ones."""
         rows, columns = self.sample if at is None else at
         r = scene.camera.region
-        if len(rows) > DENSE:
-            wanted = np.zeros(self.unexplained.shape, bool)
-            wanted[rows, columns] = True
-            made = yield from plan(scene, SOUND, 0.0)
-            probe = yield from Probe.of(made, r, wanted.ravel())
-            return (yield from probe.trace())
         rays = camera_rays(scene.camera, columns + r.x0 + 0.5, rows + r.y0 + 0.5)
         return (yield from self.trees.trace(scene, rays))
 

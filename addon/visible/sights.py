@@ -11,13 +11,10 @@ import numpy as np
 from ..arrays import Floats, Index
 from ..certified.ladder import Ladder
 from ..certified.sweep.depth_buffer import ROUNDING, nearness
-from ..methods import Method
-from ..rendering import trace
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, Hits, Statistics
 from ..tracer.progress import result_of
-from ..tracer.settings import Settings
 from ..tracer.vector import spread
 from ..tracer.world import Pairs, WorldTriangles
 from .faces import Faces
@@ -33,11 +30,10 @@ class Centres:
     TOP the nearness that hides what is farther in all of a cell, -inf where none does.
     """
 
-    def __init__(self, scene: Scene, faces: Faces) -> None:
+    def __init__(self, scene: Scene, faces: Faces, hits: Hits) -> None:
         camera = scene.camera
         region = camera.region
         shape = region.height, region.width
-        hits = trace(scene, Settings(method=Method.CERTIFIED))
         self.corner = region.x0 - 0.5, region.y0 - 0.5
         self.size = region.width, region.height
         name: Index = face_numbers(faces, hits)

@@ -8,9 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Bools, Bytes, Floats, Index, parts
-from ..certified.arithmetic import sound
+from ..certified.arithmetic import sound_steps
+from ..methods import Method
+from ..rendering import hits as trace_hits
 from ..scene import Scene, SceneError
-from ..tracer.hits import NOTHING
+from ..tracer.hits import NOTHING, Hits, Statistics
+from ..tracer.progress import Progress, Work, result_of
+from ..tracer.settings import Settings
 from ..tracer.vector import spread
 from .faces import Faces
 from .hiding import Cells, behind_planes, covers, reached, surely_in
@@ -53,9 +57,13 @@ class Visible:
     start: Index
 
 
-@sound
-@np.errstate(all="ignore")
 def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
+    """Return what :func:`steps` decides."""
+    return result_of(steps(scene, limit, work))
+
+
+@sound_steps
+def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]:
     """Decide which faces of a scene its camera sees.
 
     Parameters
@@ -76,9 +84,13 @@ def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
             f"Camera '{camera.name}' is {camera.projection.name}: which faces are seen is decided "
             "for perspective and orthographic cameras"
         )
+    yield Progress(None, "tracing the pixels' centres")
+    hits = yield from trace_hits(scene, Settings(method=Method.CERTIFIED), Statistics())
+    yield Progress(None, "dividing the film")
     faces = Faces(scene)
-    search = _Search(scene, faces, limit, work)
-    search.run()
+    yield None
+    search = _Search(scene, faces, hits, limit, work)
+    yield from search.steps()
     seen = np.flatnonzero(search.seen == SEEN)
     behind = np.zeros(faces.count, bool)
     behind[seen] = faces.turn(seen) > 0
@@ -116,7 +128,7 @@ class _Items:
 class _Search:
     """Finds a witness of each face, or proves in ever smaller cells that it is hidden."""
 
-    def __init__(self, scene: Scene, faces: Faces, limit: float, work: int) -> None:
+    def __init__(self, scene: Scene, faces: Faces, hits: Hits, limit: float, work: int) -> None:
         self._faces = faces
         self._limit = limit
         self._work = work
@@ -124,7 +136,7 @@ class _Search:
         self.seen[faces.may_show] = UNDECIDED
         self.witness = np.full((2, faces.count), np.nan)
         self.area = np.zeros(faces.count)
-        self._centres = Centres(scene, faces)
+        self._centres = Centres(scene, faces, hits)
         self._enter(*self._centres.witnesses(scene))
         self._scene = scene
 
@@ -132,10 +144,11 @@ class _Search:
         self.seen[face] = SEEN
         self.witness[:, face] = at
 
-    def run(self) -> None:
+    def steps(self) -> Work[None]:
         """Decide every face, from the largest cells to the smallest."""
         faces = self._faces
         self._cover_cells()
+        yield None
         some = np.flatnonzero(self.seen == UNDECIDED)
         level, ends = start_cells(faces, some, self._centres.corner)
         items = _Items(some[:0], np.zeros((2, 0), np.int64))
@@ -143,7 +156,7 @@ class _Search:
         for now in range(TOP, _DEEPEST - 1, -1):
             own = np.flatnonzero(level == now)
             items = items.divided().joined([_cells_of(some[own], ends[..., own])])
-            items = self._in_parts(self._not_hidden, items, now)
+            items = yield from self._in_parts(self._not_hidden, items, now)
             if now == 0:
                 items = items.take(faces.turn(items.face) != 0)  # edge-on, no ray crosses it
                 # No ray sees another face than these.
@@ -151,7 +164,7 @@ class _Search:
                 self._sights = Sights(self._scene, faces, open_, self._centres.corner)
             if now <= 0:
                 self._work -= len(items.face)
-                items = self._in_parts(self._look_closer, items, now)
+                items = yield from self._in_parts(self._look_closer, items, now)
                 items = items.take(self.seen[items.face] != SEEN)
                 given_up = self._given_up(items, now)
                 left[items.face[given_up]] = True
@@ -159,9 +172,13 @@ class _Search:
         self.seen[(self.seen == UNDECIDED) & ~left] = HIDDEN
         self.area[self.seen != UNDECIDED] = 0
 
-    def _in_parts(self, work: Callable[[_Items, int], _Items], items: _Items, level: int) -> _Items:
-        size = len(items.face)
-        done = [work(items.take(part), level) for part in parts(size, _TOGETHER)]
+    def _in_parts(
+        self, work: Callable[[_Items, int], _Items], items: _Items, level: int
+    ) -> Work[_Items]:
+        done = []
+        for part in parts(len(items.face), _TOGETHER):
+            done.append(work(items.take(part), level))
+            yield None
         return items.take(slice(0)).joined(done)
 
     def _cells(self, items: _Items, level: int) -> Cells:

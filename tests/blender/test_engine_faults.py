@@ -98,25 +98,21 @@ def test_comparing_it_names_what_is_wrong(fault, scene, compare):
 @pytest.mark.parametrize(
     "kind", [RuntimeError, KeyError, MemoryError, ZeroDivisionError, SceneError]
 )
-@pytest.mark.parametrize("where", ["blender.reading.export.export", "rendering.steps"])
+@pytest.mark.parametrize("where", ["blender.reading.export.export", "rendering.steps", "midway"])
 def test_an_exception_fails_the_render(where, kind, scene, no_file, monkeypatch):
-    def fail(*args, **options):
-        raise kind("on purpose")
-
-    monkeypatch.setattr(f"reference_tracer.{where}", fail)
-    with pytest.raises(RuntimeError, match="on purpose"):
-        bpy.ops.render.render(write_still=True)
-
-
-@pytest.mark.parametrize("kind", [RuntimeError, SceneError])
-def test_an_exception_midway_fails_the_render(kind, scene, no_file, monkeypatch):
     real = rendering.steps
 
     def fail(*args, **options):
-        yield next(iter(real(*args, **options)))
         raise kind("on purpose")
 
-    monkeypatch.setattr(rendering, "steps", fail)
+    def begin(*args, **options):
+        yield next(iter(real(*args, **options)))
+        fail()
+
+    if where == "midway":
+        monkeypatch.setattr(rendering, "steps", begin)
+    else:
+        monkeypatch.setattr(f"reference_tracer.{where}", fail)
     with pytest.raises(RuntimeError, match="on purpose"):
         bpy.ops.render.render(write_still=True)
 

@@ -127,14 +127,3 @@ def test_the_picture_is_the_same_without(camera, mode, build, export, keeping_al
     lines = "\n".join(manifest.lines())
     assert not any(f"skipped {e.name} " in lines for e in gone)
     assert f"{sum(e.outside for e in unseen)} instances of {len(unseen)} objects" in lines
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_a_border_leaves_nothing_out(mode, build, export):
-    """The trade traces the whole picture, also where a border is set."""
-    scene = build.scene()
-    build.camera()
-    build.cube("Left", 0.4, location=(-1.2, 0, 0))
-    scene.render.use_border = True
-    scene.render.border_min_x, scene.render.border_max_x = 0.7, 1.0
-    assert len(export.modes[mode]()[0].instances) == 1

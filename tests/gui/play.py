@@ -28,6 +28,7 @@ import interruption_stories
 import lesson_stories
 import page_stories
 import seen_stories
+import select_stories
 import session_stories
 import stories
 import study_stories
@@ -49,6 +50,7 @@ STORIES = {
         lesson_stories,
         page_stories,
         seen_stories,
+        select_stories,
         session_stories,
         study_stories,
         viewport_stories,
@@ -66,7 +68,7 @@ SIZES = {  # of other stories
     "panel": LARGE,
     "second_day": LARGE,
     "tried": (1280, 720, 1.0),
-    **dict.fromkeys(("first_result", "heavy"), (1000, 600, 1.0)),
+    **dict.fromkeys(("first_result", "heavy", "selected"), (1000, 600, 1.0)),
     **dict.fromkeys(("compared_images", "in_images"), SMALL_LARGE),
     **dict.fromkeys(
         (story.__name__ for story in lesson_stories.STORIES),

@@ -14,10 +14,10 @@ from ...scene import Scene
 from ...tracer.progress import Work
 from ..evidence import Evidence, least_with
 from .changes import CHANGES, MOVED, Change
-from .climbing import values_of
 from .fault import Numbers, Values, instances_named
 from .fitting import FINER, MORE, NEARLY
 from .looked import Looked
+from .search import values_of
 
 FIRST = 1 / 4  # of the object's width: the first step
 TRIED = 2  # objects that are fitted
