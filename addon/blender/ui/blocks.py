@@ -1,7 +1,7 @@
 """Shows pictures and texts in data-blocks of Blender's: ours, which no file and no undo step has.
 
-Blender stores no data-block that is marked as runtime data. A picture is packed, so there is nothing
-in it to be saved. Undo takes them away, and they are put back from files of the session's.
+Blender stores no data-block that is marked as runtime data. A picture is packed, so nothing in it
+has to be saved. Undo takes them away, and they are put back from files of the session's.
 """
 
 from __future__ import annotations
