@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 
@@ -35,6 +35,9 @@ from .tracer.progress import Meter, Work, at_once, result_of
 from .tracer.render import Tracer, bands
 from .tracer.settings import Precision, Settings
 from .tracer.world import refused
+
+if TYPE_CHECKING:
+    from reference_tracer_rays.every import Crossings
 
 TraceRays = Callable[[Scene, Rays, Settings, Statistics], Work[Hits]]
 
@@ -128,13 +131,30 @@ def steps(
         yield from loop.steps(scene, chosen, frame, tracer or TRACERS[chosen.method])
 
 
+@overload
+def trace(
+    scene: Scene,
+    settings: Settings | None = None,
+    statistics: Statistics | None = None,
+    rays: Rays | None = None,
+    every: Literal[False] = False,
+) -> Hits: ...
+@overload
+def trace(
+    scene: Scene,
+    settings: Settings | None = None,
+    statistics: Statistics | None = None,
+    rays: Rays | None = None,
+    *,
+    every: Literal[True],
+) -> Crossings: ...
 def trace(
     scene: Scene,
     settings: Settings | None = None,
     statistics: Statistics | None = None,
     rays: Rays | None = None,
     every: bool = False,
-) -> Hits | Any:
+) -> Hits | Crossings:
     """Return what the rays through the centres of the region's pixels meet, and nothing else.
 
     Row by row from the lowest.
@@ -169,7 +189,10 @@ def trace(
             raise SceneError("a ray's origin or direction is not finite")
         if every:
             clip = scene.camera.clip_start, scene.camera.clip_end
-            return result_of(only("rays", "all hits of rays").all_hits(scene, rays, clip))
+            found: Crossings = result_of(
+                only("rays", "all hits of rays").all_hits(scene, rays, clip)
+            )
+            return found
         o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
         rays = replace(rays, origins=o, directions=d)
         return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))
