@@ -8,13 +8,13 @@ every library takes, not only numpy.
 from __future__ import annotations
 
 import json
+import multiprocessing
 import os
-import select
-import signal
 import subprocess
 import sys
 from collections.abc import Generator
 from dataclasses import asdict, dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 from reference_tracer.methods import Method
@@ -37,6 +37,11 @@ class Job:
     camera: str
     method: str
     whole: bool
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether its method is."""
+        return Method(self.method).is_proven
 
 
 def peaks(name: str, cache: Path, jobs: list[Job]) -> Generator[int | None, None, None]:
@@ -85,29 +90,28 @@ def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int |
 
     None if it fails, LATE if it is an unproven method's and takes longer than `longest` seconds.
     """
-    reads, writes = os.pipe()
-    if child := os.fork():
-        os.close(writes)
-        patience = None if Method(job.method).is_proven else longest
-        if not select.select([reads], [], [], patience)[0]:
-            os.kill(child, signal.SIGKILL)
-            os.close(reads)
-            os.waitpid(child, 0)
-            return LATE
-        with os.fdopen(reads) as file:
-            said = file.read()
-        os.waitpid(child, 0)
-        return int(said) if said else None
+    forking = multiprocessing.get_context("fork")
+    reads, writes = forking.Pipe(duplex=False)
+    child = forking.Process(target=_trace, args=(pictures, job, writes))
+    child.start()
+    writes.close()
     try:
-        work, settings = render if job.whole else trace, Settings(job.method)
-        _ = work(pictures[0], settings).t  # pages of libraries come in once they are used
-        before = _peak()
-        result = work(pictures[1], settings)
-        t = result.t  # with the barycentrics, which are found with it, when they are asked for
-        os.write(writes, str(_peak() - before).encode())
-        del result, t
+        found: int = reads.recv() if reads.poll(None if job.is_proven else longest) else LATE
+    except EOFError:
+        return None
     finally:
-        os._exit(0)  # nothing of the parent's is to be cleaned up here
+        child.kill()
+        child.join()
+    return found
+
+
+def _trace(pictures: tuple[Scene, Scene], job: Job, writes: Connection) -> None:
+    work, settings = render if job.whole else trace, Settings(Method(job.method))
+    _ = work(pictures[0], settings).t  # pages of libraries come in once they are used
+    before = _peak()
+    result = work(pictures[1], settings)
+    _ = result.t  # with the barycentrics, which are found with it, when they are asked for
+    writes.send(_peak() - before)
 
 
 def _return_freed() -> None:

@@ -121,7 +121,16 @@ def _compared(
 
 
 def frames_of(scene: Scene) -> range:
-    """Return the frames of a scene's animation."""
+    """Return the frames of a scene's animation.
+
+    Raises
+    ------
+    SceneError
+        If it is playing.
+    """
+    screen = bpy.context.screen
+    if screen and screen.is_animation_playing:
+        raise SceneError("The animation is playing: stop it first.")
     return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
 
 

@@ -22,7 +22,12 @@ Read = tuple[Mesh, int]  # with the number of triangles left out
 
 
 def read_mesh(
-    obj: Object, name: str, with_colors: bool, viewport: bool = False, hiding: bool = True
+    obj: Object,
+    name: str,
+    with_colors: bool,
+    viewport: bool = False,
+    hiding: bool = True,
+    slots: str = "material_index",
 ) -> Read | None:
     """Return the triangles of an evaluated object's mesh, and how many were left out.
 
@@ -37,6 +42,8 @@ def read_mesh(
         Whether it is as the viewport draws it, else as a render does.
     hiding : bool
         Whether what draws it leaves out faces that Edit Mode hides; Cycles draws them.
+    slots : str
+        The attribute of faces that takes the place of the material's slot.
 
     Returns
     -------
@@ -52,22 +59,22 @@ def read_mesh(
             return None
         loops = _integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
         triangles = _integers(mesh.attributes[".corner_vert"].data, "value", 1)[loops]
-        slots = _slots(mesh)
+        numbers = _slots(mesh, slots)
         colors = _corner_colors(mesh, triangles, loops) if with_colors else None
         vertices = _floats(mesh.attributes["position"].data, "vector", 3)
         is_shown = ~_hidden(mesh) if hides else None
     if is_shown is not None and not is_shown.all():
         if not is_shown.any():
             return None
-        triangles, slots = triangles[is_shown], slots[is_shown]
+        triangles, numbers = triangles[is_shown], numbers[is_shown]
         colors = None if colors is None else colors[is_shown]
     vertices, is_kept = drop_non_finite(vertices, triangles)
     left_out = len(is_kept) - int(is_kept.sum())
     if left_out:
         triangles = triangles[is_kept]
-        slots = slots[is_kept]
+        numbers = numbers[is_kept]
         colors = None if colors is None else colors[is_kept]
-    return Mesh(vertices, triangles, slots, colors, name), left_out
+    return Mesh(vertices, triangles, numbers, colors, name), left_out
 
 
 def _hides_faces(obj: Object, viewport: bool) -> bool:
@@ -104,9 +111,9 @@ def _whole_mesh(obj: Object) -> Iterator[Any]:
         obj.to_mesh_clear()
 
 
-def _slots(mesh: Any) -> Integers:
-    """Return each triangle's material slot, (n,)."""
-    attribute = mesh.attributes.get("material_index")
+def _slots(mesh: Any, name: str) -> Integers:
+    """Return what an attribute says of each triangle, (n,), or its material slot."""
+    attribute = mesh.attributes.get(name)
     if not attribute:  # all show the first
         return np.zeros(len(mesh.loop_triangles), np.int32)
     if (attribute.domain, attribute.data_type) == ("FACE", "INT"):

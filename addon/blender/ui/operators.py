@@ -109,11 +109,8 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         return not is_still and super().poll(context)
 
     def begin(self, context: Context) -> Work[Any]:
-        from ...scene import SceneError
         from ..jobs import animation
 
-        if context.screen and context.screen.is_animation_playing:
-            raise SceneError("The animation is playing: stop it, then compare it.")
         self._folder = self.folder() or results.session_folder() / "animation"
         self._frames = animation.frames_of(context.scene)
         return animation.compare_frames(str(self._folder), self._frames)
