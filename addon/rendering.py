@@ -189,10 +189,7 @@ def trace(
             raise SceneError("a ray's origin or direction is not finite")
         if every:
             clip = scene.camera.clip_start, scene.camera.clip_end
-            found: Crossings = result_of(
-                only("rays", "all hits of rays").all_hits(scene, rays, clip)
-            )
-            return found
+            return result_of(only("rays", "all hits of rays").all_hits(scene, rays, clip))
         o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
         rays = replace(rays, origins=o, directions=d)
         return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))
