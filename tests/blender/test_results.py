@@ -15,6 +15,8 @@ from reference_tracer.causes.cause import AGREE, UNEXPLAINED
 from reference_tracer.causes.checks.edges import EDGE
 from reference_tracer.tracer.progress import result_of
 
+from .scenes import save
+
 PICTURE = np.ones((4, 6, 4), np.float32)
 
 
@@ -64,7 +66,7 @@ def test_an_image_that_the_user_saved_is_the_users(tmp_path):
 
 def test_an_image_whose_path_blender_has_made_relative_is_still_ours(tmp_path):
     blocks.show(blocks.TRACED, PICTURE)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    save(tmp_path / "saved.blend")
     bpy.ops.file.make_paths_relative()
     assert blocks.ours(blocks.TRACED).filepath.startswith("//")
     blocks.show(blocks.TRACED, PICTURE)
@@ -87,9 +89,7 @@ def test_an_image_that_the_user_packed_is_written_again():
 
 
 def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     own = compare()
     cause = own.causes.cause.copy()
     cause[:] = AGREE
@@ -116,12 +116,10 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
 
 
 def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, compare, tmp_path):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     result_of(results.keep_comparison(compare(), bpy.context.scene.session_uid))
     for name in ("first", "second"):
-        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / f"{name}.blend"))
+        save(tmp_path / f"{name}.blend")
         assert results.latest(Kind.COMPARISON, bpy.context.scene).regions is not None
     with pytest.raises(RuntimeError, match="Cannot read"):
         bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "missing.blend"))
@@ -131,9 +129,7 @@ def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, co
 
 
 def test_the_result_follows_its_scene_and_not_a_name(build, monkeypatch):
-    scene = build.scene()
-    build.solids()
-    build.corner_camera()
+    scene = build.room()
     name, keep = scene.name, results.keep_comparison
 
     def renamed_before(*args):
@@ -154,13 +150,13 @@ def test_a_file_that_is_saved_has_none_of_it(tmp_path):
     packed["reference_tracer"] = packed.name
     packed.pack()
     packed.use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     before = path.stat().st_size
     for name in (blocks.DIFFERENCE, blocks.TRACED):
         blocks.show(name, np.ones((400, 400, 4), np.float32)).use_fake_user = True
     blocks.ours(blocks.TRACED).pack()
     blocks.show_text("Reference Tracer Pixel", 1000 * "line\n").use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     assert path.stat().st_size <= before + 100  # 100: what is packed is not of the same bytes
     bpy.ops.wm.open_mainfile(filepath=str(path))
     assert named() == ["Reference Tracer Difference"] and not bpy.data.texts
@@ -186,9 +182,7 @@ def test_undo_is_the_users():
 
 
 def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     first, second = compare(), compare()
     work = results.keep_comparison(second, bpy.context.scene.session_uid)
     next(work)
