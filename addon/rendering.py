@@ -173,8 +173,15 @@ def trace(
         o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
         rays = replace(rays, origins=o, directions=d)
         return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))
-    trace_band = result_of(TRACERS[method](scene, settings, 0.0, statistics))
-    found = [result_of(trace_band(band, 0.0, 0.0)) for band in bands(scene.camera, settings)]
+    return result_of(hits(scene, settings, statistics))
+
+
+def hits(scene: Scene, settings: Settings, statistics: Statistics) -> Work[Hits]:
+    """Find what the rays through the centres of the region's pixels meet, by a known method."""
+    trace_band = yield from TRACERS[settings.method](scene, settings, 0.0, statistics)
+    found = []
+    for band in bands(scene.camera, settings):
+        found.append((yield from trace_band(band, 0.0, 0.0)))
     return Hits.joined(found)
 
 

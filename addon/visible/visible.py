@@ -10,11 +10,10 @@ import numpy as np
 from ..arrays import Bools, Bytes, Floats, Index, parts
 from ..certified.arithmetic import sound_steps
 from ..methods import Method
-from ..rendering import TRACERS
+from ..rendering import hits as trace_hits
 from ..scene import Scene, SceneError
 from ..tracer.hits import NOTHING, Hits, Statistics
 from ..tracer.progress import Progress, Work, result_of
-from ..tracer.render import bands
 from ..tracer.settings import Settings
 from ..tracer.vector import spread
 from .faces import Faces
@@ -86,7 +85,7 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
             "for perspective and orthographic cameras"
         )
     yield Progress(None, "tracing the pixels' centres")
-    hits = yield from _hits(scene)
+    hits = yield from trace_hits(scene, Settings(method=Method.CERTIFIED), Statistics())
     yield Progress(None, "dividing the film")
     faces = Faces(scene)
     yield None
@@ -102,16 +101,6 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
         behind,
         faces.start,
     )
-
-
-def _hits(scene: Scene) -> Work[Hits]:
-    """Trace the rays through the pixels' centres."""
-    settings = Settings(method=Method.CERTIFIED)
-    trace_band = yield from TRACERS[Method.CERTIFIED](scene, settings, 0.0, Statistics())
-    found = []
-    for band in bands(scene.camera, settings):
-        found.append((yield from trace_band(band, 0.0, 0.0)))
-    return Hits.joined(found)
 
 
 @dataclass(frozen=True, eq=False)

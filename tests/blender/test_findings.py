@@ -107,7 +107,11 @@ def test_a_copy_is_offered_below_its_own_finding_alone(seen, compare, monkeypatc
         case = BY_NAME[name].assume(case, guess)
         frame = render(case.scene)
         told.append(Told(BY_NAME[name], guess, 9, 4, 9, 0, frame, comparison.picture))
-    result_of(results.keep_comparison(replace(comparison, diagnosis=Diagnosis(tuple(told)))))
+    result_of(
+        results.keep_comparison(
+            replace(comparison, diagnosis=Diagnosis(tuple(told))), bpy.context.scene.session_uid
+        )
+    )
     apply, show = "copy_camera", "show_put_right"
     other = camera.copy()
     scene.collection.objects.link(other)

@@ -90,7 +90,7 @@ def test_what_changes_no_picture_is_not_shown_put_right(rendered_png, solids):
     found = compared_with(bpy.data.images.load(str(path)))
     same = replace(found.diagnosis.told[0], frame=found.frame)
     found = replace(found, diagnosis=replace(found.diagnosis, told=(same,)))
-    assert result_of(results.keep_comparison(found)).put_right == {}
+    assert result_of(results.keep_comparison(found, bpy.context.scene.session_uid)).put_right == {}
     with pytest.raises(RuntimeError, match="No picture shows it put right: the focal length is"):
         OPS.show_put_right(number=0)
 

@@ -36,9 +36,6 @@ def store(mesh: Any, name: str, values: Integers) -> None:
 def select_faces(mesh: Any, chosen: Bools) -> None:
     """Select faces of a mesh in Edit Mode, and no others; what is hidden there stays so."""
     edited = bmesh.from_edit_mesh(mesh)
-    for face in edited.faces:
-        face.select_set(False)
     for face, is_chosen in zip(edited.faces, chosen.tolist(), strict=True):
-        if is_chosen and not face.hide:
-            face.select_set(True)
+        face.select_set(is_chosen and not face.hide)
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.types import Image, Text
 
 from .areas import areas
 
@@ -30,7 +31,7 @@ _made: dict[str, int] = {}  # from these: the latest one's `session_uid`
 _seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
 
 
-def show(name: str, color: Colors) -> Any:
+def show(name: str, color: Colors) -> Image:
     """Show linear RGBA (h, w, 4) as our image of this name, in place of the one that there is."""
     import numpy as np
 
@@ -101,7 +102,7 @@ def _blocks(name: str) -> Any:
     return bpy.data.images if linear else bpy.data.texts
 
 
-def show_text(name: str, content: str) -> Any:
+def show_text(name: str, content: str) -> Text:
     """Put a text into our text of this name, and show it in a text editor."""
     path = Path(bpy.app.tempdir, f"{name}.md")
     path.write_text(content, encoding="utf-8")

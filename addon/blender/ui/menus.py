@@ -12,6 +12,7 @@ from xml.sax.saxutils import quoteattr
 import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
+from bpy.types import Context, Header, Menu
 
 from .export_camera import REFERENCE_TRACER_OT_export_camera
 from .long_work import named
@@ -37,9 +38,7 @@ class REFERENCE_TRACER_PT_presets(PresetPanel, bpy.types.Panel):
 
 
 @named
-class REFERENCE_TRACER_OT_preset_add(  # type: ignore[misc]  # Blender's own base is no operator
-    AddPresetBase, bpy.types.Operator
-):
+class REFERENCE_TRACER_OT_preset_add(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Reference Tracer Preset"
     bl_description = "Store the panel's settings under a name, or remove the chosen preset"
     preset_menu = REFERENCE_TRACER_PT_presets.__name__
@@ -55,11 +54,11 @@ class REFERENCE_TRACER_OT_preset_add(  # type: ignore[misc]  # Blender's own bas
         Path(filepath).write_text(f"<bpy><{_GROUP} {' '.join(said)} /></bpy>\n", encoding="utf-8")
 
 
-def _add(menu: Any, operator: str, text: str | None = None) -> None:
+def _add(menu: Menu, operator: str, text: str | None = None) -> None:
     menu.layout.operator(f"reference_tracer.{operator}", text=text)
 
 
-def _draw_in_render(menu: Any, context: Any) -> None:
+def _draw_in_render(menu: Menu, context: Context) -> None:
     menu.layout.separator()
     _add(menu, "compare")
     _add(menu, "compare_all")
@@ -69,27 +68,27 @@ def _draw_in_render(menu: Any, context: Any) -> None:
     _add(menu, "open_page")
 
 
-def _draw_in_image(menu: Any, context: Any) -> None:
+def _draw_in_image(menu: Menu, context: Context) -> None:
     menu.layout.separator()
     _add(menu, "inspect")
     _add(menu, "save_pixel", "Save Pixel...")
     _add(menu, "open_page")
 
 
-def _draw_in_export(menu: Any, context: Any) -> None:
+def _draw_in_export(menu: Menu, context: Context) -> None:
     menu.layout.separator()
     _add(menu, "export", "Reference Tracer (.npz)")
     text = "Camera for Other Programs (.json, .txt, .gltf, .xml)"
     menu.layout.operator(REFERENCE_TRACER_OT_export_camera.bl_idname, text=text)
 
 
-def _draw_in_header(header: Any, context: Any) -> None:
+def _draw_in_header(header: Header, context: Any) -> None:
     if chosen(context.space_data):
         draw_in_header(header.layout, context)
     draw_switch(header.layout.row(align=True), context.space_data)
 
 
-def _draw_in_new(menu: Any, context: Any) -> None:
+def _draw_in_new(menu: Menu, context: Context) -> None:
     menu.layout.separator()
     menu.layout.menu(REFERENCE_TRACER_MT_samples.__name__)
 

@@ -13,7 +13,6 @@ from ...wording import say
 from .long_work import LongWork, named
 
 NAME = "camera_sees"
-FRAMES = "camera_sees_frames"
 
 
 @named
@@ -41,8 +40,7 @@ class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
     )
     attribute: BoolProperty(
         name="Face Attribute",
-        description="Store camera_sees with the faces: 0 hidden, 1 seen, 2 undecided; of all "
-        "frames camera_sees_frames, too: in how many a face is seen",
+        description="Store camera_sees with the faces, too: 0 hidden, 1 seen, 2 undecided",
         options={"SKIP_SAVE"},
     )
 
@@ -55,45 +53,39 @@ class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
         return fits and super().poll(context)
 
     def begin(self, context: Any) -> Work[Any]:
-        from ...scene import SceneError
         from ..jobs.animation import frames_of
-        from ..jobs.seen import camera_sees
+        from ..jobs.seen import CameraSees
 
-        if context.screen and context.screen.is_animation_playing:
-            raise SceneError("The animation is playing: stop it, then select.")
         edited = context.mode == "EDIT_MESH"
         objects = context.objects_in_mode if edited else context.view_layer.objects
-        own = {o.data for o in objects if o.type == "MESH" and not o.data.library}
-        self._meshes = own if edited or self.attribute else set()
-        return camera_sees(context, self._meshes, frames_of(context.scene) if self.frames else ())
+        faces = edited or self.attribute
+        own = {o.data for o in objects if faces and o.type == "MESH" and not o.data.library}
+        return CameraSees(context, own).look(frames_of(context.scene) if self.frames else ())
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        """Select, store the attribute, and say how many there are."""
+        """Select, store the attribute, and say what is seen."""
         from ...visible import HIDDEN, SEEN, UNDECIDED
         from ..jobs.faces import select_faces, store
+        from ..jobs.seen import RANKS
 
-        wanted = HIDDEN if self.hidden else SEEN
+        wanted = int(RANKS[HIDDEN if self.hidden else SEEN])
         if self.attribute:
-            for mesh in self._meshes:
-                store(mesh, NAME, result.states(mesh))
-                if self.frames:
-                    store(mesh, FRAMES, result.frames[mesh.name_full])
+            for mesh, ranks in result.faces.items():
+                store(mesh, NAME, RANKS[ranks])
         if context.mode == "EDIT_MESH":
             context.tool_settings.mesh_select_mode = (False, False, True)
             every = []
-            for mesh in self._meshes:
-                states = result.states(mesh)
-                select_faces(mesh, states == wanted)
-                every += states.tolist()
-            said = rpt_("{} of {} faces selected, {} undecided")
+            for mesh, ranks in result.faces.items():
+                select_faces(mesh, ranks == wanted)
+                every += ranks.tolist()
+            said = rpt_("{} faces seen, {} hidden, {} undecided")
         else:
-            objects = {obj: result.state(obj) for obj in context.view_layer.objects}
-            for obj, state in objects.items():
-                obj.select_set(state == wanted)
-            every = [state for state in objects.values() if state is not None]
-            said = rpt_("{} of {} objects selected, {} undecided")
+            for obj in context.view_layer.objects:
+                obj.select_set(result.objects.get(obj.name_full) == wanted)
+            every = [*result.objects.values()]
+            said = rpt_("{} objects seen, {} hidden, {} undecided")
         say(*result.notes)
-        counts = every.count(wanted), len(every), every.count(UNDECIDED)
+        counts = (every.count(RANKS[state]) for state in (SEEN, HIDDEN, UNDECIDED))
         text = "; ".join([said.format(*counts), *result.notes])
         return "WARNING" if result.notes else "INFO", text
 
