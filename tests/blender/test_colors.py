@@ -61,8 +61,9 @@ def collection_instances(build):
     square = build.square("Plain", 1, link=False, location=(0, -0.9, 0.4))
     collection = build.collection("Shown", cube, square)
     for x, color in ((-1.5, (0.9, 0.6, 0.1, 1)), (1.5, (0.3, 0.2, 0.7, 1))):
-        empty = build.empty(f"Empty {x}", location=(x, 0, 0), scale=(np.sign(x), 1, 1), color=color)
-        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        build.instances(
+            f"Empty {x}", collection, location=(x, 0, 0), scale=(np.sign(x), 1, 1), color=color
+        )
 
 
 def node_instances(build):

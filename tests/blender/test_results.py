@@ -15,6 +15,8 @@ from reference_tracer.causes.cause import AGREE, UNEXPLAINED
 from reference_tracer.causes.checks.edges import EDGE
 from reference_tracer.tracer.progress import result_of
 
+from .scenes import save
+
 PICTURE = np.ones((4, 6, 4), np.float32)
 
 
@@ -50,25 +52,17 @@ def test_an_image_of_the_users_is_left_alone(tmp_path):
 
 
 def test_an_image_that_the_user_saved_is_the_users(tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
     saved = blocks.show(blocks.TRACED, PICTURE)
-    assert saved.pixels[0] == 1
-    saved.filepath_raw = str(tmp_path / "kept.exr")
-    saved.save()
+    with bpy.context.temp_override(edit_image=saved):
+        bpy.ops.image.save_as()  # where it proposes to: beside the .blend
+    assert Path(bpy.path.abspath(saved.filepath)) == tmp_path / blocks.TRACED
     for _ in range(3):
         again = blocks.show(blocks.TRACED, 0 * PICTURE)
-    assert named() == [blocks.TRACED, "kept.exr"] and again.pixels[0] == 0
+    assert named() == [blocks.TRACED, f"{blocks.TRACED}.001"] and again.pixels[0] == 0
     saved.reload()
     blocks.remove(blocks.TRACED)
     assert saved.pixels[0] == 1 and not saved.is_runtime_data and not saved.get(blocks.MARK)
-
-
-def test_an_image_whose_path_blender_has_made_relative_is_still_ours(tmp_path):
-    blocks.show(blocks.TRACED, PICTURE)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
-    bpy.ops.file.make_paths_relative()
-    assert blocks.ours(blocks.TRACED).filepath.startswith("//")
-    blocks.show(blocks.TRACED, PICTURE)
-    assert named() == [blocks.TRACED]
 
 
 def test_twenty_rounds_take_the_memory_of_one():
@@ -80,16 +74,8 @@ def test_twenty_rounds_take_the_memory_of_one():
     assert used[-1] - used[1] < 64e6 and named() == [blocks.TRACED]
 
 
-def test_an_image_that_the_user_packed_is_written_again():
-    blocks.show(blocks.TRACED, PICTURE).pack()
-    again = blocks.show(blocks.TRACED, 0 * PICTURE)
-    assert named() == [blocks.TRACED] and again.pixels[0] == 0
-
-
 def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     own = compare()
     cause = own.causes.cause.copy()
     cause[:] = AGREE
@@ -116,12 +102,10 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
 
 
 def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, compare, tmp_path):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     result_of(results.keep_comparison(compare(), bpy.context.scene.session_uid))
     for name in ("first", "second"):
-        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / f"{name}.blend"))
+        save(tmp_path / f"{name}.blend")
         assert results.latest(Kind.COMPARISON, bpy.context.scene).regions is not None
     with pytest.raises(RuntimeError, match="Cannot read"):
         bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "missing.blend"))
@@ -131,9 +115,7 @@ def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, co
 
 
 def test_the_result_follows_its_scene_and_not_a_name(build, monkeypatch):
-    scene = build.scene()
-    build.solids()
-    build.corner_camera()
+    scene = build.room()
     name, keep = scene.name, results.keep_comparison
 
     def renamed_before(*args):
@@ -154,13 +136,13 @@ def test_a_file_that_is_saved_has_none_of_it(tmp_path):
     packed["reference_tracer"] = packed.name
     packed.pack()
     packed.use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     before = path.stat().st_size
     for name in (blocks.DIFFERENCE, blocks.TRACED):
         blocks.show(name, np.ones((400, 400, 4), np.float32)).use_fake_user = True
     blocks.ours(blocks.TRACED).pack()
     blocks.show_text("Reference Tracer Pixel", 1000 * "line\n").use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     assert path.stat().st_size <= before + 100  # 100: what is packed is not of the same bytes
     bpy.ops.wm.open_mainfile(filepath=str(path))
     assert named() == ["Reference Tracer Difference"] and not bpy.data.texts
@@ -186,9 +168,7 @@ def test_undo_is_the_users():
 
 
 def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     first, second = compare(), compare()
     work = results.keep_comparison(second, bpy.context.scene.session_uid)
     next(work)

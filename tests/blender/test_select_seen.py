@@ -51,7 +51,7 @@ def test_objects_of_which_any_face_is_seen(looking, build):
     build.cube("Front", location=(0, 0, 0))
     build.cube("Behind", size=1, location=(0, 0, -3))
     build.cube("Beside", location=(50, 0, 0))
-    build.link(bpy.data.objects.new("Light", bpy.data.lights.new("Light", "POINT")))
+    build.object("Light", bpy.data.lights.new("Light", "POINT"))
     assert select_seen() == {"FINISHED"}
     assert selected() == ["Front"]
     select_seen(hidden=True)
@@ -62,7 +62,7 @@ def test_an_instance_is_of_what_instances_it(looking, build):
     inner = bpy.data.collections.new("Inner")
     cube = build.cube("Cube", link=False)
     inner.objects.link(cube)
-    empty = build.link(bpy.data.objects.new("Empty", None))
+    empty = build.object("Empty", None)
     empty.instance_type, empty.instance_collection = "COLLECTION", inner
     select_seen()
     assert selected() == ["Empty"]
