@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 
@@ -35,6 +35,9 @@ from .tracer.progress import Meter, Work, at_once, result_of
 from .tracer.render import Tracer, bands
 from .tracer.settings import Precision, Settings
 from .tracer.world import refused
+
+if TYPE_CHECKING:
+    from reference_tracer_rays.every import Crossings
 
 TraceRays = Callable[[Scene, Rays, Settings, Statistics], Work[Hits]]
 
@@ -128,13 +131,30 @@ def steps(
         yield from loop.steps(scene, chosen, frame, tracer or TRACERS[chosen.method])
 
 
+@overload
+def trace(
+    scene: Scene,
+    settings: Settings | None = None,
+    statistics: Statistics | None = None,
+    rays: Rays | None = None,
+    every: Literal[False] = False,
+) -> Hits: ...
+@overload
+def trace(
+    scene: Scene,
+    settings: Settings | None = None,
+    statistics: Statistics | None = None,
+    rays: Rays | None = None,
+    *,
+    every: Literal[True],
+) -> Crossings: ...
 def trace(
     scene: Scene,
     settings: Settings | None = None,
     statistics: Statistics | None = None,
     rays: Rays | None = None,
     every: bool = False,
-) -> Hits | Any:
+) -> Hits | Crossings:
     """Return what the rays through the centres of the region's pixels meet, and nothing else.
 
     Row by row from the lowest.

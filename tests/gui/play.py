@@ -7,6 +7,7 @@ opened anew, as if Blender had been started with it.
 """
 
 import json
+import os
 import sys
 import time
 import traceback
@@ -59,6 +60,7 @@ STORIES = {
 }
 
 
+BROKEN = 3  # how Blender ends where this script is, as conftest.py asks for
 # Of the window, in pixels, and the scale of all in it: most of the time goes into drawing it, in
 # software. What is half as large is laid out alike.
 LARGE = 1600, 900, 1.0
@@ -80,10 +82,10 @@ SIZES = {  # of other stories
 def played(names):
     """Play one story after another, each until its end or its first error."""
     for name in names:
-        scene, story = STORIES[name]
         began, cpu = time.monotonic(), time.process_time()
         noted.clear()
         try:
+            scene, story = STORIES[name]
             yield from opened(scene)
             *size, bpy.context.preferences.view.ui_scale = SIZES.get(name, SMALL)
             bpy.context.preferences.is_dirty = False
@@ -136,8 +138,12 @@ going = all_played()
 
 
 def go():
-    """Go on with the story, and say when to come again."""
-    return next(going, None)
+    """Go on with the story, and say when to come again; what no story catches ends Blender."""
+    try:
+        return next(going, None)
+    except Exception:
+        traceback.print_exc()
+        os._exit(BROKEN)
 
 
 bpy.app.timers.register(go, first_interval=2, persistent=True)

@@ -1,7 +1,7 @@
 """Shows pictures and texts in data-blocks of Blender's: ours, which no file and no undo step has.
 
-Blender stores no data-block that is marked as runtime data. A picture is shown from a file of the
-session's, so there is nothing in it to be saved. Undo takes them away, and they are put back.
+Blender stores no data-block that is marked as runtime data. A picture is packed, so nothing in it
+has to be saved. Undo takes them away, and they are put back from files of the session's.
 """
 
 from __future__ import annotations
@@ -59,6 +59,8 @@ def _loaded(name: str) -> Any:
     if linear:
         block = bpy.data.images.load(path)
         block.colorspace_settings.name = linear
+        block.pack()
+        block.filepath_raw = ""  # so Save As proposes the folder of the .blend, not the session's
     else:
         block = bpy.data.texts.load(path, internal=True)
     _give_up(name, block)
