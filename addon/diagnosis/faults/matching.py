@@ -177,25 +177,17 @@ def _followed(
     return moved, wrong, steps
 
 
-def _starts(traced: Floats, shown: Floats) -> list[Floats]:
-    """Return by how many pixels, right and up, a picture (h, w) may be moved: (2,) each.
+def _starts(traced: Floats, shown: Floats) -> Floats:
+    """Return by how many pixels, right and up, a picture (h, w) may be moved, (k, 2).
 
-    Beside none, it is where the phases of both correlate (Kuglin and Hines 1975), if more is alike
-    there.
+    Beside none, it is where the phases of both correlate (Kuglin and Hines 1975).
     """
     both = np.conj(np.fft.rfft2(traced)) * np.fft.rfft2(shown)
     alike = np.fft.irfft2(both / np.maximum(np.abs(both), np.finfo(float).tiny), traced.shape)
-    place = np.unravel_index(np.argmax(alike), alike.shape)
-    up, right = ((k + n // 2) % n - n // 2 for k, n in zip(place, traced.shape, strict=True))
-    own = np.roll(traced, (up, right), axis=(0, 1))[_inner(up), _inner(right)]
-    there = np.abs(own - shown[_inner(up), _inner(right)]) <= NEAR
-    is_better = there.mean() > (np.abs(traced - shown) <= NEAR).mean()
-    return [np.zeros(2), np.array((right, up), float)] if is_better else [np.zeros(2)]
-
-
-def _inner(moved: int) -> slice:
-    """Return the rows or columns that are in both pictures if one is moved."""
-    return slice(max(moved, 0), min(moved, 0) or None)
+    size = np.array(traced.shape)
+    place = np.array(np.unravel_index(np.argmax(alike), alike.shape))
+    up, right = (place + size // 2) % size - size // 2
+    return np.array([*dict.fromkeys([(0, 0), (int(right), int(up))])], np.float64)
 
 
 def _coarsest(where: Bools) -> int:
