@@ -90,6 +90,19 @@ def test_faces_in_edit_mode_as_they_are_edited(looking, build):
     assert len(inside) == 5 and any(inside)  # through the hole: the bottom, from behind
 
 
+def test_faces_of_a_shape_key_that_is_edited(looking, build):
+    """Edit Mode shows it alone; a copy of the object has the mean of all keys."""
+    cube = build.cube("Cube")
+    cube.shape_key_add(name="Basis")
+    key = cube.shape_key_add(name="Moved")
+    for point in key.data:
+        point.co.x += 0.5
+    cube.active_shape_key_index, key.value = 1, 0.25
+    edit(cube)
+    select_seen()
+    assert faces(cube)[upwards(cube).index(True)] and sum(faces(cube)) == 1
+
+
 def test_the_attribute_is_stored_in_both_modes_and_no_other_is_written_over(looking, build):
     cube = build.cube("Cube")
     expected = [int(up) for up in upwards(cube)]
