@@ -77,9 +77,15 @@ def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> Op
 
 
 def open_frames(
-    path: Path, choice: Choice, named: str, whole: bool = False
+    path: Path, choice: Choice, named: str | None, whole: bool = False
 ) -> Iterator[tuple[int, OpenedFile]]:
-    """Yield the frames that are named of a .blend, which is opened once, as :func:`open_file`."""
+    """Yield the frames that are named of a .blend, opened once, as :func:`open_file`.
+
+    If none are, that is one, the saved one, with the number 0.
+    """
+    if named is None:
+        yield 0, open_file(path, choice, whole)
+        return
     with open_blend(path, choice) as blender:
         from ..blender.jobs.animation import frames_of
         from ..blender.jobs.choice import seen_by

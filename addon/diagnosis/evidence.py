@@ -7,9 +7,10 @@ leaves the latter as they are.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -28,6 +29,8 @@ from ..tracer.hits import NOTHING, Hits
 from ..tracer.nearest import plan
 from ..tracer.progress import Work
 from .seen import Trees
+
+T = TypeVar("T")
 
 SAMPLE = 512  # sampled pixels of each kind
 FEW = 128  # those of the small sample, which comes first
@@ -68,6 +71,13 @@ class Evidence:
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # a cache that faults share
     trees: Trees = field(default_factory=Trees)
+
+    def once(self, key: str, make: Callable[[], T]) -> T:
+        """Return what several faults need, made once."""
+        if key not in self.known:
+            self.known[key] = make()
+        found: T = self.known[key]
+        return found
 
     @cached_property
     def unexplained(self) -> Bools:

@@ -48,6 +48,7 @@ SHARE = 0.2  # of the unexplained pixels
 AS_GOOD = 0.98  # of the best gain on the sample: others are not tried once a guess does it all
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
 PROMISING = 0.3  # of the best gain on the sample: guesses below it get no trial
+LIKELY = 8.0  # pixels that a guess without numbers gains in the sample for each one that it breaks
 UNLIKELY = 0.5  # of the least gain: guesses below it in the small sample are dropped
 NEARLY = 0.5  # of the unexplained pixels: a guess that gains as much may be all there is
 ENOUGH = 0.995  # of the unexplained pixels: after such a gain, no more effort is made
@@ -160,7 +161,8 @@ class Guessing:
                     guess = yield from self._finer(evidence, made, guess)
                     again = self._limited(_score(evidence, made, guess), made)
                     score = (yield from again) or NONE
-                if score.gain >= _least(evidence):
+                likely = bool(guess.low) or score.gain >= LIKELY * score.broken
+                if likely and score.gain >= _least(evidence):
                     out.append((score.gain, made, guess))
         return out
 

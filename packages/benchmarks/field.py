@@ -99,6 +99,7 @@ class Field:
         self._embreex = Embreex(self._mesh)
 
     def _of_embreex(self, camera: Camera) -> dict[str, Runner]:
+        self._hits = None
         allowed = max(WHOLE, 2 * self._slow)
         self._rays = rays = fitting(lambda few: self._embreex.trace(few)[0], camera, allowed)
 

@@ -1,27 +1,27 @@
 """Measures what a picture takes in memory at its peak, from outside, in processes of its own.
 
-This module, run as a script with a scene's name and jobs, builds the mesh once and traces each job
-in a fork, whose peak starts at what is held when it begins. The system's count of pages sees what
-every library takes, not only numpy.
+A process makes the mesh once and traces each job in a fork, whose peak starts at what is held when
+it begins. The system's count of pages sees what every library takes, not only numpy.
 """
 
 from __future__ import annotations
 
-import json
 import multiprocessing
 import os
-import subprocess
 import sys
 from collections.abc import Generator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from functools import lru_cache
 from multiprocessing.connection import Connection
 from pathlib import Path
 
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render, trace
-from reference_tracer.scene import Scene
+from reference_tracer.scene import Mesh, Scene
 from reference_tracer.tracer.settings import Settings
 
+from .children import Child
+from .peers import MissingPeerError
 from .scenes import build, mesh_of
 
 LATE = -1  # in place of a peak
@@ -44,7 +44,7 @@ class Job:
         return Method(self.method).is_proven
 
 
-def peaks(name: str, cache: Path, jobs: list[Job]) -> Generator[int | None, None, None]:
+def peaks(name: str, cache: Path | None, jobs: list[Job]) -> Generator[int | None, None, None]:
     """Yield each job's peak in bytes, beside scene and libraries.
 
     None where it cannot be known; LATE where an unproven method takes longer than LONGEST.
@@ -52,37 +52,29 @@ def peaks(name: str, cache: Path, jobs: list[Job]) -> Generator[int | None, None
     if not hasattr(os, "fork"):
         yield from (None for _ in jobs)
         return
-    process = subprocess.Popen(
-        [sys.executable, "-m", "reference_tracer_benchmarks.memory"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+    child = Child()
     try:
-        request = {
-            "name": name,
-            "cache": str(cache),
-            "jobs": [asdict(job) for job in jobs],
-            "longest": LONGEST,
-        }
-        process.stdin.write(json.dumps(request))
-        process.stdin.close()
-        for _ in jobs:
-            line = process.stdout.readline()
-            yield json.loads(line) if line else None
+        for job in jobs:
+            try:
+                yield child.call(peak_of, name, cache, job, LONGEST)
+            except MissingPeerError:
+                yield None
     finally:
-        process.kill()
-        process.stdout.close()
-        process.wait()
+        child.end()
 
 
-def _answer(request: dict) -> None:
-    mesh, small = mesh_of(request["name"], Path(request["cache"])), mesh_of("cube", Path())
+@lru_cache(maxsize=1)
+def _meshes(name: str, cache: Path | None) -> tuple[Mesh, Mesh]:
+    both = mesh_of("cube", cache), mesh_of(name, cache)
     _return_freed()
-    for job in (Job(**job) for job in request["jobs"]):
-        pictures = build(small, 16, 9, job.camera), build(mesh, job.width, job.height, job.camera)
-        print(json.dumps(_of_a_fork(pictures, job, request["longest"])), flush=True)
+    return both
+
+
+def peak_of(name: str, cache: Path | None, job: Job, longest: float) -> int | None:
+    """Return a job's peak, as `peaks` yields it; the mesh is made once in a process."""
+    small, mesh = _meshes(name, cache)
+    pictures = build(small, 16, 9, job.camera), build(mesh, job.width, job.height, job.camera)
+    return _of_a_fork(pictures, job, longest)
 
 
 def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int | None:
@@ -128,7 +120,3 @@ def _peak() -> int:
 
     unit = 1 if sys.platform == "darwin" else 1024
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
-
-
-if __name__ == "__main__":
-    _answer(json.load(sys.stdin))

@@ -102,7 +102,7 @@ def subject(name: str) -> Subject:
     return SUBJECTS[name]
 
 
-def mesh_of(name: str, cache: Path) -> Mesh:
+def mesh_of(name: str, cache: Path | None) -> Mesh:
     """Return a scene's mesh.
 
     Parameters
@@ -117,7 +117,7 @@ def mesh_of(name: str, cache: Path) -> Mesh:
     meshes.MissingMeshError
         If it is one that Blender makes, and has not made.
     """
-    make = subject(name).mesh or partial(meshes.stored, cache / SUZANNE_FILE)
+    make = subject(name).mesh or partial(meshes.stored, Path(cache or ".", SUZANNE_FILE))
     return Mesh(*make(), name=name)
 
 

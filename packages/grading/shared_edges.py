@@ -7,8 +7,7 @@ here, so that a function which leaks does so by its inequalities. It does not co
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from reference_tracer.arrays import Floats
@@ -39,10 +38,6 @@ class SharedEdges:
             "triangles share misses both, though nothing is rounded. Closed surfaces have holes "
             "there: ask for s >= 0, not s > 0. It does not count in the score"
         )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the counts as JSON can hold them."""
-        return asdict(self)
 
 
 def try_edges(ask: Ask) -> SharedEdges:

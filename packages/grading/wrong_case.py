@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -38,10 +38,6 @@ class WrongCase:
         names = (field.name for field in form.given)
         numbers = dict(zip(names, (array.tolist() for array in given), strict=True))
         return cls(group, numbers, _finite(true), _finite(own), **where)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the case as JSON can hold it."""
-        return asdict(self)
 
 
 def _finite(numbers: Floats) -> tuple[float | None, ...]:

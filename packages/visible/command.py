@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from reference_tracer.cli.arguments import check_frames
 from reference_tracer.cli.camera_options import add_camera, choice_from
-from reference_tracer.cli.opening import SOURCES, OpenedFile, open_file, open_frames
+from reference_tracer.cli.opening import SOURCES, open_frames
 from reference_tracer.cli.parser import AGREE, COUNT, POSITIVE, Parser
 from reference_tracer.cli.running import progress_bar
 from reference_tracer.framing import Choice
@@ -91,12 +90,7 @@ def find(options: VisibleOptions) -> int:
         total = None
         frames = []
         said: dict[str, None] = {}
-        opened: Iterable[tuple[int, OpenedFile]]
-        if named:
-            opened = open_frames(scene, choice, named, whole=True)
-        else:
-            opened = [(0, open_file(scene, choice, whole=True))]
-        for frame, file in opened:
+        for frame, file in open_frames(scene, choice, named, whole=True):
             said |= dict.fromkeys(file.manifest.remarks())
             with progress_bar() as progress:
                 work = steps(file.scene, options.limit, options.work)

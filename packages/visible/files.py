@@ -88,17 +88,11 @@ class Total:
 
     def lines(self) -> list[str]:
         """Return a line for each object that has faces."""
-        lines = []
-        for row in self.rows():
-            if row["faces"]:
-                line = f"{row['object']}: {row['seen']:,} of {row['faces']:,} faces seen"
-                if row["seen_from_behind"]:
-                    line += f", {row['seen_from_behind']:,} of them from behind"
-                if row["undecided"]:
-                    most = f"at most {row['largest_area']:.2g} px² each"
-                    line += f"; {row['undecided']:,} undecided, {most}"
-                lines.append(line)
-        return lines
+        line = (
+            "{object}: {seen:,} of {faces:,} faces seen, {seen_from_behind:,} of them from behind; "
+            "{undecided:,} undecided, at most {largest_area:.2g} px² each"
+        )
+        return [line.format(**row) for row in self.rows() if row["faces"]]
 
     def save(self, path: Path, frames: Sequence[int], limit: float) -> None:
         """Write the arrays into `path`, and what they come to into the .json beside it."""

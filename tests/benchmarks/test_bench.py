@@ -138,10 +138,11 @@ def test_blender_answers(tmp_path):
         assert len(mesh.triangles) == scenes.SUBJECTS["suzanne"].triangles
         assert np.abs(mesh.vertices).max() < 1.5
         with pytest.raises(MissingPeerError, match="no benchmark scene 'none'"):
-            blender._ask(do="open", scene="none", cache="", size=[1, 1], camera="perspective")
-        blender._process.kill()
+            blender._ask("open_benchmark", "none", tmp_path, (1, 1), "perspective")
+        blender._child._process.kill()
         with pytest.raises(MissingPeerError, match="ended without an answer to 'cycles'"):
             blender.render("cycles")
+        assert blender.render("cycles") > 0  # a new one opens the scene again
     finally:
         blender.close()
 

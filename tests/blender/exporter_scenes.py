@@ -99,14 +99,13 @@ def collection_instances(build: Build, rng: Random) -> None:
     inner.instance_type, inner.instance_collection, inner.location = "COLLECTION", kit, (0, 1, 1)
     double = build.collection("Double", inner, build.cube("Pole", 0.4, link=False))
     for k, collection in enumerate((kit, double, double)):
-        empty = build.empty(f"Copy {k}", location=(3.2 * k - 3, 0, 0), rotation=turn(rng))
-        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        build.instances(f"Copy {k}", collection, location=(3.2 * k - 3, 0, 0), rotation=turn(rng))
 
 
 def linked_duplicates(build: Build, rng: Random) -> None:
     first = star(build, rng, "First", 5, location=(-3, 0, 0), rotation=turn(rng))
     for k in range(3):
-        copy = build.link(bpy.data.objects.new(f"Copy {k}", first.data))
+        copy = build.object(f"Copy {k}", first.data)
         copy.location, copy.rotation_euler = (2 * k - 1, 0.5 * k, 0.4 * k), turn(rng)
         copy.scale = rng.uniform(0.5, 1.2, 3)
 
@@ -211,7 +210,7 @@ def materials_and_loose(build: Build, rng: Random) -> None:
     points = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (2, 2, 1), (0, 0, 2), (3, 0, 2)]
     mesh = bpy.data.meshes.new("Loose")
     mesh.from_pydata(points, [(3, 4), (4, 5)], [(0, 1, 2)])
-    build.place(build.link(bpy.data.objects.new("Loose", mesh)), location=(1.5, 0, 0))
+    build.object("Loose", mesh, location=(1.5, 0, 0))
 
 
 def hidden_and_empty(build: Build, rng: Random) -> None:

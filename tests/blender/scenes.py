@@ -16,6 +16,11 @@ SAME = 1e-5  # metres: what float32 sines and cosines of different Blender build
 CUBE_FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 
+def save(path: Any) -> None:
+    """Save the open file."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+
+
 class Build:
     """Small scenes: each method adds one thing to the scene and returns it."""
 
@@ -30,12 +35,15 @@ class Build:
         (collection or bpy.context.scene.collection).objects.link(obj)
         return obj
 
+    def object(self, name: str, data: Any = None, **place: Any) -> Any:
+        return self.place(self.link(bpy.data.objects.new(name, data)), **place)
+
     def camera(self, location=(0.0, 0.0, 5.0), rotation=(0.0, 0.0, 0.0), **data: Any) -> Any:
         """By default straight above the origin, looking down, +Y upwards in the picture."""
         camera = bpy.data.cameras.new("Camera")
         for name, value in data.items():
             setattr(camera, name, value)
-        obj = self.link(bpy.data.objects.new("Camera", camera))
+        obj = self.object("Camera", camera)
         obj.location, obj.rotation_euler = location, rotation
         bpy.context.scene.camera = obj
         return obj
@@ -86,7 +94,13 @@ class Build:
         return material
 
     def empty(self, name: str, **place: Any) -> Any:
-        return self.place(self.link(bpy.data.objects.new(name, None)), **place)
+        return self.object(name, **place)
+
+    def instances(self, name: str, collection: Any, **place: Any) -> Any:
+        """An empty that shows a collection."""
+        empty = self.empty(name, **place)
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        return empty
 
     def collection(self, name: str, *objects: Any, link: bool = False) -> Any:
         collection = bpy.data.collections.new(name)
@@ -129,7 +143,7 @@ class Build:
     def text(self, name: str = "Text", **place: Any) -> Any:
         curve = bpy.data.curves.new(name, "FONT")
         curve.body, curve.extrude = "Ray", 0.1
-        return self.place(self.link(bpy.data.objects.new(name, curve)), **place)
+        return self.object(name, curve, **place)
 
     def bevelled_curve(self, name: str = "Curve", **place: Any) -> Any:
         curve = bpy.data.curves.new(name, "CURVE")
@@ -138,7 +152,7 @@ class Build:
         spline.bezier_points.add(1)
         for point, x in zip(spline.bezier_points, (-1, 1), strict=True):
             point.co, point.handle_left, point.handle_right = (x, 0, 0), (x, -1, 0), (x, 1, 1)
-        return self.place(self.link(bpy.data.objects.new(name, curve)), **place)
+        return self.object(name, curve, **place)
 
     def surface(self, name: str = "Surface", **place: Any) -> Any:
         bpy.ops.surface.primitive_nurbs_surface_sphere_add(radius=1)
@@ -151,7 +165,7 @@ class Build:
         ball.resolution = ball.render_resolution = 0.4
         ball.elements.new().co = (0, 0, 0)
         ball.elements.new().co = (1, 0, 0)
-        return self.place(self.link(bpy.data.objects.new(name, ball)), **place)
+        return self.object(name, ball, **place)
 
     def color_attribute(
         self, obj: Any, domain: str, kind: str = "FLOAT_COLOR", seed: int = 5
@@ -198,6 +212,15 @@ class Build:
                 rotation=(0.4 + x, 0.3, x),
                 material=self.material(name, *rgba),
             )
+
+    def room(
+        self, width: int = 96, height: int = 54, color_type: str = "MATERIAL", **camera: Any
+    ) -> Any:
+        """The solids, as the camera in the corner sees them; returns the scene."""
+        scene = self.scene(width, height, color_type)
+        self.solids()
+        self.corner_camera(**camera)
+        return scene
 
     def corner_camera(self, **data: Any) -> Any:
         """A camera that looks at the solids from the front, right and above."""

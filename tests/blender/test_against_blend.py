@@ -11,9 +11,7 @@ from reference_tracer.files import images
 
 @pytest.fixture
 def scene(build):
-    scene = build.scene(96, 54)
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(96, 54, lens=40)
     scene.display.shading.light = "FLAT"
     scene.display.shading.show_specular_highlight = False
     scene.display.render_aa = "OFF"

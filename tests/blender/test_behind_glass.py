@@ -92,8 +92,7 @@ def test_a_fault_behind_is_found(panes, compare, drawn_otherwise, colors, what):
 def test_panes_of_a_collection_instance(panes, build, compare):
     scene = bpy.context.scene
     one = build.square("Pane X", 1.0, link=False, material=bpy.data.materials["Glass"])
-    empty = build.empty("Holder", location=(2.5, -1, 3))
-    empty.instance_type, empty.instance_collection = "COLLECTION", build.collection("Panes", one)
+    build.instances("Holder", build.collection("Panes", one), location=(2.5, -1, 3))
     scene.display.shading.color_type = "MATERIAL"
     found = compare(judge="WORKBENCH", colors=By.VIEWPORT)
     assert found.counts.unexplained == 0

@@ -23,6 +23,8 @@ from reference_tracer.framing import Choice
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.tracer.camera import film_of
 
+from .scenes import save
+
 BLENDERS = 1e-3  # pixels: Blender's matrix is float32
 
 
@@ -39,7 +41,7 @@ def scene(build, tmp_path):
     scene.frame_end = 5
     scene.frame_set(1)
     path = tmp_path / "scene.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     return path
 
 

@@ -9,14 +9,14 @@ import pytest
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.cli import in_blender
 
+from .scenes import save
+
 
 @pytest.fixture
 def saved(build, tmp_path):
     """An open file with a small scene."""
-    scene = build.scene(64, 36)
-    build.solids()
-    build.corner_camera(lens=40)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    scene = build.room(64, 36, lens=40)
+    save(tmp_path / "scene.blend")
     return scene
 
 
@@ -132,7 +132,7 @@ def test_options_hold_before_what_the_scene_stores(options, section, key, value,
 
 def test_a_folder_beside_the_file(saved, tmp_path):
     """The file may be one of Blender's backups."""
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend1"))
+    save(tmp_path / "scene.blend1")
     assert in_blender.run(["compare", "--out", "//beside"]) == 0
     assert (tmp_path / "beside" / "comparison.json").is_file()
     written = ["--out", "//beside/pixel.md", "--reproducer", "//beside/pixel.json"]

@@ -172,9 +172,7 @@ def no_surfaces(scene) -> None:
     ids=lambda change: change.__name__,
 )
 def test_settings_of_a_render_do_not_change_constant_colors(change, build, compare):
-    scene = build.scene(48, 27)
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(48, 27, lens=40)
     change(scene)
     world = scene.world
     found = compare(judge="CYCLES", identity=False)

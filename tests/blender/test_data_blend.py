@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from reference_tracer.files import exr
 
+from .scenes import save
+
 
 @pytest.fixture
 def passes(build, tmp_path):
     """A .blend, and its render by Cycles with a sample in each pixel's centre."""
-    scene = build.scene(48, 27)
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(48, 27, lens=40)
     layer = bpy.context.view_layer
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_position = True
     layer.use_pass_object_index = layer.use_pass_cryptomatte_object = True
@@ -31,7 +31,7 @@ def passes(build, tmp_path):
     image.file_format, image.color_depth = "OPEN_EXR_MULTILAYER", "32"
     scene.render.filepath = str(tmp_path / "passes.exr")
     bpy.ops.render.render(write_still=True)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     return tmp_path
 
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 import bpy
 import pytest
 
+from .scenes import save
+
 
 @pytest.fixture
 def exported(build, tmp_path):
     """A .blend with a subdivided solid behind the camera, and Blender's exports of it."""
-    build.scene(32, 18)
-    build.solids()
-    build.corner_camera(lens=40)
+    build.room(32, 18, lens=40)
     bpy.ops.mesh.primitive_cube_add(location=(40, -60, 30))
     bpy.context.object.name = "Behind"
     modifier = bpy.context.object.modifiers.new("Levels", "SUBSURF")
     modifier.levels, modifier.render_levels = 1, 2
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     bpy.ops.export_scene.gltf(filepath=str(tmp_path / "plain.glb"))
     bpy.ops.export_scene.gltf(filepath=str(tmp_path / "applied.glb"), export_apply=True)
     bpy.ops.wm.obj_export(filepath=str(tmp_path / "render.obj"), export_eval_mode="DAG_EVAL_RENDER")

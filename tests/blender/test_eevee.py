@@ -22,6 +22,7 @@ from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 
 from . import hard_cases as hard
+from .scenes import save
 
 # Meshes that are drawn as they are edited, which EEVEE gives one material; and others.
 _EDITED = "in Edit Mode, in one material"
@@ -64,7 +65,7 @@ def test_a_small_scene(solids, compare):
 
 def test_every_engine_in_one_table(solids, tmp_path, capsys):
     """Here, as EEVEE's shaders are compiled once in a process."""
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     out = tmp_path / "out"
     assert in_blender.run(["compare", "--judge", "all", "--out", str(out)]) == 0
     found = json.loads((out / "engines.json").read_text(encoding="utf-8"))

@@ -50,15 +50,13 @@ def blenders() -> tuple[Counter, int]:
 def nested(build):
     """Instances of instances, one of them mirrored."""
     inner = build.collection("Inner", build.cube(link=False, location=(1, 0, 0)))
-    empty = build.empty("Nested", location=(0, 2, 0))
-    empty.instance_type, empty.instance_collection = "COLLECTION", inner
+    empty = build.instances("Nested", inner, location=(0, 2, 0))
     bpy.context.scene.collection.objects.unlink(empty)
     outer = build.collection("Outer", empty, build.square(link=False))
     outer.instance_offset = (0.5, 0, 0)
     for x in range(3):
         place = {"location": (3 * x, 0, 0), "rotation": (0, 0, x), "scale": (1 - x, 2, 1)}
-        empty = build.empty(f"Empty {x}", **place)
-        empty.instance_type, empty.instance_collection = "COLLECTION", outer
+        empty = build.instances(f"Empty {x}", outer, **place)
 
 
 def on_points(build):
@@ -96,13 +94,12 @@ def on_faces(build):
 def of_an_excluded_collection(build):
     collection = build.collection("Kit", build.cube(link=False), link=True)
     bpy.context.view_layer.layer_collection.children["Kit"].exclude = True
-    empty = build.empty("Empty")
-    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    build.instances("Empty", collection)
 
 
 def one_with_a_modifier(build):
     """Of two that have one mesh."""
-    second = build.link(bpy.data.objects.new("Second", build.cube().data))
+    second = build.object("Second", build.cube().data)
     second.modifiers.new("Array", "ARRAY").count = 3
 
 
@@ -247,8 +244,7 @@ def test_instances_look_the_same_once_a_script_has_looked_at_their_object(build,
     build.far_camera()
     kit = build.collection("Kit", build.cube(link=False, color=(0, 0, 1, 1)))
     for name, display in (("Empty", "TEXTURED"), ("Wire", "WIRE")):
-        empty = build.empty(name, color=(1, 0, 0, 0.5))
-        empty.instance_type, empty.instance_collection = "COLLECTION", kit
+        empty = build.instances(name, kit, color=(1, 0, 0, 0.5))
         empty.display_type = display
     bpy.context.view_layer.update()
 

@@ -15,6 +15,7 @@ from reference_tracer.comparison.engines import EngineRow
 from reference_tracer.scene import SceneError
 
 from .given import rendered_png, solids, told, toy
+from .scenes import save
 
 __all__ = ["rendered_png", "solids", "toy"]  # fixtures
 OPS = bpy.ops.reference_tracer
@@ -106,7 +107,7 @@ def test_an_engine_that_fails_is_told(render, toy, solids, monkeypatch, compare)
 
 def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
     toy.is_opaque = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     compare = "compare", "--out", str(tmp_path / "out"), "--judge"
     code = in_blender.run([*compare, "Toy_Tracer", "--excuse", "renderer=raster"])
     said = capsys.readouterr().out
@@ -135,7 +136,7 @@ def test_options_for_an_engine_that_the_file_stores(
     stored, options, said, toy, solids, tmp_path, capsys
 ):
     solids.reference_tracer.judge, solids.reference_tracer.engine = stored, "TOY_TRACER"
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     code = in_blender.run(["compare", "--out", str(tmp_path / "out"), *options])
     assert code == (4 if said else 0)
     assert said in capsys.readouterr().err

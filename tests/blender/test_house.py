@@ -13,6 +13,8 @@ from reference_tracer.blender import registration
 from reference_tracer.blender.ui import long_work, menus, preferences, samples
 from reference_tracer.blender.ui.properties import GROUPS as OWNED
 
+from .scenes import save
+
 PRESETS = Path(menus.__file__).parent / "presets" / "reference_tracer"
 GROUPS = [group for _, group in OWNED]
 UNITS = r"[Pp]ixel|rays|metre|triangles|faults|regions|share"
@@ -159,16 +161,14 @@ def test_without_preferences_there_is_no_folder():
 
 @pytest.fixture
 def solids(build):
-    scene = build.scene(16, 9)
-    build.solids()
-    build.corner_camera()
+    scene = build.room(16, 9)
     return scene
 
 
 def test_results_go_to_the_folder_that_is_preferred(preferred, solids, tmp_path):
     preferred.folder = "//found"
     assert bpy.ops.reference_tracer.compare() == {"FINISHED"}  # of no file: it stays in Blender
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "solids.blend"))
+    save(tmp_path / "solids.blend")
     assert bpy.ops.reference_tracer.compare() == {"FINISHED"}
     assert bpy.ops.reference_tracer.open_page(open_browser=False) == {"FINISHED"}
     found = tmp_path / "found" / "solids"
@@ -181,7 +181,7 @@ def test_results_go_to_the_folder_that_is_preferred(preferred, solids, tmp_path)
 
 def test_export_writes_what_reftrace_does(solids, tmp_path, reftrace):
     file, ours, theirs = (tmp_path / name for name in ("a.blend", "ours.npz", "theirs.npz"))
-    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    save(file)
     assert bpy.ops.reference_tracer.export(filepath=str(ours)) == {"FINISHED"}
     assert reftrace("export", file, "--out", theirs).returncode == 0
     assert ours.read_bytes() == theirs.read_bytes()

@@ -32,9 +32,7 @@ def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch)
     """What is drawn for identity lacks an object, and no colour says so."""
     from reference_tracer.blender.drawing import drawings
 
-    build.scene(color_type="SINGLE")
-    build.solids()
-    build.corner_camera(lens=40)
+    build.room(color_type="SINGLE", lens=40)
     real = drawings._owners
 
     def lacking(drawing, tmp, names):

@@ -121,8 +121,7 @@ def test_types_that_a_view_leaves_out(build, kept):
     build.cube()
     build.text()
     kit = build.collection("Kit", build.square("In Kit", link=False))
-    empty = build.empty("Empty")
-    empty.instance_type, empty.instance_collection = "COLLECTION", kit
+    empty = build.instances("Empty", kit)
     bpy.context.view_layer.update()
     view, depsgraph = space(), bpy.context.evaluated_depsgraph_get()
     assert [i.name for i in depsgraph.ids]  # looked at: see test_export

@@ -25,9 +25,7 @@ def held(folder):
 
 @pytest.fixture
 def solids(build):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
 
 
 def open_page(folder):

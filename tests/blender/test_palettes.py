@@ -19,6 +19,7 @@ from reference_tracer.report.lines import describe
 from reference_tracer.scene import GREY, SceneError
 from reference_tracer.tracer.progress import result_of
 
+from .scenes import save
 from .test_unchanged import differences, state
 
 OTHER_COLORS = (By.AUTOMATIC, By.OBJECT, By.MATERIAL)
@@ -186,7 +187,7 @@ def test_what_the_file_lacks_or_has_too_much_is_named(ordinary, compare, tmp_pat
 
 
 def test_the_command_line_writes_and_takes_them(ordinary, tmp_path, capsys):
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     palette, out = tmp_path / "colors.json", str(tmp_path / "out")
     assert in_blender.run(["compare", "--colors-out", str(palette)]) == 0
     alone, told = palette.read_bytes(), capsys.readouterr().out

@@ -139,8 +139,7 @@ def instanced(build, ground):
     """In a collection that only an empty shows."""
     collection = build.collection("Kit", ground)
     bpy.context.scene.collection.objects.unlink(ground)
-    empty = build.empty("Empty", location=(0, 0, -0.3))
-    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    build.instances("Empty", collection, location=(0, 0, -0.3))
 
 
 def hidden_in_renders(build, ground):

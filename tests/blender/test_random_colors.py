@@ -6,7 +6,7 @@ import bpy
 import pytest
 from reference_tracer.blender.reading.colors import random_color
 
-from .scenes import assert_same_colors
+from .scenes import assert_same_colors, save
 
 
 @pytest.mark.parametrize("relative", [False, True], ids=["absolute", "relative"])
@@ -16,7 +16,7 @@ def test_random_colors_of_linked_objects(relative, build, compare, tmp_path):
     bpy.data.libraries.write(str(library), {build.square("Square", 1)})
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     build.scene(color_type="RANDOM")
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "user.blend"))
+    save(tmp_path / "user.blend")
     with bpy.data.libraries.load(str(library), link=True, relative=relative) as (_, to):
         to.objects = ["Square"]
     linked = build.link(to.objects[0])

@@ -15,6 +15,8 @@ from reference_tracer.causes.cause import AGREE, UNEXPLAINED
 from reference_tracer.causes.checks.edges import EDGE
 from reference_tracer.tracer.progress import result_of
 
+from .scenes import save
+
 PICTURE = np.ones((4, 6, 4), np.float32)
 
 
@@ -73,9 +75,7 @@ def test_twenty_rounds_take_the_memory_of_one():
 
 
 def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     own = compare()
     cause = own.causes.cause.copy()
     cause[:] = AGREE
@@ -102,12 +102,10 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
 
 
 def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, compare, tmp_path):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     result_of(results.keep_comparison(compare(), bpy.context.scene.session_uid))
     for name in ("first", "second"):
-        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / f"{name}.blend"))
+        save(tmp_path / f"{name}.blend")
         assert results.latest(Kind.COMPARISON, bpy.context.scene).regions is not None
     with pytest.raises(RuntimeError, match="Cannot read"):
         bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "missing.blend"))
@@ -117,9 +115,7 @@ def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, co
 
 
 def test_the_result_follows_its_scene_and_not_a_name(build, monkeypatch):
-    scene = build.scene()
-    build.solids()
-    build.corner_camera()
+    scene = build.room()
     name, keep = scene.name, results.keep_comparison
 
     def renamed_before(*args):
@@ -140,13 +136,13 @@ def test_a_file_that_is_saved_has_none_of_it(tmp_path):
     packed["reference_tracer"] = packed.name
     packed.pack()
     packed.use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     before = path.stat().st_size
     for name in (blocks.DIFFERENCE, blocks.TRACED):
         blocks.show(name, np.ones((400, 400, 4), np.float32)).use_fake_user = True
     blocks.ours(blocks.TRACED).pack()
     blocks.show_text("Reference Tracer Pixel", 1000 * "line\n").use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     assert path.stat().st_size <= before + 100  # 100: what is packed is not of the same bytes
     bpy.ops.wm.open_mainfile(filepath=str(path))
     assert named() == ["Reference Tracer Difference"] and not bpy.data.texts
@@ -172,9 +168,7 @@ def test_undo_is_the_users():
 
 
 def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     first, second = compare(), compare()
     work = results.keep_comparison(second, bpy.context.scene.session_uid)
     next(work)

@@ -51,7 +51,7 @@ def test_objects_of_which_any_face_is_seen(looking, build):
     build.cube("Front", location=(0, 0, 0))
     build.cube("Behind", size=1, location=(0, 0, -3))
     build.cube("Beside", location=(50, 0, 0))
-    build.link(bpy.data.objects.new("Light", bpy.data.lights.new("Light", "POINT")))
+    build.object("Light", bpy.data.lights.new("Light", "POINT"))
     assert select_seen() == {"FINISHED"}
     assert selected() == ["Front"]
     select_seen(hidden=True)
@@ -62,7 +62,7 @@ def test_an_instance_is_of_what_instances_it(looking, build):
     inner = bpy.data.collections.new("Inner")
     cube = build.cube("Cube", link=False)
     inner.objects.link(cube)
-    empty = build.link(bpy.data.objects.new("Empty", None))
+    empty = build.object("Empty", None)
     empty.instance_type, empty.instance_collection = "COLLECTION", inner
     select_seen()
     assert selected() == ["Empty"]
@@ -88,6 +88,19 @@ def test_faces_in_edit_mode_as_they_are_edited(looking, build):
     select_seen()
     inside = faces(cube)
     assert len(inside) == 5 and any(inside)  # through the hole: the bottom, from behind
+
+
+def test_faces_of_a_shape_key_that_is_edited(looking, build):
+    """Edit Mode shows it alone; a copy of the object has the mean of all keys."""
+    cube = build.cube("Cube")
+    cube.shape_key_add(name="Basis")
+    key = cube.shape_key_add(name="Moved")
+    for point in key.data:
+        point.co.x += 0.5
+    cube.active_shape_key_index, key.value = 1, 0.25
+    edit(cube)
+    select_seen()
+    assert faces(cube)[upwards(cube).index(True)] and sum(faces(cube)) == 1
 
 
 def test_the_attribute_is_stored_in_both_modes_and_no_other_is_written_over(looking, build):

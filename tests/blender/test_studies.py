@@ -15,6 +15,7 @@ from reference_tracer.cli import in_blender
 from reference_tracer.study import extremes
 from reference_tracer.tracer.settings import UNPROVEN_SETTINGS
 
+from .scenes import save
 from .test_unchanged import differences, state
 
 TRADE_FILES = {"tradeoff.txt", "tradeoff.json", "tradeoff.html"}
@@ -25,10 +26,8 @@ FEW = {"scenario": "closed_fan", "rays": 12}
 
 @pytest.fixture
 def solids(build, tmp_path):
-    scene = build.scene(64, 36)
-    build.solids()
-    build.corner_camera(lens=40)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    scene = build.room(64, 36, lens=40)
+    save(tmp_path / "scene.blend")
     bpy.context.preferences.is_dirty = False
     return scene
 

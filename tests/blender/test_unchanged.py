@@ -10,6 +10,8 @@ from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.ui.blocks import BLENDER, CAUSES, DIFFERENCE, TRACED
 
+from .scenes import save
+
 OURS = {TRACED, BLENDER, DIFFERENCE, CAUSES}
 # 4.2 itself counts a scene's collections once more for every copy of it that comes and goes.
 COUNTS_USERS = bpy.app.version >= (4, 3, 0)
@@ -141,9 +143,7 @@ def animated_and_moved(obj):
 @pytest.fixture
 def user_scene(build, tmp_path):
     """A scene with much that a comparison could upset: all of it other than what it sets."""
-    scene = build.scene()
-    build.solids()
-    build.corner_camera()
+    scene = build.room()
     animated_and_moved(bpy.data.objects["Red"])
     hidden = build.collection("Hidden", build.cube("In Hidden", link=False), link=True)
     hidden.hide_render = True
@@ -167,7 +167,7 @@ def user_scene(build, tmp_path):
     scene.reference_tracer.method = "moller_trumbore"
     bpy.context.preferences.system.viewport_aa = "16"
     bpy.context.preferences.is_dirty = False
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "user.blend"))
+    save(tmp_path / "user.blend")
     return scene
 
 

@@ -71,16 +71,13 @@ def test_several_instances_share_one_entry_around_all_of_them(build, export):
     cube = build.cube("Thing", 1, link=False, material=build.material("Glass", 1, 1, 1, 0.5))
     collection = build.collection("Kit", cube)
     for x in (-4, 4):
-        empty = build.empty(f"Empty {x}", location=(x, 0, 0))
-        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        build.instances(f"Empty {x}", collection, location=(x, 0, 0))
     _, manifest = export.viewport()
     (found,) = manifest.unmodelled
     np.testing.assert_allclose(found.bounds, [(-4.5, -0.5, -0.5), (4.5, 0.5, 0.5)])
 
 
 def test_an_ordinary_scene_has_nothing_of_it(build, export):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     for run in export.modes.values():
         assert run()[1].unmodelled == ()

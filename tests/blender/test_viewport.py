@@ -19,9 +19,7 @@ from reference_tracer.scene import SceneError
 
 @pytest.fixture
 def scene(build):
-    scene = build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(lens=40)
     return scene
 
 

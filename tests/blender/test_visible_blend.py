@@ -8,6 +8,8 @@ import bpy
 import numpy as np
 import pytest
 
+from .scenes import save
+
 
 @pytest.fixture
 def saved(build, tmp_path):
@@ -24,7 +26,7 @@ def saved(build, tmp_path):
     beside.name = "Beside"
     scene.camera = bpy.data.objects["Camera"]
     path = tmp_path / "scene.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     return path
 
 

@@ -83,31 +83,6 @@ def test_an_object_that_moves_by_a_fraction_of_a_pixel(few):
     assert list(found) == ["object_moved"] and found["object_moved"].guess.object == "Box"
 
 
-@pytest.mark.torture
-def test_an_object_is_told_and_no_camera(few):
-    scene = few()
-    color = pictured(scene, "object_moved", Numbers((0.3, -0.2, 0.1), object="Ball"))
-    assert list(told(scene, color, "object_moved", "camera_moved", "camera_turned")) == [
-        "object_moved"
-    ]
-
-
-@pytest.mark.torture
-@pytest.mark.parametrize(
-    ("name", "values"),
-    [
-        ("camera_moved", (0.05, -0.02, 0.04)),
-        ("camera_turned", (3.0, -2.0, 1.0)),
-        ("focal_lengths", (2.0, -1.0)),
-    ],
-)
-def test_of_all_faults_that_of_the_camera_is_told(few, name, values):
-    scene = few(112, 64)
-    found = told(scene, pictured(scene, name, Numbers(values)))
-    assert list(found) == [name]
-    np.testing.assert_allclose(found[name].guess.values, values, atol=0.02)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "values", [(0.15, -0.1, 0.2, 1.2, 0.7, -0.8), (-0.3, 0.2, 0.0, 2.0, -1, 0)]
@@ -224,19 +199,6 @@ def test_an_object_that_is_left_unturned_is_not_turned_by_some_degrees(few):
     scene = few(96, 54)
     left_out = pictured(scene, "rotation_left_out", Guess(object="Box"))
     assert list(told(scene, left_out, *FAMILY)) == ["rotation_left_out"]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "guess"),
-    [
-        ("last_pixel", Option(0)),
-        ("picture_turned", Option(2)),
-    ],
-)
-def test_a_fault_without_numbers_is_told_alone(few, name, guess):
-    scene = few(96, 54)
-    assert list(told(scene, pictured(scene, name, guess))) == [name]
 
 
 def test_a_focal_length_is_not_taken_for_the_last_pixel(few):

@@ -17,6 +17,7 @@ import bpy
 from bpy.types import Depsgraph, Material, Node, NodeSocket, NodeTree, Object, Scene
 
 from ...scene import GREY, SceneError
+from ...scene import Scene as Traced
 from ..reading.colors import random_color, slot_materials
 from ..temporary import made_for, show_in
 from ..values import is_animated
@@ -53,6 +54,31 @@ def constant_colors(scene: Scene, layer: str, depsgraph: Depsgraph) -> Iterator[
     scene.view_layers[layer].use_solid = True
     scene.view_layers[layer].material_override = material
     yield
+
+
+def check_slots(scene: Traced, color_type: str) -> None:
+    """Refuse faces of a slot that their object lacks and another one has: they would be black.
+
+    The solid viewport shows them in the last slot's colour, which no material can ask for.
+
+    Raises
+    ------
+    SceneError
+        If there are such faces.
+    """
+    by_slots = {"MATERIAL", "VERTEX"} if WITHOUT_ATTRIBUTE == "MATERIAL" else {"MATERIAL"}
+    if color_type not in by_slots:
+        return
+    counts = [len(obj.material_slots) for obj in bpy.data.objects]
+    most = max(*counts, *(len(instance.colors) for instance in scene.instances), 0)
+    for instance in scene.instances:
+        mesh = scene.meshes[instance.mesh]
+        lacking = (mesh.slots >= len(instance.colors)) & (mesh.slots < most)
+        if mesh.corner_colors is None and lacking.any():
+            raise SceneError(
+                f"'{scene.objects[instance.object]}' has faces of a material slot that it does not "
+                "have: give them another slot, set Colors to Object, or compare with Workbench."
+            )
 
 
 def _emission(material: Material, scene: Any, layer: str, depsgraph: Depsgraph) -> None:

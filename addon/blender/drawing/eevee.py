@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from bpy.types import Mesh, Object
 
-from .judge import Judge, constant_colors
+from .judge import Judge, check_slots, constant_colors
 
 if TYPE_CHECKING:
     from ...scene import Scene
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 def _check_colors(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
     """Refuse meshes that EEVEE shows in other colours than the solid viewport."""
+    check_slots(scene, color_type, objects)
     if color_type == "VERTEX":
         _check_attributes(scene, objects)
     elif color_type == "MATERIAL":

@@ -37,6 +37,13 @@ def _any(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
     pass
 
 
+def check_slots(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
+    """Refuse what `constant_colors` would show black."""
+    from . import constant_material
+
+    constant_material.check_slots(scene, color_type)
+
+
 @dataclass(frozen=True)
 class Judge:
     """One of Blender's engines, and what a comparison has to know of it.

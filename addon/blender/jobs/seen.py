@@ -32,8 +32,8 @@ _MAY_BE = 1  # the rank of what is undecided
 _CODE = "reference_tracer_face"
 _CODES = 2**31
 
-# An object's name, and the vertices and triangles of a mesh that it shows.
-_Key: TypeAlias = tuple[str, bytes, bytes]
+# An object's name, and the triangles of a mesh that it shows; shape keys and simulations move them.
+_Key: TypeAlias = tuple[str, bytes]
 
 
 class CameraSees:
@@ -111,7 +111,7 @@ class CameraSees:
         """Return the codes of the triangles of the objects' meshes, as a render has them.
 
         The temporary scene has copies of the objects then, and nothing else. Where a copy has not
-        the same mesh, as of what is simulated, it is not found.
+        the same triangles, it is not found.
         """
         for items in (tmp.collection.children, tmp.collection.objects):
             for item in items[:]:
@@ -147,9 +147,11 @@ def _read(names: dict[str, str]) -> Turns[dict[_Key, Integers]]:
         if name and item.object.type == "MESH":
             read = read_mesh(item.object, name, with_colors=False, hiding=False, slots=_CODE)
             if read:
-                found[_key(name, read[0])] = read[0].slots
+                key = _key(name, read[0])
+                code = read[0].slots
+                found[key] = np.where(found.get(key, code) == code, code, 0)  # of any such mesh
     return found
 
 
 def _key(name: str, mesh: Mesh) -> _Key:
-    return name, mesh.vertices.tobytes(), mesh.triangles.tobytes()
+    return name, mesh.triangles.tobytes()

@@ -56,12 +56,13 @@ class Change:
 
     def matched(self, looked: Looked) -> Fitted | None:
         """Return the change with which the object's edges are where the picture has them."""
-        known, key = looked.evidence.known, f"changed {id(self)} {looked.name}"
-        if key not in known:
-            found = (self._matched(looked, about) for about in (looked.displacement(), np.zeros(2)))
-            known[key] = next((f for f in found if f and f.share >= FOUND), None)
-        out: Fitted | None = known[key]
-        return out
+        places = looked.displacement(), np.zeros(2)
+
+        def first() -> Fitted | None:
+            found = (self._matched(looked, about) for about in places)
+            return next((f for f in found if f and f.share >= FOUND), None)
+
+        return looked.evidence.once(f"changed {id(self)} {looked.name}", first)
 
     def _matched(self, looked: Looked, about: Floats) -> Fitted | None:
         evidence, axes, own = looked.evidence, self.axes(looked), looked.alone.instances[0]

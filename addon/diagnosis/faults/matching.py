@@ -66,13 +66,9 @@ def matches(
 
     Those of an object are in a mask (h, w), and moved by about so many pixels.
     """
+    some = np.ones(evidence.unexplained.shape, bool) if where is None else where
     key = f"matches {name} {about}"
-    if key not in evidence.known:
-        everywhere = np.ones(evidence.unexplained.shape, bool)
-        some = everywhere if where is None else where
-        evidence.known[key] = _matched(evidence, some, np.rint(about))
-    found: Matches = evidence.known[key]
-    return found
+    return evidence.once(key, lambda: _matched(evidence, some, np.rint(about)))
 
 
 def seen_by(camera: Camera | None, points: Floats) -> Floats | None:
@@ -216,14 +212,13 @@ def is_everywhere(evidence: Evidence) -> bool:
 
 def touched_parts(evidence: Evidence) -> float:
     """Return the share of the picture's parts with edges in which some are unexplained (cached)."""
-    if "parts" not in evidence.known:
-        edges = beside_edges(
-            np.nan_to_num(evidence.picture.made_of(evidence.frame.color)), 2 * NEAR
-        )
-        tiles, touched = (_in_tiles(v) for v in (edges, edges & evidence.unexplained))
-        share = touched[tiles > 0].astype(bool).mean() if tiles.any() else 1.0
-        evidence.known["parts"] = float(share)
-    return float(evidence.known["parts"])
+    return evidence.once("parts", lambda: _touched(evidence))
+
+
+def _touched(evidence: Evidence) -> float:
+    edges = beside_edges(np.nan_to_num(evidence.picture.made_of(evidence.frame.color)), 2 * NEAR)
+    tiles, touched = (_in_tiles(v) for v in (edges, edges & evidence.unexplained))
+    return float(touched[tiles > 0].astype(bool).mean()) if tiles.any() else 1.0
 
 
 def _in_tiles(mask: Bools) -> Integers:

@@ -21,7 +21,7 @@ from .search import values_of
 
 FIRST = 1 / 4  # of the object's width: the first step
 TRIED = 2  # objects that are fitted
-NEAR_STEP = 1.0  # pixels: the first step from where edges are found
+NEAR_STEP = 0.5  # pixels: the first step from where edges are found
 KEPT = 4  # starts that are followed
 ALL = 0.995  # of the pixels: with as many right, nothing more is tried
 PROMISING = 1.1  # times as many pixels are right as without a change: a start is followed

@@ -26,7 +26,7 @@ from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import AnyFault, Effort, Fault, Guess, Values
+from .fault import AnyFault, Effort, Fault, Guess
 
 SHARES = {2: "half", 3: "a third of", 4: "a quarter of"}  # of the size, by the factor
 ROUNDING = 1e-9  # of a row
@@ -149,11 +149,6 @@ class Small(Guess):
     spans: bool = True  # the whole picture; else a last row or column may span more than it shows
     hues: bool = False  # whether these alone were, and not the brightness
 
-    @property
-    def values(self) -> Values:
-        """The factor."""
-        return (float(self.n),)
-
 
 def _shrunk(colors: Array, guess: Small) -> Array:
     """Shrink a picture (h, w, 4) by n, from its top row: one pixel of each n x n, or the mean."""
@@ -241,7 +236,17 @@ def _downs(n: int, name: str, remains: bool) -> Iterator[list[Small]]:
         if down is Way.MEAN and coding.words:
             whose[True] = f"'s hues alone were shrunk to {name} the size {down}"
         yield [
-            Small(n, down, up, coding, corner, spans, hues, words=f"{words}, and enlarged {up}")
+            Small(
+                n,
+                down,
+                up,
+                coding,
+                corner,
+                spans,
+                hues,
+                words=f"{words}, and enlarged {up}",
+                values=(float(n),),
+            )
             for hues, words in whose.items()
             for up in (Way.NEAREST, *_KERNELS)
         ]

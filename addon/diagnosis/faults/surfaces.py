@@ -55,12 +55,8 @@ def surfaces(evidence: Evidence, whole: bool = False) -> Surfaces | None:
 
     None where colours say nothing, or none is wrong.
     """
-    key = f"surfaces {whole}"
-    if key not in evidence.known:
-        where = _judged(evidence) if whole else inside(evidence)
-        evidence.known[key] = _looked_at(evidence, where)
-    found: Surfaces | None = evidence.known[key]
-    return found
+    where = _judged if whole else inside
+    return evidence.once(f"surfaces {whole}", lambda: _looked_at(evidence, where(evidence)))
 
 
 def _looked_at(evidence: Evidence, where: Bools) -> Surfaces | None:
