@@ -63,7 +63,7 @@ test-gpu: extension ## compare all sample scenes with what draws here, a graphic
 	$(PYTHON_IN_VENV) tools/gpu.py $(if $(BLENDER),--blender "$(BLENDER)")
 
 # OPEN3D=1: Open3D's code, too, whose wheel has 400 MB.
-cameras: .venv/.stamp ## have the code of COLMAP, Mitsuba, OpenCV and pyrender read camera files: two tables; 200 MB of wheels
+cameras: .venv/.stamp ## have the code of COLMAP, Mitsuba, OpenCV and pyrender read camera files: one table; 200 MB of wheels
 	$(PYTHON_IN_VENV) tools/cameras.py $(if $(OPEN3D),--open3d)
 
 # What `make test` samples, at its full length.

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 
@@ -35,6 +35,9 @@ from .tracer.progress import Meter, Work, at_once, result_of
 from .tracer.render import Tracer, bands
 from .tracer.settings import Precision, Settings
 from .tracer.world import refused
+
+if TYPE_CHECKING:
+    from reference_tracer_rays.every import Crossings
 
 TraceRays = Callable[[Scene, Rays, Settings, Statistics], Work[Hits]]
 
@@ -128,13 +131,30 @@ def steps(
         yield from loop.steps(scene, chosen, frame, tracer or TRACERS[chosen.method])
 
 
+@overload
+def trace(
+    scene: Scene,
+    settings: Settings | None = None,
+    statistics: Statistics | None = None,
+    rays: Rays | None = None,
+    every: Literal[False] = False,
+) -> Hits: ...
+@overload
+def trace(
+    scene: Scene,
+    settings: Settings | None = None,
+    statistics: Statistics | None = None,
+    rays: Rays | None = None,
+    *,
+    every: Literal[True],
+) -> Crossings: ...
 def trace(
     scene: Scene,
     settings: Settings | None = None,
     statistics: Statistics | None = None,
     rays: Rays | None = None,
     every: bool = False,
-) -> Hits | Any:
+) -> Hits | Crossings:
     """Return what the rays through the centres of the region's pixels meet, and nothing else.
 
     Row by row from the lowest.
@@ -173,8 +193,15 @@ def trace(
         o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
         rays = replace(rays, origins=o, directions=d)
         return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))
-    trace_band = result_of(TRACERS[method](scene, settings, 0.0, statistics))
-    found = [result_of(trace_band(band, 0.0, 0.0)) for band in bands(scene.camera, settings)]
+    return result_of(hits(scene, settings, statistics))
+
+
+def hits(scene: Scene, settings: Settings, statistics: Statistics) -> Work[Hits]:
+    """Find what the rays through the centres of the region's pixels meet, by a known method."""
+    trace_band = yield from TRACERS[settings.method](scene, settings, 0.0, statistics)
+    found = []
+    for band in bands(scene.camera, settings):
+        found.append((yield from trace_band(band, 0.0, 0.0)))
     return Hits.joined(found)
 
 

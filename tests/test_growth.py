@@ -23,7 +23,6 @@ from reference_tracer_grading.subjects.triangle import TRIANGLE
 from reference_tracer_meshes.load import load_meshes
 from reference_tracer_scene_diff.differences import differences
 
-from .files.old_scenes import old_arrays
 from .growth import of_each_pair
 from .meshes.gltf_build import Build
 
@@ -52,11 +51,6 @@ def scene_of(make):
 
 def of_new_file(scene, path):
     save_scene(path, scene)
-    return lambda: load_scene(path)
-
-
-def of_old_file(scene, path):
-    np.savez(path, **old_arrays(scene))
     return lambda: load_scene(path)
 
 
@@ -124,7 +118,6 @@ def of_students(scene, path):
 
 WORKS = {
     of_new_file: MANY,
-    of_old_file: SOME,
     of_writing: MANY,
     of_manifest: MANY,
     of_diagnosis: SOME,

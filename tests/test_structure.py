@@ -32,6 +32,7 @@ FLOORS = {
     "comparison": 6,
     "study": 3,
     "derivation": 3,
+    "visible": 3,
     "errors": 3,
     "report": 7,
     "api": 7,

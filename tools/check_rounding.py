@@ -5,14 +5,14 @@
 SCENE is a .blend, an .npz or a mesh. Rays and corners are rounded before they are stored
 (`addon/certified/rounding.py`). The ladder of `plain.py` is climbed again with its bounds widened:
 what is certain there is certain for the unrounded rays and corners, too. Rays that are left in
-doubt are asked exactly, in fractions. Cracks that rounding makes between instances are named.
+doubt are asked exactly, in fractions.
 """
 
 from __future__ import annotations
 
 import sys
 from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -25,7 +25,7 @@ from reference_tracer.certified.rounding import rounding
 from reference_tracer.certified.surfaces import Candidates, Surfaces
 from reference_tracer.cli.opening import load
 from reference_tracer.rendering import render
-from reference_tracer.scene import Region, Scene, SceneError, ViewWindow
+from reference_tracer.scene import Scene, SceneError, ViewWindow
 from reference_tracer.tracer.camera import (
     Rays,
     camera_rays,
@@ -36,19 +36,33 @@ from reference_tracer.tracer.camera import (
 )
 from reference_tracer.tracer.candidates import candidates, cull
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.hits import NOTHING, Hits
+from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
-from reference_tracer.tracer.ties import Name
 from reference_tracer.tracer.vector import Vectors, transform_points
-from reference_tracer.tracer.world import world_corners
 
 _ROWS = 32  # of a tile
 rational = np.vectorize(lambda x: Fraction(float(x)), otypes=[object])  # of floats, exactly
 
 
-def check_rounding(scene: Scene, frame: Frame) -> list[str]:
-    """Count the pixels of a certified frame that would show another surface; in words.
+@dataclass
+class Rounding:
+    """The pixels (x, y) that would show another surface unrounded, of how many asked exactly."""
+
+    total: int
+    others: list[tuple[int, int]] = field(default_factory=list)
+    asked: int = 0
+
+    def __str__(self) -> str:
+        at = f", as at {self.others[0]}" if self.others else ""
+        return (
+            f"{len(self.others):,} of {self.total:,} pixels would show another surface unrounded"
+            f"{at} ({self.asked:,} were asked exactly)"
+        )
+
+
+def check_rounding(scene: Scene, frame: Frame) -> Rounding:
+    """Find the pixels of a certified frame that would show another surface.
 
     Raises
     ------
@@ -66,7 +80,8 @@ def check_rounding(scene: Scene, frame: Frame) -> list[str]:
     loose, aside, reach = _loosened(scene)
     plan = result_of(cull(loose, np.dtype(float), 1 << 26, reach))
     around = _around(corner_rays(camera), aside)
-    found = _Found(scene, np.stack((frame.instance_index, frame.triangle_index)))
+    stored = np.stack((frame.instance_index, frame.triangle_index))
+    found = Rounding(stored[0].size)
     for y in range(region.y0, region.y1, _ROWS):
         tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
         film = film_positions(tile)
@@ -77,8 +92,13 @@ def check_rounding(scene: Scene, frame: Frame) -> list[str]:
         left, clear, surfaces = ladder.left()
         for part in left.take(np.flatnonzero(~clear)).by_ray(BY_INTEGERS):
             ray, seen = _unrounded(scene, film, part, surfaces)
-            found.enter(tile, ray, seen, part, surfaces)
-    return found.lines()
+            shown = stored[:, y - region.y0 :].reshape(2, -1)[:, ray]
+            found.asked += len(ray)
+            found.others += [
+                (region.x0 + own % region.width, y + own // region.width)
+                for own in ray[(seen != shown).any(axis=0)].tolist()
+            ]
+    return found
 
 
 def _loosened(scene: Scene) -> tuple[Scene, float, float]:
@@ -131,61 +151,6 @@ def _around(rays: Rays, aside: float) -> Rays:
     return Rays(widened(rays.origins), widened(rays.directions))
 
 
-class _Found:
-    """The pixels that would show another surface; `stored` (2, h, w) is what they show."""
-
-    def __init__(self, scene: Scene, stored: Integers) -> None:
-        self._scene = scene
-        self._stored = stored
-        self._asked = 0
-        self._others: list[tuple[int, int]] = []
-        self._cracks: dict[str, str] = {}
-
-    def enter(
-        self, tile: Region, ray: Index, seen: Index, near: Candidates, surfaces: Surfaces
-    ) -> None:
-        """Compare what rays of a tile see unrounded, (2, n), with what is stored.
-
-        `near` are all surfaces that these rays come near.
-        """
-        region = self._scene.camera.region
-        rows = slice(tile.y0 - region.y0, tile.y1 - region.y0)
-        shown = self._stored[:, rows].reshape(2, -1)[:, ray]
-        self._asked += len(ray)
-        for k in np.flatnonzero((seen != shown).any(axis=0)).tolist():
-            own = int(ray[k])
-            pixel = region.x0 + own % region.width, tile.y0 + own // region.width
-            self._others.append(pixel)
-            instance, triangle = surfaces.names(near.surface[near.ray == own])
-            for other in zip(instance.tolist(), triangle.tolist(), strict=True):
-                self._enter_crack(pixel, _name(seen[:, k]), _name(shown[:, k]), other)
-
-    def _enter_crack(self, pixel: tuple[int, int], seen: Name, shown: Name, other: Name) -> None:
-        """Note a crack if the ray passes between two triangles that share an edge unrounded."""
-        if shown in (seen, other) or not _is_crack(self._scene, seen, other):
-            return
-        first, second = sorted((seen[0], other[0]))
-        both = f"{self._called(first)} and {self._called(second)} share an edge"
-        crack = f"{both}, but rounding parts it"
-        self._cracks.setdefault(crack, f"the ray of pixel {pixel} passes between")
-
-    def _called(self, instance: int) -> str:
-        name = self._scene.objects[self._scene.instances[instance].object]
-        return f"'{name}' (instance {instance})"
-
-    def lines(self) -> list[str]:
-        """Return what was found, in words."""
-        at = f", as at {self._others[0]}" if self._others else ""
-        total = self._stored[0].size
-        count = f"{len(self._others):,} of {total:,} pixels would show another surface unrounded"
-        cracks = [f"a crack: {both}: {where}" for both, where in self._cracks.items()]
-        return [f"{count}{at} ({self._asked:,} were asked exactly)", *cracks]
-
-
-def _name(column: Index) -> Name:
-    return int(column[0]), int(column[1])
-
-
 def _unrounded(
     scene: Scene, film: tuple[Floats, Floats], found: Candidates, surfaces: Surfaces
 ) -> tuple[Index, Index]:
@@ -221,26 +186,11 @@ def unrounded_corners(scene: Scene, instance: Integers, triangle: Integers) -> A
     return out
 
 
-def _is_crack(scene: Scene, one: Name, other: Name) -> bool:
-    """Return whether triangles of two instances share an edge unrounded, but not as stored."""
-    if one[0] == other[0] or NOTHING in (one[1], other[1]):
-        return False
-    instance, triangle = np.array((one, other)).T
-    stored = world_corners(scene, instance, triangle)
-    return _shared(unrounded_corners(scene, instance, triangle)) == 2 and _shared(stored) < 2
-
-
-def _shared(corners: Array) -> int:
-    """Count the corners that two triangles, (3, 3, 2), have in common."""
-    first, second = ({tuple(c) for c in of_one} for of_one in corners.transpose(2, 0, 1).tolist())
-    return len(first & second)
-
-
 def main() -> None:
     """Trace the scene, and print how far rounding goes and what it changes."""
     scene, _ = load(Path(sys.argv[1]))
     frame = render(scene, Settings("certified"))
-    print(rounding(scene), *check_rounding(scene, frame), sep="\n")
+    print(rounding(scene), check_rounding(scene, frame), sep="\n")
 
 
 if __name__ == "__main__":

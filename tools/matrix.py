@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import shutil
 import subprocess
 import sys
 import time
@@ -95,18 +94,6 @@ def run(*command: str | Path) -> str:
     return done.stdout
 
 
-def find_python(version: str) -> str:
-    """Return a Python of a version: it is asked rather than judged by its name."""
-    pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv"), "versions")
-    asked = f"import sys, venv; sys.exit('%d.%d' % sys.version_info[:2] != '{version}')"
-    found = sorted(pyenv.glob(f"{version}.*/bin/python"))
-    for python in (sys.executable, f"python{version}", *map(str, found), "python3", "python"):
-        command = [python, "-c", asked]
-        if shutil.which(python) and not subprocess.run(command, capture_output=True).returncode:
-            return python
-    raise CannotRunError(f"there is no Python {version} with its venv module here")
-
-
 def environment(cell: Cell) -> Path:
     """Return the Python of a cell's environment, which is made if it is not there."""
     folder = PROJECT / ".venv" / "matrix" / cell.name
@@ -117,7 +104,8 @@ def environment(cell: Cell) -> Path:
     if stamp.exists() and stamp.read_text("utf-8") == complete:
         return python
     print(f"making {folder.relative_to(PROJECT)}", flush=True)
-    run(find_python(cell.python), "-m", "venv", "--clear", "--without-pip", folder)
+    found = run(PROJECT / "tools" / "venv.sh", "which", cell.python).strip()
+    run(found, "-m", "venv", "--clear", "--without-pip", folder)
     constraints = folder / "constraints.txt"
     others = [pin for pin in pins.splitlines() if not pin.startswith("bpy==")]
     constraints.write_text("\n".join(others), "utf-8")

@@ -3,12 +3,14 @@
 #
 #   tools/venv.sh            picks a Python: 3.13 (bpy 5.2.3), else 3.11 (bpy 5.0.1), else fetches one
 #   PYTHON=... tools/venv.sh takes that one
-#   tools/venv.sh which      only says which
+#   tools/venv.sh which [VERSION]  only says which
 #   tools/venv.sh libraries PYTHON  only installs what that Python's bpy needs
 #
 # Safe to run again: an environment that works is kept and brought up to date.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+
+versions="3.13 3.11" # of Python, for which there is a bpy: the first one there is, is taken
 
 say() { echo "venv: $*" >&2; }
 
@@ -22,10 +24,10 @@ sys.exit(not ok or bool(sysconfig.get_config_var("Py_GIL_DISABLED")))  # bpy has
 ' "$2" 2>/dev/null
 }
 
-find_python() {
-    local version candidate pyenv_versions=""
+find_python() { # VERSION...
+    local version candidate wanted="$*" pyenv_versions=""
     if command -v pyenv >/dev/null; then pyenv_versions="$(pyenv root)/versions"; fi
-    for version in 3.13 3.11; do
+    for version in "$@"; do
         for candidate in ${PYTHON:-"python$version" "$pyenv_versions/$version".*/bin/python python3 python}; do
             if is_python "$candidate" "$version"; then
                 echo "$candidate"
@@ -33,15 +35,15 @@ find_python() {
             fi
         done
     done
-    if [ -z "${PYTHON:-}" ] && fetch_python 2>/dev/null; then return; fi
-    say "no ${PYTHON:-Python 3.13 or 3.11} with its venv module, which Blender's module needs:" \
+    if [ -z "${PYTHON:-}" ] && fetch_python "$1" 2>/dev/null; then return; fi
+    say "no ${PYTHON:-Python ${wanted// / or }} with its venv module, which Blender's module needs:" \
         "install one (Debian 12 and 13: apt install python3-venv), or name it:" \
         "make PYTHON=/path/to/python3.13 demo"
     return 1
 }
 
 # uv knows Pythons of its own, and fetches one into the folder .python; any Python can fetch uv.
-fetch_python() {
+fetch_python() { # VERSION
     local uv=uv python
     export UV_PYTHON_INSTALL_DIR="$PWD/.python"
     if ! command -v uv >/dev/null; then
@@ -52,8 +54,8 @@ fetch_python() {
         "$uv/python" -m pip install --quiet uv >&2 || return
         uv+=/uv
     fi
-    "$uv" python find 3.13 && return
-    "$uv" python install --quiet 3.13 >&2 && "$uv" python find 3.13
+    "$uv" python find "$1" && return
+    "$uv" python install --quiet "$1" >&2 && "$uv" python find "$1"
 }
 
 # bpy needs some of the system's libraries, and without them dies with a bare linker error.
@@ -75,11 +77,17 @@ check_libraries() { # PYTHON
 
 case "${1:-}" in
     libraries) check_libraries "$2"; exit ;;
-    which) find_python; exit ;;
+    which)
+        if [ -n "${2:-}" ]; then PYTHON=; fi
+        # shellcheck disable=SC2086  # a list of versions
+        find_python ${2:-$versions}
+        exit
+        ;;
 esac
 
 if ! is_python .venv/bin/python 3.13 && ! is_python .venv/bin/python 3.11; then
-    python="$(find_python)"
+    # shellcheck disable=SC2086  # a list of versions
+    python="$(find_python $versions)"
     say "making .venv with $("$python" --version)"
     "$python" -m venv --clear .venv
     if [ -d .venv/Scripts ]; then # Windows: let it have the name that it has elsewhere

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.types import Context, Depsgraph, Scene, ViewLayer
 
 from ..wording import say
 from .temporary import ENGINE, is_temporary
@@ -34,14 +35,14 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     bl_use_eevee_viewport = True  # else there is no mode Material Preview
 
     # Blender calls it by position, where the stubs have keywords.
-    def update_render_passes(self, scene: Any, renderlayer: Any) -> None:  # type: ignore[override]
+    def update_render_passes(self, scene: Scene, renderlayer: ViewLayer) -> None:  # type: ignore[override]
         """Declare the passes to the compositor."""
         declare: Any = self.register_pass
         for p in _enabled(renderlayer):
             declare(scene, renderlayer, p.label, len(p.letters), p.letters, p.kind)
 
     # The stubs have Blender's property of this name instead.
-    def render(self, depsgraph: Any) -> None:  # type: ignore[override]
+    def render(self, depsgraph: Depsgraph) -> None:  # type: ignore[override]
         """Render one view layer of one frame; nothing of a temporary scene."""
         from ..errors import failure
 
@@ -50,14 +51,14 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         if error := failure(self._trace, depsgraph):
             self.report({"ERROR"}, error)
 
-    def view_update(self, context: Any, depsgraph: Any) -> None:
+    def view_update(self, context: Context, depsgraph: Depsgraph) -> None:
         """Take over what has changed for a 3D view in Rendered mode; each has its own engine."""
         from .live.view import LiveView
 
         self.live = getattr(self, "live", None) or LiveView()
         self.live.update(context, depsgraph)
 
-    def view_draw(self, context: Any, depsgraph: Any) -> None:
+    def view_draw(self, context: Context, depsgraph: Depsgraph) -> None:
         """Draw such a view."""
         self.live.draw(self, context, depsgraph)
 

@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import bpy
+from bpy.types import Depsgraph
 
 from ..manifest import Manifest
 from ..pictures.certificate import CameraCertificate
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 Certified: TypeAlias = tuple[Scene, Manifest, CameraCertificate | None]
 
 
-def evaluated(scene: Any, layer: str, judge: Judge | None, work: Turns[T]) -> T:
+def evaluated(scene: bpy.types.Scene, layer: str, judge: Judge | None, work: Turns[T]) -> T:
     """Have Blender evaluate a temporary scene, and draw it, in turns with the work.
 
     A 'Render Result' that did not exist before is removed.
@@ -77,7 +78,7 @@ def _render_results() -> list[Any]:
     return [image for image in bpy.data.images if image.type == "RENDER_RESULT"]
 
 
-def _draw_in_window(turns: InTurns[Any], scene: Any, layer: str) -> None:
+def _draw_in_window(turns: InTurns[Any], scene: bpy.types.Scene, layer: str) -> None:
     # Adding a window, area or region to the override crashes Blender (4.3, 5.2).
     with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer]):
         while not turns.go_on(bpy.context.evaluated_depsgraph_get()):
@@ -98,7 +99,7 @@ def _render(turns: InTurns[Any], scene: Any, judge: Judge | None) -> None:
     # an animation has no frame below 0.
     writes = judge is not None and judge.known and scene.frame_current >= 0
     scene.render.use_persistent_data = writes  # Cycles keeps the evaluation, too
-    empty = bpy.data.scenes.new("Reference Tracer")
+    empty: Any = bpy.data.scenes.new("Reference Tracer")
     empty.frame_set(scene.frame_current, subframe=scene.frame_subframe)  # it is rendered (5.2)
     try:
         context: Any = empty if judge is None or judge.known else bpy.context.scene
@@ -118,7 +119,7 @@ def _render(turns: InTurns[Any], scene: Any, judge: Judge | None) -> None:
 
 
 @contextmanager
-def _one_frame(turns: InTurns[Any], scene: Any) -> Iterator[None]:
+def _one_frame(turns: InTurns[Any], scene: bpy.types.Scene) -> Iterator[None]:
     """Have each animation that is rendered of a scene be of its one frame, for a while.
 
     It is as long as the work wants. What Blender evaluates has the scene's own range of frames: a
@@ -140,7 +141,7 @@ def _one_frame(turns: InTurns[Any], scene: Any) -> Iterator[None]:
             if getattr(scene, name) != value:  # Blender takes any setting for a change
                 setattr(scene, name, value)
 
-    def is_evaluated(of: Any, depsgraph: Any) -> None:
+    def is_evaluated(of: Any, depsgraph: Depsgraph) -> None:
         if of == scene:
             depsgraph.update()  # what other handlers have changed
             turns.go_on(depsgraph)
@@ -183,7 +184,7 @@ def _told(**handlers: Callable[..., None]) -> Iterator[None]:
             event.extend(others)
 
 
-def export_certified(depsgraph: Any, known: dict[Any, Any] | None = None) -> Certified:
+def export_certified(depsgraph: Depsgraph, known: dict[Any, Any] | None = None) -> Certified:
     """Return what :func:`.reading.export.export` does, and how close its camera is to Blender's."""
     scene, manifest = export(depsgraph, known)
     if not scene.camera.projection.is_linear:  # Blender has no matrix for it
@@ -191,7 +192,7 @@ def export_certified(depsgraph: Any, known: dict[Any, Any] | None = None) -> Cer
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
 
 
-def export_for_render(scene: Any) -> Certified:
+def export_for_render(scene: bpy.types.Scene) -> Certified:
     """Return the *render* evaluation of a temporary scene, and set its engine to this one.
 
     Such an evaluation exists only while an engine renders.
@@ -204,7 +205,7 @@ def export_for_render(scene: Any) -> Certified:
     return evaluated(scene, scene.view_layers[0].name, None, _exported())
 
 
-def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:
+def export_for_judge(tmp: bpy.types.Scene, layer: str, judge: Judge) -> Certified:
     """Return what a judge's picture is to be compared with, as :func:`export_certified` does."""
     return evaluated(tmp, layer, judge if judge.needs_window else None, _exported())
 

@@ -34,7 +34,7 @@ def main(path: str, out: str) -> None:
     """Import a file, and write its scene."""
     registration.register()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    scene: Any = bpy.context.scene
+    scene = bpy.context.scene
     missing: list[str] = []
     notes: list[str] = []
     if path.endswith((".gltf", ".glb")):

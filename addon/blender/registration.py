@@ -83,7 +83,7 @@ def unregister() -> None:
     for event, handler in _HANDLERS.items():
         getattr(bpy.app.handlers, event).remove(handler)
     if LongWork.running:  # Blender tells no operator that its add-on is switched off
-        context: Any = bpy.context
+        context = bpy.context
         window = context.window or context.window_manager.windows[0]
         with context.temp_override(window=window):  # a script may have none
             LongWork.stop(context)

@@ -6,14 +6,13 @@ beforehand what takes so long.
 
 from __future__ import annotations
 
-from typing import Any
-
 from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.types import ViewLayer
 
 LONG = 0.1  # seconds: what takes less is not worth a word; a render may have finer modifiers
 
 
-def slowest(layer: Any) -> str:
+def slowest(layer: ViewLayer) -> str:
     """Return the object with most of the modifiers' time in the latest evaluation of a view layer.
 
     Blender has measured it: nothing is evaluated. Empty if all took little time, no object took
@@ -29,7 +28,7 @@ def slowest(layer: Any) -> str:
     return name if name and seconds[name] > max(LONG, sum(seconds.values()) / 2) else ""
 
 
-def announced(layer: Any, otherwise: str) -> str:
+def announced(layer: ViewLayer, otherwise: str) -> str:
     """Return what takes Blender long, in words: the slowest object, or what else is done."""
     name = slowest(layer)
     return rpt_("Blender evaluates '{}'").format(name) if name else otherwise

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import bpy
+from bpy.types import Depsgraph, LayerCollection, Scene
 
 if TYPE_CHECKING:
     from ..pictures.palette import Palette
@@ -36,7 +37,7 @@ NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
 @contextmanager
 def temporary_scene(
-    scene: Any,
+    scene: Scene,
     layer: str | None = None,
     ignored: Collection[str] | None = None,
     palette: Palette | None = None,
@@ -67,7 +68,7 @@ def temporary_scene(
         remove(copy)
 
 
-def made_for(scene: Any, block: B) -> B:
+def made_for(scene: Scene, block: B) -> B:
     """Return a data-block that goes when the add-on removes its scene, and not before.
 
     While Blender renders, removing one may crash it (5.2).
@@ -76,7 +77,7 @@ def made_for(scene: Any, block: B) -> B:
     return block
 
 
-def remove(scene: Any) -> None:
+def remove(scene: Scene) -> None:
     """Remove a scene of the add-on's, with what was made for it."""
     data = bpy.data
     kinds: tuple[Any, ...] = data.collections, data.objects, data.meshes, data.materials
@@ -86,13 +87,14 @@ def remove(scene: Any) -> None:
     data.batch_remove([scene, *own])
 
 
-def show_in(tmp: Any, depsgraph: Any, colors: Mapping[str, Any]) -> None:
+def show_in(tmp: Scene, depsgraph: Depsgraph, colors: Mapping[str, Any]) -> None:
     """Show objects in colours, by their names, in one evaluation of a temporary scene.
 
     The user's objects stay as they are, and none is evaluated again.
     """
     for scene in (tmp, depsgraph.scene_eval):
         scene.display.shading.color_type = "OBJECT"
+    block: Any
     for block in depsgraph.ids:
         color = colors.get(block.original.name_full) if block.id_type == "OBJECT" else None
         if color is not None:
@@ -124,7 +126,7 @@ def is_temporary(scene: Any) -> bool:
     return _COPY_OF in scene
 
 
-def user_scene(scene: Any) -> Any:
+def user_scene(scene: Scene) -> Any:
     """Return the user's scene that a temporary one is a copy of; a scene of the user's is itself.
 
     An evaluated scene gives the original one.
@@ -133,13 +135,13 @@ def user_scene(scene: Any) -> Any:
     return next(s for s in bpy.data.scenes if s.name_full == name)
 
 
-def ignored_features(scene: Any) -> tuple[str, ...] | None:
+def ignored_features(scene: Scene) -> tuple[str, ...] | None:
     """Return the features that a temporary scene's judge does not show; None without a judge."""
     ignored = scene.get(_IGNORED)
     return None if ignored is None else tuple(ignored.split("\n"))
 
 
-def _isolate(scene: Any, layer: str) -> None:
+def _isolate(scene: Scene, layer: str) -> None:
     render = scene.render
     render.use_compositing = False
     render.use_multiview = False
@@ -157,7 +159,7 @@ def _isolate(scene: Any, layer: str) -> None:
 
 
 @contextmanager
-def everything(scene: Any) -> Iterator[None]:
+def everything(scene: Scene) -> Iterator[None]:
     """Have all of a temporary scene exported, for a while: also what its camera cannot see."""
     scene[_WHOLE] = True
     yield
@@ -169,7 +171,7 @@ def is_whole(scene: Any) -> bool:
     return _WHOLE in scene
 
 
-def go_to(scene: Any, frame: float) -> None:
+def go_to(scene: Scene, frame: float) -> None:
     """Step a temporary scene to a frame, or between two, at which it is evaluated next."""
     whole = int(frame // 1)
     _spare_bodies(scene, whole)
@@ -177,7 +179,7 @@ def go_to(scene: Any, frame: float) -> None:
     scene.frame_subframe = frame - whole
 
 
-def _spare_bodies(scene: Any, frame: int) -> None:
+def _spare_bodies(scene: Scene, frame: int) -> None:
     # Blender would simulate the user's own rigid bodies in this scene, free them with it, and
     # crash. Measured: it also does so with baked ones in the second frame of their cache.
     if bodies := scene.rigidbody_world:
@@ -200,7 +202,9 @@ def leave_out(tmp: Any, layer: str, objects: Collection[Any]) -> None:
     _leave_out(tmp.collection, tmp.view_layers[layer].layer_collection, objects, tmp.name_full)
 
 
-def _leave_out(collection: Any, layer: Any, objects: Collection[Any], copy_of: str) -> None:
+def _leave_out(
+    collection: Any, layer: LayerCollection, objects: Collection[Any], copy_of: str
+) -> None:
     for child in list(collection.children):
         if not any(obj in objects for obj in child.all_objects):
             continue
@@ -218,7 +222,7 @@ def _leave_out(collection: Any, layer: Any, objects: Collection[Any], copy_of: s
         collection.objects.unlink(obj)
 
 
-def _child(layer: Any, collection: Any) -> Any:
+def _child(layer: LayerCollection, collection: bpy.types.Collection) -> LayerCollection:
     """Return a collection's place in a layer: by its name alone it may be a library's instead."""
     return next(c for c in layer.children if c.collection == collection)
 
@@ -230,6 +234,6 @@ def _copy_flags(source: Any, target: Any) -> None:
         _copy_flags(old, new)
 
 
-def drawn(tmp: Any, layer: str) -> list[Any]:
+def drawn(tmp: Scene, layer: str) -> list[Any]:
     """Return the objects of a view layer that may be drawn, or that instance what is drawn."""
     return [o for o in tmp.view_layers[layer].objects if o.type not in NOT_DRAWN]

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from typing import Any, Generic, TypeAlias, TypeVar
 
+from bpy.types import Depsgraph
+
 from ..tracer.signals import check
 
 T = TypeVar("T")
@@ -26,7 +28,7 @@ class InTurns(Generic[T]):
         self.wants_more = False  # than the picture that is to be drawn
         self.go_on()
 
-    def go_on(self, depsgraph: Any = None) -> bool:
+    def go_on(self, depsgraph: Depsgraph = None) -> bool:
         """Do the work's next turn; return whether it has ended."""
         self.hear()
         return self._do(lambda: self._work.send(depsgraph))

@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import ID, Object
 
 from .versions import curves
 
@@ -82,7 +83,7 @@ def _animated() -> Iterator[tuple[Any, str]]:
                     yield from ((owner, curve.data_path) for curve in _curves(owner))
 
 
-def is_animated(obj: Any, *paths: str) -> bool:
+def is_animated(obj: Object, *paths: str) -> bool:
     """Return whether an animation or a driver sets one of an object's properties."""
     drivers = obj.animation_data.drivers if obj.animation_data else ()
     return any(curve.data_path in paths for curve in (*_curves(obj), *drivers))
@@ -95,7 +96,7 @@ def _curves(owner: Any) -> Iterator[Any]:
             yield from curves(action)
 
 
-def _value(block: Any, path: str) -> Any:
+def _value(block: ID, path: str) -> Any:
     """Return a value that no longer belongs to Blender; None where the path leads nowhere."""
     try:
         value = block.path_resolve(path)
@@ -104,7 +105,7 @@ def _value(block: Any, path: str) -> Any:
     return tuple(value) if hasattr(value, "__len__") and not isinstance(value, str) else value
 
 
-def _assign(block: Any, path: str, value: Any) -> None:
+def _assign(block: ID, path: str, value: Any) -> None:
     if path.endswith("]"):  # a custom property: pose.bones["Arm"]["bend"]
         at = path.rindex("[")
         owner = block.path_resolve(path[:at]) if at else block

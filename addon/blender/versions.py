@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from bpy.types import RenderSettings
 
 _FROM_5 = bpy.app.version >= (5, 0, 0)
 # What 'VERTEX' shows of a mesh without a colour attribute: checked in 4.2, 4.3, 4.5, 5.0 and 5.2.
@@ -59,9 +60,9 @@ def radii(obj: Any, frame: Any) -> list[float]:
     return [point.value for point in radius.data] if radius else []
 
 
-def set_format(render: Any, kind: str, mode: str, depth: str) -> None:
+def set_format(render: RenderSettings, kind: str, mode: str, depth: str) -> None:
     """Set what files a `bpy.types.RenderSettings` writes."""
-    settings = render.image_settings
+    settings: Any = render.image_settings
     if _FROM_5:
         settings.media_type = "MULTI_LAYER_IMAGE" if kind == LAYERS else "IMAGE"
     settings.file_format = kind

@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..camera_files.files import of_frames
+from ..comparison.animation import frames_named
 from ..files.file_kinds import check_is_file
 from ..framing import Choice
 from ..manifest import Manifest
@@ -72,6 +74,32 @@ def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> Op
     check_kind(path)
     with running.meanwhile(f"reading {path.name}"):
         return OpenedFile(*open_scene(path, choice), Settings())
+
+
+def open_frames(
+    path: Path, choice: Choice, named: str | None, whole: bool = False
+) -> Iterator[tuple[int, OpenedFile]]:
+    """Yield the frames that are named of a .blend, opened once, as :func:`open_file`.
+
+    If none are, that is one, the saved one, with the number 0.
+    """
+    if named is None:
+        yield 0, open_file(path, choice, whole)
+        return
+    with open_blend(path, choice) as blender:
+        from ..blender.jobs.animation import frames_of
+        from ..blender.jobs.choice import seen_by
+        from ..blender.jobs.open_file import export_open_file
+        from ..blender.jobs.stepping import bake_bodies, stepped
+
+        user = blender.context.scene
+        frames = frames_named(named) or frames_of(user)
+        views = of_frames(choice.views, frames) if choice.views else {}
+        bake_bodies(user, frames[-1])
+        for frame in stepped(user, [*frames]):
+            with seen_by(user, views.get(frame)):
+                opened = OpenedFile(*export_open_file(blender.context, whole=whole))
+            yield frame, opened
 
 
 @contextmanager

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from ..causes.case import Case, without_colors
 from ..causes.counts import count_pixels
 from ..causes.excused import excused
@@ -82,18 +84,21 @@ def trace_and_compare(case: Case, literally: bool = False) -> Work[Comparison]:
     return replace(found, methods=methods.rows, literal=methods.literal)
 
 
-def diagnosed(comparison: Comparison, place: str = "") -> Work[Comparison]:
+def diagnosed(comparison: Comparison, place: str = "", at_most: float = np.inf) -> Work[Comparison]:
     """Return a comparison with what accounts for its unexplained pixels, if it has any.
 
-    It is found without that first, in a `place` that is said. The verdict stays.
+    It is found without that first, in a `place` that is said. The verdict stays. The search ends
+    after `at_most` steps of work, or after its own limit.
     """
     if not comparison.counts.unexplained:
         return comparison
     yield Found(comparison, f"verdict: {comparison.verdict}{place}; what is wrong is looked for")
     from ..diagnosis.diagnosis import diagnose  # late: the faults take long to import
+    from ..diagnosis.guessing import STEPS
 
     yield Progress(None, "looking for what is wrong")
-    work = diagnose(comparison.case, comparison.frame, comparison.causes)
+    steps = min(STEPS, at_most)
+    work = diagnose(comparison.case, comparison.frame, comparison.causes, steps=steps)
     found = yield from scaled(work, 1.0, None)
     return replace(comparison, diagnosis=found)
 

@@ -134,6 +134,7 @@ class Comparison:
     def to_dict(self) -> dict[str, object]:
         """Return the comparison as JSON can hold it."""
         certificate = self.case.certificate
+        measured = self.case.picture.measured(self.metrics)
         return {
             "schema": SCHEMA,
             "scene": self.manifest.to_dict(),
@@ -152,7 +153,7 @@ class Comparison:
             "diagnosis": self.diagnosis and self.diagnosis.to_dict(),
             "certificate": certificate and certificate.to_dict(),
             "self_check": [row.to_dict() for row in self.self_check],
-            "metrics": self.metrics.to_dict(),
+            "metrics": self.metrics.to_dict() if measured else None,
             "verdict": self.verdict,
         }
 

@@ -19,7 +19,6 @@ from ..tracer.hits import NOTHING
 from .pixel import Candidate, Pixel
 
 SCHEMA = "reference_tracer.pixel/2"
-_READ = "reference_tracer.pixel/1", SCHEMA  # the first had "orthographic" for "projection"
 _COUNTS = "first_plane", "triangles", "left_out", "refused"
 
 
@@ -68,7 +67,7 @@ def read(path: str | Path) -> Pixel:
 
 def _pixel(content: Content) -> Pixel:
     schema = content.get("schema") if isinstance(content, dict) else None
-    if schema not in _READ:
+    if schema != SCHEMA:
         raise SceneError(f"its schema is {schema!r}, not {SCHEMA!r}: no pixel to explain")
     first_plane = whole(content, "first_plane", "")
     candidates = tuple(

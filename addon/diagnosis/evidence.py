@@ -7,9 +7,10 @@ leaves the latter as they are.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -29,9 +30,10 @@ from ..tracer.nearest import plan
 from ..tracer.progress import Work
 from .seen import Trees
 
+T = TypeVar("T")
+
 SAMPLE = 512  # sampled pixels of each kind
 FEW = 128  # those of the small sample, which comes first
-DENSE = 1 << 12  # pixels: more are traced as a picture is, fewer through trees
 SEED = 27
 LEAST_SETTLED = 10  # pixels, at least, by a guess; and half as many for each of its numbers
 WORTH = 0.2  # of the unexplained pixels: a guess that settles fewer is dropped
@@ -69,6 +71,13 @@ class Evidence:
     of_object: bool = False  # whether a fault of a single object was put right in it
     known: dict[str, Any] = field(default_factory=dict)  # a cache that faults share
     trees: Trees = field(default_factory=Trees)
+
+    def once(self, key: str, make: Callable[[], T]) -> T:
+        """Return what several faults need, made once."""
+        if key not in self.known:
+            self.known[key] = make()
+        found: T = self.known[key]
+        return found
 
     @cached_property
     def unexplained(self) -> Bools:
@@ -149,12 +158,6 @@ class Evidence:
         """Trace a scene in n pixels, by row and column, or in the sampled ones."""
         rows, columns = self.sample if at is None else at
         r = scene.camera.region
-        if len(rows) > DENSE:
-            wanted = np.zeros(self.unexplained.shape, bool)
-            wanted[rows, columns] = True
-            made = yield from plan(scene, SOUND, 0.0)
-            probe = yield from Probe.of(made, r, wanted.ravel())
-            return (yield from probe.trace())
         rays = camera_rays(scene.camera, columns + r.x0 + 0.5, rows + r.y0 + 0.5)
         return (yield from self.trees.trace(scene, rays))
 
@@ -215,7 +218,8 @@ class Evidence:
     def suspects(self) -> tuple[str, ...]:
         """The objects that are seen in unexplained pixels, or shown in them, the most first.
 
-        All that a moved object makes wrong involves it; less of that involves what is around it.
+        All that a moved object makes wrong involves it; less of that involves what is around it, or
+        as much: a floor is seen in more pixels.
         """
         scene = self.case.scene
         rows, columns = (v[self.unexplained_sampled] for v in self.sample)
@@ -223,7 +227,9 @@ class Evidence:
         shown = self._shown_objects()
         both = np.concatenate((seen, shown[shown != seen]))
         count = np.bincount(both[both >= 0], minlength=len(scene.objects))
-        order = np.argsort(-count, kind="stable")
+        everywhere = scene.instance_objects[self.frame.instance_index]
+        area = np.bincount(everywhere[everywhere >= 0], minlength=len(scene.objects))
+        order = np.lexsort((area, -count))
         least = max(LEAST_SEEN, INVOLVED * int(np.max(count, initial=0)))
         return tuple(scene.objects[n] for n in order if count[n] >= least)[:MOST_SUSPECTS]
 

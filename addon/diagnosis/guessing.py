@@ -48,6 +48,7 @@ SHARE = 0.2  # of the unexplained pixels
 AS_GOOD = 0.98  # of the best gain on the sample: others are not tried once a guess does it all
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
 PROMISING = 0.3  # of the best gain on the sample: guesses below it get no trial
+LIKELY = 8.0  # pixels that a guess without numbers gains in the sample for each one that it breaks
 UNLIKELY = 0.5  # of the least gain: guesses below it in the small sample are dropped
 NEARLY = 0.5  # of the unexplained pixels: a guess that gains as much may be all there is
 ENOUGH = 0.995  # of the unexplained pixels: after such a gain, no more effort is made
@@ -160,7 +161,8 @@ class Guessing:
                     guess = yield from self._finer(evidence, made, guess)
                     again = self._limited(_score(evidence, made, guess), made)
                     score = (yield from again) or NONE
-                if score.gain >= _least(evidence):
+                likely = bool(guess.low) or score.gain >= LIKELY * score.broken
+                if likely and score.gain >= _least(evidence):
                     out.append((score.gain, made, guess))
         return out
 
@@ -189,13 +191,13 @@ class Guessing:
         ranks = [tried.update([fault.name]) or tried[fault.name] for _, fault, _ in scored]
         best = scored[0][0] if scored else 0.0
         cost = [len(g.low) if gain >= AS_GOOD * best else np.inf for gain, _, g in scored]
-        order = sorted(range(len(scored)), key=lambda n: (cost[n], -scored[n][0], ranks[n]))
-        scored = [scored[n] for n in order]
-        exact = [one for one in scored if not one[1].vague]
-        vague = [one for one in scored if one[1].vague]
+        order = sorted(
+            range(len(scored)),
+            key=lambda n: (scored[n][1].vague, cost[n], -scored[n][0], ranks[n]),
+        )
         out: list[Trial] = []
         done: dict[str, int] = {}  # faults with a guess that does it all, in so many numbers
-        for gain, fault, guess in (*exact[:most], *vague[:most]):
+        for gain, fault, guess in (scored[n] for n in order[:most]):
             worse = gain < AS_GOOD * best
             longer = not guess.object and len(guess.low) > min(done.values(), default=0)
             if fault.name in done or (done and (worse or longer)):
@@ -266,7 +268,7 @@ def _may_be_first(evidence: Evidence, trial: Trial, of_little: bool = False) -> 
         trial.gain >= (SHARE if of_little else MAIN) * evidence.unexplained.sum()
         and trial.broken <= LOST * trial.settled
         and trial.own >= COMPLETE
-        and trial.evidence.unexplained.any()
+        and trial.evidence.unexplained.sum() >= LEAST_SETTLED
     )
 
 

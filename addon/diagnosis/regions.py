@@ -95,7 +95,7 @@ def regions(
     bottom, left = int(np.min(y)), int(np.min(x))
     held = mask[bottom : int(np.max(y)) + 1, left : int(np.max(x)) + 1]
     while True:
-        label = _labels(largest_within(held, near))[y - bottom, x - left]
+        label = labels(largest_within(held, near))[y - bottom, x - left]
         unique, number = np.unique(label, return_inverse=True)
         if len(unique) <= most:
             break
@@ -122,7 +122,7 @@ def _region(y: Places, x: Places, shown: Sequence[Side]) -> Region:
     return Region(left, bottom, *size, len(y), tuple(name for name, _ in count.most_common()))
 
 
-def _labels(mask: Bools) -> Array:
+def labels(mask: Bools) -> Array:
     """Label the 8-connected components of a mask, (h, w); pixels outside it get any label.
 
     Runs of pixels that touch in neighbouring rows are linked.
@@ -138,10 +138,10 @@ def _labels(mask: Bools) -> Array:
     many = np.maximum(last - first, 0)
     above = np.repeat(np.arange(len(start)), many)
     below = np.arange(many.sum()) + np.repeat(first - np.cumsum(many) + many, many)
-    label = _linked(len(start), above, below)
+    label = np.append(_linked(len(start), above, below), 0)
     rows, columns = np.divmod(np.arange(height * width), width)
     run = np.searchsorted(start, rows * (width + 2) + columns, "right") - 1
-    return label[np.maximum(run, 0)].reshape(height, width)
+    return label[run].reshape(height, width)
 
 
 def _linked(count: int, one: Places, other: Places) -> Places:

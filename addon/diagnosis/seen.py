@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from operator import is_
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -55,22 +56,20 @@ class Trees:
     def _prepare(self, scene: Scene) -> None:
         """Make the trees that the scene does not share with the last one."""
         last = self._last
-        same = last is not None and _same(last.meshes, scene.meshes)
+        same = last is not None and identical(last.meshes, scene.meshes)
         if not same:
             for mesh in scene.meshes:
                 if mesh not in self.of_mesh:
                     self.of_mesh[mesh] = _tree(mesh)
             self._meshes = Tree.joined([self.of_mesh[mesh] for mesh in scene.meshes])
-        if last is None or not same or not _same(last.instances, scene.instances):
+        if last is None or not same or not identical(last.instances, scene.instances):
             self._instances = _instances(scene)
         self._last = scene
 
 
-def _same(first: Sequence[object], second: Sequence[object]) -> bool:
+def identical(first: Sequence[object], second: Sequence[object]) -> bool:
     """Return whether two sequences hold the identical objects."""
-    if first is second:
-        return True
-    return len(first) == len(second) and all(a is b for a, b in zip(first, second, strict=True))
+    return first is second or (len(first) == len(second) and all(map(is_, first, second)))
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from operator import is_
 
 import numpy as np
 
@@ -11,7 +10,6 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
-from ..pictures.bounds import largest_within
 from ..pictures.storage import differing_pixels
 from ..rendering import steps
 from ..scene import Scene, SceneError
@@ -20,6 +18,8 @@ from ..tracer.frame import Frame
 from ..tracer.progress import Work
 from .evidence import Evidence
 from .faults.fault import AnyFault, Guess
+from .regions import labels
+from .seen import identical
 
 HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
 LOOKED_AT = 1 << 14  # differing pixels that are checked, at most
@@ -124,16 +124,11 @@ def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
 
 def same_shapes(one: Scene, other: Scene) -> bool:
     """Return whether two scenes, one made of the other, differ in nothing but colours."""
-    records = (one.camera, *one.meshes, *one.planes), (other.camera, *other.meshes, *other.planes)
-    pairs = list(zip(one.instances, other.instances, strict=False))
+    records = ((s.camera, *s.meshes, *s.planes) for s in (one, other))
     return (
-        len(records[0]) == len(records[1])
-        and all(map(is_, *records))
-        and len(pairs) == len(one.instances) == len(other.instances)
-        and all(
-            i.mesh == j.mesh and np.array_equal(i.world_from_object, j.world_from_object)
-            for i, j in pairs
-        )
+        identical(*records)
+        and np.array_equal(one.instance_meshes, other.instance_meshes)
+        and np.array_equal(one.instance_matrices, other.instance_matrices)
     )
 
 
@@ -176,13 +171,9 @@ def _of_object(name: str, before: Evidence, after: Evidence) -> float:
 
 
 def _connected(seed: Bools, within: Bools) -> Bools:
-    """Return the 8-connected components of a mask (h, w) that contain a seed (flood fill)."""
-    out = seed & within
-    while True:
-        more = (largest_within(out.astype(np.int8), 1) > 0) & within
-        if (more == out).all():
-            return out
-        out = more
+    """Return the 8-connected components of a mask (h, w) that contain a seed."""
+    label = labels(within)
+    return within & np.isin(label, label[seed & within])
 
 
 def left_unexplained(evidence: Evidence) -> Bools:

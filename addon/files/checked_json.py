@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..arrays import Floats
-from ..projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS, Projection
+from ..projections import PROJECTIONS, Projection
 from ..scene import Camera, Region, SceneError, ViewWindow
 
 Content = dict[str, Any]  # an object of JSON
@@ -41,10 +41,7 @@ def camera_of(c: Content) -> Camera:
 
 
 def _projection(c: Content) -> Projection:
-    name = c.get("orthographic")  # of version 1: true, false, or the name of a third type
-    if isinstance(name, bool):
-        name = (ORTHOGRAPHIC if name else PERSPECTIVE).name
-    name = c.get("projection", name)
+    name = c.get("projection")
     if not isinstance(name, str) or name not in PROJECTIONS:
         raise SceneError(f"camera.projection must be one of: {', '.join(PROJECTIONS)}")
     return PROJECTIONS[name]

@@ -17,14 +17,6 @@ from . import npz
 from .checked_json import Content, camera_of, numbers, part, whole
 
 _SCHEMA = "reference_tracer.scene/3"
-# Those before had arrays for each mesh, instance and plane; the first, "orthographic" for
-# "projection", too.
-_OLD = "reference_tracer.scene/1", "reference_tracer.scene/2"
-_OLD_ARRAYS = {  # and their shapes, by what has them
-    "mesh": {"vertices": "n3", "triangles": "n3", "slots": "n", "corner_colors": "n34"},
-    "instance": {"world_from_object": "44", "colors": "n4"},
-    "plane": {"point": "3", "normal": "3", "color": "4"},
-}
 _TEXT = 1 / 8  # of what a file may take: lists of JSON take several times as much as their text
 _FLOATS = {4: np.float32, 8: np.float64}  # by the bytes of a number
 _Parts = tuple[tuple[Mesh, ...], tuple[Instance, ...], tuple[Plane, ...]]
@@ -118,7 +110,7 @@ def _head(stored: npz.Arrays) -> Content:
     if text.nbytes > stored.limit * _TEXT:
         raise SceneError(f"its text has {text.nbytes // 4:,} letters, too many for such a file")
     head: Content = json.loads(str(text))
-    if head.get("schema") not in (*_OLD, _SCHEMA):
+    if head.get("schema") != _SCHEMA:
         raise SceneError(f"its schema is {head.get('schema')!r}, not {_SCHEMA!r}")
     return head
 
@@ -146,9 +138,8 @@ def _unmodelled(u: Content) -> Unmodelled:
 
 def _scene(stored: npz.Arrays) -> Scene:
     head = _head(stored)
-    parts = (_old_parts if head["schema"] in _OLD else _parts)(stored, head)
     background, objects = np.array(head["background"]), tuple(map(str, head["objects"]))
-    return Scene(camera_of(head["camera"]), *parts, background, objects)
+    return Scene(camera_of(head["camera"]), *_parts(stored, head), background, objects)
 
 
 def _parts(stored: npz.Arrays, head: Content) -> _Parts:
@@ -186,22 +177,3 @@ def _shares(stored: npz.Arrays, name: str, shape: str, counts: Sequence[int]) ->
     if min(counts, default=0) < 0 or sum(counts) != len(array):
         raise SceneError(f"{name} has {len(array):,} rows, and {sum(counts):,} are used")
     return (array[begin:end] for begin, end in pairwise(accumulate(counts, initial=0)))
-
-
-def _old_parts(stored: npz.Arrays, head: Content) -> _Parts:
-    def arrays(kind: str, k: int, without: str = "") -> dict[str, Array]:
-        shapes = {name: shape for name, shape in _OLD_ARRAYS[kind].items() if name != without}
-        return {name: stored.checked(f"{kind}{k}_{name}", s) for name, s in shapes.items()}
-
-    meshes = tuple(
-        Mesh(**arrays("mesh", k, "" if m["corner_colors"] else "corner_colors"), name=m["name"])
-        for k, m in enumerate(head["meshes"])
-    )
-    instances = tuple(
-        Instance(whole(i, "mesh", ""), whole(i, "object", ""), **arrays("instance", k))
-        for k, i in enumerate(head["instances"])
-    )
-    planes = tuple(
-        Plane(whole(p, "object", ""), **arrays("plane", k)) for k, p in enumerate(head["planes"])
-    )
-    return meshes, instances, planes

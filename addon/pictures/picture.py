@@ -128,7 +128,7 @@ class Picture:
         return color
 
     def measured(self, metrics: Metrics) -> str:
-        """Say how large the error is."""
+        """Say how large the error is; empty where it has no size."""
         psnr = f"{metrics.psnr:.1f} dB" if metrics.rmse else "infinite"
         return f"RMSE {metrics.rmse:.3g}, PSNR {psnr}, SSIM {metrics.ssim:.6f}"
 

@@ -6,7 +6,6 @@ import base64
 import json
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from html import escape
 from itertools import starmap
 from pathlib import Path
 
@@ -75,8 +74,7 @@ def write(directory: Path, title: str, frames: range, rows: Sequence[FrameRow]) 
         "verdict": verdict(rows),
     }
     with replacing(directory, (PAGE, JSON)) as new:
-        text = _page(title, frames, rows, directory)
-        (new / PAGE).write_text(text, encoding="utf-8", errors="backslashreplace")
+        (new / PAGE).write_text(_page(title, frames, rows, directory), encoding="utf-8")
         write_json(new / JSON, held)
 
 
@@ -108,45 +106,42 @@ def _cells(row: FrameRow) -> list[str]:
 
 
 def _page(title: str, frames: range, rows: Sequence[FrameRow], directory: Path) -> str:
-    table = ["".join(f"<th>{name}</th>" for name in _HEAD)]
-    for row in worst_first(rows):
-        frame, *cells = map(escape, _cells(row))
-        table.append("".join(f"<td>{c}</td>" for c in (_linked(row, frame), *cells)))
-    plot = _curves(frames, [r for r in rows if not r.error])
     return html(
-        {"plots": [data(plot)]},
+        {
+            "title": title,
+            "summary": ", ".join(lines(frames, rows)[-2:]),
+            "plots": [data(_curves(frames, [r for r in rows if not r.error]))],
+            "worst": list(_pictures(directory, rows)),
+            "head": _HEAD,
+            "frames": [{"link": _link(row), "cells": _cells(row)} for row in worst_first(rows)],
+        },
         "animation.html",
-        title=escape(title),
-        summary=", ".join(lines(frames, rows)[-2:]),
-        pictures="".join(_pictures(directory, rows)),
-        table="\n".join(f"<tr>{cells}</tr>" for cells in table),
     )
 
 
-def _pictures(directory: Path, rows: Sequence[FrameRow]) -> Iterator[str]:
-    """Return figures of the worst frames in which something differs, with their files."""
+def _pictures(directory: Path, rows: Sequence[FrameRow]) -> Iterator[dict[str, object]]:
+    """Yield the worst frames in which something differs, with their files' pictures."""
     worst = [r for r in worst_first(rows) if r.explained or r.unexplained][:_PICTURED]
     for row in worst:
-        shown = ""
+        pictures = []
         for name, what in _SHOWN.items():
             with suppress(OSError):
                 stored = (folder_of(directory, row.frame) / name).read_bytes()
-                data = base64.b64encode(stored).decode("ascii")
-                said = escape(f"frame {row.frame}: {what}")
-                shown += f'<img src="data:image/png;base64,{data}" alt="{said}" />'
-        if shown:
-            bad = ' class="bad"' if row.unexplained else ""
-            caption = (
-                f"frame {row.frame}: {row.unexplained:,} unexplained, {row.explained:,} explained"
-            )
-            below = f"<figcaption{bad}>{escape(caption)}</figcaption>"
-            yield f"<figure>{_linked(row, shown)}{below}</figure>\n"
+                png = base64.b64encode(stored).decode("ascii")
+                pictures.append({"png": png, "alt": f"frame {row.frame}: {what}"})
+        if pictures:
+            counts = f"{row.unexplained:,} unexplained, {row.explained:,} explained"
+            yield {
+                "link": _link(row),
+                "words": f"frame {row.frame}: {counts}",
+                "bad": bool(row.unexplained),
+                "pictures": pictures,
+            }
 
 
-def _linked(row: FrameRow, content: str) -> str:
-    if row.error:  # what is in its folder is of an earlier run
-        return content
-    return f'<a href="{folder_of("", row.frame).as_posix()}/{page.NAME}">{content}</a>'
+def _link(row: FrameRow) -> str:
+    """Return where a frame's page is; "" if it failed: what is there is of an earlier run."""
+    return "" if row.error else f"{folder_of('', row.frame).as_posix()}/{page.NAME}"
 
 
 def _curves(frames: range, rows: Sequence[FrameRow]) -> Plot:

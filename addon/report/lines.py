@@ -24,7 +24,7 @@ def describe(found: Comparison) -> list[str]:
         *_evidence(found),
         *(found.diagnosis.lines() if found.diagnosis else ()),
         *_of_other_colors(found),
-        _measured(found),
+        *_measured(found),
         f"traced {count_of(traced.triangles, 'triangle')} in {traced.seconds:.2f} s "
         f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
         "a pixel)",
@@ -77,13 +77,14 @@ def _of_other_colors(found: Comparison) -> Iterator[str]:
         yield "           Draw each flat, in those that --colors-out writes"
 
 
-def _measured(found: Comparison) -> str:
+def _measured(found: Comparison) -> Iterator[str]:
     m = found.metrics
     x, y = m.largest_difference.pixel
     most = f"largest difference {m.largest_difference.value:.3g} at pixel ({x}, {y})"
     if not m.rmse:
         most = "no difference anywhere"
-    return f"{found.case.picture.measured(m)}, {most}"
+    if said := found.case.picture.measured(m):
+        yield f"{said}, {most}"
 
 
 def _evidence(found: Comparison) -> Iterator[str]:

@@ -13,7 +13,6 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from string import Template
 
 from ..derivation.derivation import Derivation
 from ..derivation.formulas import VECTORS
@@ -28,11 +27,10 @@ _NO_SCRIPT = "script-src 'none'"  # of the template's policy
 _DATA = '<script type="application/json" id="{}"></script>'
 
 
-def html(held: Mapping[str, object], name: str = "page.html", **filled: str) -> str:
-    """Return the page that shows this content; `filled` is the template's own markup, by $name."""
+def html(held: Mapping[str, object], name: str = "page.html") -> str:
+    """Return the page that shows this content."""
     # As functions, here and below: what replaces a match may hold backslashes.
     text = _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}</style>", _text(name))
-    text = Template(text).substitute(filled) if filled else text
     text = text.replace(_NO_SCRIPT, _policy([_text(name) for name in _SCRIPT.findall(text)]))
     text = _SCRIPT.sub(lambda m: f"<script>{_text(m[1])}</script>", text)
     for part, given in (("languages", tables("page")), ("data", held)):

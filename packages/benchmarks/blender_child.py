@@ -1,14 +1,7 @@
-"""Measures Blender for the benchmark, in a process of its own that `blender_peer.py` asks.
-
-A question is a line of JSON on standard input, and its answer one on what was standard output. What
-Blender itself prints goes to standard error.
-"""
+"""Measures Blender for the benchmark, in a process of its own that `blender_peer.py` asks."""
 
 from __future__ import annotations
 
-import json
-import os
-import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -26,8 +19,22 @@ from .rays import Rays
 ENGINES = {"cycles": "CYCLES", "workbench": "BLENDER_WORKBENCH"}
 
 
-def suzanne() -> Any:
-    """Return Blender's monkey as a new mesh, its faces cut in 9 and then smoothly in 4, 3 times."""
+_opened: dict[str, Any] = {}  # the scene, the object with its mesh, and what was drawn once
+
+
+def suzanne(path: Path) -> None:
+    """Write Blender's monkey, its faces cut in 9 and then smoothly in 4, 3 times, to a .npz."""
+    vertices, triangles = arrays(_monkey())
+    np.savez(path, vertices=vertices, triangles=triangles)
+
+
+def open_benchmark(name: str, cache: Path, size: tuple[int, int], camera: str) -> None:
+    """Open a scene of the benchmark."""
+    scene = scenes.build(scenes.mesh_of(name, cache), *size, camera)
+    _opened.update(scene=scene, object=open_scene(scene))
+
+
+def _monkey() -> Any:
     import bmesh  # it is there only once bpy is
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -110,64 +117,22 @@ def cast(tree: BVHTree, rays: Rays) -> float:
     return time.process_time() - began
 
 
-def bvhtree(obj: Any, scene: Scene, budget: float) -> dict[str, float]:
-    """Build mathutils' tree and cast the rays of a picture, or of as many rows as fit a budget."""
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    began = time.process_time()
-    tree = BVHTree.FromObject(obj, depsgraph)
-    build = time.process_time() - began
-    rays = fitting(lambda few: cast(tree, few), scene.camera, budget)
-    return {"seconds": cast(tree, rays) * rays.of / rays.count, "rays": rays.count, "build": build}
+def bvhtree(budget: float) -> tuple[float, int]:
+    """Build mathutils' tree and cast the rays of a picture, or of as many rows as fit a budget.
+
+    Returns the seconds for the whole picture, and how many rays were cast.
+    """
+    tree = BVHTree.FromObject(_opened["object"], bpy.context.evaluated_depsgraph_get())
+    rays = fitting(lambda few: cast(tree, few), _opened["scene"].camera, budget)
+    return cast(tree, rays) * rays.of / rays.count, rays.count
 
 
-def render(engine: str) -> dict[str, float]:
+def render(engine: str) -> float:
     """Render the open scene, which is what a user waits for; returns seconds."""
+    if engine == "workbench" and not _opened.get("has drawn"):  # it makes its shaders
+        _opened["has drawn"] = True
+        render(engine)
     bpy.context.scene.render.engine = ENGINES[engine]
     began = time.perf_counter()
     bpy.ops.render.render()
-    return {"seconds": time.perf_counter() - began}
-
-
-class Answers:
-    """The measurements, by name, with the scene that is open."""
-
-    def __init__(self) -> None:
-        self._scene: Scene | None = None
-        self._object: Any = None
-        self._drawn = False  # whether Workbench has made its shaders
-
-    def answer(self, question: dict[str, Any]) -> dict[str, Any]:
-        """Do what a question asks for."""
-        do = question.pop("do")
-        if do == "suzanne":
-            vertices, triangles = arrays(suzanne())
-            np.savez(question["path"], vertices=vertices, triangles=triangles)
-        elif do == "open":
-            mesh = scenes.mesh_of(question["scene"], Path(question["cache"]))
-            self._scene = scenes.build(mesh, *question["size"], question["camera"])
-            self._object = open_scene(self._scene)
-        elif do == "bvhtree":
-            return bvhtree(self._object, self._scene, question["budget"])
-        else:
-            if do == "workbench" and not self._drawn:
-                render(do)
-                self._drawn = True
-            return render(do)
-        return {}
-
-
-def main() -> None:
-    """Answer until nobody asks."""
-    with os.fdopen(os.dup(1), "w", encoding="utf-8") as out:
-        os.dup2(2, 1)  # Blender prints what is no answer
-        answers = Answers()
-        for line in sys.stdin:
-            try:
-                answer = answers.answer(json.loads(line))
-            except Exception as error:  # whoever asks is told, and goes on without
-                answer = {"error": f"{type(error).__name__}: {error}"}
-            print(json.dumps(answer), file=out, flush=True)
-
-
-if __name__ == "__main__":
-    main()
+    return time.perf_counter() - began

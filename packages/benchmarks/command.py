@@ -11,17 +11,10 @@ from reference_tracer.cli.running import progress_bar
 from reference_tracer.report import folders
 from reference_tracer.wording import show
 
-from .options import BenchOptions
-
 
 def add(parser: Parser) -> None:
     """Add the command's options."""
-
-    def run(given: Namespace) -> int:
-        scenes = tuple(given.scenes)
-        return bench(BenchOptions(given.out, scenes, given.quick, given.repeats))
-
-    parser.runs(run, "reftrace bench --quick --out out/bench")
+    parser.runs(bench, "reftrace bench --quick --out out/bench")
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="default: all of them")
     parser.add_argument("--quick", action="store_true", help="fewer and smaller: under 2 minutes")
     parser.add_argument(
@@ -36,19 +29,21 @@ def add(parser: Parser) -> None:
     )
 
 
-def bench(options: BenchOptions) -> int:
-    """Measure, and print the table."""
-    from . import report
+def bench(given: Namespace) -> int:
+    """Measure, and print the tables."""
+    from .plan import plan
+    from .results import UNFINISHED, write
     from .run import run
     from .tables import table
 
-    with folders.made(options.out):
+    wanted = plan(given.scenes, given.quick, given.repeats)
+    with folders.made(given.out):
         with progress_bar() as progress:
-            measured = run(options, progress)
-        out = options.out / report.UNFINISHED if measured.interrupted else options.out
-        if measured.rows or not measured.interrupted:
-            report.write(out, measured)
+            measured = run(wanted, given.out, progress)
+        out = given.out / UNFINISHED if measured.interrupted else given.out
+        if measured.found or not measured.interrupted:
+            write(out, measured)
         show(*table(measured).split("\n"), *([f"written to {out}"] if out.exists() else []))
         if not measured.interrupted:
-            shutil.rmtree(options.out / report.UNFINISHED, ignore_errors=True)
+            shutil.rmtree(given.out / UNFINISHED, ignore_errors=True)
     return measured.interrupted

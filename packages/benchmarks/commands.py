@@ -1,7 +1,6 @@
-"""Measures what commands take: CPU seconds of processes of their own, and times `import bpy`.
+"""Measures what commands take: CPU seconds of processes of their own, beside `import bpy`.
 
-Each round measures `import bpy`, too, so that a ratio is one of two times of the same round. What a
-command reads is made once, and kept in a folder.
+Each round measures `import bpy`, too. What a command reads is made once, and kept in a folder.
 """
 
 from __future__ import annotations
@@ -13,19 +12,18 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from statistics import median
 
 from reference_tracer.tracer.progress import Work
 
 from .children import one_core
 from .peers import MissingPeerError, missing
 from .plan import COMMANDS, SPREAD, Plan
-from .rounds import Runner, in_rounds, ratio
-from .rows import Bench, CommandRow
+from .results import Bench
+from .rounds import Runner, in_rounds
 from .window import WINDOW, in_the_window
 
-RULER = "import bpy"
-_MAIN = "import sys; from reference_tracer.cli.main import main; sys.exit(main())"
+RULER, COMMAND, WAITED = "import bpy", "command", "waited"
+MAIN = "import sys; from reference_tracer.cli.main import main; sys.exit(main())"
 _CHILD = [sys.executable, "-m", "reference_tracer_benchmarks.commands_child"]
 _SCENES = Path(__file__).resolve().parents[2] / "sample_scenes"
 _LARGE = "--set", "width=1920", "height=1080"
@@ -39,7 +37,7 @@ def measure_commands(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
     ----------
     plan : Plan
     bench : Bench
-        Gets the rows, and notes on what was left out.
+        Gets the times, and notes on what was left out.
     cache : Path
         The folder for what commands read and write.
     """
@@ -57,14 +55,8 @@ def measure_commands(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
         budget = plan.budget * (1 + len(wanted))
         yield from in_rounds([ruler, *runners.values()], plan.repeats, budget)
         for name, runner in runners.items():
-            if runner.failed:
-                bench.note(f"{name}: {runner.failed}")
-            elif found := ratio(runner, ruler):
-                times = found.median, found.least, found.most
-                rounds = len(runner.seconds)
-                bench.keep(name, runner.seconds.values())
-                bench.commands.append(CommandRow(name, runner.median, *times, rounds))
-        if ruler.median and set(WINDOW) & set(plan.commands):
+            bench.keep_rounds(name, {RULER: ruler, COMMAND: runner})
+        if set(WINDOW) & set(plan.commands):
             _enter_window(bench, ruler)
 
 
@@ -76,10 +68,9 @@ def _enter_window(bench: Bench, ruler: Runner) -> None:
         return
     for name, rounds in found.items():
         cpu, waited = zip(*rounds, strict=True)
-        bench.keep(name, cpu)
-        middle, least, most = (of(cpu) / ruler.median for of in (median, min, max))
-        row = CommandRow(name, median(cpu), middle, least, most, len(cpu), median(waited))
-        bench.commands.append(row)
+        bench.keep_rounds(name, {RULER: ruler})
+        bench.keep(name, COMMAND, cpu)
+        bench.keep(name, WAITED, waited)
 
 
 def _files(folder: Path) -> dict[str, Path]:
@@ -129,7 +120,7 @@ def _work(name: str, files: dict[str, Path]) -> Callable[[], float]:
         ],
     }
     if name in argv:
-        return partial(cpu_seconds, [sys.executable, "-c", _MAIN, *argv[name]])
+        return partial(cpu_seconds, [sys.executable, "-c", MAIN, *argv[name]])
     passes = "none" if name.endswith("the picture alone") else "all"
     return partial(_said, [*_CHILD, "f12", of["suzanne"], passes])
 
@@ -143,17 +134,24 @@ def cpu_seconds(argv: list[str]) -> float:
         If it fails.
     """
     before = os.times()
-    _run(argv)
+    run_to_end(argv)
     after = os.times()
     return sum(after[2:4]) - sum(before[2:4])  # those of children that have ended
 
 
 def _said(argv: list[str]) -> float:
     """Return the seconds that a process of ours measures, and says in its last line."""
-    return float(_run(argv).splitlines()[-1])
+    return float(run_to_end(argv).splitlines()[-1])
 
 
-def _run(argv: list[str]) -> str:
+def run_to_end(argv: list[str]) -> str:
+    """Return what a process prints.
+
+    Raises
+    ------
+    MissingPeerError
+        If it fails.
+    """
     done = subprocess.run(argv, capture_output=True, text=True, errors="replace")
     if done.returncode not in _ANSWERS or "Traceback" in done.stderr:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]

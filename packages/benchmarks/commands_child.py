@@ -13,7 +13,7 @@ from pathlib import Path
 import bpy
 import reference_tracer
 
-from . import meshes, scenes
+from . import scenes
 from .blender_child import open_scene
 
 
@@ -29,8 +29,7 @@ def make(suzanne: str, folder: str) -> None:
     shading = bpy.context.scene.display.shading
     shading.show_xray, shading.light = True, "FLAT"  # in another light, colours would be excused
     bpy.ops.wm.save_as_mainfile(filepath=str(out / "xray.blend"))
-    vertices, triangles = meshes.icosphere(8)
-    trimesh.Trimesh(vertices, triangles, process=False).export(out / "mesh.ply")
+    trimesh.creation.icosphere(8).export(out / "mesh.ply")
 
 
 def f12(path: str, passes: str) -> None:

@@ -5,20 +5,21 @@ A peer that is missing or fails is named once, with what to do about it, and lef
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from pathlib import Path
 
 import numpy as np
-from reference_tracer.scene import Mesh, Scene
+from numpy.typing import NDArray
+from reference_tracer.scene import Camera, Mesh, Scene
 from reference_tracer.tracer.frame import Frame
 
 from .blender_peer import ENGINES, BlenderPeer
-from .peers import Embreex, MissingPeerError, Rtree, fitting
-from .plan import BLENDER, Case, Plan
+from .peers import Embreex, MissingPeerError, Rtree, Timed, fitting
+from .plan import BLENDER, Case
 from .rays import Rays, rays_of
+from .results import Bench
 from .rounds import Runner
-from .rows import Bench, Row
 from .scenes import SUBJECTS, SUZANNE_FILE, mesh_of
 
 WHOLE = 2.0  # seconds at least that embreex may take for a picture before it gets a sample
@@ -27,16 +28,15 @@ WHOLE = 2.0  # seconds at least that embreex may take for a picture before it ge
 class Field:
     """All peers of a run; :meth:`close` ends the one that is a process."""
 
-    def __init__(self, plan: Plan, bench: Bench, cache: Path) -> None:
-        """Start nothing yet."""
-        self._plan, self._bench, self._cache = plan, bench, cache
+    def __init__(self, slow: float, bench: Bench, cache: Path) -> None:
+        """Start nothing yet; `slow` is the seconds for a peer that traces a sample of rays."""
+        self._slow, self._bench, self._cache = slow, bench, cache
         self._gone: set[str] = set()  # the peers that are missing or have failed
         self._mesh: Mesh | None = None
         self._embreex: Embreex | None = None
-        self._built: float | None = None  # seconds of its build, the median of its rounds
-        self._found: dict[str, float | int] = {}  # what belongs into the rows of the case
-        self._rays: Rays | None = None
-        self._hits: np.ndarray | None = None  # triangles that embreex saw, (n,)
+        self._is_new = False  # its tree is still to be timed
+        self._rays: Rays | None = None  # that embreex traces
+        self._hits: NDArray | None = None  # triangles that it saw, (n,)
         self._blender: BlenderPeer | None = None
         try:
             self._blender = BlenderPeer(cache)
@@ -62,97 +62,89 @@ class Field:
                 self._blender.make_suzanne(path)
             except MissingPeerError as error:
                 self._bench.note(str(error))
-        self._mesh, self._built, self._embreex = mesh_of(name, self._cache), None, None
+        self._mesh, self._embreex, self._is_new = mesh_of(name, self._cache), None, True
         if SUBJECTS[name].copies == 1:
-            self._try("embreex", self._prepare_embreex)
+            self._try({"embreex"}, self._prepare_embreex)
         else:
             self._bench.note(f"{name}: embreex has no instances: copied, they are gigabytes")
         return self._mesh
 
     def runners(self, scene: Scene, case: Case) -> dict[str, Runner]:
-        """Return who is timed beside us in a case, by the name of its seconds in a row."""
-        self._found, self._hits, slow, out = {}, None, self._plan.slow, {}
+        """Return who is timed beside us in a case, by name."""
+        out: dict[str, Runner] = {}
+        slow = self._slow
         if self._embreex:
-            allowed = max(WHOLE, 2 * slow)
-            timed = partial(self._trace_embreex, keep=False)
-            self._rays = fitting(timed, scene.camera, allowed)
-            self._found["embreex_rays"] = self._rays.count
-            out["embreex_trace"] = Runner(self._whole_embreex)
-            out["embreex_ids"] = Runner(self._whole_ids)
-            if self._built is None:
-                out["embreex_build"] = Runner(self._embreex.build, allowed)
-        if "rtree" in case.peers - self._gone:
-            self._try("rtree", lambda: out.update(rtree=self._rtree(scene)))
+            out |= self._of_embreex(scene.camera)
+        if "rtree" in case.peers:
+            self._try({"rtree"}, lambda: out.update(rtree=self._rtree(scene)))
         wanted = case.peers & BLENDER - self._gone
-        if wanted and self._try("blender", lambda: self._blender.open(scene)):
+        if wanted and self._try(BLENDER, lambda: self._blender.open(scene)):
             if "bvhtree" in wanted:
-                out["bvhtree"] = Runner(self._bvhtree, 2 * slow)
+                out["bvhtree"] = _of_sample(
+                    lambda: self._blender.bvhtree(self._slow), 2 * self._slow
+                )
             for engine in ENGINES:
                 if engine in wanted:
                     out[engine] = Runner(partial(self._blender.render, engine), 2 * slow)
         return out
 
-    def tell(self, peers: dict[str, Runner], case: Case) -> None:
-        """Note who has failed, and keep what the scene's other cases need."""
-        for name, runner in peers.items():
-            if runner.failed:
-                self._lose({name}, runner.failed)
-        if "embreex_build" in peers:
-            self._built = peers["embreex_build"].median
-
-    def completed(self, row: Row, certified: Frame | None) -> Row:
-        """Fill in what only the peers know."""
-        row.embreex_build_s = self._built
-        for name, value in self._found.items():
-            setattr(row, name, value)
-        if self._hits is not None and certified is not None:
+    def compare(self, peers: Mapping[str, Runner], certified: Frame) -> None:
+        """Leave out who has failed; say in how many pixels embreex names another triangle."""
+        self._gone |= {name for name, runner in peers.items() if runner.failed}
+        if self._hits is not None and "embreex_trace" in peers:
             ours = certified.triangle_index[self._rays.rows].ravel()
-            row.embreex_differs = float(np.mean(self._hits != ours))
-        return row
+            peers["embreex_trace"].facts["differs"] = float(np.mean(self._hits != ours))
 
     def _prepare_embreex(self) -> None:
         self._embreex = Embreex(self._mesh)
 
-    def _trace_embreex(self, rays: Rays, keep: bool) -> float:
-        seconds, found = self._embreex.trace(rays)
-        if keep:
+    def _of_embreex(self, camera: Camera) -> dict[str, Runner]:
+        self._hits = None
+        allowed = max(WHOLE, 2 * self._slow)
+        self._rays = rays = fitting(lambda few: self._embreex.trace(few)[0], camera, allowed)
+
+        def traced() -> float:
+            seconds, found = self._embreex.trace(rays)
             self._hits = found["primID"]
-        return seconds
+            return seconds * rays.of / rays.count
 
-    def _whole_embreex(self) -> float:
-        rays = self._rays
-        return self._trace_embreex(rays, keep=self._hits is None) * rays.of / rays.count
+        def ids() -> float:
+            return self._embreex.ids(rays) * rays.of / rays.count
 
-    def _whole_ids(self) -> float:
-        return self._embreex.ids(self._rays) * self._rays.of / self._rays.count
+        facts: dict[str, str | float] = {"rays": rays.count}
+        out = {"embreex_trace": Runner(traced, facts=facts), "embreex_ids": Runner(ids)}
+        if self._is_new:
+            out["embreex_build"] = Runner(self._embreex.build, allowed)
+        self._is_new = False
+        return out
 
     def _rtree(self, scene: Scene) -> Runner:
-        """Return a runner for a sample of rays, as many as fit the time of a slow peer."""
         tracer, rays = Rtree(self._mesh), rays_of(scene.camera)
+        return _of_sample(lambda: tracer.trace(rays, self._slow), self._slow)
 
-        def run() -> float:
-            timed = tracer.trace(rays, self._plan.slow)
-            self._found["rtree_rays"] = timed.rays
-            return timed.seconds
-
-        return Runner(run, allowed=self._plan.slow)
-
-    def _bvhtree(self) -> float:
-        timed, build = self._blender.bvhtree(self._plan.slow)
-        self._found |= {"bvhtree_rays": timed.rays, "bvhtree_build_s": build}
-        return timed.seconds
-
-    def _try(self, peer: str, work: Callable[[], object]) -> bool:
-        """Do something with a peer; says whether it is there."""
-        if peer in self._gone:
+    def _try(self, peers: Collection[str], work: Callable[[], object]) -> bool:
+        """Do something with peers; says whether they are there."""
+        if self._gone.issuperset(peers):
             return False
         try:
             work()
         except MissingPeerError as error:
-            self._lose(BLENDER if peer == "blender" else {peer}, str(error))
+            self._lose(peers, str(error))
             return False
         return True
 
-    def _lose(self, peers: set[str] | frozenset[str], why: str) -> None:
-        self._gone |= peers
+    def _lose(self, peers: Collection[str], why: str) -> None:
+        self._gone |= set(peers)
         self._bench.note(f"{', '.join(sorted(peers))}: {why}")
+
+
+def _of_sample(trace: Callable[[], Timed], allowed: float) -> Runner:
+    """Return a runner for a sample of rays, as many as fit the time of a slow peer."""
+
+    def run() -> float:
+        timed = trace()
+        runner.facts["rays"] = timed.rays
+        return timed.seconds
+
+    runner = Runner(run, allowed)
+    return runner

@@ -9,12 +9,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import trimesh
 from numpy.typing import NDArray
 
 Triangles = tuple[NDArray[np.float32], NDArray[np.int32]]
 SEED = 20
 SUZANNE = 566_784  # triangles: what `blender_child.py` makes of Blender's monkey
-_GOLDEN = (1 + 5**0.5) / 2
 
 
 class MissingMeshError(RuntimeError):
@@ -23,38 +23,16 @@ class MissingMeshError(RuntimeError):
 
 def cube() -> Triangles:
     """Return the cube from -1 to 1, 12 triangles."""
-    corners = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], np.float32)
-    # Each side's corners in a circle, seen from outside; corner i is (i & 1, i & 2, i & 4).
-    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-    return corners, _int32([t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))])
+    return _of(trimesh.creation.box((2, 2, 2)))
 
 
 def icosphere(level: int) -> Triangles:
     """Return a unit sphere of 20 * 4 ** `level` triangles that share their vertices."""
-    g = _GOLDEN
-    corners: list[tuple[float, float, float]]
-    corners = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
-    corners += [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
-    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11)]
-    faces += [(1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8)]
-    faces += [(3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9)]
-    faces += [(4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
-    vertices, triangles = _unit(np.array(corners, float)), np.array(faces)
-    for _ in range(level):
-        vertices, triangles = _split(vertices, triangles)
-    return vertices.astype(np.float32), triangles.astype(np.int32)
+    return _of(trimesh.creation.icosphere(level))
 
 
-def _split(vertices: NDArray, triangles: NDArray) -> tuple[NDArray, NDArray]:
-    """Split each triangle in four, its new corners on the sphere above the middles of its sides."""
-    a, b, c = triangles.T
-    ends = np.sort(np.stack(((a, b), (b, c), (c, a))), axis=1)  # (side, end, triangle)
-    keys = ends[:, 0] * len(vertices) + ends[:, 1]  # of an edge: the same from both its triangles
-    edges, index = np.unique(keys, return_inverse=True)
-    middle = _unit(vertices[edges // len(vertices)] + vertices[edges % len(vertices)])
-    ab, bc, ca = index.reshape(3, -1) + len(vertices)
-    new = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    return np.concatenate((vertices, middle)), np.stack(new).transpose(2, 0, 1).reshape(-1, 3)
+def _of(mesh: trimesh.Trimesh) -> Triangles:
+    return mesh.vertices.astype(np.float32), _int32(mesh.faces)
 
 
 def nested_spheres(count: int, level: int) -> Triangles:

@@ -29,7 +29,7 @@ QUICK_COMMANDS = (
     "F12, 1920 x 1080",
     "F12, 1920 x 1080, the picture alone",
 )
-SPREAD = "local:2, times one process (seconds as waited)"  # see `spread.py`
+SPREAD = "trace 327,680 triangles, 26 rays a pixel"  # see `spread.py`
 COMMANDS = (
     *QUICK_COMMANDS,
     "compare suzanne, 960 x 540",

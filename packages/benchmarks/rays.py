@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.scene import Camera
+from reference_tracer.tracer.camera import camera_rays
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,20 +34,14 @@ def rays_of(camera: Camera, every: int = 1) -> Rays:
 
     Whole rows, as neighbours make the work of a ray tracer easier, and it shall be as easy.
     """
-    w = camera.window
-    x = w.left + (np.arange(camera.width) + 0.5) / camera.width * (w.right - w.left)
-    y = w.bottom + (np.arange(camera.height) + 0.5) / camera.height * (w.top - w.bottom)
     rows = slice(min(every // 2, camera.height - 1), None, every)
-    y = y[rows]
-    near = camera.clip_start
-    film = x[None, :, None], y[:, None, None]
-    axes = camera.right, camera.up, camera.forward
-    eye, directions = camera.projection.ray(camera.origin, *film, *axes)
-    directions = np.broadcast_to(directions, (len(y), len(x), 3))
-    origins = eye + near * directions
-    pixels = camera.width * camera.height
+    y, x = np.indices((camera.height, camera.width))[:, rows].reshape(2, -1) + 0.5
+    own = camera_rays(camera, x, y)
+    near, pixels = camera.clip_start, camera.width * camera.height
+    directions = np.broadcast_to(own.directions, (3, len(x)))
+    origins = own.origins + near * directions
     return Rays(_float32(origins), _float32(directions), camera.clip_end - near, pixels, rows)
 
 
 def _float32(v: NDArray[np.float64]) -> NDArray[np.float32]:
-    return np.ascontiguousarray(v.reshape(-1, 3), dtype=np.float32)
+    return np.ascontiguousarray(v.T, dtype=np.float32)

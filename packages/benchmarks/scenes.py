@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.framing import axes_of
 from reference_tracer.projections import PROJECTIONS, Projection
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, SceneError, ViewWindow
 
@@ -101,7 +102,7 @@ def subject(name: str) -> Subject:
     return SUBJECTS[name]
 
 
-def mesh_of(name: str, cache: Path) -> Mesh:
+def mesh_of(name: str, cache: Path | None) -> Mesh:
     """Return a scene's mesh.
 
     Parameters
@@ -116,7 +117,7 @@ def mesh_of(name: str, cache: Path) -> Mesh:
     meshes.MissingMeshError
         If it is one that Blender makes, and has not made.
     """
-    make = subject(name).mesh or partial(meshes.stored, cache / SUZANNE_FILE)
+    make = subject(name).mesh or partial(meshes.stored, Path(cache or ".", SUZANNE_FILE))
     return Mesh(*make(), name=name)
 
 
@@ -150,11 +151,9 @@ def _places(copies: int) -> Iterator[np.ndarray]:
 
 def camera_of(view: View, width: int, height: int, projection: Projection) -> Camera:
     """Return the camera of a view: its picture is `width` x `height` pixels, which are square."""
-    backward = np.subtract(view.eye, view.target)
-    right = np.cross((0.0, 0.0, 1.0), backward)
-    axes = np.stack((right, np.cross(backward, right), backward), axis=1)
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes / np.linalg.norm(axes, axis=0), view.eye
+    matrix[:3, :3] = axes_of(np.subtract(view.eye, view.target))
+    matrix[:3, 3] = view.eye
     y = view.height if projection.shares_direction else view.angle
     x = y * width / height
     return Camera(

@@ -5,8 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 from reference_tracer.camera_files.convention import CENTERS, HALF, View
@@ -18,7 +17,6 @@ from reference_tracer.cli.camera_options import LAST_FRAME, add_camera, choice_f
 from reference_tracer.cli.opening import SOURCES, open_blend, open_file
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, Parser
 from reference_tracer.comparison.animation import frames_named
-from reference_tracer.framing import Choice
 from reference_tracer.report.cameras import SceneCamera, write_cameras
 from reference_tracer.scene import Camera, Region, SceneError
 from reference_tracer.wording import show
@@ -29,51 +27,25 @@ from .trajectory import TrajectoryDifference, trajectory_difference
 _HELP = "that of a camera.json of this command, transforms.json, a folder of COLMAP's, and so on"
 
 
-@dataclass(frozen=True)
-class CameraOptions:
-    """The options of `reftrace camera`."""
-
-    scene: Path
-    choice: Choice
-    frames: str | None  # as they are typed
-    out: Path | None
-    convention: str | None
-    centers: str
-    check: Path | None
-    view: str | None  # of the file that is checked
-
-    @classmethod
-    def parsed(cls, given: Namespace) -> CameraOptions:
-        """Return what was parsed; raises SceneError if options contradict one another."""
-        if (given.out is None) == (given.check is None):
-            raise SceneError(
-                "--out FILE writes the camera, --check FILE compares another: name one"
-            )
-        if given.check is not None:
-            refuse(given, ("centers", "frames"), "is for --out")
-        else:
-            refuse(given, ("view",), "is for --check")
-        if given.frames is not None:
-            check_frames(given, ())
-        return cls(
-            given.scene,
-            choice_from(given, given.scene),
-            given.frames,
-            given.out,
-            given.convention,
-            given.centers or HALF,
-            given.check,
-            given.view,
-        )
+def check(given: Namespace) -> None:
+    """Raise SceneError if options contradict one another."""
+    if (given.out is None) == (given.check is None):
+        raise SceneError("--out FILE writes the camera, --check FILE compares another: name one")
+    if given.check is not None:
+        refuse(given, ("centers", "frames"), "is for --out")
+    else:
+        refuse(given, ("view",), "is for --check")
+    if given.frames is not None:
+        check_frames(given, ())
 
 
 def add(parser: Parser) -> None:
-    """Add the command's options."""
+    """Add the command's given."""
     examples = (
         "reftrace camera scene.blend --out camera.json\n"
         "  reftrace camera scene.blend --check transforms.json"
     )
-    parser.runs(lambda given: camera(CameraOptions.parsed(given)), examples, _CODES)
+    parser.runs(camera, examples, _CODES)
     parser.add_scene(SOURCES)
     parser.add_argument(
         "--out", type=parser.path, metavar="FILE", help="the file to write, or folder"
@@ -115,12 +87,11 @@ _CODES = """exit codes:
   130  interrupted by Ctrl-C (129, 143: by SIGHUP, SIGTERM)"""
 
 
-def camera(options: CameraOptions) -> int:
+def camera(given: Namespace) -> int:
     """Write the scene's camera, or check another."""
-    with _scene(options) as at:
-        if options.out:
-            return _written(options, options.out, at)
-        return _checked(options, at)
+    check(given)
+    with _scene(given) as at:
+        return _written(given, at) if given.out else _checked(given, at)
 
 
 # The scene's cameras at these frames, or at what --frames names.
@@ -128,51 +99,51 @@ _At = Callable[[Sequence[int] | None], list[SceneCamera]]
 
 
 @contextmanager
-def _scene(options: CameraOptions) -> Iterator[_At]:
+def _scene(given: Namespace) -> Iterator[_At]:
     """Open the scene, and give what asks it for its camera."""
-    if not is_blend(options.scene):
-        camera = part(open_file(options.scene, options.choice).scene.camera)
+    choice = choice_from(given, given.scene)
+    if not is_blend(given.scene):
+        camera = part(open_file(given.scene, choice).scene.camera)
         yield lambda frames: [SceneCamera.of(camera, "0001.png")] * len(frames or [1])
         return
-    with open_blend(options.scene, options.choice) as blender:
+    with open_blend(given.scene, choice) as blender:
         from reference_tracer.blender.jobs.animation import frames_of
         from reference_tracer.blender.jobs.cameras import cameras
 
         def at(frames: Sequence[int] | None) -> list[SceneCamera]:
-            if frames is None and options.frames:
-                frames = frames_named(options.frames) or frames_of(blender.context.scene)
+            if frames is None and given.frames:
+                frames = frames_named(given.frames) or frames_of(blender.context.scene)
             return list(cameras(frames))
 
         yield at
 
 
-def _written(options: CameraOptions, out: Path, at: _At) -> int:
-    convention = CONVENTIONS[options.convention or OPENCV.name]
-    show(write_cameras(out, at(None), convention, options.centers))
-    show(f"written to {out}, as {convention.title}")
+def _written(given: Namespace, at: _At) -> int:
+    convention = CONVENTIONS[given.convention or OPENCV.name]
+    show(write_cameras(given.out, at(None), convention, given.centers or HALF))
+    show(f"written to {given.out}, as {convention.title}")
     return AGREE
 
 
-def _checked(options: CameraOptions, at: _At) -> int:
+def _checked(given: Namespace, at: _At) -> int:
     """Compare each camera of a file with the scene's; the exit code is that of the worst."""
-    assert options.check is not None
     (own,) = at(None)
     size = own.view.camera.width, own.view.camera.height
-    views = read(options.check, options.convention, size)
-    if options.view is not None or len(views) == 1:
-        views, scene = [chosen(views, options.view)], [own]
+    views = read(given.check, given.convention, size)
+    if given.view is not None or len(views) == 1:
+        views, scene = [chosen(views, given.view)], [own]
     else:
         numbers = [number_of(view) for view in views]
         frames = [number for number in numbers if number is not None]
         if len({*frames}) != len(views):
-            raise SceneError(f"'{options.check}': its images have no numbers of their own: --view")
-        if is_blend(options.scene) and (far := [n for n in frames if abs(n) > LAST_FRAME]):
-            raise SceneError(f"'{options.check}': Blender has no frame {far[0]}: --view")
+            raise SceneError(f"'{given.check}': its images have no numbers of their own: --view")
+        if is_blend(given.scene) and (far := [n for n in frames if abs(n) > LAST_FRAME]):
+            raise SceneError(f"'{given.check}': Blender has no frame {far[0]}: --view")
         by_frame = dict(zip(sorted(frames), at(sorted(frames)), strict=True))
         scene = [by_frame[number] for number in frames]
     cameras = [one.view.camera for one in scene]
     others = [_of_size(v.camera, own) for v, own in zip(views, cameras, strict=True)]
-    names = [view.name or options.check.name for view in views]
+    names = [view.name or given.check.name for view in views]
     found: CameraDifference | TrajectoryDifference
     if len(views) == 1:
         found = difference(cameras[0], others[0])
@@ -181,7 +152,7 @@ def _checked(options: CameraOptions, at: _At) -> int:
     wrong = [_other_than_points(v, own) for v, own in zip(views, cameras, strict=True)]
     notes = [_notes(v, one.view) for v, one in zip(views, scene, strict=True)]
     for line in found.lines():
-        show(f"{options.check.name if len(views) > 1 else names[0]}: {line}")
+        show(f"{given.check.name if len(views) > 1 else names[0]}: {line}")
     for each in (wrong, notes):
         for line, of in _shared(names, each).items():
             show(f"{of}: {line}")

@@ -216,10 +216,9 @@ def _part(tag: str, given: dict[str, str]) -> Floats:
     elif tag == "translate":
         out[:3, 3] = xyz
     elif tag == "rotate":
-        x, y, z = xyz / np.linalg.norm(xyz)
-        angle = np.radians(float(given.get("angle", 0)))
-        k = np.array(((0, -z, y), (z, 0, -x), (-y, x, 0)))
-        out[:3, :3] += np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+        from trimesh.transformations import rotation_matrix  # late: other files need no trimesh
+
+        out = rotation_matrix(np.radians(float(given.get("angle", 0))), xyz)
     else:
         raise SceneError(f"its to_world has '{tag}', which is not read")
     return out

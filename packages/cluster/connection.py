@@ -50,7 +50,13 @@ def connected(address: str) -> Iterator[Cluster]:
         try:
             if not own:
                 asyncio.run(asyncio.wait_for(_answered(address, **security), TIMEOUT))
-            client = Client(own or address, timeout=TIMEOUT, set_as_default=False, **security)
+            client = Client(
+                own or address,
+                timeout=TIMEOUT,
+                set_as_default=False,
+                direct_to_workers=bool(local),  # else there may be no way but the scheduler's
+                **security,
+            )
         except (OSError, RuntimeError, TypeError, ValueError) as error:
             do = "start one (docs/cluster.md says how, safely), or try local:2"
             said = f"no scheduler answers at {address} ({words(error)}): {do}"
@@ -136,21 +142,21 @@ def _deaf() -> Iterator[None]:
 
 
 def _check_workers(cluster: Cluster) -> None:
-    """Raise a ClusterError if no worker answers, or some are of other versions."""
+    """Raise a ClusterError if there is no worker, or some are of other versions."""
     address = cluster.address
     try:
         cluster.client.wait_for_workers(1, timeout=TIMEOUT)
     except TimeoutError:
         do = "start some (docs/cluster.md says how, safely)"
         raise ClusterError(f"the scheduler at {address} has no workers: {do}") from None
-    own, wrong = tasks.about(), []
-    for worker, told in sorted(cluster.told(tasks.about).items()):
-        if told != own:
-            wrong.append(f"worker {worker} has {difference(own, told)}")
-    if wrong:
+    own, said = tasks.about(), {}
+    with suppress(TimeoutError):  # of who is silent; and each task asks again
+        options = {"on_error": "return", "callback_timeout": TIMEOUT}
+        said = cluster.client.run(tasks.about, **options)
+    if wrong := [
+        f"worker {w} has {difference(own, t)}" for w, t in sorted(said.items()) if t != own
+    ]:
         raise ClusterError("; ".join(wrong))
-    if not cluster.workers().keys() - cluster.silent:
-        raise ClusterError(f"no worker of the scheduler at {address} answers: start others")
 
 
 def difference(own: str, told: object) -> str:

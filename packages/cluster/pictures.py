@@ -13,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from distributed import Future
 from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
@@ -23,7 +24,7 @@ from reference_tracer.tracer.render import Tracer, rays_in_order, rounds
 from reference_tracer.tracer.settings import Settings
 
 from . import tasks
-from .cluster import Asked, Cluster
+from .cluster import Cluster
 from .owners import count_in, joined
 
 EACH = 6  # regions of a picture that each thread of a worker has, about: so none waits for long
@@ -39,15 +40,15 @@ def tracer(cluster: Cluster) -> Tracer:
     ) -> Work[TraceBand]:
         # What it counts of the whole picture is said as of any other.
         yield from TRACERS[settings.method](scene, settings, reach, statistics)
-        name = scene_name(cluster, scene)
+        sent = sent_scene(cluster, scene)
         statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers")
-        return Picture(cluster, scene, settings, reach, statistics, name).trace
+        return Picture(cluster, scene, settings, reach, statistics, sent).trace
 
     return prepare
 
 
-def scene_name(cluster: Cluster, scene: Scene) -> str:
-    """Return a scene's name on the workers, its camera aside; it is sent where it is new."""
+def sent_scene(cluster: Cluster, scene: Scene) -> Future:
+    """Return a scene on the workers, its camera aside; it is sent where it is new."""
     parts = scene.meshes, scene.instances, scene.planes, scene.background.tobytes()
     if not _is_same(parts, cluster.sent[0] if cluster.sent else ()):
         with TemporaryDirectory() as folder:
@@ -76,7 +77,7 @@ class Picture:
     settings: Settings
     reach: float
     statistics: Statistics
-    name: str  # of the scene, on the workers
+    sent: Future  # the scene, on the workers
 
     def __post_init__(self) -> None:
         r = self.scene.camera.region
@@ -87,16 +88,16 @@ class Picture:
         self._rows = max(1, min(-(-rows // (EACH * self._threads)), MOST // r.width))
         every = rays_in_order(self.scene.camera, self.settings)
         self._todo = ((part, *at) for band, at in every for part in self._parts(band))
-        self._ahead: deque[Asked] = deque()
+        self._ahead: deque[Future] = deque()
 
     def _parts(self, band: Region) -> list[Region]:
         ends = range(band.y0, band.y1, self._rows)
         return [replace(band, y0=y, y1=min(y + self._rows, band.y1)) for y in ends]
 
-    def _ask(self, region: Region, dx: float, dy: float) -> Asked:
+    def _ask(self, region: Region, dx: float, dy: float) -> Future:
         chosen, at = json.dumps(vars(self.settings)), tuple(map(int, vars(region).values()))
-        given = self.name, self._camera, chosen, self.reach, at, dx, dy
-        return self.cluster.ask(tasks.trace, tasks.about(), *given)
+        given = self.sent, self._camera, chosen, self.reach, at, dx, dy
+        return self.cluster.ask(tasks.trace, *given)
 
     def trace(self, band: Region, dx: float, dy: float) -> Work[Hits]:
         """Return what a band's rays see, once all is there."""

@@ -18,7 +18,7 @@ from reference_tracer.tracer.progress import Progress, Work
 
 from . import tasks
 from .cluster import Cluster
-from .pictures import camera_json, scene_name
+from .pictures import camera_json, sent_scene
 
 
 def trade(cluster: Cluster) -> tradeoff.Every:
@@ -27,11 +27,11 @@ def trade(cluster: Cluster) -> tradeoff.Every:
     def every(choices: list[tradeoff.Choice], truth: Floats) -> Work[list[TradeRow]]:
         color = BytesIO()
         np.save(color, truth)
-        name = cluster.keep(color.getvalue())
+        kept = cluster.keep(color.getvalue())
 
         def given(choice: tradeoff.Choice) -> tuple:
             chosen = json.dumps(vars(choice.settings))
-            return scene_name(cluster, choice.scene), camera_json(choice.scene), chosen, name
+            return sent_scene(cluster, choice.scene), camera_json(choice.scene), chosen, kept
 
         told = [(tasks.trade_rows, *given(choice)) for choice in choices]
         rows: list[TradeRow] = yield from _every(cluster, told)
@@ -53,7 +53,7 @@ def extremes_of(cluster: Cluster) -> extremes.Every:
 
 def _every(cluster: Cluster, told: list[tuple]) -> Work[list]:
     """Have tasks done; return the rows of all."""
-    asked = [cluster.ask(task, tasks.about(), *given) for task, *given in told]
+    asked = [cluster.ask(task, *given) for task, *given in told]
     rows = []
     for k, one in enumerate(asked):
         yield Progress(k / len(asked))

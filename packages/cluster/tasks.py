@@ -55,8 +55,6 @@ def _named(task: Callable[..., T]) -> Callable[..., T]:
             raise RuntimeError(f"{worker} is of another version: {about()}, not {asked_by}")
         try:
             return task(*arguments)
-        except LookupError as error:
-            raise LookupError(*error.args, get_worker().address) from None
         except Exception as error:  # with what it holds it would have to be pickled
             raise RuntimeError(f"{worker}: {type(error).__name__}: {error}") from None
 
@@ -76,33 +74,27 @@ def _done(work: Work[T]) -> T:
     raise RuntimeError("cancelled")
 
 
-_KEPT: dict[str, bytes] = {}  # by name; the last three that came
-
-
-def keep(name: str, data: bytes) -> None:
-    """Keep bytes for tasks to come."""
-    _KEPT.pop(name, None)
-    for old in list(_KEPT)[: len(_KEPT) - 2]:
-        del _KEPT[old]
-    _KEPT[name] = data
+def kept(data: bytes) -> bytes:
+    """Return bytes, which tasks to come are given."""
+    return data
 
 
 @lru_cache(maxsize=2)
-def _scene(name: str) -> Scene:
+def _scene(data: bytes) -> Scene:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "scene.npz"
-        path.write_bytes(_KEPT[name])
+        path.write_bytes(data)
         return load_scene(path)
 
 
 @lru_cache(maxsize=2)  # a scene keeps tables once they are made
-def _seen(scene: str, camera: str) -> Scene:
+def _seen(scene: bytes, camera: str) -> Scene:
     return _scene(scene).seen_by(camera_of(json.loads(camera)))
 
 
 @_named
 def trace(
-    scene: str, camera: str, settings: str, reach: float, region: tuple, dx: float, dy: float
+    scene: bytes, camera: str, settings: str, reach: float, region: tuple, dx: float, dy: float
 ) -> tuple[Owners | Hits, Statistics]:
     """Return what a region's rays see, and what it took."""
     seen, statistics = _seen(scene, camera), Statistics()
@@ -113,9 +105,9 @@ def trace(
 
 
 @_named
-def trade_rows(scene: str, camera: str, settings: str, truth: str) -> list[TradeRow]:
+def trade_rows(scene: bytes, camera: str, settings: str, truth: bytes) -> list[TradeRow]:
     """Return a row of the trade; it is held against the colour `truth` (h, w, 4)."""
-    seen, color = _seen(scene, camera), np.load(BytesIO(_KEPT[truth]), allow_pickle=False)
+    seen, color = _seen(scene, camera), np.load(BytesIO(truth), allow_pickle=False)
     wanted = tradeoff.Choice(Settings(**json.loads(settings)), seen)
     proven = tradeoff.Choice(PROVEN, seen)
     return _done(tradeoff.rows_of([proven, wanted], color))[-1:]

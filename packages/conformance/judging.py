@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from reference_tracer.causes.case import Case
-from reference_tracer.comparison.comparing import compared
+from reference_tracer.comparison.comparing import compared, diagnosed
 from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.errors import EXPECTED, words
@@ -36,6 +36,8 @@ from .kit import CAMERA_Y_UP, FILES, write_kit
 from .scenes import KitScene
 
 PICTURES = ".png", ".exr"
+# Of a diagnosis, for each second that the program may take: some five times as many are done.
+STEPS = 200
 SCENE, OUT, CAMERA = "{scene}", "{out}", "{camera}"
 
 
@@ -124,7 +126,8 @@ def _judged(program: Program, kit: KitScene, folder: Path) -> Work[Result]:
             shown = picture_of_file(open_picture(made), scene.camera, making)
         manifest = file_manifest(folder / "scene.npz", scene, Account())
         case = Case(scene, manifest, Settings(), shown, curves=())
-        found = yield from compared(case, diagnose=True)
+        found = yield from compared(case)
+        found = yield from diagnosed(found, at_most=STEPS * program.limits.seconds)
     except (ProgramError, ValueError, *EXPECTED) as error:
         # There are no options of a kit's scene.
         why = error.args[0] if isinstance(error, SizeError) else words(error)

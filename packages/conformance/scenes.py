@@ -18,6 +18,7 @@ from reference_tracer.framing import axes_of
 from reference_tracer.pictures.palette import clear_palette
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Instance, Scene, ViewWindow
+from trimesh import transformations
 
 from .shapes import Shape, ball, box, bracket, in_two, needles, prism, sheet, triangle
 from .shapes import with_zero_areas as zero_areas
@@ -40,15 +41,8 @@ class Move:
     def matrix(self) -> Floats:
         """As (4, 4) float64."""
         x, y, z, w = self.turn
-        rotation = np.array(
-            [
-                (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-                (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-                (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-            ]
-        )
-        out = np.eye(4)
-        out[:3, :3] = rotation * np.array(self.scale)
+        out = transformations.quaternion_matrix((w, x, y, z))
+        out[:3, :3] *= np.array(self.scale)
         out[:3, 3] = self.at
         return out
 
@@ -67,9 +61,8 @@ class Sheared:
 
 def turned(axis: Sequence[float], degrees: float) -> tuple[float, ...]:
     """Return the quaternion x, y, z, w of a turn about an axis through the origin."""
-    unit = np.array(axis) / np.linalg.norm(axis)
-    half = np.radians(degrees) / 2
-    return (*(unit * np.sin(half)).tolist(), float(np.cos(half)))
+    w, x, y, z = transformations.quaternion_about_axis(np.radians(degrees), axis).tolist()
+    return x, y, z, w
 
 
 @dataclass(frozen=True, eq=False)

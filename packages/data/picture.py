@@ -64,7 +64,9 @@ class DataPicture(Picture):
         return self.data.shown(self.data.of_frame(frame))
 
     def measured(self, metrics: Metrics) -> str:
-        """Say how large the error is; what ratios say is of colours."""
+        """Say how large the error is, without the ratios, which are of colours; of ids, nothing."""
+        if self.data.kind.name == "ids":
+            return ""
         unit = self.data.kind.unit and f" {self.data.kind.unit}"
         return f"{self.data.kind.words}: RMSE {metrics.rmse:.3g}{unit}"
 

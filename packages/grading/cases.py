@@ -173,7 +173,7 @@ class TableAnswers:
                 tuple(array[row // each] for array in cases.given),
                 cases.right[row],
                 self.table[row],
-                row % each,
+                place=row % each,
             )
             for row in rows.tolist()
         ]

@@ -8,8 +8,7 @@ textbook in float64, and Möller and Trumbore.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from reference_tracer.arrays import Floats
@@ -54,10 +53,6 @@ class ExtremeRow:
         """Whether something is wrong that rounding does not excuse."""
         return not set(self.pixels) <= _FINE
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the row as JSON can hold it."""
-        return asdict(self)
-
 
 @dataclass(frozen=True)
 class Held:
@@ -67,10 +62,6 @@ class Held:
     student: float | None
     wrong: float | None  # the first at which something is wrong that rounding does not excuse
     yardsticks: dict[str, float | None]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return it as JSON can hold it."""
-        return asdict(self)
 
 
 def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[ExtremeScene]]:

@@ -10,8 +10,7 @@ be unrecognised.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,10 +42,6 @@ class Fault:
     name: str
     sentence: str
     pairs: int
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the fault as JSON can hold it."""
-        return asdict(self)
 
 
 def find_faults(answers: TableAnswers) -> tuple[list[Fault], Match | None]:

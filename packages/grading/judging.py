@@ -18,7 +18,7 @@ from reference_tracer.wording import printable
 from reference_tracer_processes.running import Limits
 
 from .cases import TableCases
-from .examples import Example, find_examples
+from .examples import find_examples
 from .external import Program, Run
 from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults, raising
@@ -57,7 +57,7 @@ class Judgement:
     edges: SharedEdges | None = None  # None: it failed before
     scenes: list[str] = field(default_factory=list)  # the names of all
     looks: list[Look] = field(default_factory=list)  # of those that were finished
-    examples: dict[str, list[Example]] = field(default_factory=dict)  # by the scene's name
+    examples: dict[str, list[WrongCase]] = field(default_factory=dict)  # by the scene's name
     errors: list[tuple[str, StudentError]] = field(default_factory=list)  # where, and what
     extremes: list[ExtremeRow] = field(default_factory=list)
     seconds: float = 0.0  # that the function itself has taken

@@ -16,8 +16,6 @@ from reference_tracer.files import png
 from reference_tracer.files.images import data_uri, to_display
 from reference_tracer.wording import count_of
 
-from .examples import Example
-from .judged_scene import JudgedScene
 from .judging import Judgement
 from .picture import Look, Mark
 from .report import Student
@@ -31,6 +29,7 @@ from .tables import (
     explain,
     head,
     held_rows,
+    named,
     put_right,
     row,
     tallies,
@@ -130,7 +129,7 @@ def _student(j: Judgement) -> str:
         parts.append(_table(head(j.subject), [tuple(map(escape, row(*named))) for named in counts]))
         parts += [f"<p>{NO_BOUNDARY}.</p>"] * dashed(counts)
     parts += [_wrong_case(j.subject, case) for case in j.wrong]
-    parts += [_scene(found, j.examples[found.judged.name]) for found in j.looks]
+    parts += [_scene(j.subject, found, j.examples[found.judged.name]) for found in j.looks]
     if j.extremes:
         names = "student", "not by rounding", "textbook", "Möller–Trumbore"
         scales = "the first scale at which a ray is lost", *names
@@ -148,7 +147,7 @@ def _error(where: str, error: StudentError) -> str:
     )
 
 
-def _wrong_case(subject: Subject, case: WrongCase) -> str:
+def _wrong_case(subject: Subject, case: WrongCase, command: str = "") -> str:
     arrays = [f"{name} = np.array([{value!r}])" for name, value in case.given.items()]
     place = f"[{case.place}]" if case.place else ""
     lines = (
@@ -159,14 +158,16 @@ def _wrong_case(subject: Subject, case: WrongCase) -> str:
         f"print({subject.form.signature})",
     )
     text = escape("\n".join(lines))
-    return f"<details><summary>A wrong case: {case.group}</summary><pre>{text}</pre></details>"
+    title = f"A wrong {'case' if case.pixel is None else 'pixel'}: {escape(named(case))}"
+    steps = f"<p>Step by step: <code>{escape(command)}</code></p>" if command else ""
+    return f"<details><summary>{title}</summary><pre>{text}</pre>{steps}</details>"
 
 
 def _listed(numbers: Sequence[float | None]) -> str:
     return ", ".join("no hit" if v is None else repr(v) for v in numbers)
 
 
-def _scene(found: Look, examples: Sequence[Example]) -> str:
+def _scene(subject: Subject, found: Look, wrong: Sequence[WrongCase]) -> str:
     judged = found.judged
     pictures = (
         ("the student’s", to_display(found.color)),
@@ -188,7 +189,7 @@ def _scene(found: Look, examples: Sequence[Example]) -> str:
     parts = [f"<h3>{escape(judged.name)}</h3>"]
     parts.append(f'<div class="pictures">{figures}</div>')
     parts.append(f"<p>{w} × {h} pixels{every}. {legend or 'All are right.'}</p>")
-    parts += [_example(judged, e) for e in examples]
+    parts += [_wrong_case(subject, case, explain(judged, case)) for case in wrong]
     return "\n".join(parts)
 
 
@@ -200,32 +201,3 @@ def marked(found: Look) -> NDArray[np.uint8]:
     for mark, color in MARK_COLORS.items():
         out[found.mark == mark, :3] = color
     return out
-
-
-def _example(judged: JudgedScene, e: Example) -> str:
-    true_t, true_s = e.true
-    t, s = e.answer
-    numbers = (
-        "import numpy as np\n"
-        f"origins = np.array([{_numbers(e.origin)}])\n"
-        f"directions = np.array([{_numbers(e.direction)}])\n"
-        f"triangles = np.array([[{', '.join(map(_numbers, e.triangle))}]])\n"
-        f"# certified: {_said(true_t, true_s)}\n"
-        f"# answered:  {_said(t, s)}\n"
-        "print(intersect(origins, directions, triangles))"
-    )
-    title = f"Pixel ({e.pixel[0]}, {e.pixel[1]}), {escape(e.object)}: {MARKS[e.mark]}"
-    return (
-        f"<details><summary>{title}</summary><pre>{escape(numbers)}</pre>"
-        f"<p>Step by step: <code>{escape(explain(judged, e))}</code></p></details>"
-    )
-
-
-def _numbers(values: NDArray[np.float64]) -> str:
-    return f"[{', '.join(repr(float(v)) for v in values)}]"
-
-
-def _said(t: float, s: NDArray[np.float64]) -> str:
-    if not np.isfinite(t):
-        return "no hit"
-    return f"t = {t!r}, barycentrics {_numbers(s)}"

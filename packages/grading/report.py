@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 from .extremes import held
@@ -27,7 +28,7 @@ _UNITS = {
     "leaking": "edges that two triangles share, a ray through which misses both: not in the score",
     "stride": "every so many pixels were judged, in both directions",
     "pixel": "[x, y] of the picture, or of its border, from the lower left",
-    "origin": "metres, world space; so are direction and triangle (p1, p2, p3)",
+    "given": "of a scene in metres, world space",
     "lost": "rays that see another surface than the certified one",
     "seconds": "that the student's function itself has taken",
 }
@@ -56,14 +57,14 @@ def student(j: Judgement) -> Student:
         "printed_bytes": j.printed,
         "printed": j.said,
         "errors": [_error(where, error) for where, error in j.errors],
-        "faults": [fault.to_dict() for fault in j.faults],
-        "shared_edges": j.edges.to_dict() if j.edges else None,
+        "faults": [asdict(fault) for fault in j.faults],
+        "shared_edges": asdict(j.edges) if j.edges else None,
         "checks": _tally(j.checks),
-        "wrong_cases": [case.to_dict() for case in j.wrong],
+        "wrong_cases": [asdict(case) for case in j.wrong],
         "scenes": [_scene(j, found) for found in j.looks],
         "extremes": {
-            "rows": [row.to_dict() for row in j.extremes],
-            "held": [h.to_dict() for h in held(j.extremes)],
+            "rows": [asdict(row) for row in j.extremes],
+            "held": [asdict(h) for h in held(j.extremes)],
         }
         if j.extremes
         else None,
@@ -91,7 +92,5 @@ def _scene(j: Judgement, found: Look) -> dict[str, Any]:
         "seconds": round(found.seconds, 6),
         "pixels": found.counts,
         "tally": found.tally.to_dict(),
-        "examples": [
-            e.to_dict() | {"explain": explain(judged, e)} for e in j.examples[judged.name]
-        ],
+        "examples": [asdict(e) | {"explain": explain(judged, e)} for e in j.examples[judged.name]],
     }

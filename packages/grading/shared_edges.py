@@ -7,16 +7,16 @@ here, so that a function which leaks does so by its inequalities. It does not co
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from reference_tracer.arrays import Floats
 
 from .known import Ask
+from .subjects.triangle_cases import EACH, whole
 
 SEED = 20261125
-EDGES = 300
+EDGES = EACH
 AHEAD = 4  # how many steps of a ray's direction its point is away
 
 
@@ -39,10 +39,6 @@ class SharedEdges:
             "there: ask for s >= 0, not s > 0. It does not count in the score"
         )
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the counts as JSON can hold them."""
-        return asdict(self)
-
 
 def try_edges(ask: Ask) -> SharedEdges:
     """Return what a function makes of shared edges."""
@@ -64,28 +60,15 @@ def make_edges() -> tuple[Floats, Floats, Floats]:
     as in a closed surface. Float64 has every digit of every point, product and quotient.
     """
     rng = np.random.default_rng(SEED)
-    corner = rng.integers(-8, 9, (EDGES, 1, 3)).astype(float)
-    sides = np.zeros((EDGES, 2, 3))
-    sides[:, [0, 1], [0, 1]] = 2.0 ** rng.integers(0, 4, (EDGES, 2))
-    p = corner + np.stack((0 * sides[:, 0], *sides.swapaxes(0, 1), sides.sum(axis=1)), axis=1)
-    triangles = p[:, [(0, 1, 2), (3, 2, 1)]]  # (EDGES, 2, 3, 3)
+    _, step, p = whole(rng)
+    other = np.stack((p[:, 1] + p[:, 2] - p[:, 0], p[:, 2], p[:, 1]), axis=1)
+    triangles = np.stack((p, other), axis=1)  # (EDGES, 2, 3, 3)
     along = rng.integers(1, 8, (EDGES, 1)) / 8
     on_edge = p[:, 1] + along * (p[:, 2] - p[:, 1])
     inside = triangles[:, :, 0] / 2 + triangles[:, :, 1] / 4 + triangles[:, :, 2] / 4
     points = np.stack((inside, np.repeat(on_edge[:, None], 2, axis=1)), axis=2)
-    step = rng.integers(-2, 3, (EDGES, 3)) * 2.0 ** rng.integers(-2, 3, (EDGES, 1))
-    step[:, 2] = rng.choice((-2.0, -1.0, 1.0, 2.0), EDGES)  # towards the plane, from either side
     first = rng.integers(0, 3, (EDGES, 2, 1))  # which corner of a triangle comes first
-    triangles = np.take_along_axis(triangles, ((np.arange(3) + first) % 3)[..., None], axis=2)
-    shape = EDGES, 2, 2
-    directions = np.broadcast_to(step[:, None, None], (*shape, 3))
-    turn = (np.arange(3) + rng.integers(0, 3, (EDGES, 1))) % 3  # which axis they lie across
-    return (
-        np.take_along_axis(points - AHEAD * directions, turn[:, None, None], axis=3),
-        np.take_along_axis(directions, turn[:, None, None], axis=3),
-        np.take_along_axis(
-            np.broadcast_to(triangles[:, :, None], (*shape, 3, 3)),
-            turn[:, None, None, None],
-            axis=4,
-        ),
-    )
+    turned = np.take_along_axis(triangles, ((np.arange(3) + first) % 3)[..., None], axis=2)
+    directions = np.broadcast_to(step[:, None, None], points.shape)
+    corners = np.broadcast_to(turned[:, :, None], (*points.shape, 3))
+    return points - AHEAD * directions, directions, corners

@@ -14,13 +14,13 @@ from reference_tracer.report.tables import columns, percent
 from reference_tracer.study.extremes import written
 from reference_tracer.wording import count_of
 
-from .examples import Example
 from .extremes import held
 from .judged_scene import JudgedScene
 from .judging import CHECKS, Judgement
 from .picture import EXCUSED, Mark
 from .subjects.subject import Subject
 from .tally import COST, Tally
+from .wrong_case import WrongCase
 
 VERDICTS = {
     "right": "all right",
@@ -46,13 +46,13 @@ NO_BOUNDARY = (
 )
 
 
-def explain(judged: JudgedScene, example: Example) -> str:
-    """Return the command that derives an example's pixel, step by step."""
+def explain(judged: JudgedScene, case: WrongCase) -> str:
+    """Return the command that derives a wrong pixel, step by step."""
     source = Path(judged.source)
     if source.exists() and source.resolve().is_relative_to(Path.cwd()):
         source = Path(os.path.relpath(source))
     joined = subprocess.list2cmdline if os.name == "nt" else shlex.join
-    pixel = map(str, example.pixel)
+    pixel = map(str, case.pixel or ())
     return joined(["reftrace", "explain", str(source), "--pixel", *pixel, *judged.camera_options])
 
 
@@ -140,16 +140,22 @@ def _wrong_pixels(j: Judgement) -> list[str]:
         if counts:
             out += ["", f"{found.judged.name}: {'; '.join(counts)}"]
             out += [
-                f"  ({e.pixel[0]}, {e.pixel[1]}) {e.object}, {MARKS[e.mark]}: "
-                f"{explain(found.judged, e)}"
+                f"  {named(e)}: {explain(found.judged, e)}"
                 for e in _one_each(j.examples[found.judged.name])
             ]
     return out
 
 
-def _one_each(examples: Sequence[Example]) -> list[Example]:
-    """Return the first example of each mark."""
-    return list({e.mark: e for e in reversed(examples)}.values())[::-1]
+def _one_each(cases: Sequence[WrongCase]) -> list[WrongCase]:
+    """Return the first case of each mark."""
+    return list({e.group: e for e in reversed(cases)}.values())[::-1]
+
+
+def named(case: WrongCase) -> str:
+    """Return which pixel of a scene it is, and what is wrong there; of a check its group."""
+    if case.pixel is None:
+        return case.group
+    return f"{case.pixel} {case.object}, {MARKS[Mark[case.group.upper()]]}"
 
 
 def wrong_names(s: Mapping[str, Any]) -> list[str]:

@@ -1,9 +1,9 @@
-"""Some cases that were answered wrongly, with all numbers."""
+"""Some cases, or pixels of a scene, that were answered wrongly, with all numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,11 +16,13 @@ from .form import Form
 class WrongCase:
     """One case: what was given, what is true, and what was answered; what is not finite is null."""
 
-    group: str
+    group: str  # of the cases; of a pixel its mark
     given: Mapping[str, Any]  # by the names of the form
     certified: tuple[float | None, ...]  # the numbers of the parts
     student: tuple[float | None, ...]
-    place: int  # which of the numbers of its answer these are, if there are several; else 0
+    place: int = 0  # which of the numbers of its answer these are, if there are several
+    pixel: tuple[int, int] | None = None  # of a scene: x, y of the camera's region, from below
+    object: str = ""  # of a scene: whose triangle it is
 
     @classmethod
     def of(
@@ -30,16 +32,12 @@ class WrongCase:
         given: tuple[Floats, ...],
         true: Floats,
         own: Floats,
-        place: int,
+        **where: Any,
     ) -> WrongCase:
-        """Return a case of arrays."""
+        """Return a case of arrays; `where` has the fields after these."""
         names = (field.name for field in form.given)
         numbers = dict(zip(names, (array.tolist() for array in given), strict=True))
-        return cls(group, numbers, _finite(true), _finite(own), place)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the case as JSON can hold it."""
-        return asdict(self)
+        return cls(group, numbers, _finite(true), _finite(own), **where)
 
 
 def _finite(numbers: Floats) -> tuple[float | None, ...]:

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from reference_tracer.camera_files.files import of_frames
 from reference_tracer.cli.arguments import check_frames
 from reference_tracer.cli.camera_options import add_camera, choice_from
-from reference_tracer.cli.opening import SOURCES, open_blend, open_file
+from reference_tracer.cli.opening import SOURCES, open_frames
 from reference_tracer.cli.parser import AGREE, COUNT, POSITIVE, Parser
-from reference_tracer.cli.running import meanwhile
-from reference_tracer.comparison.animation import frames_named
+from reference_tracer.cli.running import progress_bar
 from reference_tracer.framing import Choice
-from reference_tracer.manifest import Manifest
 from reference_tracer.report import folders
-from reference_tracer.scene import Scene, SceneError
+from reference_tracer.scene import SceneError
+from reference_tracer.tracer.progress import result_of, scaled
+from reference_tracer.visible.visible import LIMIT, WORK, steps
 from reference_tracer.wording import show
 
 from .files import Total
-from .visible import LIMIT, WORK, visible
 
 
 @dataclass(frozen=True)
@@ -88,40 +85,22 @@ def add(parser: Parser) -> None:
 
 def find(options: VisibleOptions) -> int:
     """Decide every face, and write what is found."""
+    scene, choice, named = options.scene, options.choice, options.frames
     with folders.made_for_file(options.out):
         total = None
         frames = []
         said: dict[str, None] = {}
-        for frame, scene, manifest in _scenes(options):
-            said |= dict.fromkeys(manifest.remarks())
-            with meanwhile("looking for faces that are seen"):
-                found = visible(scene, options.limit, options.work)
-            total = total.add(scene, found, frame) if total else Total.of(scene, found, frame)
+        for frame, file in open_frames(scene, choice, named, whole=True):
+            said |= dict.fromkeys(file.manifest.remarks())
+            with progress_bar() as progress:
+                work = steps(file.scene, options.limit, options.work)
+                work = scaled(work, 0.0, None, f"frame {frame}" if named else "")
+                found = result_of(work, progress)
+            add = total.add if total else Total.of
+            total = add(file.scene, found, frame)
             frames.append(frame)
         if total is None:
             raise SceneError("--frames names none")
-        total.save(options.out, frames if options.frames else [], options.limit)
+        total.save(options.out, frames if named else [], options.limit)
     show(*said, *total.lines(), f"{total.summary()}: {options.out}")
     return AGREE
-
-
-def _scenes(options: VisibleOptions) -> Iterator[tuple[int, Scene, Manifest]]:
-    """Yield the scene of each frame; of what has no frames, one."""
-    if options.frames is None:
-        opened = open_file(options.scene, options.choice, whole=True)
-        yield 0, opened.scene, opened.manifest
-        return
-    with open_blend(options.scene, options.choice) as blender:
-        from reference_tracer.blender.jobs.animation import frames_of
-        from reference_tracer.blender.jobs.choice import seen_by
-        from reference_tracer.blender.jobs.open_file import export_open_file
-        from reference_tracer.blender.jobs.stepping import bake_bodies, stepped
-
-        user = blender.context.scene
-        frames = frames_named(options.frames) or frames_of(user)
-        views = of_frames(options.choice.views, frames) if options.choice.views else {}
-        bake_bodies(user, frames[-1])
-        for frame in stepped(user, [*frames]):
-            with seen_by(user, views.get(frame)):
-                scene, manifest, _ = export_open_file(blender.context, whole=True)
-            yield frame, scene, manifest

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from reference_tracer.arrays import Array, Bools, Index
+from reference_tracer.arrays import Array, Index
 from reference_tracer.files import npz
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
+from reference_tracer.visible import HIDDEN, SEEN, UNDECIDED, Visible
 from reference_tracer.wording import count_of
-
-from .visible import HIDDEN, SEEN, UNDECIDED, Visible
 
 SCHEMA = "reference_tracer.visible/1"
 
@@ -73,15 +72,15 @@ class Total:
         rows = []
         for number, name in enumerate(self.scene.objects):
             own = of == number
-            state = found.seen[own]
+            hidden, seen, undecided = np.bincount(found.seen[own], minlength=3).tolist()
             rows.append(
                 {
                     "object": name,
-                    "faces": int(own.sum()),
-                    "seen": _count(state == SEEN),
-                    "seen_from_behind": _count(found.behind[own]),
-                    "hidden": _count(state == HIDDEN),
-                    "undecided": _count(state == UNDECIDED),
+                    "faces": hidden + seen + undecided,
+                    "seen": seen,
+                    "seen_from_behind": int(found.behind[own].sum()),
+                    "hidden": hidden,
+                    "undecided": undecided,
                     "largest_area": float(np.max(found.area[own], initial=0.0)),
                 }
             )
@@ -89,27 +88,17 @@ class Total:
 
     def lines(self) -> list[str]:
         """Return a line for each object that has faces."""
-        lines = []
-        for row in self.rows():
-            if row["faces"]:
-                line = f"{row['object']}: {row['seen']:,} of {row['faces']:,} faces seen"
-                if row["seen_from_behind"]:
-                    line += f", {row['seen_from_behind']:,} of them from behind"
-                if row["undecided"]:
-                    most = f"at most {row['largest_area']:.2g} px² each"
-                    line += f"; {row['undecided']:,} undecided, {most}"
-                lines.append(line)
-        return lines
+        line = (
+            "{object}: {seen:,} of {faces:,} faces seen, {seen_from_behind:,} of them from behind; "
+            "{undecided:,} undecided, at most {largest_area:.2g} px² each"
+        )
+        return [line.format(**row) for row in self.rows() if row["faces"]]
 
     def save(self, path: Path, frames: Sequence[int], limit: float) -> None:
         """Write the arrays into `path`, and what they come to into the .json beside it."""
         scene, found = self.scene, self.found
         arrays: dict[str, Array] = {
-            "seen": found.seen,
-            "witness": found.witness,
-            "area": found.area,
-            "behind": found.behind,
-            "start": found.start,
+            **vars(found),
             "object": scene.instance_objects[: len(scene.instances)],
             "objects": np.array(scene.objects, dtype=str),
         }
@@ -137,7 +126,3 @@ class Total:
 
 def _names(scene: Scene) -> list[str]:
     return [scene.objects[i.object] for i in scene.instances]
-
-
-def _count(some: Bools) -> int:
-    return int(np.count_nonzero(some))

@@ -286,6 +286,7 @@ CAMERA_FAULTS = (
     stand(-0.3, 0.2, 0.5),
     turned(0.5, 0.3),
     turned(-3.0, 2.0),
+    turned(12.0, 0.0),
     elsewhere((0.06, -0.04, 0.05), (0.6, -0.9, 0.4), 1, 2, 3, 4, 5, 6, 7),
     elsewhere((-0.4, 0.25, 0.5), (2.0, 3.0, -1.5), 1, 2, 3, 4, 5, 6, 7),
     Fault("camera_moved", "in a room", pose(lambda m: placed((0.1, -0.15, 0.05)) @ m), only=(7,)),

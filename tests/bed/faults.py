@@ -25,6 +25,8 @@ PAIRS = (
     together(of("object_moved", "first by 0.4"), of("gamma")),
     together(of("focal_length", "angle"), of("rows")),
     together(of("channels"), of("rows")),
+    together(of("focal_length"), of("channels")),
+    together(of("focal_length"), of("filter_radius", "gauss")),
 )
 FAULTS: tuple[Fault, ...] = (*SINGLE, *PAIRS)
 

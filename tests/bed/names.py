@@ -29,6 +29,7 @@ SPOKEN = {
     ("premultiplied", "alpha divided"): "straight_alpha",
     ("rounding_level", "cut off"): "cut_off",
     ("object_scaled", "all"): "scene_scaled",
+    ("object_turned", "mirrored"): "object_scaled",
     ("sensor_fit", "horizontal"): "sensor_fit_setting",
     ("jpeg", ""): "processed",
     ("white_balance", ""): "processed",

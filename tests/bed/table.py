@@ -11,7 +11,7 @@ share a file. The table is of all that stands in it.
 why). `useful`: no name, but the largest region that is left shows the object that has the fault.
 `silent`: neither. `wrong`: a wrong name is told, alone or beside a right one. Seconds are those of
 the processor: of the comparison alone, and with the diagnosis. A revision before is checked out
-into a folder of its own, with its own test bed, and does each cell in the same minute.
+into a folder of its own, with this test bed, and does each cell in the same minute.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.comparison.comparison import Comparison
 from reference_tracer.tracer.progress import result_of
 
-from .bridge import case_of, case_of_data
+from . import bridge
 from .damage import COUNT, damaged
 from .description import Description
 from .faults import cells
@@ -75,10 +75,10 @@ def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, Fault | No
         _, scene, picture = damaged(int(number))
         return scene, picture, None, None
     found = [pair for pair in cells(None, int(number)) if pair[0].name == name]
-    if not found:  # a version before may not know it
-        return None
     [(fault, scene)] = found
     wrong = fault.make(scene, right(scene))
+    if wrong and wrong.holds and not hasattr(bridge, "case_of_data"):
+        return None  # a version before knows no data
     shown = None if wrong is None else wrong.stored()
     if shown is None or says_nothing(shown):
         return None
@@ -90,9 +90,11 @@ def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, Fault | No
 def compared(scene: Description, picture: np.ndarray, made: Made | None = None) -> Comparison:
     """Return the comparison with a picture (h, w, 4), row 0 at the top, and what it was made by."""
     if made and made.holds:
-        return result_of(trace_and_compare(case_of_data(scene, picture[..., 0], made.holds)))
-    known = (made.levels, made.filter_radius) if made else ()
-    return result_of(trace_and_compare(with_variants(case_of(scene, picture, *known), scene)))
+        case = bridge.case_of_data(scene, picture[..., 0], made.holds)
+    else:
+        known = (made.levels, made.filter_radius) if made else ()
+        case = with_variants(bridge.case_of(scene, picture, *known), scene)
+    return result_of(trace_and_compare(case))
 
 
 def measured(cell: str) -> Row:
@@ -177,12 +179,15 @@ def measuring(house: Path) -> Iterator[subprocess.Popen[str]]:
 
 @contextmanager
 def checked_out(revision: str) -> Iterator[Path]:
-    """Check out a revision into a folder of its own, with this table in its test bed."""
+    """Check out a revision into a folder of its own, with this test bed, but for its bridge."""
     with tempfile.TemporaryDirectory() as folder:
         house, git = Path(folder) / "before", ["git", "-C", str(PROJECT), "worktree"]
         subprocess.run([*git, "add", "--quiet", "--detach", house, revision], check=True)
         try:
-            shutil.copy(__file__, house / "tests" / "bed" / "table.py")
+            bed = house / "tests" / "bed"
+            bridge_before = (bed / "bridge.py").read_bytes()
+            shutil.copytree(Path(__file__).parent, bed, dirs_exist_ok=True)
+            (bed / "bridge.py").write_bytes(bridge_before)
             yield house
         finally:
             subprocess.run([*git, "remove", "--force", house], check=True)

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 import reference_tracer
 from reference_tracer.blender import registration
+from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.evaluating import export_for_render
 from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.jobs.compare import gather_case
@@ -88,6 +89,28 @@ def shown_otherwise(monkeypatch):
         monkeypatch.setattr(compare_module, "_picture", picture)
 
     return change
+
+
+@pytest.fixture
+def drawn_otherwise(monkeypatch):
+    """Have Blender draw each picture of a changed scene, as a wrong exporter's would be of one."""
+
+    @contextlib.contextmanager
+    def changed(change, back):
+        real = drawings.picture
+
+        def picture(*args):
+            change()
+            try:
+                return (yield from real(*args))
+            finally:
+                back()
+
+        with monkeypatch.context() as patched:
+            patched.setattr(drawings, "picture", picture)
+            yield
+
+    return changed
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""Twenty scenes for Blender's exporters: what a mesh file may hold, and what it cannot.
+"""Nineteen scenes for Blender's exporters: what a mesh file may hold, and what it cannot.
 
 Each is a function of the builder and of random numbers, and sets a camera that sees all of it. No
 two surfaces coincide: which of them is seen would be chance.
@@ -62,33 +62,19 @@ def star(build: Build, rng: Random, name: str, tips: int, **place: Any) -> Any:
 
 
 def posed_rig(build: Build, rng: Random) -> None:
-    rig = build.link(bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig")))
-    bpy.context.view_layer.objects.active = rig
-    bpy.ops.object.mode_set(mode="EDIT")
-    below = None
-    for k in range(3):
-        bone = rig.data.edit_bones.new(f"Bone {k}")
-        bone.head, bone.tail, bone.parent = (0, 0, k), (0, 0, k + 1), below
-        below = bone
-    bpy.ops.object.mode_set(mode="OBJECT")
-    ring = [(0.5 * np.cos(a), 0.5 * np.sin(a)) for a in np.arange(6) * np.pi / 3]
-    points = [(x, y, z) for z in np.linspace(0, 3, 10) for x, y in ring]
-    quads = [(6 * i + j, 6 * i + (j + 1) % 6, 6 * i + j + 6) for i in range(9) for j in range(6)]
-    quads += [
-        (6 * i + (j + 1) % 6, 6 * i + (j + 1) % 6 + 6, 6 * i + j + 6)
-        for i in range(9)
-        for j in range(6)
-    ]
-    tube = build.mesh("Tube", points, quads)
-    tube.parent = rig
-    tube.modifiers.new("Armature", "ARMATURE").object = rig
-    for k in range(3):
-        group = tube.vertex_groups.new(name=f"Bone {k}")
-        for vertex in tube.data.vertices:
-            group.add([vertex.index], max(0.0, 1 - abs(vertex.co.z - k - 0.5)), "REPLACE")
-    for bone in rig.pose.bones:
-        bone.rotation_mode, bone.rotation_euler = "XYZ", (0.5 * rng.normal(), 0.3, 0.2)
-    rig.location, rig.rotation_euler = (0.5, 0, -1), turn(rng)
+    """A mesh that bends where one bone ends."""
+    bpy.ops.object.armature_add()
+    rig = bpy.context.object
+    rig.name = rig.data.name = "Rig"
+    bent = grid(build, rng, "Bent", cut=True, scale=(1, 1, 0.3))
+    bent.parent = rig
+    bent.modifiers.new("Armature", "ARMATURE").object = rig
+    group = bent.vertex_groups.new(name="Bone")
+    for vertex in bent.data.vertices:
+        group.add([vertex.index], max(0.0, vertex.co.x) / 1.5, "REPLACE")
+    bone = rig.pose.bones["Bone"]
+    bone.rotation_mode, bone.rotation_euler = "XYZ", (0.9, 0.3, 0.2)
+    rig.location, rig.rotation_euler = (0.5, 0, 0), turn(rng)
     build.cube("Beside", 1.5, location=(-3, 0, 0), rotation=turn(rng))
 
 
@@ -113,14 +99,13 @@ def collection_instances(build: Build, rng: Random) -> None:
     inner.instance_type, inner.instance_collection, inner.location = "COLLECTION", kit, (0, 1, 1)
     double = build.collection("Double", inner, build.cube("Pole", 0.4, link=False))
     for k, collection in enumerate((kit, double, double)):
-        empty = build.empty(f"Copy {k}", location=(3.2 * k - 3, 0, 0), rotation=turn(rng))
-        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        build.instances(f"Copy {k}", collection, location=(3.2 * k - 3, 0, 0), rotation=turn(rng))
 
 
 def linked_duplicates(build: Build, rng: Random) -> None:
     first = star(build, rng, "First", 5, location=(-3, 0, 0), rotation=turn(rng))
     for k in range(3):
-        copy = build.link(bpy.data.objects.new(f"Copy {k}", first.data))
+        copy = build.object(f"Copy {k}", first.data)
         copy.location, copy.rotation_euler = (2 * k - 1, 0.5 * k, 0.4 * k), turn(rng)
         copy.scale = rng.uniform(0.5, 1.2, 3)
 
@@ -163,19 +148,12 @@ def scales(build: Build, rng: Random) -> None:
         grid(build, rng, f"Scaled {k}", 3, 0.3, **place)
 
 
-def sheared(build: Build, rng: Random) -> None:
-    parent = build.cube("Parent", 1, location=(-1, 0, 0), rotation=turn(rng), scale=(2, 0.6, 1))
-    child = build.cube("Child", 1, location=(1, 1, 1), rotation=(0.5, 0.6, 0.7))
-    child.parent = parent
-    build.cube("Beside", 1, location=(3, 0, 0))
-
-
-def mirrored(build: Build, rng: Random) -> None:
-    parent = build.empty("Mirror", scale=(-1, 1, 1), rotation=(0, 0, 0.4))
-    for k in range(3):
-        child = star(
-            build, rng, f"Child {k}", 5, location=(2.5 * k - 2.5, 0, 0), rotation=turn(rng)
-        )
+def parents(build: Build, rng: Random) -> None:
+    """One that shears its child, and one that mirrors it."""
+    for k, scale in enumerate(((2, 0.6, 1), (-1, 1, 1))):
+        place = {"location": (4 * k - 2, 0, 0), "rotation": turn(rng), "scale": scale}
+        parent = build.cube(f"Parent {k}", 1, **place)
+        child = star(build, rng, f"Child {k}", 5, location=(0.3, 0, 1), rotation=(0.5, 0.6, 0.7))
         child.parent = parent
         child.matrix_parent_inverse = Matrix.Translation((0.3, 0.2, 0.1))
 
@@ -205,20 +183,15 @@ def metaballs(build: Build, rng: Random) -> None:
     build.cube("Beside", 1.5, location=(2, 0, 0), rotation=turn(rng))
 
 
-def tiny(build: Build, rng: Random) -> None:
-    size = 1e-4
+def tiny(build: Build, rng: Random, size: float = 1e-4) -> None:
     for k in range(3):
-        obj = grid(build, rng, f"Tiny {k}", 4, 0.3, rotation=turn(rng), scale=(size,) * 3)
+        obj = grid(build, rng, f"Part {k}", 4, 0.3, rotation=turn(rng), scale=(size,) * 3)
         obj.location.x = (3 * k - 3) * size
     looking(build, size)
 
 
 def huge(build: Build, rng: Random) -> None:
-    size = 1e6
-    for k in range(3):
-        obj = grid(build, rng, f"Huge {k}", 4, 0.3, rotation=turn(rng), scale=(size,) * 3)
-        obj.location.x = (3 * k - 3) * size
-    looking(build, size)
+    tiny(build, rng, 1e6)
 
 
 def far_away(build: Build, rng: Random) -> None:
@@ -237,7 +210,7 @@ def materials_and_loose(build: Build, rng: Random) -> None:
     points = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (2, 2, 1), (0, 0, 2), (3, 0, 2)]
     mesh = bpy.data.meshes.new("Loose")
     mesh.from_pydata(points, [(3, 4), (4, 5)], [(0, 1, 2)])
-    build.place(build.link(bpy.data.objects.new("Loose", mesh)), location=(1.5, 0, 0))
+    build.object("Loose", mesh, location=(1.5, 0, 0))
 
 
 def hidden_and_empty(build: Build, rng: Random) -> None:
@@ -271,8 +244,7 @@ SCENES: dict[str, Callable[[Build, Random], None]] = {
         not_planar,
         holes,
         scales,
-        sheared,
-        mirrored,
+        parents,
         modifiers,
         curves,
         metaballs,

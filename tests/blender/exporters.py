@@ -4,8 +4,6 @@ A scene is exported by Blender with its default options, read again, and traced 
 camera. Every pixel must show the object that the scene's own export shows: only beside edges, as
 far as the file's digits move them, it may be the other one. What an exporter itself leaves out or
 adds is a `Cell`, with its reason: the same is done to the scene in Blender.
-
-    .venv/bin/python -m tests.blender.exporters     prints the table
 """
 
 from __future__ import annotations
@@ -26,7 +24,7 @@ from reference_tracer.scene import Camera, Scene
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer_meshes.load import load_meshes, scene_of_meshes
 
-from .exporter_scenes import SCENES, make_scene
+from .exporter_scenes import make_scene
 from .scenes import Build
 
 HALF = 2.0**-24  # of a float32's value: what rounding to it may change
@@ -182,15 +180,6 @@ class Row:
         """Whether the file was read as Blender wrote it."""
         return not (self.elsewhere or self.error)
 
-    def line(self) -> str:
-        """Return the cell as a line of a table."""
-        counts = f"{self.differ:4d} {self.beside_edges:4d} {self.elsewhere:4d}"
-        said = self.error or self.reason
-        return f"{self.scene:20} {self.format:10} {counts}  {self.reach:8.1e}  {said}"
-
-
-HEAD = f"{'scene':20} {'format':10} {'diff':>4} {'edge':>4} {'else':>4}  {'reach/px':8}  stated"
-
 
 def judge(
     name: str,
@@ -282,29 +271,3 @@ def pixel_size(camera: Camera, points: NDArray[np.float64]) -> float:
     depth = ((position - points) * backward).sum(axis=1)
     nearest = max(depth.min(), camera.clip_start)
     return float(nearest * (camera.window.right - camera.window.left) / camera.width)
-
-
-def table(folder: Path, scenes: Iterable[str] = SCENES) -> Iterator[Row]:
-    """Yield all rows."""
-    for name in scenes:
-        yield from judge(name, folder, Build())
-
-
-def main() -> None:
-    """Print the table."""
-    import sys
-    import tempfile
-
-    import reference_tracer
-
-    reference_tracer.register()
-    with tempfile.TemporaryDirectory() as folder:
-        rows = list(table(Path(folder), sys.argv[1:] or SCENES))
-    print(HEAD)
-    for row in rows:
-        print(row.line())
-    print(f"{sum(not row.is_right for row in rows)} of {len(rows)} are wrong")
-
-
-if __name__ == "__main__":
-    main()

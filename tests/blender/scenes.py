@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from itertools import pairwise
 from typing import Any
 
@@ -10,8 +11,14 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 HALF_FLOAT = 2 * 2.0**-11  # Blender hands its colours over in 11 bits: two roundings up to 1
+SAME = 1e-5  # metres: what float32 sines and cosines of different Blender builds may differ by
 
 CUBE_FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+
+
+def save(path: Any) -> None:
+    """Save the open file."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
 
 
 class Build:
@@ -28,12 +35,15 @@ class Build:
         (collection or bpy.context.scene.collection).objects.link(obj)
         return obj
 
+    def object(self, name: str, data: Any = None, **place: Any) -> Any:
+        return self.place(self.link(bpy.data.objects.new(name, data)), **place)
+
     def camera(self, location=(0.0, 0.0, 5.0), rotation=(0.0, 0.0, 0.0), **data: Any) -> Any:
         """By default straight above the origin, looking down, +Y upwards in the picture."""
         camera = bpy.data.cameras.new("Camera")
         for name, value in data.items():
             setattr(camera, name, value)
-        obj = self.link(bpy.data.objects.new("Camera", camera))
+        obj = self.object("Camera", camera)
         obj.location, obj.rotation_euler = location, rotation
         bpy.context.scene.camera = obj
         return obj
@@ -84,7 +94,13 @@ class Build:
         return material
 
     def empty(self, name: str, **place: Any) -> Any:
-        return self.place(self.link(bpy.data.objects.new(name, None)), **place)
+        return self.object(name, **place)
+
+    def instances(self, name: str, collection: Any, **place: Any) -> Any:
+        """An empty that shows a collection."""
+        empty = self.empty(name, **place)
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        return empty
 
     def collection(self, name: str, *objects: Any, link: bool = False) -> Any:
         collection = bpy.data.collections.new(name)
@@ -127,7 +143,7 @@ class Build:
     def text(self, name: str = "Text", **place: Any) -> Any:
         curve = bpy.data.curves.new(name, "FONT")
         curve.body, curve.extrude = "Ray", 0.1
-        return self.place(self.link(bpy.data.objects.new(name, curve)), **place)
+        return self.object(name, curve, **place)
 
     def bevelled_curve(self, name: str = "Curve", **place: Any) -> Any:
         curve = bpy.data.curves.new(name, "CURVE")
@@ -136,7 +152,7 @@ class Build:
         spline.bezier_points.add(1)
         for point, x in zip(spline.bezier_points, (-1, 1), strict=True):
             point.co, point.handle_left, point.handle_right = (x, 0, 0), (x, -1, 0), (x, 1, 1)
-        return self.place(self.link(bpy.data.objects.new(name, curve)), **place)
+        return self.object(name, curve, **place)
 
     def surface(self, name: str = "Surface", **place: Any) -> Any:
         bpy.ops.surface.primitive_nurbs_surface_sphere_add(radius=1)
@@ -149,7 +165,7 @@ class Build:
         ball.resolution = ball.render_resolution = 0.4
         ball.elements.new().co = (0, 0, 0)
         ball.elements.new().co = (1, 0, 0)
-        return self.place(self.link(bpy.data.objects.new(name, ball)), **place)
+        return self.object(name, ball, **place)
 
     def color_attribute(
         self, obj: Any, domain: str, kind: str = "FLOAT_COLOR", seed: int = 5
@@ -197,6 +213,15 @@ class Build:
                 material=self.material(name, *rgba),
             )
 
+    def room(
+        self, width: int = 96, height: int = 54, color_type: str = "MATERIAL", **camera: Any
+    ) -> Any:
+        """The solids, as the camera in the corner sees them; returns the scene."""
+        scene = self.scene(width, height, color_type)
+        self.solids()
+        self.corner_camera(**camera)
+        return scene
+
     def corner_camera(self, **data: Any) -> Any:
         """A camera that looks at the solids from the front, right and above."""
         return self.camera((3.1, -4.2, 3.3), (np.radians(60), 0.05, np.radians(37)), **data)
@@ -212,3 +237,34 @@ def assert_same_colors(comparison, distinct: int = 2) -> None:
     assert seen.mean() > 0.05
     colors = np.unique(np.round(comparison.frame.color[seen], 3), axis=0)
     assert len(colors) >= distinct
+
+
+def assert_same_scene(one: Any, other: Any, texts: Collection[str] = ()) -> None:
+    """Two scenes are the same but for float32; of `texts` the triangles may be other ones."""
+    from pytest import approx  # late: Blender's window, which makes scenes too, has none
+
+    near = {"rtol": 1e-6, "atol": SAME}
+    assert one.objects == other.objects and one.triangle_count == other.triangle_count > 0
+    for name in ("width", "height", "region", "projection", "clip_start", "clip_end"):
+        assert getattr(one.camera, name) == getattr(other.camera, name), name
+    np.testing.assert_allclose(one.camera.world_from_camera, other.camera.world_from_camera, **near)
+    assert vars(one.camera.window) == approx(vars(other.camera.window))
+    for mine, theirs in zip(one.meshes, other.meshes, strict=True):
+        if mine.name in texts:
+            np.testing.assert_allclose(mine.bounds, theirs.bounds, **near)
+            assert area(mine) == approx(area(theirs))
+        else:
+            corners = (m.vertices[m.triangles] for m in (mine, theirs))
+            np.testing.assert_allclose(*corners, err_msg=mine.name, **near)
+    for kind, names in (
+        ("instances", ("mesh", "object", "world_from_object", "colors")),
+        ("planes", ("object", "point", "normal", "color")),
+    ):
+        for mine, theirs in zip(getattr(one, kind), getattr(other, kind), strict=True):
+            for name in names:
+                np.testing.assert_allclose(getattr(mine, name), getattr(theirs, name), **near)
+
+
+def area(mesh: Any) -> float:
+    a, b, c = np.moveaxis(mesh.vertices[mesh.triangles], 1, 0)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

@@ -10,9 +10,7 @@ SMOOTH = "FXAA", "5", "8", "32"
 
 @pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
 def test_light_and_anti_aliasing_are_named(build, compare, judge):
-    scene = build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(lens=40)
     scene.display.shading.light = "STUDIO"
     comparison = compare(as_is=True, judge=judge)
     named = {u.feature for u in comparison.manifest.unmodelled if u.effect.everywhere}
@@ -26,23 +24,10 @@ def test_light_and_anti_aliasing_are_named(build, compare, judge):
     assert comparison.verdict == "warnings"
 
 
-def test_like_for_like_takes_one_sample(build, compare):
-    """Blender's picture has one: edges of a smoother one would look like faults."""
-    scene = build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
-    scene.reference_tracer.samples = 4
-    comparison = compare()
-    assert comparison.case.settings.samples == 1
-    assert comparison.verdict == "agree"
-
-
 @pytest.mark.parametrize("as_is", [False, True])
 def test_what_a_render_shows_does_not_change_a_comparison(as_is, build, compare):
     """Blender draws the objects' colours: so does the tracer, and the self-check finds all."""
-    scene = build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(lens=40)
     scene.display.shading.light = "FLAT"
     before = compare(as_is=as_is)
     scene.reference_tracer.color = "normal"
@@ -52,9 +37,7 @@ def test_what_a_render_shows_does_not_change_a_comparison(as_is, build, compare)
 
 
 def test_examples_say_where(build, compare):
-    scene = build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(lens=40)
     scene.display.shading.light = "STUDIO"
     comparison = compare(as_is=True)
     places = comparison.counts.examples["color"]
@@ -88,9 +71,7 @@ def test_light_does_not_excuse_a_missing_object(build, compare, monkeypatch):
     """Blender draws one object less, in studio light: the other shades are no reason."""
     from reference_tracer.blender.drawing import drawings
 
-    scene = build.scene()
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(lens=40)
     scene.display.shading.light = "STUDIO"
     real = drawings.stand_ins
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
-
 import bpy
 import numpy as np
 import pytest
@@ -34,23 +32,6 @@ def panes(build):
     return scene
 
 
-@contextmanager
-def drawn_otherwise(monkeypatch, change, back):
-    """Have Blender draw each picture of a changed scene, as a wrong exporter's would be of one."""
-    with monkeypatch.context() as patched:
-        real = drawings.picture
-
-        def picture(*args):
-            change()
-            try:
-                return (yield from real(*args))
-            finally:
-                back()
-
-        patched.setattr(drawings, "picture", picture)
-        yield
-
-
 def through(found):
     """Return the pixels that show a pane."""
     names = found.scene.objects
@@ -78,7 +59,7 @@ def test_an_honest_scene_has_no_alarm(panes, compare, colors, identity):
 
 @pytest.mark.parametrize("colors", COLORS)
 @pytest.mark.parametrize("what", ["moved", "removed", "recoloured"])
-def test_a_fault_behind_is_found(panes, compare, monkeypatch, colors, what):
+def test_a_fault_behind_is_found(panes, compare, drawn_otherwise, colors, what):
     obj = bpy.data.objects["Behind"]
     material = obj.data.materials[0]
 
@@ -99,7 +80,7 @@ def test_a_fault_behind_is_found(panes, compare, monkeypatch, colors, what):
         "removed": (lambda: removed(True), lambda: removed(False)),
         "recoloured": (lambda: recoloured((0.1, 0.9, 0.2)), lambda: recoloured((0.9, 0.1, 0.1))),
     }
-    with drawn_otherwise(monkeypatch, *changes[what]):
+    with drawn_otherwise(*changes[what]):
         found = compare(judge="WORKBENCH", colors=colors, identity=False)
     wrong = found.causes.cause == UNEXPLAINED
     seen = through(found)
@@ -111,8 +92,7 @@ def test_a_fault_behind_is_found(panes, compare, monkeypatch, colors, what):
 def test_panes_of_a_collection_instance(panes, build, compare):
     scene = bpy.context.scene
     one = build.square("Pane X", 1.0, link=False, material=bpy.data.materials["Glass"])
-    empty = build.empty("Holder", location=(2.5, -1, 3))
-    empty.instance_type, empty.instance_collection = "COLLECTION", build.collection("Panes", one)
+    build.instances("Holder", build.collection("Panes", one), location=(2.5, -1, 3))
     scene.display.shading.color_type = "MATERIAL"
     found = compare(judge="WORKBENCH", colors=By.VIEWPORT)
     assert found.counts.unexplained == 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.reading.camera import border_region, export_camera
@@ -44,21 +43,3 @@ def test_the_border_is_rounded_as_blender_rounds(width, height, shares, build, w
     expected = np.zeros((height, width), bool)
     expected[region.y0 : region.y1, region.x0 : region.x1] = True
     np.testing.assert_array_equal(drawn, expected)
-
-
-@pytest.mark.parametrize("crop", [True, False])
-def test_the_border_cuts_out_of_the_whole_picture(crop, build, compare):
-    scene = build.scene(61, 47)
-    build.solids()
-    build.corner_camera(shift_x=0.1)
-    whole = compare()
-    scene.render.use_border, scene.render.use_crop_to_border = True, crop
-    scene.render.border_min_x, scene.render.border_max_x = 0.37, 0.81
-    scene.render.border_min_y, scene.render.border_max_y = 0.22, 0.9
-    part = compare()
-    r = part.scene.camera.region
-    assert part.scene.camera.window == whole.scene.camera.window
-    assert part.frame.color.shape == part.picture.shape == (r.height, r.width, 4)
-    np.testing.assert_array_equal(part.frame.color, whole.frame.color[r.y0 : r.y1, r.x0 : r.x1])
-    assert part.verdict == "agree"
-    assert bpy.context.scene.render.use_crop_to_border == crop

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import bpy
-import numpy as np
 import pytest
 from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.methods import Method
@@ -16,6 +15,7 @@ from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.picture import look
 
 from ..sampled import daily
+from .scenes import assert_same_scene
 
 PROJECT = Path(__file__).parents[2]
 SCENES = sorted((PROJECT / "sample_scenes").glob("*.blend"))
@@ -27,24 +27,8 @@ def test_as_exported(name):
     path = PROJECT / "sample_scenes" / f"{name}.blend"
     bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
     fresh, _, _ = export_open_file(bpy.context)
-    stored = BUILT_IN[name]
-    assert stored.objects == fresh.objects and stored.triangle_count == fresh.triangle_count > 0
-    camera, other = stored.camera, fresh.camera
-    assert (camera.width, camera.height, camera.region) == (
-        other.width,
-        other.height,
-        other.region,
-    )
-    assert camera.projection == other.projection
-    np.testing.assert_allclose(camera.world_from_camera, other.world_from_camera, atol=1e-6)
-    assert vars(camera.window) == pytest.approx(vars(other.window))
-    for mine, theirs in zip(stored.meshes, fresh.meshes, strict=True):
-        np.testing.assert_allclose(mine.vertices, theirs.vertices, atol=1e-6)
-        assert (mine.triangles == theirs.triangles).all()
-    for mine, theirs in zip(stored.instances, fresh.instances, strict=True):
-        np.testing.assert_allclose(mine.world_from_object, theirs.world_from_object, atol=1e-6)
-        np.testing.assert_allclose(mine.colors, theirs.colors, atol=1e-6)
-    assert len(stored.planes) == len(fresh.planes) == (name == "exercise_plane")
+    assert_same_scene(BUILT_IN[name], fresh)
+    assert len(fresh.planes) == (name == "exercise_plane")
 
 
 @pytest.mark.parametrize("path", daily(SCENES), ids=lambda p: p.stem)

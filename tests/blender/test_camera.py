@@ -150,20 +150,6 @@ def test_the_percentage_cuts_off_as_blender_does(size, percent, build, workbench
     assert (camera.height, camera.width) == workbench().shape[:2]
 
 
-def test_a_lens_at_its_ends_still_projects_as_blender_does(build):
-    scene = build.scene()
-    camera = build.camera((0, 0, 0))
-    for lens, sensor in ((1, 1000), (5000, 1), (1, 1), (50, 36)):
-        camera.data.lens, camera.data.sensor_width = lens, sensor
-        bpy.context.view_layer.update()
-        exported = export_camera(scene)
-        world = points(exported, np.random.default_rng(4))
-        expected = film_of_blender(camera, 96, 54, world)
-        np.testing.assert_allclose(
-            np.array(film_of(exported, world)[:2]), expected, rtol=0, atol=96 * ROUNDING
-        )
-
-
 def test_a_pixel_that_blender_cannot_have_is_the_nearest():
     camera = Camera(np.eye(4), ViewWindow(-1, 1, -1e-6, 1e-6), 20, 10)
     scene = bpy.context.scene

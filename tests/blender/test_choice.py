@@ -18,6 +18,7 @@ from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.progress import result_of
 
 from . import hard_cases as hard
+from .scenes import save
 from .test_unchanged import snapshot
 
 
@@ -28,7 +29,7 @@ def solids(build, tmp_path):
     build.solids()
     hidden = build.cube("Hidden", location=(500, 0, 0))
     hidden.hide_render = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     return scene
 
 
@@ -48,9 +49,9 @@ def span(scene):
 @pytest.mark.parametrize("aspect", [1.0, 1.5])
 def test_all_is_framed_and_agrees_with_blender(aspect, solids, build):
     solids.render.pixel_aspect_y = aspect
-    empty = build.empty("Empty", location=(0, 0, 5))
-    empty.instance_type = "COLLECTION"
-    empty.instance_collection = build.collection("Kit", build.cube("Child", 0.3, link=False))
+    build.instances(
+        "Empty", build.collection("Kit", build.cube("Child", 0.3, link=False)), location=(0, 0, 5)
+    )
     found = compare(frame_all=True, width=96)
     assert found.verdict == "agree" and found.counts.unexplained == 0
     camera = found.scene.camera

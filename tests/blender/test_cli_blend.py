@@ -11,6 +11,8 @@ import pytest
 from reference_tracer.files.scenes import load_scene
 from reference_tracer.rendering import render
 
+from .scenes import save
+
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
 
 
@@ -26,11 +28,9 @@ def shell(*argv: object) -> subprocess.CompletedProcess:
 @pytest.fixture
 def small(build, tmp_path):
     """A file with a small scene, whose name no shell likes."""
-    build.scene(64, 36)
-    build.solids()
-    build.corner_camera(lens=40)
+    build.room(64, 36, lens=40)
     path = tmp_path / "a scene, with 'spaces' & ümläuts.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     return path
 
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender.reading.colors import background
 from reference_tracer.blender.versions import WITHOUT_ATTRIBUTE
+from reference_tracer.pictures.palette import By
 
 from .scenes import HALF_FLOAT, assert_same_colors
 
@@ -57,8 +58,9 @@ def collection_instances(build):
     square = build.square("Plain", 1, link=False, location=(0, -0.9, 0.4))
     collection = build.collection("Shown", cube, square)
     for x, color in ((-1.5, (0.9, 0.6, 0.1, 1)), (1.5, (0.3, 0.2, 0.7, 1))):
-        empty = build.empty(f"Empty {x}", location=(x, 0, 0), scale=(np.sign(x), 1, 1), color=color)
-        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        build.instances(
+            f"Empty {x}", collection, location=(x, 0, 0), scale=(np.sign(x), 1, 1), color=color
+        )
 
 
 def node_instances(build):
@@ -112,16 +114,32 @@ def generated_types(build):
         obj.color = (0.9 - 0.2 * number, 0.2 * number, 0.4, 1)
 
 
+OF_SLOTS = {"VERTEX"} if WITHOUT_ATTRIBUTE == "MATERIAL" else set()
+INSTANCED = (collection_instances, node_instances)
 SCENES = (objects, collection_instances, node_instances, node_materials, generated_types)
 
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.__name__)
 @pytest.mark.parametrize("color_type", COLOR_TYPES)
-def test_shows_what_workbench_shows(color_type, scene, build, compare):
-    build.scene(color_type=color_type).display.shading.single_color = (0.3, 0.5, 0.7)
+@pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
+def test_shows_what_blender_shows(judge, color_type, scene, build, compare):
+    own = build.scene(color_type=color_type)
+    own.display.shading.single_color = (0.3, 0.5, 0.7)
+    own.reference_tracer.judge = judge
     scene(build)
     build.camera(type="ORTHO", ortho_scale=7)
-    assert_same_colors(compare(), distinct=1 if color_type == "SINGLE" else 2)
+    if judge == "CYCLES" and color_type == "RANDOM" and scene in INSTANCED:
+        with pytest.raises(ValueError, match=r"random colours of instances.*Workbench"):
+            compare(colors=By.VIEWPORT)
+        return
+    if judge == "CYCLES" and scene is objects and color_type in {"MATERIAL"} | OF_SLOTS:
+        with pytest.raises(ValueError, match="'Cube 2' has faces of a material slot that it does"):
+            compare(colors=By.VIEWPORT)  # they would be black
+        for number in (2, 3):
+            bpy.data.meshes[f"Cube {number}"].polygons.foreach_set("material_index", [0] * 6)
+    found = compare(colors=By.VIEWPORT)
+    assert found.case.picture.source.name == judge.lower()
+    assert_same_colors(found, distinct=1 if color_type == "SINGLE" else 2)
 
 
 @pytest.mark.parametrize("domain", ["POINT", "CORNER"])

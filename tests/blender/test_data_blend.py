@@ -7,17 +7,15 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import registration
-from reference_tracer.cli.main import main
 from reference_tracer.files import exr
+
+from .scenes import save
 
 
 @pytest.fixture
 def passes(build, tmp_path):
     """A .blend, and its render by Cycles with a sample in each pixel's centre."""
-    scene = build.scene(48, 27)
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(48, 27, lens=40)
     layer = bpy.context.view_layer
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_position = True
     layer.use_pass_object_index = layer.use_pass_cryptomatte_object = True
@@ -33,25 +31,22 @@ def passes(build, tmp_path):
     image.file_format, image.color_depth = "OPEN_EXR_MULTILAYER", "32"
     scene.render.filepath = str(tmp_path / "passes.exr")
     bpy.ops.render.render(write_still=True)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     return tmp_path
 
 
-def test_the_passes_of_cycles_agree(passes, addon, capsys):
-    registration.unregister()  # the command registers by itself, in a process of its own
-    try:
-        compare = ["compare", str(passes / "scene.blend"), "--against", str(passes / "passes.exr")]
-        for kind in ("depth", "positions", "normals", "ids"):
-            code = main([*compare, "--holds", kind, "--out", str(passes / kind)])
-            found = json.loads((passes / kind / "comparison.json").read_text(encoding="utf-8"))
-            assert code == 0 and found["pixels"]["differ"] == 0, (kind, capsys.readouterr().out)
-        traced = str(passes / "traced.exr")
-        assert main(["trace", str(passes / "scene.blend"), "--out", traced]) == 0
-        _same_cryptomatte(passes / "passes.exr", passes / "traced.exr")
-        assert main([*compare, "--holds", "distance", "--out", str(passes / "distance")]) == 2
-        assert "not distances along the ray" in capsys.readouterr().out
-    finally:
-        registration.register()
+def test_the_passes_of_cycles_agree(passes, reftrace):
+    blend, picture, traced = (passes / n for n in ("scene.blend", "passes.exr", "traced.exr"))
+    for kind in ("depth", "positions", "normals", "ids", "distance"):
+        out = passes / kind
+        done = reftrace("compare", blend, "--against", picture, "--holds", kind, "--out", out)
+        if kind == "distance":
+            assert done.returncode == 2 and "not distances along the ray" in done.stdout
+        else:
+            found = json.loads((out / "comparison.json").read_text(encoding="utf-8"))
+            assert done.returncode == 0 and found["pixels"]["differ"] == 0, done.stdout
+    assert reftrace("trace", blend, "--out", traced).returncode == 0
+    _same_cryptomatte(picture, traced)
 
 
 def _same_cryptomatte(blenders, own):

@@ -121,43 +121,14 @@ def test_border_without_crop(solids, rendered, export):
     assert not passes["Combined"].any()
 
 
-def test_animation(solids, export, multilayer, tmp_path):
-    red = bpy.data.objects["Red"]
-    for number, x in ((1, -1.1), (2, 0.4)):
-        red.location.x = x
-        red.keyframe_insert("location", frame=number)
-    solids.frame_start, solids.frame_end = 1, 2
-    multilayer.set(solids, tmp_path / "frame_####")
-    assert bpy.ops.render.render(animation=True) == {"FINISHED"}
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["frame_0001.exr", "frame_0002.exr"]
-    pictures = []
-    for number in (1, 2):
-        solids.frame_set(number)
-        frame = render(export.render()[0])
-        pictures.append(frame.color)
-        assert_same(multilayer.read(tmp_path / f"frame_{number:04}.exr")["ViewLayer"], frame)
-    assert (pictures[0] != pictures[1]).any()
-
-
-def test_two_view_layers(solids, build, rendered, export):
-    build.collection("Extra", build.cube("Extra", 1, link=False, location=(0, 0, 1.5)), link=True)
-    other = solids.view_layers.new("Other")
-    other.reference_tracer.passes = LABELS - {"Combined"}
-    solids.view_layers[0].layer_collection.children["Extra"].exclude = True
-    layers = rendered()
-    assert set(layers) == {"ViewLayer", "Other"}
-    for layer in solids.view_layers:
-        bpy.context.window.view_layer = layer
-        assert_same(layers[layer.name], render(export.viewport()[0]))
-    assert (layers["ViewLayer"]["Combined"] != layers[other.name]["Combined"]).any()
-
-
 def test_what_a_layer_has_not_chosen_is_neither_computed_nor_declared(
-    solids, build, rendered, monkeypatch, capfd
+    solids, build, rendered, export, monkeypatch, capfd
 ):
-    """Each layer chooses for itself; one that has not chosen has the picture alone."""
+    """Each layer chooses for itself, and shows its own; by default it has the picture alone."""
+    build.collection("Extra", build.cube("Extra", 1, link=False, location=(0, 0, 1.5)), link=True)
     frame = rendered()["ViewLayer"]
     chosen, other = solids.view_layers[0], solids.view_layers.new("Other")
+    other.layer_collection.children["Extra"].exclude = True
     _, node = build.compositor()
     chosen.reference_tracer.passes = {"Depth", "Certainty"}
     shown = {output.name for output in node.outputs if output.enabled}
@@ -168,6 +139,10 @@ def test_what_a_layer_has_not_chosen_is_neither_computed_nor_declared(
     assert set(layers["ViewLayer"]) == {"Combined", "Depth", "Certainty"}
     for name, values in layers["ViewLayer"].items():
         np.testing.assert_array_equal(values, frame[name])
+    bpy.context.window.view_layer = other
+    np.testing.assert_array_equal(layers["Other"]["Combined"], render(export.viewport()[0]).color)
+    bpy.context.window.view_layer = chosen
+    assert (layers["Other"]["Combined"] != frame["Combined"]).any()
     solids.view_layers.remove(other)
     chosen.reference_tracer.passes = set()
     for name in ("position", "normal", "object_index"):

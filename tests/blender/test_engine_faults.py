@@ -98,44 +98,23 @@ def test_comparing_it_names_what_is_wrong(fault, scene, compare):
 @pytest.mark.parametrize(
     "kind", [RuntimeError, KeyError, MemoryError, ZeroDivisionError, SceneError]
 )
-@pytest.mark.parametrize("where", ["blender.reading.export.export", "rendering.steps"])
+@pytest.mark.parametrize("where", ["blender.reading.export.export", "rendering.steps", "midway"])
 def test_an_exception_fails_the_render(where, kind, scene, no_file, monkeypatch):
-    def fail(*args, **options):
-        raise kind("on purpose")
-
-    monkeypatch.setattr(f"reference_tracer.{where}", fail)
-    with pytest.raises(RuntimeError, match="on purpose"):
-        bpy.ops.render.render(write_still=True)
-
-
-@pytest.mark.parametrize("kind", [RuntimeError, SceneError])
-def test_an_exception_midway_fails_the_render(kind, scene, no_file, monkeypatch):
     real = rendering.steps
 
     def fail(*args, **options):
-        yield next(iter(real(*args, **options)))
         raise kind("on purpose")
 
-    monkeypatch.setattr(rendering, "steps", fail)
+    def begin(*args, **options):
+        yield next(iter(real(*args, **options)))
+        fail()
+
+    if where == "midway":
+        monkeypatch.setattr(rendering, "steps", begin)
+    else:
+        monkeypatch.setattr(f"reference_tracer.{where}", fail)
     with pytest.raises(RuntimeError, match="on purpose"):
         bpy.ops.render.render(write_still=True)
-
-
-@pytest.mark.parametrize("fault", [no_camera, panoramic], ids=lambda fault: fault.__name__)
-def test_an_animation_stops_at_the_first_frame(fault, scene, no_file):
-    fault(scene)
-    scene.frame_start, scene.frame_end = 1, 3
-    with pytest.raises(RuntimeError, match="Error: "):
-        bpy.ops.render.render(animation=True)
-
-
-def test_the_next_render_works(scene, tmp_path):
-    scene.camera.data.type = "PANO"
-    with pytest.raises(RuntimeError):
-        bpy.ops.render.render(write_still=True)
-    scene.camera.data.type = "PERSP"
-    assert bpy.ops.render.render(write_still=True) == {"FINISHED"}
-    assert (tmp_path / "out" / "picture.png").is_file()
 
 
 LONG = pytest.mark.torture  # each is a Blender of its own

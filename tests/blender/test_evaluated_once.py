@@ -19,6 +19,7 @@ from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import Progress
 
 from ..evaluations import DONE, counted
+from .scenes import save
 
 
 @pytest.fixture
@@ -48,7 +49,7 @@ def test_a_file_is_not_evaluated_as_it_is_opened(heavy, compare, tmp_path):
     path = tmp_path / "heavy.blend"
     other = heavy.view_layers.new("Other").name
     bpy.context.window.view_layer = heavy.view_layers[other]
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     with counted() as found:
         opened.open_file(path)
         assert bpy.context.view_layer.name == other
@@ -57,7 +58,7 @@ def test_a_file_is_not_evaluated_as_it_is_opened(heavy, compare, tmp_path):
     assert found == [1]
     bpy.context.view_layer.objects.active = bpy.data.objects["Heavy"]
     bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     opened.open_file(path)
     assert bpy.data.objects["Heavy"].mode == "EDIT"
 
@@ -70,7 +71,7 @@ def test_a_diagnosis_is_the_same_of_a_file_that_is_not_evaluated(heavy, tmp_path
     bpy.data.objects["Light"].parent = above
     heavy.camera.parent = above
     path = tmp_path / "heavy.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
 
     def matrices():
         made = variants(bpy.context.scene.name_full, bpy.context.view_layer.name, None)
@@ -123,7 +124,7 @@ def test_a_signal_is_heard_once_blender_lets_go(number, heavy, tmp_path):
     """It is sent while the first of two pictures is evaluated: nothing is evaluated any more."""
     subdivision = bpy.data.objects["Heavy"].modifiers["Subdivision"]
     subdivision.render_levels = 7
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "heavy.blend"))
+    save(tmp_path / "heavy.blend")
     code = (
         "import bpy, sys\n"
         "from reference_tracer.cli.main import main\n"

@@ -116,8 +116,10 @@ def test_what_the_user_puts_there_stays(suzanne):
     mine = bpy.data.objects.new("Mine", None)
     drawing.objects.link(mine)
     drawing.children.link(bpy.data.collections.new("My Collection"))
+    mesh = drawing.objects["Hit"].data
+    bpy.data.objects.new("Other", mesh)
     ops.remove_ray()
-    assert drawing.objects[:] == [mine]
+    assert drawing.objects[:] == [mine] and len(mesh.vertices) == 6
     assert drawing.children.keys() == ["My Collection"]
     assert drawing.name in bpy.context.scene.collection.children
     assert not ops.remove_ray.poll()
@@ -137,14 +139,6 @@ def test_what_is_left_of_a_deleted_collection_goes_too(suzanne):
     bpy.data.collections.remove(drawing)
     assert ops.remove_ray.poll() and ops.remove_ray() == {"FINISHED"}
     assert blocks() == before
-
-
-def test_a_mesh_that_the_user_uses_stays(suzanne):
-    ops.explain(**PIXEL, draw_ray=True)
-    mesh = bpy.data.collections[ray_objects.NAME].objects["Hit"].data
-    mine = bpy.data.objects.new("Mine", mesh)
-    ops.remove_ray()
-    assert mine.data == mesh and len(mesh.vertices) == 6
 
 
 def test_no_picture_has_a_ray_that_was_put_elsewhere(suzanne, compare):

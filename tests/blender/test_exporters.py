@@ -8,7 +8,6 @@ from __future__ import annotations
 import pytest
 
 from ..sampled import daily
-from . import exporters
 from .exporter_scenes import SCENES
 from .exporters import CELLS, FORMATS, judge
 
@@ -20,16 +19,14 @@ def test_every_format_is_read_as_it_was_written(name, build, tmp_path):
     rows = list(judge(name, tmp_path, build))
     assert [row.format for row in rows] == [kind.name for kind in FORMATS]
     assert all(row.seen >= SEEN for row in rows)
-    wrong = [row.line() for row in rows if not row.is_right]
-    assert not wrong, "\n".join((exporters.HEAD, *wrong))
+    assert [row for row in rows if not row.is_right] == []
 
 
 @pytest.mark.torture
 @pytest.mark.parametrize("seed", range(1, 50))
 @pytest.mark.parametrize("name", SCENES)
 def test_other_seeds(name, seed, build, tmp_path):
-    wrong = [row.line() for row in judge(name, tmp_path, build, seed=seed) if not row.is_right]
-    assert not wrong, "\n".join((exporters.HEAD, *wrong))
+    assert [row for row in judge(name, tmp_path, build, seed=seed) if not row.is_right] == []
 
 
 @pytest.mark.parametrize(("name", "suffix"), daily(CELLS))
@@ -37,4 +34,4 @@ def test_what_an_exporter_leaves_out_it_does(name, suffix, build, tmp_path):
     """Without what is stated of a cell, it is wrong: no statement is there in vain."""
     kind = next(kind for kind in FORMATS if kind.suffix == suffix)
     (row,) = judge(name, tmp_path, build, [kind], stated=False)
-    assert row.elsewhere > 0, row.line()
+    assert row.elsewhere > 0, row

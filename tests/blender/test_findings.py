@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.drawing.camera_object import copy_camera
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.ui import findings, results
@@ -39,34 +38,17 @@ def seen(build):
     return scene, camera
 
 
-@contextmanager
-def drawn_otherwise(monkeypatch, owner, name, value):
-    """Have Blender draw with another value than was exported, as a handler might set it."""
-    real = drawings.picture
-
-    def picture(*args):
-        before = getattr(owner, name)
-        setattr(owner, name, value)
-        try:
-            return (yield from real(*args))
-        finally:
-            setattr(owner, name, before)
-
-    with monkeypatch.context() as patched:
-        patched.setattr(drawings, "picture", picture)
-        yield
-
-
 def found():
     return results.content(Kind.COMPARISON, bpy.context.scene).diagnosis
 
 
 @pytest.mark.slow
-def test_an_object_that_was_found_is_selected(seen, monkeypatch):
+def test_an_object_that_was_found_is_selected(seen, drawn_otherwise):
     scene, _ = seen
     name = next(o.name for o in scene.objects if o.type == "MESH" and o.name != "Plane")
     obj = bpy.data.objects[name]
-    with drawn_otherwise(monkeypatch, obj, "hide_render", True):
+    hidden = partial(setattr, obj, "hide_render")
+    with drawn_otherwise(partial(hidden, True), partial(hidden, False)):
         OPS.compare(directory="")
     told = found().told
     assert [t.guess.object for t in told] == [name]
@@ -125,7 +107,11 @@ def test_a_copy_is_offered_below_its_own_finding_alone(seen, compare, monkeypatc
         case = BY_NAME[name].assume(case, guess)
         frame = render(case.scene)
         told.append(Told(BY_NAME[name], guess, 9, 4, 9, 0, frame, comparison.picture))
-    result_of(results.keep_comparison(replace(comparison, diagnosis=Diagnosis(tuple(told)))))
+    result_of(
+        results.keep_comparison(
+            replace(comparison, diagnosis=Diagnosis(tuple(told))), bpy.context.scene.session_uid
+        )
+    )
     apply, show = "copy_camera", "show_put_right"
     other = camera.copy()
     scene.collection.objects.link(other)
@@ -200,11 +186,5 @@ def test_what_no_camera_has_is_said(seen, compare):
     sheared = camera.world_from_camera.copy()
     sheared[:3, 1] += 0.3 * sheared[:3, 0]
     with pytest.raises(SceneError, match="right angles"):
-        copy_camera(scene, compare_with(camera, sheared), "Copy")
+        copy_camera(scene, replace(camera, world_from_camera=sheared), "Copy")
     assert (len(bpy.data.objects), len(bpy.data.cameras)) == count
-
-
-def compare_with(camera, matrix):
-    from dataclasses import replace
-
-    return replace(camera, world_from_camera=matrix)

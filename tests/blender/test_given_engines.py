@@ -15,6 +15,7 @@ from reference_tracer.comparison.engines import EngineRow
 from reference_tracer.scene import SceneError
 
 from .given import rendered_png, solids, told, toy
+from .scenes import save
 
 __all__ = ["rendered_png", "solids", "toy"]  # fixtures
 OPS = bpy.ops.reference_tracer
@@ -29,17 +30,6 @@ def test_a_half_pixel_fault_of_an_engine_is_named(toy, solids):
     assert found.verdict == "differences" and found.counts.unexplained > 20
     assert told() == ["pixel_offset"]
     assert found.diagnosis.told[0].guess.values == pytest.approx((0.5, 0), abs=0.02)
-
-
-def test_another_fault_has_another_name(toy, solids):
-    toy.left_out = "Green"
-    solids.reference_tracer.judge = "ENGINE"
-    solids.reference_tracer.engine = "TOY_TRACER"
-    OPS.compare()
-    [found] = results.content(Kind.COMPARISON, solids).diagnosis.told
-    assert found.guess.object == "Green" and found.fault.name != "pixel_offset"
-    assert OPS.select_object(name="Green") == {"FINISHED"}
-    assert bpy.context.selected_objects == [bpy.data.objects["Green"]]
 
 
 def test_only_what_is_registered_is_a_judge(toy, solids, compare):
@@ -117,7 +107,7 @@ def test_an_engine_that_fails_is_told(render, toy, solids, monkeypatch, compare)
 
 def test_the_command_takes_an_engine_by_its_name(toy, solids, tmp_path, capsys):
     toy.is_opaque = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     compare = "compare", "--out", str(tmp_path / "out"), "--judge"
     code = in_blender.run([*compare, "Toy_Tracer", "--excuse", "renderer=raster"])
     said = capsys.readouterr().out
@@ -146,7 +136,7 @@ def test_options_for_an_engine_that_the_file_stores(
     stored, options, said, toy, solids, tmp_path, capsys
 ):
     solids.reference_tracer.judge, solids.reference_tracer.engine = stored, "TOY_TRACER"
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     code = in_blender.run(["compare", "--out", str(tmp_path / "out"), *options])
     assert code == (4 if said else 0)
     assert said in capsys.readouterr().err

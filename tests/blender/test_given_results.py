@@ -18,34 +18,6 @@ __all__ = ["rendered_png", "solids", "toy"]  # fixtures
 OPS = bpy.ops.reference_tracer
 
 
-def test_a_result_of_rays_has_no_excuse_of_a_rasteriser(build):
-    """Cycles' render shows the wall behind, and then the scene is set to a rasteriser."""
-    scene = build.scene(96, 54)
-    for name, y, rgba in ("Near", 1000.0, (1, 0, 0, 1)), ("Far", 1000.1, (0, 1, 0, 1)):
-        corners = [(-500, y, -500), (500, y, -500), (500, y, 500), (-500, y, 500)]
-        material = build.material(name, *rgba)
-        material.use_nodes = True
-        emission = material.node_tree.nodes.new("ShaderNodeEmission")
-        emission.inputs["Color"].default_value = rgba
-        surface = material.node_tree.nodes["Material Output"].inputs["Surface"]
-        material.node_tree.links.new(emission.outputs[0], surface)
-        build.mesh(name, corners, [(0, 1, 2, 3)]).data.materials.append(material)
-    build.camera((0, 0, 0), (np.pi / 2, 0, 0), clip_end=10_000)
-    scene.render.engine, scene.render.film_transparent = "CYCLES", True
-    scene.cycles.samples, scene.cycles.filter_width = 1, 0.01
-    near = bpy.data.objects["Near"]
-    near.location.y = 0.2
-    bpy.ops.render.render()
-    near.location.y = 0
-    scene.render.engine = "BLENDER_WORKBENCH"
-    scene.reference_tracer.judge = "RENDER_RESULT"
-    scene.reference_tracer.diagnose = False
-    OPS.compare()
-    found = results.content(Kind.COMPARISON, scene)
-    assert found.case.picture.sampling.renderer.name == "rays"
-    assert found.verdict == "differences" and found.counts.unexplained > 1000
-
-
 def test_a_result_has_no_excuse_of_a_rasteriser_that_did_not_render_it(
     toy, rendered_png, solids, compare
 ):
@@ -69,19 +41,6 @@ def test_a_result_has_no_excuse_of_a_rasteriser_that_did_not_render_it(
     solids.render.engine = "BLENDER_WORKBENCH"
     compare(judge="WORKBENCH")  # which renders a copy of the scene
     assert renderer() == unknown
-
-
-def test_a_file_is_excused_by_what_it_says_of_its_maker_alone(solids, reftrace, tmp_path):
-    """The scene may be set to a rasteriser, and another engine have rendered the picture."""
-    picture, scene = tmp_path / "picture.png", tmp_path / "scene.blend"
-    solids.render.engine = "REFERENCE_TRACER"
-    solids.render.filepath = str(picture)
-    bpy.ops.render.render(write_still=True)
-    solids.render.engine = "BLENDER_WORKBENCH"
-    bpy.ops.wm.save_as_mainfile(filepath=str(scene), copy=True)
-    done = reftrace("compare", scene, "--against", picture, "--out", tmp_path / "out")
-    assert "BLENDER_WORKBENCH" not in done.stdout
-    assert "nothing says that it was rasterised" in done.stdout
 
 
 def test_the_engine_of_a_result_goes_with_its_scene(rendered_png, solids):

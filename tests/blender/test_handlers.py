@@ -64,9 +64,7 @@ def test_all_data_may_come_and_go(judge, handler):
 
 def test_the_users_strips_stay_and_are_not_drawn(build, compare):
     """They are taken out of the temporary scene, which shares their animation with the user's."""
-    scene = build.scene()
-    build.solids()
-    build.corner_camera()
+    scene = build.room()
     plain = compare().picture
     build.sequencer()
     editor = scene.sequence_editor

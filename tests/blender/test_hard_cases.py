@@ -269,19 +269,6 @@ def test_edited_objects_are_in_edit_mode_and_in_the_picture(make, build):
         assert (np.abs(case.picture.color[..., :3] - rgb).max(axis=-1) < 0.01).sum() > SEEN
 
 
-@pytest.mark.parametrize("judge", JUDGES)
-@pytest.mark.parametrize("make", hard.EDIT_MODE, ids=name_of)
-def test_a_file_saved_in_edit_mode(make, judge, build, compare, tmp_path):
-    make(build)
-    path = str(tmp_path / "edited.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert bpy.data.objects["Edited"].mode == "EDIT"
-    found = compare(judge=judge)
-    assert found.counts.unexplained == 0
-    assert found.verdict == AGREE
-
-
 def mirrored(case):
     """The picture from right to left."""
     shown = case.picture

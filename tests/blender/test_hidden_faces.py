@@ -21,7 +21,7 @@ def edited(build, modifier: str, step: int, color_type: str = "MATERIAL") -> Non
     """A mesh of two cubes side by side, edited as the one, with hidden faces."""
     build.scene(color_type=color_type)
     one = build.cube("One", 1, location=(-1, 0, 0), rotation=(0.4, 0.3, 0))
-    other = build.link(bpy.data.objects.new("Other", one.data))
+    other = build.object("Other", one.data)
     other.location, other.rotation_euler = (1, 0, 0), (0.2, 0.7, 0)
     if modifier:
         one.modifiers.new(modifier, modifier)

@@ -50,9 +50,7 @@ def difference(build, monkeypatch):
 
 def test_instances_by_an_object_of_a_type_that_is_left_out(build, difference):
     build.cube("Beside")
-    empty = build.empty("Empty")
-    empty.instance_type = "COLLECTION"
-    empty.instance_collection = build.collection("Kit", build.cube("In Kit", link=False))
+    build.instances("Empty", build.collection("Kit", build.cube("In Kit", link=False)))
     for shown in (True, False):
         space().show_object_viewport_empty = space().show_object_viewport_light = shown
         assert difference() == (["Beside", "In Kit"],) * 2

@@ -17,7 +17,7 @@ class Edits:
         build.far_camera()
         red = build.material("Red", 1, 0, 0)
         cube = build.cube("Cube", material=red)
-        build.link(bpy.data.objects.new("Linked", cube.data)).location.x = 3
+        build.object("Linked", cube.data).location.x = 3
         build.cube("Modified").modifiers.new("Array", "ARRAY")
         keyed = build.square("Keyed")
         for name in ("Basis", "Key"):
@@ -29,9 +29,7 @@ class Edits:
         key.keyframe_insert("value", frame=20)
         build.text("Text", location=(0, 3, 0))
         source = build.cube("Source", link=False)
-        empty = build.empty("Empty", location=(-3, 0, 0))
-        empty.instance_type = "COLLECTION"
-        empty.instance_collection = build.collection("Kit", source)
+        build.instances("Empty", build.collection("Kit", source), location=(-3, 0, 0))
         build.collection("Shelf", build.cube("On Shelf", link=False), link=True)
         build.instances_on_points(build.square("Points"), "GeometryNodeMeshCube")
         build.instances_on_points(build.square("Points of Source"), source)
@@ -69,7 +67,7 @@ class Edits:
 
     def new(self):
         data = self.one("MESH").data if self.count % 2 else bpy.data.meshes.new("Faceless")
-        self.build.link(bpy.data.objects.new(f"New {self.count}", data))
+        self.build.object(f"New {self.count}", data)
 
     def other_data(self):
         self.one("MESH").data = self.one("MESH").data

@@ -121,11 +121,10 @@ def test_types_that_a_view_leaves_out(build, kept):
     build.cube()
     build.text()
     kit = build.collection("Kit", build.square("In Kit", link=False))
-    empty = build.empty("Empty")
-    empty.instance_type, empty.instance_collection = "COLLECTION", kit
+    empty = build.instances("Empty", kit)
     bpy.context.view_layer.update()
     view, depsgraph = space(), bpy.context.evaluated_depsgraph_get()
-    assert [i.name for i in depsgraph.ids]  # looked at: see test_instances
+    assert [i.name for i in depsgraph.ids]  # looked at: see test_export
     for kind, shown in (
         ("mesh", set()),
         ("empty", {"Cube", "Text", "In Kit"}),
@@ -151,69 +150,6 @@ def test_every_type_can_be_left_out(monkeypatch):
     for name in (n for n in dir(view) if n.startswith("show_object_viewport_")):
         monkeypatch.setattr(view, name, False)
     assert types_left_out(view) == set(types)
-
-
-def instancers(build):
-    """Objects that look as if a move of them were a move of one instance, with the move."""
-    cube = build.cube("Cube")
-    one = build.mesh("One Point", [(0, 0, 1)], [])
-    build.instances_on_points(one, "GeometryNodeMeshCube")
-    text = build.text()
-    plane = build.empty("Plane")
-    plane.reference_tracer.infinite_plane = True
-    kit = build.collection("Kit", cube)
-    empty = build.empty("Empty", location=(3, 0, 0))
-    empty.instance_type, empty.instance_collection = "COLLECTION", kit
-    parent = build.square("Parent")
-    child = build.square("Child")
-    child.parent = parent
-    wire = build.square("Wire")
-    wire.display_type = "WIRE"
-
-    def move(obj):
-        obj.location.y += 1
-
-    def as_instancer():
-        move(parent)
-        parent.instance_type = "VERTS"
-
-    def solid():
-        move(wire)
-        wire.display_type = "SOLID"
-
-    def colored():
-        child.color = (1, 0, 0, 1)
-        move(child)
-
-    def lost():
-        child.location.x = np.nan
-
-    nested = build.empty("Nested")
-    bpy.context.scene.collection.objects.unlink(nested)
-    nested.instance_type, nested.instance_collection = "COLLECTION", kit
-    outer = build.empty("Outer", location=(-4, 0, 0))
-    outer.instance_type = "COLLECTION"
-    outer.instance_collection = build.collection("Outer", nested)
-    moves = {
-        o.name: lambda o=o: move(o) for o in (cube, one, text, plane, empty, parent, child, nested)
-    }
-    others = (as_instancer, solid, colored, lost)
-    return moves | {do.__name__: do for do in others}
-
-
-@pytest.mark.parametrize(
-    "what",
-    "Cube,One Point,Text,Plane,Empty,Parent,Child,Nested,as_instancer,solid,colored,lost".split(
-        ","
-    ),
-)
-def test_what_seems_to_be_a_move_alone(what, build, kept):
-    build.far_camera()
-    build.scene(color_type="OBJECT")
-    moves = instancers(build)
-    assert_as_a_whole_export(kept)
-    moves[what]()
-    assert_as_a_whole_export(kept)
 
 
 def test_all_is_read_after_a_failure(build, kept, monkeypatch):

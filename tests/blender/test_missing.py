@@ -12,6 +12,7 @@ from reference_tracer.report.lines import describe
 from reference_tracer.scene import SceneError
 
 from .missing import found
+from .scenes import save
 
 
 def library(build, saved) -> Path:
@@ -19,7 +20,7 @@ def library(build, saved) -> Path:
     red = build.material("Lent Red", 0.9, 0.1, 0.1)
     build.collection("Kit", build.cube("Lent", material=red, location=(3, 0, 0)), link=True)
     path = saved.folder / "library.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     saved.begin()
     return path
 
@@ -34,11 +35,10 @@ def linked(path: Path, **names: list[str]) -> SimpleNamespace:
 def linked_scene(build, saved, keep: bool = False) -> Path:
     """A scene with a linked object and an instance of a linked collection, beside its own cube."""
     path = library(build, saved)
-    bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
+    save(saved.folder / "scene.blend")
     wanted = linked(path, objects=["Lent"], collections=["Kit"])
     build.link(wanted.objects[0])
-    empty = build.empty("Holder", location=(-3, 0, 0))
-    empty.instance_type, empty.instance_collection = "COLLECTION", wanted.collections[0]
+    build.instances("Holder", wanted.collections[0], location=(-3, 0, 0))
     build.cube("Own", 1, location=(0, 3, 0), material=build.material("Blue", 0.1, 0.1, 0.9))
     if not keep:
         path.unlink()
@@ -63,7 +63,7 @@ def test_a_missing_library(build, saved, export, entries):
 def test_an_empty_picture_for_want_of_a_library(build, saved, export, compare):
     """Its collection is linked into the scene: no object is left that would say so."""
     path = library(build, saved)
-    bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
+    save(saved.folder / "scene.blend")
     (kit,) = linked(path, collections=["Kit"]).collections
     bpy.context.scene.collection.children.link(kit)
     build.corner_camera()
@@ -86,9 +86,9 @@ def test_a_library_that_is_there(build, saved, export):
 
 def test_linked_mesh_and_material(build, saved, export, entries):
     path = library(build, saved)
-    bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
+    save(saved.folder / "scene.blend")
     wanted = linked(path, meshes=["Lent"], materials=["Lent Red"])
-    build.link(bpy.data.objects.new("User", wanted.meshes[0]))
+    build.object("User", wanted.meshes[0])
     build.cube("Own", 1).data.materials.append(wanted.materials[0])
     path.unlink()
     saved.reopen()
@@ -103,12 +103,12 @@ def test_linked_mesh_and_material(build, saved, export, entries):
 def test_what_is_not_seen_is_no_warning(build, saved, export):
     """Another scene's, a hidden or an excluded object's library is missing; so is a lamp."""
     path = library(build, saved)
-    bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
+    save(saved.folder / "scene.blend")
     wanted = linked(path, objects=["Lent"], meshes=["Lent"])
     bpy.data.scenes.new("Other").collection.objects.link(wanted.objects[0])
-    hidden = build.link(bpy.data.objects.new("Hidden", wanted.meshes[0]))
+    hidden = build.object("Hidden", wanted.meshes[0])
     hidden.hide_render = hidden.hide_viewport = True
-    aside = build.link(bpy.data.objects.new("Aside", wanted.meshes[0]))
+    aside = build.object("Aside", wanted.meshes[0])
     bpy.context.scene.collection.objects.unlink(aside)
     build.collection("Aside", aside, link=True)
     bpy.context.view_layer.layer_collection.children["Aside"].exclude = True
@@ -163,10 +163,10 @@ def test_a_driver_whose_python_does_not_run(build, saved, export):
 
 def test_a_missing_camera(build, saved, export):
     path = saved.folder / "library.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     build.cube("Own")
-    bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
+    save(saved.folder / "scene.blend")
     bpy.context.scene.camera = build.link(linked(path, objects=["Camera"]).objects[0])
     path.unlink()
     saved.reopen()

@@ -14,6 +14,7 @@ from reference_tracer.files.scenes import save_scene
 from reference_tracer.opened import open_scene
 
 from .missing import found
+from .scenes import save
 
 # Each makes an object that needs a file, and returns the file.
 
@@ -56,7 +57,7 @@ def volume(build, folder: Path) -> Path:
     (folder / "cloud.vdb").write_bytes(b"VDB")
     data = bpy.data.volumes.new("Cloud")
     data.filepath = str(folder / "cloud.vdb")
-    holder = build.link(bpy.data.objects.new("Holder", data))
+    holder = build.object("Holder", data)
     build.cube("User").modifiers.new("Mesh", "VOLUME_TO_MESH").object = holder
     return folder / "cloud.vdb"
 
@@ -74,7 +75,7 @@ def cache_of_modifier(build, folder: Path) -> Path:
 
 
 def simulation_on_disk(build, folder: Path) -> Path:
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))  # the cache lies beside it
+    save(folder / "scene.blend")  # the cache lies beside it
     cache = build.square("User").modifiers.new("Cloth", "CLOTH").point_cache
     cache.use_disk_cache, cache.frame_start, cache.frame_end = True, 1, 3
     bpy.ops.ptcache.bake_all(bake=True)

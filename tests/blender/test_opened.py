@@ -11,17 +11,15 @@ from pathlib import Path
 import bpy
 import pytest
 from reference_tracer.blender.reading import opened
-from reference_tracer.cli.opening import open_blend
-from reference_tracer.scene import SceneError
+
+from .scenes import save
 
 KNOWN, UNKNOWN = 113, 300  # channels of a sequencer, which has 128
 
 
 def patched(path: Path, build) -> None:
     """Write a file with a strip in a channel that Blender does not have: it reports that."""
-    build.scene(32, 18)
-    build.solids()
-    build.corner_camera()
+    build.room(32, 18)
     editor = bpy.context.scene.sequence_editor_create()
     strips = editor.strips if hasattr(editor, "strips") else editor.sequences
     length = {"length" if bpy.app.version >= (5, 0, 0) else "frame_end": 10}
@@ -96,21 +94,10 @@ def test_a_report_is_of_its_own_file(reported, build, tmp_path, reftrace):
     """The next file has none, also where it takes the first one's place."""
     other = tmp_path / "other.blend"
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    build.scene(32, 18)
-    build.solids()
-    build.corner_camera()
-    bpy.ops.wm.save_as_mainfile(filepath=str(other))
+    build.room(32, 18)
+    save(other)
     export = "export", reported, "--out", tmp_path / "a.npz"
     assert "note: Blender opened" in reftrace(*export).stdout
     assert "note:" not in reftrace("export", other, "--out", tmp_path / "b.npz").stdout
     shutil.copy(other, reported)
     assert "note:" not in reftrace(*export).stdout
-
-
-def test_a_folder_is_none(tmp_path):
-    (tmp_path / "folder.blend").mkdir()
-    with (
-        pytest.raises(SceneError, match="no file but a folder"),
-        open_blend(tmp_path / "folder.blend"),
-    ):
-        pass

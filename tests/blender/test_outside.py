@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.reading import export as export_module
@@ -128,31 +127,3 @@ def test_the_picture_is_the_same_without(camera, mode, build, export, keeping_al
     lines = "\n".join(manifest.lines())
     assert not any(f"skipped {e.name} " in lines for e in gone)
     assert f"{sum(e.outside for e in unseen)} instances of {len(unseen)} objects" in lines
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_a_border_leaves_nothing_out(mode, build, export):
-    """The trade traces the whole picture, also where a border is set."""
-    scene = build.scene()
-    build.camera()
-    build.cube("Left", 0.4, location=(-1.2, 0, 0))
-    scene.render.use_border = True
-    scene.render.border_min_x, scene.render.border_max_x = 0.7, 1.0
-    assert len(export.modes[mode]()[0].instances) == 1
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_what_is_not_finite_is_counted_wherever_it_is(mode, build, export, entries):
-    build.camera()
-    cube = build.cube("Behind", location=(0, 0, 50))
-    cube.data.vertices[0].co.x = np.nan
-    assert entries(export.modes[mode]()[1])["Behind"].left_out >= 3
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_an_infinite_plane_is_never_outside(mode, build, export):
-    build.camera()
-    plane = build.square("Plane", location=(0, 500, -1))
-    plane.reference_tracer.infinite_plane = True
-    bpy.context.view_layer.update()
-    assert len(export.modes[mode]()[0].planes) == 1

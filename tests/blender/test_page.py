@@ -25,9 +25,7 @@ def held(folder):
 
 @pytest.fixture
 def solids(build):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
 
 
 def open_page(folder):
@@ -42,7 +40,7 @@ def test_there_is_no_page_without_a_comparison(solids, tmp_path):
 
 def test_the_page_is_of_the_latest_comparison(solids, compare, tmp_path):
     comparison = compare()
-    result_of(results.keep_comparison(comparison))
+    result_of(results.keep_comparison(comparison, bpy.context.scene.session_uid))
     before = {name: len(getattr(bpy.data, name)) for name in ("images", "scenes", "objects")}
     assert open_page(tmp_path / "new") == {"FINISHED"}
     assert [p.name for p in (tmp_path / "new").iterdir()] == ["page.html"]
@@ -55,10 +53,10 @@ def test_the_page_is_of_the_latest_comparison(solids, compare, tmp_path):
 
 def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
     comparison = compare()
-    result_of(results.keep_comparison(comparison))
+    result_of(results.keep_comparison(comparison, bpy.context.scene.session_uid))
     name = bpy.context.scene.name
     trade = result_of(tradeoff.measure(comparison.scene, 12, 2, name))
-    studies.keep_trade(trade)
+    studies.keep_trade(trade, bpy.context.scene.session_uid)
     studies.keep_extremes(result_of(extremes.measure(quick(SCENARIOS[:1]), 40)))
     assert open_page(tmp_path) == {"FINISHED"}
     found = held(tmp_path)
@@ -67,7 +65,7 @@ def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
 
 
 def test_it_waits_for_other_work(solids, compare, monkeypatch):
-    result_of(results.keep_comparison(compare()))
+    result_of(results.keep_comparison(compare(), bpy.context.scene.session_uid))
     assert bpy.ops.reference_tracer.open_page.poll()
     monkeypatch.setattr(LongWork, "running", "Trace and Compare")
     assert not bpy.ops.reference_tracer.open_page.poll()

@@ -19,6 +19,7 @@ from reference_tracer.report.lines import describe
 from reference_tracer.scene import GREY, SceneError
 from reference_tracer.tracer.progress import result_of
 
+from .scenes import save
 from .test_unchanged import differences, state
 
 OTHER_COLORS = (By.AUTOMATIC, By.OBJECT, By.MATERIAL)
@@ -120,21 +121,6 @@ def test_base_colors_of_materials(ordinary, build, compare):
     assert compare(colors=By.MATERIAL, judge="CYCLES").verdict == "agree"
 
 
-def test_what_is_instanced_has_the_color_of_what_instances_it(build, compare):
-    build.scene()
-    kit = build.collection("Kit", build.cube("Part", 0.8, link=False))
-    for k in range(2):
-        empty = build.empty(f"Empty {k}", location=(2 * k - 1, 0, 0))
-        empty.instance_type, empty.instance_collection = "COLLECTION", kit
-    plane = build.square("Ground", location=(0, 0, -1))
-    plane.reference_tracer.infinite_plane = True
-    build.camera(rotation=(0.1, 0, 0))
-    found = compare()
-    assert found.verdict == "agree" and len(found.manifest.notes) == 1
-    shown = {tuple(i.colors[0].tolist()) for i in found.scene.instances}
-    assert len(shown | {tuple(found.scene.planes[0].color.tolist())}) == 3
-
-
 def test_colors_that_an_animation_sets_stay(ordinary, compare):
     obj = bpy.data.objects["Left"]
     obj.color = (0.3, 0.9, 0.1, 1)
@@ -201,7 +187,7 @@ def test_what_the_file_lacks_or_has_too_much_is_named(ordinary, compare, tmp_pat
 
 
 def test_the_command_line_writes_and_takes_them(ordinary, tmp_path, capsys):
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    save(tmp_path / "scene.blend")
     palette, out = tmp_path / "colors.json", str(tmp_path / "out")
     assert in_blender.run(["compare", "--colors-out", str(palette)]) == 0
     alone, told = palette.read_bytes(), capsys.readouterr().out

@@ -6,8 +6,9 @@ import shutil
 import sysconfig
 from pathlib import Path
 
-import bpy
 import trimesh
+
+from .scenes import save
 
 PROJECT = Path(__file__).parents[2]
 EXAMPLE = PROJECT / "packages" / "conformance" / "examples" / "embreex_obj.py"
@@ -17,10 +18,8 @@ def test_its_commands_run(build, tmp_path, monkeypatch, reftrace):
     """In a folder with the files that they name; of forty scenes one does."""
     text = (PROJECT / "README.md").read_text(encoding="utf-8")
     commands = re.findall(r"^(reftrace .+?)(?: +#.*)?$", text, re.M)
-    build.scene(64, 36)
-    build.solids()
-    build.corner_camera(lens=40)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    build.room(64, 36, lens=40)
+    save(tmp_path / "scene.blend")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", sysconfig.get_path("scripts"), prepend=":")
     trimesh.creation.icosphere().export("mesh.obj")

@@ -15,6 +15,8 @@ from reference_tracer.causes.cause import AGREE, UNEXPLAINED
 from reference_tracer.causes.checks.edges import EDGE
 from reference_tracer.tracer.progress import result_of
 
+from .scenes import save
+
 PICTURE = np.ones((4, 6, 4), np.float32)
 
 
@@ -50,25 +52,17 @@ def test_an_image_of_the_users_is_left_alone(tmp_path):
 
 
 def test_an_image_that_the_user_saved_is_the_users(tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
     saved = blocks.show(blocks.TRACED, PICTURE)
-    assert saved.pixels[0] == 1
-    saved.filepath_raw = str(tmp_path / "kept.exr")
-    saved.save()
+    with bpy.context.temp_override(edit_image=saved):
+        bpy.ops.image.save_as()  # where it proposes to: beside the .blend
+    assert Path(bpy.path.abspath(saved.filepath)) == tmp_path / blocks.TRACED
     for _ in range(3):
         again = blocks.show(blocks.TRACED, 0 * PICTURE)
-    assert named() == [blocks.TRACED, "kept.exr"] and again.pixels[0] == 0
+    assert named() == [blocks.TRACED, f"{blocks.TRACED}.001"] and again.pixels[0] == 0
     saved.reload()
     blocks.remove(blocks.TRACED)
     assert saved.pixels[0] == 1 and not saved.is_runtime_data and not saved.get(blocks.MARK)
-
-
-def test_an_image_whose_path_blender_has_made_relative_is_still_ours(tmp_path):
-    blocks.show(blocks.TRACED, PICTURE)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
-    bpy.ops.file.make_paths_relative()
-    assert blocks.ours(blocks.TRACED).filepath.startswith("//")
-    blocks.show(blocks.TRACED, PICTURE)
-    assert named() == [blocks.TRACED]
 
 
 def test_twenty_rounds_take_the_memory_of_one():
@@ -80,25 +74,17 @@ def test_twenty_rounds_take_the_memory_of_one():
     assert used[-1] - used[1] < 64e6 and named() == [blocks.TRACED]
 
 
-def test_an_image_that_the_user_packed_is_written_again():
-    blocks.show(blocks.TRACED, PICTURE).pack()
-    again = blocks.show(blocks.TRACED, 0 * PICTURE)
-    assert named() == [blocks.TRACED] and again.pixels[0] == 0
-
-
 def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     own = compare()
     cause = own.causes.cause.copy()
     cause[:] = AGREE
     cause[2:6, 3:5] = cause[2, 40] = EDGE
     told = replace(own, causes=replace(own.causes, cause=cause))
-    found = result_of(results.keep_comparison(told)).regions
+    found = result_of(results.keep_comparison(told, bpy.context.scene.session_uid)).regions
     assert [r.pixels for r in found] == [8, 1]
     cause[20, 40:43] = UNEXPLAINED  # then these alone are
-    found = result_of(results.keep_comparison(told)).regions
+    found = result_of(results.keep_comparison(told, bpy.context.scene.session_uid)).regions
     assert [(r.left, r.bottom, r.pixels) for r in found] == [(40, 20, 3)]
     assert bpy.ops.reference_tracer.frame_region(number=0) == {"FINISHED"}
     assert not bpy.context.selected_objects  # it moves the picture alone
@@ -110,18 +96,16 @@ def test_the_regions_that_differ_are_listed_and_select_what_is_seen(build, compa
     assert texts_of(found[0])[0] == f"3 px unexplained (40, 20): {found[0].objects[0]}"
     cause[20, 40:43] = AGREE
     cause[-2:, :2] = EDGE  # where both sides see nothing
-    found = result_of(results.keep_comparison(told)).regions
+    found = result_of(results.keep_comparison(told, bpy.context.scene.session_uid)).regions
     height = len(cause)
     assert [texts_of(r)[0] for r in found][1:2] == [f"4 px at edges (0, {height - 2}): Background"]
 
 
 def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, compare, tmp_path):
-    build.scene()
-    build.solids()
-    build.corner_camera()
-    result_of(results.keep_comparison(compare()))
+    build.room()
+    result_of(results.keep_comparison(compare(), bpy.context.scene.session_uid))
     for name in ("first", "second"):
-        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / f"{name}.blend"))
+        save(tmp_path / f"{name}.blend")
         assert results.latest(Kind.COMPARISON, bpy.context.scene).regions is not None
     with pytest.raises(RuntimeError, match="Cannot read"):
         bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "missing.blend"))
@@ -130,13 +114,16 @@ def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, co
     assert results.latest(Kind.COMPARISON, bpy.context.scene) is None
 
 
-def test_the_result_follows_its_scene_and_not_a_name(build, compare):
-    scene = build.scene()
-    build.solids()
-    build.corner_camera()
-    name = scene.name
-    result_of(results.keep_comparison(compare()))
-    scene.name = "Renamed"
+def test_the_result_follows_its_scene_and_not_a_name(build, monkeypatch):
+    scene = build.room()
+    name, keep = scene.name, results.keep_comparison
+
+    def renamed_before(*args):
+        scene.name = "Renamed"
+        return keep(*args)
+
+    monkeypatch.setattr(results, "keep_comparison", renamed_before)
+    bpy.ops.reference_tracer.compare()
     other = bpy.data.scenes.new(name)
     assert results.latest(Kind.COMPARISON, scene)
     assert results.latest(Kind.COMPARISON, other) is None
@@ -149,13 +136,13 @@ def test_a_file_that_is_saved_has_none_of_it(tmp_path):
     packed["reference_tracer"] = packed.name
     packed.pack()
     packed.use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     before = path.stat().st_size
     for name in (blocks.DIFFERENCE, blocks.TRACED):
         blocks.show(name, np.ones((400, 400, 4), np.float32)).use_fake_user = True
     blocks.ours(blocks.TRACED).pack()
     blocks.show_text("Reference Tracer Pixel", 1000 * "line\n").use_fake_user = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    save(path)
     assert path.stat().st_size <= before + 100  # 100: what is packed is not of the same bytes
     bpy.ops.wm.open_mainfile(filepath=str(path))
     assert named() == ["Reference Tracer Difference"] and not bpy.data.texts
@@ -181,11 +168,9 @@ def test_undo_is_the_users():
 
 
 def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, compare):
-    build.scene()
-    build.solids()
-    build.corner_camera()
+    build.room()
     first, second = compare(), compare()
-    work = results.keep_comparison(second)
+    work = results.keep_comparison(second, bpy.context.scene.session_uid)
     next(work)
     work.close()
     assert not named()
@@ -194,7 +179,7 @@ def test_a_comparison_that_is_ended_while_it_is_shown_leaves_no_mixture(build, c
         (replace(first, diagnosis=None), first),  # of the same pictures
         (second, None),
     ):
-        work = results.keep_comparison(found)
+        work = results.keep_comparison(found, bpy.context.scene.session_uid)
         if found is first:
             result_of(work)
         next(work, None)

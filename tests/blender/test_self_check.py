@@ -8,6 +8,8 @@ import bpy
 import pytest
 from reference_tracer.cli import in_blender
 
+from .scenes import save
+
 LONG = (pytest.param(n, marks=pytest.mark.torture) for n in ("geometry_nodes", "shifted_room"))
 
 
@@ -23,9 +25,7 @@ def test_sample_scenes_miss_no_fault(name, opened, compare):
 
 @pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
 def test_the_frame_after(judge, build, compare):
-    scene = build.scene(48, 27)
-    build.solids()
-    build.corner_camera(lens=40)
+    scene = build.room(48, 27, lens=40)
     cube = bpy.data.objects["Red"]
     for frame, x in ((1, -1.1), (2, -0.7)):
         cube.location.x = x
@@ -39,10 +39,8 @@ def test_the_frame_after(judge, build, compare):
 
 @pytest.fixture
 def saved(build, tmp_path):
-    scene = build.scene(64, 36)
-    build.solids()
-    build.corner_camera(lens=40)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    scene = build.room(64, 36, lens=40)
+    save(tmp_path / "scene.blend")
     return scene
 
 
@@ -55,17 +53,6 @@ def test_on_request_of_the_command_and_the_panel(saved, tmp_path, capsys):
     bpy.ops.reference_tracer.compare(directory=str(tmp_path / "button"))
     found = json.loads((tmp_path / "button/comparison.json").read_text(encoding="utf-8"))
     assert len(found["self_check"]) > 15
-
-
-def test_an_engine_that_cannot_is_named(saved, build, tmp_path, capsys):
-    empty = build.empty("Empty")
-    empty.instance_type = "COLLECTION"
-    empty.instance_collection = build.collection("Kit", build.cube("Child", 0.3, link=False))
-    saved.display.shading.color_type = "RANDOM"
-    assert in_blender.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 1
-    assert "cycles     no picture: Cycles cannot draw" in capsys.readouterr().out
-    found = json.loads((tmp_path / "out/engines.json").read_text(encoding="utf-8"))
-    assert [row["verdict"] for row in found["engines"]] == ["agree", "failed", "failed"]
 
 
 def test_no_engine_at_all_is_an_error(saved, tmp_path, capsys):

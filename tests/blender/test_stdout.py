@@ -13,9 +13,7 @@ LOGGED = "Saved:", "Read blend", "Read new", "Fra:"  # words of Blender's log
 
 
 def test_standard_output_holds_our_lines_alone(build, tmp_path, capsys):
-    build.scene(64, 36)
-    build.solids()
-    build.corner_camera(lens=40)
+    build.room(64, 36, lens=40)
     path = str(tmp_path / "scene.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     options = "compare", path, "--judge", "cycles"

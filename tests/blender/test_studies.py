@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from pathlib import Path
 from urllib.parse import urlparse
 from urllib.request import url2pathname
@@ -16,6 +15,7 @@ from reference_tracer.cli import in_blender
 from reference_tracer.study import extremes
 from reference_tracer.tracer.settings import UNPROVEN_SETTINGS
 
+from .scenes import save
 from .test_unchanged import differences, state
 
 TRADE_FILES = {"tradeoff.txt", "tradeoff.json", "tradeoff.html"}
@@ -26,10 +26,8 @@ FEW = {"scenario": "closed_fan", "rays": 12}
 
 @pytest.fixture
 def solids(build, tmp_path):
-    scene = build.scene(64, 36)
-    build.solids()
-    build.corner_camera(lens=40)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    scene = build.room(64, 36, lens=40)
+    save(tmp_path / "scene.blend")
     bpy.context.preferences.is_dirty = False
     return scene
 
@@ -85,19 +83,3 @@ def test_the_commands(solids, tmp_path, capsys):
     assert in_blender.run(trade) == 0
     assert {p.name for p in out.iterdir()} == TRADE_FILES
     assert "float32" in capsys.readouterr().out
-    assert in_blender.run([*trade[:-1], "65"]) == 4
-    assert "samples is 65" in capsys.readouterr().err
-    assert in_blender.run(["extremes", "--out", str(out), "--rays", "0"]) == 4
-    assert "--rays: 0 is not an integer of at least 1" in capsys.readouterr().err
-    solids.camera = None
-    assert in_blender.run(trade) == 4
-    assert "has no camera" in capsys.readouterr().err
-
-
-def test_the_command_for_the_extremes_runs_all(tmp_path, monkeypatch, capsys):
-    """All of them take minutes: what is left of them here is one."""
-    [fan] = [s for s in extremes.SCENARIOS if s.name == "closed_fan"]
-    monkeypatch.setattr(extremes, "measure", partial(extremes.measure, [fan]))
-    assert in_blender.run(["extremes", "--out", str(tmp_path / "out"), "--rays", "12"]) == 0
-    assert "closed" in capsys.readouterr().out.lower()
-    assert (tmp_path / "out" / "extremes.json").is_file()

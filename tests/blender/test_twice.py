@@ -29,8 +29,7 @@ def kit(build, tmp_path):
 def overridden(build, kit, editable: bool) -> None:
     """An empty that instances the collection, and a library override of it in the scene."""
     build.scene()
-    empty = build.empty("Kit", location=(-1, 0.5, 0.3))
-    empty.instance_type, empty.instance_collection = "COLLECTION", kit
+    build.instances("Kit", kit, location=(-1, 0.5, 0.3))
     scene, layer = bpy.context.scene, bpy.context.view_layer
     kit.override_hierarchy_create(scene, layer, do_fully_editable=editable)
     build.camera()

@@ -26,6 +26,8 @@ def rich(build):
     bent = build.cube("Bent", location=(-3, 0, 0))
     bent.modifiers.new("Subdivision", "SUBSURF").levels = 1
     bent.modifiers["Subdivision"].render_levels = 2
+    bent.delta_location, bent.delta_rotation_euler[2] = (0.4, 0, 0.2), 0.3
+    bent.delta_scale = (1, 1.5, 1)
     posed = build.cube("Posed", location=(0, 4, 0))
     posed.modifiers.new("Hook", "HOOK").object = parent
     posed.modifiers["Hook"].strength = 1.0
@@ -109,6 +111,12 @@ def without_inverse(scene):
     bpy.data.objects["Child"].matrix_parent_inverse = Matrix()
 
 
+def without_delta(scene):
+    bent = bpy.data.objects["Bent"]
+    bent.delta_location, bent.delta_rotation_euler = (0, 0, 0), (0, 0, 0)
+    bent.delta_scale = (1, 1, 1)
+
+
 def shown(scene):
     bpy.data.objects["Hidden"].hide_render = False
 
@@ -147,6 +155,7 @@ def parallel(scene):
         ("rest_pose", "", "Posed", at_rest),
         ("parent_left_out", "Child", None, without_parent),
         ("parent_inverse", "Child", None, without_inverse),
+        ("delta_left_out", "Bent", None, without_delta),
         ("hidden_shown", "", "Hidden", shown),
         ("other_frame", "6 in place of 5", None, a_frame_later),
         ("other_frame", "4.5 in place of 5", None, half_a_frame_earlier),

@@ -238,15 +238,6 @@ def test_kubrics_k_is_of_a_camera_that_looks_along_minus_z(in_pixels, tmp_path):
         assert same(view.camera, own.camera)
 
 
-@pytest.mark.parametrize("key", ["camera_angle_x", "camera_angle_y"])
-def test_an_angle_in_degrees_is_refused(key, tmp_path):
-    content = {"w": 640, "h": 360, key: 50.0, "frames": [{"transform_matrix": np.eye(4).tolist()}]}
-    path = tmp_path / "transforms.json"
-    path.write_text(json.dumps(content), encoding="utf-8")
-    with pytest.raises(SceneError, match=f"{key} is 50.*radians.*degrees"):
-        read(path)
-
-
 def test_an_angle_of_gltf_in_degrees_is_refused(tmp_path):
     lens = {"yfov": 50.0, "znear": 0.1}
     content = {

@@ -164,19 +164,6 @@ def x_forward(camera):
     return in_opencv(camera, lambda r, t, c: (r @ quarter.T, t))
 
 
-def shift_up_left_out(camera):
-    return with_k(camera, lambda fx, fy, cx, cy: (fx, fy, cx, HEIGHT / 2))
-
-
-def shift_up_times_aspect(camera):
-    """Both shifts are lengths of the width; here the upward one is one of the height."""
-
-    def changed(fx, fy, cx, cy):
-        return fx, fy, cx, HEIGHT / 2 + (cy - HEIGHT / 2) * WIDTH / HEIGHT
-
-    return with_k(camera, changed)
-
-
 def sides_exchanged(camera):
     by = (WIDTH - HEIGHT) / 2
     return with_k(camera, lambda fx, fy, cx, cy: (fx, fy, cx - by, cy + by))
@@ -210,8 +197,6 @@ MISTAKES = {
     t_for_place: ["place_for_translation"],
     left_handed: ["handedness"],
     x_forward: ["quarter_turn"],
-    shift_up_left_out: ["shift_left_out"],
-    shift_up_times_aspect: ["shift_unit"],
     sides_exchanged: ["sides_exchanged"],
     divided: ["k_divided"],
     lambda c: longer(inverse_of_opencv(c)): ["matrix_inverted", "focal_length"],

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 W, H, F = 480, 270, 620.0
-CX, CY = W / 2 - 0.06 * W, H / 2 - 0.04 * H
+CX, CY = W / 2 - 0.06 * W, H / 2 - 0.04 * W
 FLIP = np.diag([1.0, -1, -1])
 
 
@@ -46,12 +46,28 @@ def pytorch3d(r, t):
     return {"class": "PerspectiveCameras", "names": ["0001.png"], "arguments": arguments}
 
 
+def in_degrees():
+    frames = [{"file_path": "./0001.png", "transform_matrix": np.eye(4).tolist()}]
+    angle = np.degrees(2 * np.arctan(W / 2 / F))
+    return {"w": W, "h": H, "cx": CX, "cy": CY, "camera_angle_x": angle, "frames": frames}
+
+
 # What is written, the exit code, and what is said.
 FILES = {
     "kubric": (opencv(K @ FLIP, FLIP @ R, FLIP @ T), 0, "agree"),
     "inverse": (opencv(K, R.T, (4, -5, 3)), 2, "camera-to-world in place of world-to-camera"),
     "not_transposed": (pytorch3d(R, T), 2, "rotation is transposed"),
     "shift": (opencv([K[0], [0, F, H / 2], K[2]], R, T), 2, "the camera's shift up is left out"),
+    "aspect": (
+        opencv([K[0], [0, F, H / 2 + (CY - H / 2) * W / H], K[2]], R, T),
+        2,
+        "the camera's shift is in another unit",
+    ),
+    "degrees": (
+        in_degrees(),
+        4,
+        "is 42.3225: it must be in radians, not in degrees",
+    ),
 }
 
 
@@ -77,7 +93,7 @@ def test_its_mistake_is_named(name, scene, exit_code, capsys):
     content, code, said = FILES[name]
     path = write(scene / f"{name}.json", content)
     assert exit_code(checked(scene, str(path))) == code
-    out = capsys.readouterr().out
+    out = "".join(capsys.readouterr())
     assert said in out and "half a pixel" not in out and "i + 1/2" not in out
 
 

@@ -16,10 +16,9 @@ from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render, steps
 from reference_tracer.study import extremes
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.progress import Meter, result_of
+from reference_tracer.tracer.progress import Meter
 from reference_tracer.tracer.settings import UNPROVEN_SETTINGS, Settings
-from reference_tracer_cluster import cluster as cluster_module
-from reference_tracer_cluster import pictures, tasks
+from reference_tracer_cluster import pictures
 from reference_tracer_cluster.cluster import ClusterError
 from reference_tracer_cluster.connection import connected
 
@@ -82,56 +81,26 @@ def test_a_worker_is_killed(victim, shared, cluster, larger):
     assert bits(happens(cluster, larger, kill)) == bits(render(larger))
 
 
-def test_a_worker_is_paused(victim, shared, cluster, larger, monkeypatch):
-    """Neither dead nor alive, it is not waited for; nobody tells Dask."""
-    monkeypatch.setattr(cluster_module, "LATE", 1.0)
+def test_a_worker_is_silent(tmp_path, larger, monkeypatch):
+    """Neither dead nor alive, it is not waited for: Dask gives up on it."""
+    monkeypatch.setenv("DASK_DISTRIBUTED__SCHEDULER__WORKER_TTL", "2s")
+    monkeypatch.setattr(pictures, "EACH", 20)
+    with dask(tmp_path) as own:
+        own.work("first"), own.work("second")
+        with connected(own.address) as found:
 
-    def pause():
-        shared.processes["victim"].send_signal(signal.SIGSTOP)
+            def pause():
+                own.processes["second"].send_signal(signal.SIGSTOP)
 
-    assert bits(happens(cluster, larger, pause)) == bits(render(larger))
-
-
-def test_workers_are_silent_from_the_start(shared, cluster, scene, monkeypatch):
-    """Neither a scene nor a command waits for them; only if all are, it ends."""
-    monkeypatch.setattr(cluster_module, "PATIENCE", 0.5)
-    first, second = (shared.processes[name] for name in ("first", "second"))
-    try:
-        second.send_signal(signal.SIGSTOP)
-        for _ in range(2):
-            assert bits(render(scene, tracer=pictures.tracer(cluster))) == bits(render(scene))
-            assert len(cluster.silent) == 1
-        with connected(shared.address) as another:
-            assert another.silent == cluster.silent
-        first.send_signal(signal.SIGSTOP)
-        with pytest.raises(ClusterError, match=r"no worker .* answers"), connected(shared.address):
-            pass
-    finally:
-        first.send_signal(signal.SIGCONT)
-        second.send_signal(signal.SIGCONT)
+            assert bits(happens(found, larger, pause)) == bits(render(larger))
 
 
-def test_what_is_kept(cluster, monkeypatch):
-    """The last three; workers that lose it are not sent it for ever."""
-    names = [cluster.keep(bytes([k])) for k in (0, 1, 2, 0, 3)]
-    assert list(cluster.kept) == [names[k] for k in (2, 0, 4)]
-    monkeypatch.setattr(cluster_module.Cluster, "_bring", lambda *a: None)
-    with pytest.raises(ClusterError, match=r"worker tcp://.* does not keep what it is sent"):
-        given = tasks.about(), names[4] + "gone", "{}", "{}", 0.0, (), 0.0, 0.0
-        cluster.kept[given[1]] = b""
-        result_of(cluster.answer(cluster.ask(tasks.trace, *given)))
-
-
-def test_a_task_is_done_twice(cluster, scene, monkeypatch):
-    """Both workers have it, and the first answer counts."""
-    monkeypatch.setattr(cluster_module, "LATE", -1.0)
-    monkeypatch.setattr(cluster_module, "TICK", 0.0)
-    given = []
-    send = cluster_module.Cluster._send
-    monkeypatch.setattr(cluster_module.Cluster, "_send", lambda *a: given.append(send(*a)))
-    found = render(scene, tracer=pictures.tracer(cluster))
-    assert bits(found) == bits(render(scene))
-    assert len(given) > pictures.EACH * 2
+def test_no_worker_is_left(tmp_path, larger, monkeypatch):
+    monkeypatch.setattr(pictures, "EACH", 100)
+    with dask(tmp_path) as own, pytest.raises(ClusterError, match=r"no worker of .* is left"):
+        own.work("only")
+        with connected(own.address) as found:
+            happens(found, larger, lambda: own.end("only"))
 
 
 def test_the_scheduler_ends(tmp_path, larger, monkeypatch):

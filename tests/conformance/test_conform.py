@@ -10,7 +10,9 @@ from xml.etree import ElementTree
 
 import pytest
 from reference_tracer.scene import SceneError
+from reference_tracer_conformance import judging
 from reference_tracer_conformance.report import NAMES
+from reference_tracer_processes.running import SECONDS
 from reference_tracer_processes.sandbox import sandbox
 
 PROJECT = Path(__file__).parents[2]
@@ -94,6 +96,17 @@ def test_what_is_wrong_is_named(name, conform, out, tmp_path):
     failure = ElementTree.parse(out / "junit.xml").find(".//failure")
     assert said in failure.get("message") and "verdict: differences" in failure.text
     assert "0 of 1" in (out / "badge.svg").read_text(encoding="utf-8")
+
+
+def test_the_time_limit_is_that_of_the_diagnosis_too(conform, out, tmp_path, monkeypatch):
+    """It is counted in steps of work, and changes no verdict."""
+    monkeypatch.setattr(judging, "STEPS", 5)
+    path, said = made_wrong("fov", tmp_path)
+    code, told, _ = conform(rendered(path), "camera-plain")
+    held = (out / "camera-plain" / "comparison.json").read_text(encoding="utf-8")
+    found = json.loads(held)["diagnosis"]
+    assert code == 2 and said not in told
+    assert found["steps"] == 5 * SECONDS and "focal_length" in found["untried"]
 
 
 @pytest.mark.torture

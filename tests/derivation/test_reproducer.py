@@ -68,15 +68,6 @@ def put(value, *keys):
     return change
 
 
-def test_a_file_of_version_1_is_read(saved):
-    path, content = saved
-    before = reproducer.read(path)
-    put("reference_tracer.pixel/1", "schema")(content)
-    content["camera"]["orthographic"] = content["camera"].pop("projection") == "orthographic"
-    path.write_text(json.dumps(content))
-    assert reproducer.read(path).camera.projection == before.camera.projection
-
-
 @pytest.mark.parametrize(
     ("change", "says"),
     [

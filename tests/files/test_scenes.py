@@ -13,11 +13,8 @@ import pytest
 from reference_tracer.files import npz
 from reference_tracer.files.scenes import load_account, load_scene, save_scene
 from reference_tracer.manifest import Effect, Manifest, ObjectEntry, Unmodelled
-from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
 from reference_tracer_meshes.load import load_meshes
-
-from .old_scenes import old_arrays
 
 
 @pytest.fixture
@@ -155,8 +152,7 @@ def test_damage_is_named(scene, tmp_path, rng):
         "not JSON",
         '{"schema": "reference_tracer.scene/3"}',
         '{"schema": "reference_tracer.scene/2"}',
-        '{"schema": "reference_tracer.scene/1"}',
-        '{"schema": "reference_tracer.scene/1", "camera": []}',
+        '{"schema": "reference_tracer.scene/3", "camera": []}',
     ],
 )
 def test_wrong_head_is_named(head, tmp_path):
@@ -165,41 +161,12 @@ def test_wrong_head_is_named(head, tmp_path):
         load_scene(tmp_path / "bad.npz")
 
 
-@pytest.mark.parametrize(
-    ("old", "meant"), [(False, "perspective"), (True, "orthographic"), ("equirectangular",) * 2]
-)
-def test_a_file_of_version_1_is_read(make, old, meant, tmp_path):
-    camera = make.camera(projection=PROJECTIONS[meant])
-    arrays = old_arrays(Scene(camera, objects=()))
-    head = json.loads(str(arrays["scene"]))
-    assert head["camera"].pop("projection") == meant
-    head["camera"]["orthographic"] = old
-    head["schema"] = "reference_tracer.scene/1"
-    np.savez(tmp_path / "scene.npz", **arrays | {"scene": np.array(json.dumps(head))})
-    assert load_scene(tmp_path / "scene.npz").camera.projection == PROJECTIONS[meant]
-
-
-def test_a_file_of_version_2_is_read(scene, tmp_path):
-    np.savez_compressed(tmp_path / "scene.npz", **old_arrays(scene))
-    loaded = load_scene(tmp_path / "scene.npz")
-    for old, new in zip((scene, *parts(scene)), (loaded, *parts(loaded)), strict=True):
-        for name, value in vars(old).items():
-            if isinstance(value, np.ndarray):
-                other = getattr(new, name)
-                assert (value.dtype, value.tobytes()) == (other.dtype, other.tobytes())
-    assert loaded.objects == scene.objects
-
-
-def parts(scene: Scene) -> tuple:
-    return *scene.meshes, *scene.instances, *scene.planes
-
-
 @pytest.mark.parametrize("wrong", [True, False, 1, None, "fisheye", ["perspective"]])
 def test_a_projection_is_one_of_three_names(scene, wrong, tmp_path):
     save_scene(tmp_path / "scene.npz", scene)
     arrays = dict(np.load(tmp_path / "scene.npz"))
     head = json.loads(str(arrays["scene"]))
-    head["camera"] |= {"projection": wrong, "orthographic": False}
+    head["camera"]["projection"] = wrong
     np.savez(tmp_path / "scene.npz", **arrays | {"scene": np.array(json.dumps(head))})
     with pytest.raises(SceneError, match=r"camera\.projection must be one of: perspective, "):
         load_scene(tmp_path / "scene.npz")

@@ -107,12 +107,12 @@ def test_false_hits_in_front_and_on_nothing(make, right):
     assert over.any() and empty.any()
     assert shows[over].all() and not shows[empty].any()
     examples = find_examples(found, ask)
-    assert {e.mark for e in examples} == {Mark.FALSE_HIT_IN_FRONT, Mark.FALSE_HIT}
+    assert {e.group for e in examples} == {"false_hit_in_front", "false_hit"}
     for e in examples:
-        assert e.object == "Quad" and not np.isfinite(e.true[0]) and np.isfinite(e.answer[0])
+        assert e.object == "Quad" and e.certified[0] is None and e.student[0] is not None
     for mark in (Mark.FALSE_HIT_IN_FRONT, Mark.FALSE_HIT):
         rows = np.flatnonzero((found.mark == mark).any(axis=1))
-        shown = [e.pixel[1] for e in examples if e.mark == mark]
+        shown = [e.pixel[1] for e in examples if Mark[e.group.upper()] == mark]
         assert len(shown) == 3 and max(shown) - min(shown) >= (rows[-1] - rows[0]) / 3
 
 
@@ -218,14 +218,14 @@ def test_examples(two):
     ask = only(-5, lambda t, at: np.where(at, np.inf, t))
     found = result_of(look(two, ask))
     examples = find_examples(found, ask)
-    assert [e.mark for e in examples] == [Mark.MISSED] * 3
+    assert [e.group for e in examples] == ["missed"] * 3
     for e in examples:
         x, y = e.pixel
         assert found.mark[y, x] == Mark.MISSED and e.object == "Quad"
-        t, s = e.true
-        point = e.origin + t * e.direction
-        assert point == pytest.approx(s @ e.triangle) and t == 5
-        assert e.to_dict()["student"] == {"t": None, "barycentrics": None}
+        origin, direction, triangle = map(np.array, e.given.values())
+        t, *s = e.certified
+        assert origin + t * direction == pytest.approx(s @ triangle) and t == 5
+        assert e.student[0] is None
 
 
 def tally(total, surface, t, barycentrics, boundary, boundary_right):

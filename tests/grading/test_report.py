@@ -106,8 +106,8 @@ def test_json_is_by_its_schema(written):
     example = scene["examples"][0]
     x, y = example["pixel"]
     assert example["explain"] == f"reftrace explain s.npz --pixel {x} {y}"
-    right, wrong = (example[who]["barycentrics"] for who in ("certified", "student"))
-    assert wrong == pytest.approx([right[0], right[2], right[1]])
+    (t, *right), (same, *wrong) = example["certified"], example["student"]
+    assert same == t and wrong == pytest.approx([right[0], right[2], right[1]])
     # A schema that lets anything pass would be none.
     swapped["score"] = 101
     with pytest.raises(jsonschema.ValidationError):
@@ -120,8 +120,8 @@ def test_examples_are_reproducible(judged):
     space = {}
     exec(FILES["swapped.py"], space)
     for e in scene["examples"]:
-        t, s = space["intersect"](*(np.array([e[k]]) for k in ("origin", "direction", "triangle")))
-        assert t[0] == e["student"]["t"] and s[0].tolist() == e["student"]["barycentrics"]
+        t, s = space["intersect"](*(np.array([v]) for v in e["given"].values()))
+        assert (t[0], *s[0].tolist()) == e["student"]
 
 
 class Page(HTMLParser):
@@ -216,11 +216,11 @@ def test_an_example_of_every_mark(judged):
     j = judged["swapped.py"]
     [found] = j.looks
     first = j.examples[found.judged.name][0]
-    other = replace(first, mark=Mark.MISSED)
+    other = replace(first, group="missed")
     several = replace(j, examples={found.judged.name: [first, first, other]})
     pixels = [line for line in lines(several) if "reftrace explain" in line]
     assert len(pixels) == 2
-    assert MARKS[first.mark] in pixels[0] and MARKS[Mark.MISSED] in pixels[1]
+    assert MARKS[Mark.WRONG_BARYCENTRICS] in pixels[0] and MARKS[Mark.MISSED] in pixels[1]
 
 
 def test_it_needs_no_library_for_pictures(judged, tmp_path, monkeypatch):

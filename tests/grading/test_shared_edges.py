@@ -7,7 +7,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading.judging import judge
 from reference_tracer_grading.page import page
 from reference_tracer_grading.report import student
-from reference_tracer_grading.shared_edges import EDGES
+from reference_tracer_grading.shared_edges import EDGES, SharedEdges
 from reference_tracer_grading.tables import lines
 
 CLOSED = "hit = (s1 >= 0) & (s2 >= 0) & (s3 >= 0) & (t > 0)"
@@ -56,7 +56,7 @@ def test_edges_that_are_hit_twice_do_not_leak(judged):
 
 def test_edges_that_one_triangle_has_do_not_leak(judged):
     found = judged(OWNED.strip())
-    assert found.edges.to_dict() == {"edges": EDGES, "leaking": 0, "hit_twice": 0}
+    assert found.edges == SharedEdges(EDGES, leaking=0, hit_twice=0)
     assert not said(found) and found.score == 100
 
 

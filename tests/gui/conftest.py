@@ -60,10 +60,12 @@ class Blender:
         for name in waiting:
             (OUT / f"{name}.json").unlink(missing_ok=True)
         while waiting:
-            done = self.run("--python", "/project/tests/gui/play.py", "--", *waiting, timeout=1800)
+            script = "--python-exit-code", "3", "--python", "/project/tests/gui/play.py"
+            done = self.run(*script, "--", *waiting, timeout=1800)
             played = [name for name in waiting if (OUT / f"{name}.json").exists()]
             self.ended |= dict.fromkeys(played, done.returncode)
             log = done.stdout + done.stderr
+            assert done.returncode != 3, log[-3000:]  # no story could be played
             for name in waiting[: len(played) + 1]:
                 (OUT / f"{name}.log").write_text(log)
             ended = done.returncode != 0 or not played  # by the next one, which noted nothing

@@ -7,6 +7,7 @@ opened anew, as if Blender had been started with it.
 """
 
 import json
+import os
 import sys
 import time
 import traceback
@@ -28,6 +29,7 @@ import interruption_stories
 import lesson_stories
 import page_stories
 import seen_stories
+import select_stories
 import session_stories
 import stories
 import study_stories
@@ -49,6 +51,7 @@ STORIES = {
         lesson_stories,
         page_stories,
         seen_stories,
+        select_stories,
         session_stories,
         study_stories,
         viewport_stories,
@@ -57,6 +60,7 @@ STORIES = {
 }
 
 
+BROKEN = 3  # how Blender ends where this script is, as conftest.py asks for
 # Of the window, in pixels, and the scale of all in it: most of the time goes into drawing it, in
 # software. What is half as large is laid out alike.
 LARGE = 1600, 900, 1.0
@@ -66,7 +70,7 @@ SIZES = {  # of other stories
     "panel": LARGE,
     "second_day": LARGE,
     "tried": (1280, 720, 1.0),
-    **dict.fromkeys(("first_result", "heavy"), (1000, 600, 1.0)),
+    **dict.fromkeys(("first_result", "heavy", "selected"), (1000, 600, 1.0)),
     **dict.fromkeys(("compared_images", "in_images"), SMALL_LARGE),
     **dict.fromkeys(
         (story.__name__ for story in lesson_stories.STORIES),
@@ -78,10 +82,10 @@ SIZES = {  # of other stories
 def played(names):
     """Play one story after another, each until its end or its first error."""
     for name in names:
-        scene, story = STORIES[name]
         began, cpu = time.monotonic(), time.process_time()
         noted.clear()
         try:
+            scene, story = STORIES[name]
             yield from opened(scene)
             *size, bpy.context.preferences.view.ui_scale = SIZES.get(name, SMALL)
             bpy.context.preferences.is_dirty = False
@@ -134,8 +138,12 @@ going = all_played()
 
 
 def go():
-    """Go on with the story, and say when to come again."""
-    return next(going, None)
+    """Go on with the story, and say when to come again; what no story catches ends Blender."""
+    try:
+        return next(going, None)
+    except Exception:
+        traceback.print_exc()
+        os._exit(BROKEN)
 
 
 bpy.app.timers.register(go, first_interval=2, persistent=True)

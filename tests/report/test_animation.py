@@ -22,16 +22,22 @@ ROWS = [
 ]
 
 
+def shown(folder):
+    """What the page holds, as it stands in its file."""
+    text = (folder / report.PAGE).read_text(encoding="utf-8")
+    [held] = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text)
+    return json.loads(held)
+
+
 def test_the_page_and_the_table_have_the_worst_first(tmp_path):
     report.write(tmp_path, HOSTILE, FRAMES, ROWS)
     held = json.loads((tmp_path / report.JSON).read_text(encoding="utf-8"))
     assert [row["frame"] for row in held["frames"]][:4] == [4, 9, 30, 29]
     assert held["verdict"] == "failed" and len(held["frames"]) == 30
-    page = (tmp_path / report.PAGE).read_text(encoding="utf-8")
-    linked = re.findall(r'<td><a href="frame_(\d+)/page.html">', page)
-    assert [int(n) for n in linked] == [row["frame"] for row in held["frames"][1:]]
-    assert "<td>4</td>" in page  # it failed, so its folder has nothing of this run
-    assert "<b>" not in page and "shot &lt;1&gt; $most" in page and HOSTILE not in page
+    page = shown(tmp_path)
+    links = [f"frame_{row['frame']:04}/page.html" for row in held["frames"][1:]]
+    assert [row["link"] for row in page["frames"]] == ["", *links]  # what failed has no page
+    assert page["title"] == HOSTILE.replace("\udc80", "?")
     lines = report.lines(FRAMES, ROWS)
     assert lines[1].split()[:4] == ["4", "-", "-", "-"] and "has scale 0" in lines[1]
     assert lines[2].split() == ["9", "900", "60", "40", "differences"]
@@ -68,23 +74,15 @@ def test_the_worst_frames_have_their_pictures_in_the_page(tmp_path):
             picture[..., 3] = 255 - (name == "difference.png")
             save_png(folder / name, picture)
     report.write(tmp_path, "shot.blend", FRAMES, rows)
-    page = (tmp_path / report.PAGE).read_text(encoding="utf-8")
-    found = re.findall(
-        r'<figure><a href="frame_(\d+)/page.html">((?:<img [^>]*>)+)</a>'
-        r"<figcaption([^>]*)>([^<]*)</figcaption></figure>",
-        page,
-    )
+    found = shown(tmp_path)["worst"]
     worst = [row["frame"] for row in json.loads((tmp_path / report.JSON).read_text())["frames"]]
-    assert [int(n) for n, *_ in found] == worst[1:7]  # the first has an error, and no pictures
-    assert found[0][2] == ' class="bad"' and found[0][3] == (
-        "frame 9: 40 unexplained, 60 explained"
-    )
-    for frame, images, *_ in found:
-        for name, data in zip(
-            ("blender.png", "difference.png"), re.findall(r"base64,([^\"]*)", images), strict=True
-        ):
-            stored = (report.folder_of(tmp_path, int(frame)) / name).read_bytes()
-            assert base64.b64decode(data) == stored
+    folders = [report.folder_of(tmp_path, frame) for frame in worst[1:7]]  # the first failed
+    assert [one["link"] for one in found] == [f"{folder.name}/page.html" for folder in folders]
+    assert [one["bad"] for one in found] == [True, *[False] * 5]
+    assert found[0]["words"] == "frame 9: 40 unexplained, 60 explained"
+    for folder, one in zip(folders, found, strict=True):
+        stored = [(folder / name).read_bytes() for name in ("blender.png", "difference.png")]
+        assert [base64.b64decode(picture["png"]) for picture in one["pictures"]] == stored
 
 
 @pytest.mark.browser

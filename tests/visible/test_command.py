@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import signal
 
 import numpy as np
 import pytest
+from reference_tracer import write_camera
 from reference_tracer.cli.main import main
 from reference_tracer.scene import SceneError
-from reference_tracer_visible import HIDDEN, SEEN, UNDECIDED, Visible
+from reference_tracer.visible import steps
+from reference_tracer_visible import HIDDEN, SEEN, UNDECIDED, Visible, command
 from reference_tracer_visible.files import Total
 
 from .test_visible import camera, cube, scene_of
@@ -34,6 +37,38 @@ def test_files_and_lines(tmp_path, capsys):
     assert np.isfinite(arrays["witness"]).all(axis=1).tolist() == (arrays["seen"] == SEEN).tolist()
     content = json.loads((tmp_path / "found.json").read_text())
     assert [row["seen"] for row in content["objects"]] == arrays["seen"].tolist()
+
+
+def test_a_camera_of_a_file(tmp_path):
+    mesh, file, out = (tmp_path / name for name in ("mesh.obj", "camera.json", "found.npz"))
+    mesh.write_text(OBJ)
+    for way, expected in ((1, SEEN), (-1, HIDDEN)):  # towards the mesh, and away from it
+        write_camera(file, camera(at=(0, -4, 0), axes=[[way, 0, 0], [0, 0, -way], [0, 1, 0]]))
+        words = ["--camera", str(file), "--set", "up=z"]
+        assert main(["visible", str(mesh), "--out", str(out), *words]) == 0
+        with np.load(out) as found:
+            assert found["seen"][0] == expected
+
+
+def test_an_interrupt_leaves_what_was_there(tmp_path, monkeypatch):
+    mesh, out = tmp_path / "mesh.obj", tmp_path / "found.npz"
+    mesh.write_text(OBJ)
+    words = ["visible", str(mesh), "--out", str(out), "--set", "up=z", "eye=0,-4,0"]
+    assert main(words) == 0
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    events = []
+
+    def interrupted(*given):
+        for event in steps(*given):
+            events.append(event)
+            if len(events) == 3:
+                signal.raise_signal(signal.SIGINT)
+            yield event
+
+    monkeypatch.setattr(command, "steps", interrupted)
+    assert main([*words, "width=64"]) == 128 + signal.SIGINT
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
+    assert len(events) == 3
 
 
 def test_a_scene_is_not_overwritten(tmp_path, capsys):

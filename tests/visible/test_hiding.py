@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.tracer.camera import camera_rays
-from reference_tracer_visible.faces import Faces
-from reference_tracer_visible.points import points_of
+from reference_tracer.visible.faces import Faces
+from reference_tracer.visible.points import points_of
 
 from .test_visible import ORTHOGRAPHIC, camera, scene_of, triangles
 

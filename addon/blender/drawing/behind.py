@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 import bpy
+from bpy.types import Depsgraph, Object
 
 from ...arrays import Colors
 from ...causes.case import Behind, Case
@@ -47,7 +48,7 @@ def behind(
         return None
     plan = replace(drawing, left_out=tuple(left))
 
-    def export_without(_: Any, used: dict[str, Any], depsgraph: Any) -> Drawing:
+    def export_without(_: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
         return Drawing.of(plan, *export(depsgraph))
 
     try:
@@ -73,7 +74,7 @@ def _see_through(manifest: Manifest, there: set[str], color_type: str) -> list[U
     return [u for name, u in found.items() if name in there and name not in by_nodes]
 
 
-def _has_alpha(obj: Any, color_type: str) -> bool:
+def _has_alpha(obj: Object, color_type: str) -> bool:
     if color_type in ("OBJECT", "VERTEX"):
         return bool(obj.color[3] < 1)
     if color_type not in ("MATERIAL", "TEXTURE") or not hasattr(obj.data, "materials"):

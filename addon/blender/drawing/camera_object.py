@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Object, RenderSettings, Scene
 from mathutils import Matrix
 
 from ...scene import Camera, SceneError
@@ -17,7 +18,7 @@ from ..versions import lens
 NEAR = 1e-5  # of an axis, or of a pixel's shape: far above the rounding of Blender's settings
 
 
-def add_camera(scene: Any, camera: Camera) -> Any:
+def add_camera(scene: Scene, camera: Camera) -> Object:
     """Add a camera to a Blender scene, make it the active one, and set the picture's size.
 
     Blender takes the nearest value that it can have, as for pixels of more than 200 to 1 or a clip
@@ -34,7 +35,7 @@ def add_camera(scene: Any, camera: Camera) -> Any:
     return place_camera(scene, camera)
 
 
-def place_camera(scene: Any, camera: Camera) -> Any:
+def place_camera(scene: Scene, camera: Camera) -> Object:
     """Add a camera for the picture that a Blender scene has, and make it the active one."""
     obj = bpy.data.objects.new(camera.name, bpy.data.cameras.new(camera.name))
     scene.collection.objects.link(obj)
@@ -43,7 +44,7 @@ def place_camera(scene: Any, camera: Camera) -> Any:
     return obj
 
 
-def copy_camera(scene: Any, camera: Camera, name: str) -> Any:
+def copy_camera(scene: Scene, camera: Camera, name: str) -> Object:
     """Add a copy of a Blender scene's camera that sees as another; the active one stays.
 
     What moves the user's own camera (parents, constraints, animation) does not move the copy. Its
@@ -55,7 +56,7 @@ def copy_camera(scene: Any, camera: Camera, name: str) -> Any:
         If no camera object sees so: what it takes is then a setting of the render.
     """
     _check_possible(scene.render, camera)
-    obj = scene.camera.copy()
+    obj: Any = scene.camera.copy()
     obj.data = scene.camera.data.copy()
     obj.name = obj.data.name = name
     obj.parent = None
@@ -78,7 +79,7 @@ def copy_camera(scene: Any, camera: Camera, name: str) -> Any:
     return obj
 
 
-def _check_possible(render: Any, camera: Camera) -> None:
+def _check_possible(render: RenderSettings, camera: Camera) -> None:
     """Raise a SceneError if a render has no picture of a camera's size, or other pixels."""
     size, here = (camera.width, camera.height), resolution(render)
     if size != here:

@@ -14,8 +14,10 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import bpy
+from bpy.types import Depsgraph, Material, Node, NodeSocket, NodeTree, Object, Scene
 
 from ...scene import GREY, SceneError
+from ...scene import Scene as Traced
 from ..reading.colors import random_color, slot_materials
 from ..temporary import made_for, show_in
 from ..values import is_animated
@@ -29,7 +31,7 @@ _OF_OBJECT = "material_slots[{}].material.diffuse_color"
 
 
 @contextmanager
-def constant_colors(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
+def constant_colors(scene: Scene, layer: str, depsgraph: Depsgraph) -> Iterator[None]:
     """Have an engine with materials draw a temporary scene's evaluation in constant colours.
 
     Raises
@@ -40,7 +42,7 @@ def constant_colors(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
     # Once a script has read an evaluated object, Blender tells an engine in Python its own colour,
     # not that of what instances it. So all objects are read only where instances are refused.
     if scene.display.shading.color_type == "RANDOM":
-        objects = (block for block in depsgraph.ids if block.id_type == "OBJECT")
+        objects = (block for block in depsgraph.ids if isinstance(block, Object))
         show_in(scene, depsgraph, {o.original.name_full: random_color(o)[:3] for o in objects})
     for lamp in (o.evaluated_get(depsgraph) for o in bpy.data.objects if o.type == "LIGHT"):
         if lamp.is_evaluated:  # else it is the user's, and not drawn
@@ -54,7 +56,32 @@ def constant_colors(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
     yield
 
 
-def _emission(material: Any, scene: Any, layer: str, depsgraph: Any) -> None:
+def check_slots(scene: Traced, color_type: str) -> None:
+    """Refuse faces of a slot that their object lacks and another one has: they would be black.
+
+    The solid viewport shows them in the last slot's colour, which no material can ask for.
+
+    Raises
+    ------
+    SceneError
+        If there are such faces.
+    """
+    by_slots = {"MATERIAL", "VERTEX"} if WITHOUT_ATTRIBUTE == "MATERIAL" else {"MATERIAL"}
+    if color_type not in by_slots:
+        return
+    counts = [len(obj.material_slots) for obj in bpy.data.objects]
+    most = max(*counts, *(len(instance.colors) for instance in scene.instances), 0)
+    for instance in scene.instances:
+        mesh = scene.meshes[instance.mesh]
+        lacking = (mesh.slots >= len(instance.colors)) & (mesh.slots < most)
+        if mesh.corner_colors is None and lacking.any():
+            raise SceneError(
+                f"'{scene.objects[instance.object]}' has faces of a material slot that it does not "
+                "have: give them another slot, set Colors to Object, or compare with Workbench."
+            )
+
+
+def _emission(material: Material, scene: Any, layer: str, depsgraph: Depsgraph) -> None:
     material.use_nodes = True
     tree = material.node_tree
     shading = scene.display.shading
@@ -62,7 +89,7 @@ def _emission(material: Any, scene: Any, layer: str, depsgraph: Any) -> None:
     emission = tree.nodes.new("ShaderNodeEmission")
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     tree.links.new(emission.outputs[0], output.inputs["Surface"])
-    color = emission.inputs["Color"]
+    color: Any = emission.inputs["Color"]
     if shading.color_type == "SINGLE":
         color.default_value = (*shading.single_color, 1.0)
     else:
@@ -72,7 +99,7 @@ def _emission(material: Any, scene: Any, layer: str, depsgraph: Any) -> None:
         tree.links.new(own(tree, partial(_slots_of, depsgraph)), color)
 
 
-def _object_color(tree: Any, _: object = None) -> Any:
+def _object_color(tree: NodeTree, _: object = None) -> NodeSocket:
     return _attribute(tree, "OBJECT", "color").outputs["Color"]
 
 
@@ -90,18 +117,21 @@ def attribute_names(objects: Collection[Any]) -> set[str]:
     return {m.color_attributes.active_color_name or "" for m in meshes} - {""}
 
 
-def _takes_from_elsewhere(obj: Any) -> bool:
+def _takes_from_elsewhere(obj: Object) -> bool:
     borrows = any(m.type in _BORROWING for m in obj.modifiers)
     return borrows or obj.instance_type != "NONE" or len(obj.particle_systems) > 0
 
 
-def _vertex_color(objects: Collection[Any], tree: Any, slots_of: Callable[[], _Slots]) -> Any:
+def _vertex_color(
+    objects: Collection[Any], tree: NodeTree, slots_of: Callable[[], _Slots]
+) -> NodeSocket:
     """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
     without = _material_color if WITHOUT_ATTRIBUTE == "MATERIAL" else _object_color
     found = without(tree, slots_of)
     # By name: Cycles itself would take the one that is active for renders.
     for name in sorted(attribute_names(objects)):
-        node = tree.nodes.new("ShaderNodeVertexColor")  # alpha 0 where a mesh has none of this name
+        # Its alpha is 0 where a mesh has none of this name.
+        node: Any = tree.nodes.new("ShaderNodeVertexColor")
         node.layer_name = name
         found = _where_found(tree, node, found)
     return found
@@ -113,7 +143,7 @@ class _Slots(NamedTuple):
     colors: list[set[Color | None]]  # of materials; None where there is no material
     paths: tuple[str, ...]  # of a material's viewport colour, for an object and its slot
 
-    def add(self, obj: Any) -> None:
+    def add(self, obj: Object) -> None:
         """Add the slots of an object; it may be an evaluated one."""
         if not hasattr(obj.data, "materials"):
             return
@@ -125,7 +155,7 @@ class _Slots(NamedTuple):
                 colors.add(())  # what it is by then
 
 
-def _slots_of(depsgraph: Any) -> _Slots:
+def _slots_of(depsgraph: Depsgraph) -> _Slots:
     """Return what an evaluated scene, and the file, may show in material slots, at least in one.
 
     Raises
@@ -149,7 +179,7 @@ def _slots_of(depsgraph: Any) -> _Slots:
     return slots
 
 
-def _material_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:
+def _material_color(tree: NodeTree, slots_of: Callable[[], _Slots]) -> NodeSocket:
     """Return a socket: the viewport colour of the material in the face's slot, grey where empty."""
     slots = slots_of()
     slot = _attribute(tree, "GEOMETRY", "material_index").outputs["Fac"]
@@ -160,7 +190,7 @@ def _material_color(tree: Any, slots_of: Callable[[], _Slots]) -> Any:
     return color
 
 
-def _color_of_slot(tree: Any, index: int, slots: _Slots) -> Any:
+def _color_of_slot(tree: NodeTree, index: int, slots: _Slots) -> NodeSocket:
     """Return a socket: the viewport colour of one slot's material, grey without one.
 
     Asks only what is needed: each question makes EEVEE's shader take seconds more to compile.
@@ -170,7 +200,7 @@ def _color_of_slot(tree: Any, index: int, slots: _Slots) -> Any:
     nodes = [_attribute(tree, "OBJECT", path.format(index)) for path in asked]
     if len(nodes) == 1 and None not in colors:
         return nodes[0].outputs["Color"]
-    found = tree.nodes.new("ShaderNodeRGB").outputs[0]
+    found: Any = tree.nodes.new("ShaderNodeRGB").outputs[0]
     [color, *others] = colors or {None}
     found.default_value = GREY if others or color is None else color
     for node in nodes:
@@ -178,29 +208,29 @@ def _color_of_slot(tree: Any, index: int, slots: _Slots) -> Any:
     return found
 
 
-def _attribute(tree: Any, kind: str, name: str) -> Any:
-    node = tree.nodes.new("ShaderNodeAttribute")
+def _attribute(tree: NodeTree, kind: str, name: str) -> Node:
+    node: Any = tree.nodes.new("ShaderNodeAttribute")
     node.attribute_type = kind
     node.attribute_name = name
     return node
 
 
-def _where_found(tree: Any, node: Any, otherwise: Any) -> Any:
+def _where_found(tree: NodeTree, node: Node, otherwise: Any) -> NodeSocket:
     """Return the colour of an attribute node, or the other where its alpha says there is none."""
     there = _greater(tree, node.outputs["Alpha"], 0.0)
     return _mix(tree, there, otherwise, node.outputs["Color"])
 
 
-def _greater(tree: Any, socket: Any, limit: float) -> Any:
-    node = tree.nodes.new("ShaderNodeMath")
+def _greater(tree: NodeTree, socket: Any, limit: float) -> NodeSocket:
+    node: Any = tree.nodes.new("ShaderNodeMath")
     node.operation = "GREATER_THAN"
     node.inputs[1].default_value = limit
     tree.links.new(socket, node.inputs[0])
     return node.outputs[0]
 
 
-def _mix(tree: Any, factor: Any, first: Any, second: Any) -> Any:
-    node = tree.nodes.new("ShaderNodeMix")
+def _mix(tree: NodeTree, factor: Any, first: Any, second: Any) -> NodeSocket:
+    node: Any = tree.nodes.new("ShaderNodeMix")
     node.data_type = "RGBA"
     for index, value in ((0, factor), (6, first), (7, second)):
         tree.links.new(value, node.inputs[index])

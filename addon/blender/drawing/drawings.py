@@ -37,7 +37,7 @@ from .stand_ins import STANDS_FOR, stand_ins
 class Plan:
     """How the user's scene is drawn: the same each time."""
 
-    scene: Any  # bpy.types.Scene
+    scene: bpy.types.Scene
     layer: str
     judge: Judge
     like_for_like: bool = True
@@ -118,11 +118,13 @@ class Drawn(NamedTuple):
 Export: TypeAlias = Callable[[Any, dict[str, Any], Any], Drawing]
 
 
-def _exported(tmp: Any, used: dict[str, Any], export: Export) -> Turns[Drawing]:
+def _exported(tmp: bpy.types.Scene, used: dict[str, Any], export: Export) -> Turns[Drawing]:
     return export(tmp, used, (yield False))
 
 
-def _turns(tmp: Any, used: dict[str, Any], export: Export, identity: bool) -> Turns[Drawn]:
+def _turns(
+    tmp: bpy.types.Scene, used: dict[str, Any], export: Export, identity: bool
+) -> Turns[Drawn]:
     """Export an evaluation, have it drawn, and again in a colour for each object."""
     depsgraph = yield False
     drawing = export(tmp, used, depsgraph)
@@ -149,7 +151,7 @@ def _owner_names(drawing: Drawing, tmp: Any) -> dict[str, str]:
     return owners if len(set(owners.values())) <= MOST_OBJECTS else {}
 
 
-def _owners(drawing: Drawing, tmp: Any, owners: Mapping[str, str]) -> Turns[Owners]:
+def _owners(drawing: Drawing, tmp: bpy.types.Scene, owners: Mapping[str, str]) -> Turns[Owners]:
     """Draw a temporary scene again, in a colour for each owner, and return each pixel's owner."""
     names = tuple(dict.fromkeys(owners.values()))
     colors = dict(zip(names, colors_of(len(names)), strict=True))

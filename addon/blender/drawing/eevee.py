@@ -11,7 +11,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
-from .judge import Judge, constant_colors
+from bpy.types import Mesh, Object
+
+from .judge import Judge, check_slots, constant_colors
 
 if TYPE_CHECKING:
     from ...scene import Scene
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 
 def _check_colors(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
     """Refuse meshes that EEVEE shows in other colours than the solid viewport."""
+    check_slots(scene, color_type, objects)
     if color_type == "VERTEX":
         _check_attributes(scene, objects)
     elif color_type == "MATERIAL":
@@ -32,7 +35,7 @@ def _check_edited(scene: Scene) -> None:
     from ...scene import SceneError
 
     for name in scene.objects:
-        obj: Any = bpy.data.objects.get(name)
+        obj: Object = bpy.data.objects.get(name)
         if obj is None or obj.mode != "EDIT" or len(obj.material_slots) < 2:
             continue
         if not any(m.show_viewport and m.show_in_editmode for m in obj.modifiers):
@@ -53,10 +56,10 @@ def _check_attributes(scene: Scene, objects: Collection[Any]) -> None:
     from .constant_material import attribute_names
 
     asked = attribute_names(objects)
-    data = {o.name_full: o.data for o in bpy.data.objects}
+    data: Any = {o.name_full: o.data for o in bpy.data.objects}
     found: list[set[str]] = [set() for _ in scene.planes]
     for instance in scene.instances:
-        mesh: Any = data.get(scene.objects[instance.object])
+        mesh: Mesh = data.get(scene.objects[instance.object])
         has_one = scene.meshes[instance.mesh].corner_colors is not None
         attributes = getattr(mesh, "color_attributes", None) if has_one else None
         found.append({attributes.active_color_name} if attributes else set())

@@ -11,15 +11,22 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import bpy
+from bpy.types import Depsgraph
+
 if TYPE_CHECKING:
     from ...scene import Scene
 
 
-def _as_it_is(scene: Any, layer: str, depsgraph: Any) -> AbstractContextManager[None]:
+def _as_it_is(
+    scene: bpy.types.Scene, layer: str, depsgraph: Depsgraph
+) -> AbstractContextManager[None]:
     return nullcontext()
 
 
-def constant_colors(scene: Any, layer: str, depsgraph: Any) -> AbstractContextManager[None]:
+def constant_colors(
+    scene: bpy.types.Scene, layer: str, depsgraph: Depsgraph
+) -> AbstractContextManager[None]:
     """Show the colours of an evaluated scene by a material, as `constant_material.py` does."""
     from . import constant_material
 
@@ -28,6 +35,13 @@ def constant_colors(scene: Any, layer: str, depsgraph: Any) -> AbstractContextMa
 
 def _any(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
     pass
+
+
+def check_slots(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
+    """Refuse what `constant_colors` would show black."""
+    from . import constant_material
+
+    constant_material.check_slots(scene, color_type)
 
 
 @dataclass(frozen=True)

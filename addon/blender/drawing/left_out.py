@@ -8,6 +8,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Scene
 
 from ...manifest import Effect, Manifest, Unmodelled
 from ..reading.unmodelled import HAIR, is_hair
@@ -18,7 +19,7 @@ _HIDING = ("hide_render", "hide_viewport")
 
 
 @contextmanager
-def left_out(tmp: Any, layer: str, features: Sequence[Unmodelled]) -> Iterator[None]:
+def left_out(tmp: Scene, layer: str, features: Sequence[Unmodelled]) -> Iterator[None]:
     """Leave hair, and objects that draw what is no triangle, out of a temporary scene, for a while.
 
     Where an animation would show again what was hidden, the object leaves the scene.

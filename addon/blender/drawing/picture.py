@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Depsgraph, Scene
 
 from ...arrays import Colors
 from ...pictures.source import SizeError
@@ -49,7 +50,7 @@ _LIKE_FOR_LIKE = {
 }
 
 
-def prepare_scene(scene: Any, judge: Judge, like_for_like: bool) -> dict[str, Any]:
+def prepare_scene(scene: Scene, judge: Judge, like_for_like: bool) -> dict[str, Any]:
     """Set a temporary scene up for a judge's picture to be compared; return what was set.
 
     Like for like means flat light, no effects, no anti-aliasing, a transparent film and raw
@@ -74,11 +75,11 @@ def prepare_scene(scene: Any, judge: Judge, like_for_like: bool) -> dict[str, An
 
 
 def picture(
-    scene: Any,
+    scene: Scene,
     layer: str,
     judge: Judge,
     camera: Camera,
-    depsgraph: Any,
+    depsgraph: Depsgraph,
     like_for_like: bool = True,
     is_last: bool = True,
 ) -> Turns[Colors]:
@@ -132,7 +133,9 @@ def picture(
     return np.ascontiguousarray(pixels)
 
 
-def drawn_once(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:
+def drawn_once(
+    scene: Scene, layer: str, judge: Judge, camera: Camera, like_for_like: bool
+) -> Colors:
     """Have a prepared temporary scene evaluated and drawn; return its :func:`picture`."""
 
     def turns() -> Turns[Colors]:
@@ -141,7 +144,7 @@ def drawn_once(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_li
     return evaluated(scene, layer, judge, turns())
 
 
-def read(scene: Any, path: Path, colorspace: str = "") -> Colors:
+def read(scene: Scene, path: Path, colorspace: str = "") -> Colors:
     """Return a picture's file as Blender reads it, in a colour space: (h, w, 4), row 0 below.
 
     It is read for a temporary scene.

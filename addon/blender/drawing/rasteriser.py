@@ -71,7 +71,7 @@ def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
     across, up = (n / 2 for n in size)
     window = ViewWindow(-across, across, -up, up)
     camera = Camera(matrix, window, *size, ORTHOGRAPHIC, 0.1, 100.0)
-    scene: Any = bpy.data.scenes.new("Reference Tracer Rasteriser")
+    scene = bpy.data.scenes.new("Reference Tracer Rasteriser")
     mesh = made_for(scene, _quads(moved))
     scene.collection.objects.link(made_for(scene, bpy.data.objects.new(mesh.name, mesh)))
     looking = made_for(scene, add_camera(scene, camera))

@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from typing import Any
 
 import bpy
+from bpy.types import Context, Scene, View3DShading
 
 from ...manifest import Effect, Unmodelled
 from .judge import Judge
 
 
-def anti_aliasing(scene: Any, judge: Judge, like_for_like: bool) -> str:
+def anti_aliasing(scene: Scene, judge: Judge, like_for_like: bool) -> str:
     """Return what smooths the edges of the picture; 'OFF' for nothing.
 
     In a window that is the user's preference, whatever the scene says.
@@ -23,19 +23,19 @@ def anti_aliasing(scene: Any, judge: Judge, like_for_like: bool) -> str:
     if like_for_like:
         return "OFF"
     if judge.needs_window:
-        preferences: Any = bpy.context.preferences
+        preferences = bpy.context.preferences
         return preferences.system.viewport_aa
     return scene.display.render_aa
 
 
-def solid_shading(context: Any) -> Any:
+def solid_shading(context: Context) -> View3DShading:
     """Return the solid shading of the 3D view the user is in, else of the window's first one."""
     areas = [context.area, *(context.window.screen.areas if context.window else ())]
     found = (a.spaces.active.shading for a in areas if a and a.type == "VIEW_3D")
     return next((shading for shading in found if shading.type == "SOLID"), None)
 
 
-def use_view_shading(scene: Any, shading: Any) -> None:
+def use_view_shading(scene: Scene, shading: View3DShading) -> None:
     """Copy a 3D view's own solid shading to a scene, for a picture *as it is*."""
     own = scene.display.shading
     for prop in own.bl_rna.properties:
@@ -44,7 +44,7 @@ def use_view_shading(scene: Any, shading: Any) -> None:
                 setattr(own, prop.identifier, getattr(shading, prop.identifier))
 
 
-def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:
+def of_shading(scene: Scene, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:
     """Yield what a picture *as it is* may show anywhere, and constant shading does not have.
 
     Only anti-aliasing can be checked: it mixes colours that the tracer sees.

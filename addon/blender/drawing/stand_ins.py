@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Object
 
 from ...arrays import Colors, Floats
 from ...scene import Plane, Scene
@@ -59,7 +60,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Scen
     return replace(scene, planes=tuple(planes))
 
 
-def _stand_in(tmp: Any, corners: Floats, eye: Floats, color: Colors) -> Any:
+def _stand_in(tmp: bpy.types.Scene, corners: Floats, eye: Floats, color: Colors) -> Object:
     # Vertices are float32: the nearer one lies to the object's origin, the more digits it keeps. So
     # the origin is the corner that the camera sees largest.
     nearest = corners[np.argmin(((corners - eye) ** 2).sum(axis=1))]
@@ -68,7 +69,7 @@ def _stand_in(tmp: Any, corners: Floats, eye: Floats, color: Colors) -> Any:
     mesh = made_for(tmp, bpy.data.meshes.new("Infinite Plane"))
     mesh.from_pydata((corners - nearest).tolist(), [], [list(range(len(corners)))])
     mesh.materials.append(material)
-    obj: Any = made_for(tmp, bpy.data.objects.new("Infinite Plane", mesh))
+    obj: Object = made_for(tmp, bpy.data.objects.new("Infinite Plane", mesh))
     obj.location = nearest.tolist()
     obj.color = material.diffuse_color
     tmp.collection.objects.link(obj)

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+
+from bpy.types import Depsgraph, Scene
 
 from .judge import Judge
 
 
 @contextmanager
-def _without_anti_aliasing(scene: Any, layer: str, depsgraph: Any) -> Iterator[None]:
+def _without_anti_aliasing(scene: Scene, layer: str, depsgraph: Depsgraph) -> Iterator[None]:
     """Switch off the user preference that alone decides on a window's anti-aliasing, for a while.
 
     The mark that preferences were changed is put back, too: else Blender would save them on exit.
     """
     import bpy
 
-    preferences: Any = bpy.context.preferences
+    preferences = bpy.context.preferences
     before = preferences.system.viewport_aa
     dirty = preferences.is_dirty
     preferences.system.viewport_aa = "OFF"

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
+from bpy.types import Context
 
 from ...arrays import Colors, Floats
 from ...causes.case import Alternative, Case
@@ -46,7 +47,7 @@ MOST_COLORS = 4096
 
 
 def gather_against(
-    context: Any,
+    context: Context,
     picture: Picture | Callable[[Drawing], Picture],
     settings: Settings,
     self_check: bool = False,
@@ -78,7 +79,7 @@ def gather_against(
     )
 
 
-def exported_in(context: Any, colors: By | GivenColors) -> tuple[Palette, Scene, Manifest]:
+def exported_in(context: Context, colors: By | GivenColors) -> tuple[Palette, Scene, Manifest]:
     """Export the context's scene as a render has it, in colours; return these, too.
 
     Raises
@@ -96,7 +97,7 @@ def exported_in(context: Any, colors: By | GivenColors) -> tuple[Palette, Scene,
 
 
 def alternatives(
-    context: Any, scene: Scene, manifest: Manifest, palette: Palette = VIEWPORT
+    context: Context, scene: Scene, manifest: Manifest, palette: Palette = VIEWPORT
 ) -> tuple[Alternative, ...]:
     """Return scenes that differ in one flag or the frame from one exported as a render has it."""
     layer = context.view_layer.name
@@ -135,7 +136,7 @@ def _one_by_one_and_all(scene: Scene, hidden: Sequence[_Hidden]) -> Iterator[Alt
         yield Alternative("', '".join(h.name for h in hidden), ", ".join(reasons), scene)
 
 
-def _frames(context: Any, palette: Palette) -> list[Alternative]:
+def _frames(context: Context, palette: Palette) -> list[Alternative]:
     """Return the scene a frame before and a frame later, if something in the file is animated."""
     if not len(bpy.data.actions):
         return []
@@ -152,7 +153,7 @@ def _frames(context: Any, palette: Palette) -> list[Alternative]:
     return out
 
 
-def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
+def view_transforms(user: bpy.types.Scene, scene: Scene) -> tuple[Curve, ...]:
     """Return the view transform of the user's scene, then the common ones that this Blender has.
 
     They hold for the colours of what was exported of it; the user's scene stays as it is.
@@ -168,10 +169,10 @@ def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
         )
 
 
-def _shown(tmp: Any, table: Colors) -> Iterator[tuple[str, Floats]]:
+def _shown(tmp: bpy.types.Scene, table: Colors) -> Iterator[tuple[str, Floats]]:
     """Yield each view transform's name and what it makes of colours (n, 3), sRGB's curve undone."""
     output = tmp.render.image_settings
-    view = output.view_settings if output.color_management == "OVERRIDE" else tmp.view_settings
+    view: Any = output.view_settings if output.color_management == "OVERRIDE" else tmp.view_settings
     own = view.view_transform
     plain = (view.exposure, view.gamma, view.look) == (0.0, 1.0, "None")
     more = f" with exposure {view.exposure:+.3g}, gamma {view.gamma:.3g}, look '{view.look}'"
@@ -186,7 +187,7 @@ def _shown(tmp: Any, table: Colors) -> Iterator[tuple[str, Floats]]:
             yield f"'{name}'", _saved(tmp, table)
 
 
-def _saved(tmp: Any, table: Colors) -> Floats:
+def _saved(tmp: bpy.types.Scene, table: Colors) -> Floats:
     """Return colours (n, 3) as Blender writes them to a PNG of 16 bits, sRGB's curve undone."""
     image: Any = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
     try:

@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Scene
 
 from ...camera_files.convention import View
 from ...comparison.animation import FrameRow
@@ -63,7 +64,7 @@ def compare_frames(
         If there is no camera, the picture to compare with is a still, or the folder cannot be
         written.
     """
-    scene: Any = bpy.context.scene
+    scene = bpy.context.scene
     if Choices.of(scene, choices).judge in STILLS:
         raise SceneError(f"{OF_ONE_FRAME}.")
     folder = made_folder(directory)
@@ -119,8 +120,17 @@ def _compared(
     return FrameRow.of(frame, comparison.to_dict())
 
 
-def frames_of(scene: Any) -> range:
-    """Return the frames of a scene's animation."""
+def frames_of(scene: Scene) -> range:
+    """Return the frames of a scene's animation.
+
+    Raises
+    ------
+    SceneError
+        If it is playing.
+    """
+    screen = bpy.context.screen
+    if screen and screen.is_animation_playing:
+        raise SceneError("The animation is playing: stop it first.")
     return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
 
 

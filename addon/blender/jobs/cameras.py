@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Scene
 
 from ...camera_files.convention import View
 from ...camera_files.frame import part
@@ -30,7 +30,7 @@ def cameras(frames: Sequence[int] | None = None) -> Iterator[SceneCamera]:
     SceneError
         If there is no camera, or one that is not modelled.
     """
-    scene: Any = bpy.context.scene
+    scene = bpy.context.scene
     if frames is None:
         yield _camera(scene.frame_current)
         return
@@ -39,7 +39,7 @@ def cameras(frames: Sequence[int] | None = None) -> Iterator[SceneCamera]:
 
 def _camera(frame: int) -> SceneCamera:
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    scene: Any = depsgraph.scene_eval
+    scene: Scene = depsgraph.scene_eval
     camera = export_camera(scene)
     if not scene.render.use_crop_to_border:
         camera = replace(camera, region=Region(0, 0, camera.width, camera.height))

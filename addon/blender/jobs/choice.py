@@ -13,6 +13,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Object, RenderSettings, Scene, ViewLayer
 
 from ...camera_files.convention import View
 from ...framing import ANGLE, BACKWARD, Choice, axes_of, framing, shown_points
@@ -38,7 +39,7 @@ def chosen(choice: Choice) -> Iterator[None]:
     SceneError
         If there is no such thing, or nothing that a camera could frame.
     """
-    context: Any = bpy.context
+    context = bpy.context
     scene = _named("scene", choice.scene_name, bpy.data.scenes) or context.scene
     own = context.view_layer if scene == context.scene else scene.view_layers[0]
     layer = _named("view layer", choice.view_layer, scene.view_layers) or own
@@ -68,7 +69,7 @@ def chosen(choice: Choice) -> Iterator[None]:
 
 
 @contextmanager
-def seen_by(scene: Any, view: View | None) -> Iterator[None]:
+def seen_by(scene: Scene, view: View | None) -> Iterator[None]:
     """See a scene by the camera of a file for a while, or by its own.
 
     Raises
@@ -82,13 +83,13 @@ def seen_by(scene: Any, view: View | None) -> Iterator[None]:
             _see_as(scene, view)
         yield
     finally:
-        made = scene.camera
+        made: Any = scene.camera
         if made != own:
             scene.camera = own
             bpy.data.cameras.remove(made.data)  # and the object with it
 
 
-def _see_as(scene: Any, view: View) -> None:
+def _see_as(scene: Scene, view: View) -> None:
     """Add the camera of a file, as closely as float32 allows, and make it active.
 
     The picture has its size. A file that says no clip range leaves that of the scene's camera.
@@ -104,7 +105,7 @@ def _see_as(scene: Any, view: View) -> None:
         camera = replace(camera, **ends)
     obj = add_camera(scene, camera)
     scene.render.use_border = False
-    context: Any = bpy.context
+    context = bpy.context
     context.view_layer.update()
     found = export_camera(scene)
     points = known_points(found)
@@ -117,7 +118,7 @@ def _see_as(scene: Any, view: View) -> None:
         )
 
 
-def frame_all(scene: Any, layer: Any, angle: float = ANGLE) -> Any:
+def frame_all(scene: Scene, layer: ViewLayer, angle: float = ANGLE) -> Object:
     """Add a camera that frames all that a render of the view layer shows, and make it active.
 
     Infinite planes are not framed.
@@ -144,7 +145,7 @@ def frame_all(scene: Any, layer: Any, angle: float = ANGLE) -> Any:
     window = ViewWindow(-_FAR, _FAR, -_FAR, _FAR)
     everything = Camera(matrix, window, 4, 4, ORTHOGRAPHIC, 1e-6, 2 * _FAR, name="Everything")
     with temporary_scene(scene, layer.name) as tmp:
-        looking = place_camera(tmp, everything).data
+        looking: Any = place_camera(tmp, everything).data
         try:
             shown, _, _ = export_for_render(tmp)
         finally:
@@ -164,7 +165,7 @@ def _named(what: str, name: str | None, things: Iterable[Any]) -> Any:
     return found.get(name)
 
 
-def _resize(render: Any, choice: Choice) -> None:
+def _resize(render: RenderSettings, choice: Choice) -> None:
     """Give the picture the size that is chosen."""
     if choice.width is None and choice.height is None:
         return

@@ -11,6 +11,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Context, Material, NodeTree, Object
 from mathutils import Matrix
 
 from ...arrays import Colors, Floats
@@ -37,7 +38,7 @@ _KEPT = (
 )
 
 
-def colors_scene(context: Any, colors: By) -> Any:
+def colors_scene(context: Context, colors: By) -> Any:
     """Add a scene in which the context's scene has constant colours; return it.
 
     A comparison of it is with its Render Result. Infinite planes are polygons that fill the view.
@@ -86,7 +87,7 @@ def _set(scene: Any, user: Any) -> None:
     scene.reference_tracer.colors = "VIEWPORT"
 
 
-def _add_surfaces(scene: Any, above: Any, exported: Scene) -> None:
+def _add_surfaces(scene: bpy.types.Scene, above: Any, exported: Scene) -> None:
     """Add an object for each instance and plane, below an empty."""
     shown = {k: m for k, m in enumerate(exported.meshes) if k in exported.instance_meshes}
     meshes = {k: _mesh(m.name, m.vertices, m.triangles, m) for k, m in shown.items()}
@@ -105,14 +106,14 @@ def _add_surfaces(scene: Any, above: Any, exported: Scene) -> None:
             palette.give(own, plane.color[None])
 
 
-def _place(scene: Any, obj: Any, above: Any, matrix: Floats) -> None:
+def _place(scene: bpy.types.Scene, obj: Object, above: Any, matrix: Floats) -> None:
     """Link an object; as the inverse of its parent's matrix, one with a shear is kept, too."""
     obj.parent = above
     obj.matrix_parent_inverse = Matrix(matrix.tolist())
     scene.collection.objects.link(obj)
 
 
-def _mesh(name: str, vertices: Floats, faces: Any, of: Mesh | None = None) -> Any:
+def _mesh(name: str, vertices: Floats, faces: Any, of: Mesh | None = None) -> bpy.types.Mesh:
     """Return a mesh of Blender's with as many empty material slots as its faces need."""
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(vertices.tolist(), [], faces.tolist())
@@ -129,7 +130,7 @@ class _Palette:
     def __init__(self) -> None:
         self._of: dict[bytes, Any] = {}
 
-    def give(self, obj: Any, colors: Sequence[Any] | Colors) -> None:
+    def give(self, obj: Object, colors: Sequence[Any] | Colors) -> None:
         """Show an object in colours by its slots; a slot past the end has the last one."""
         for number, slot in enumerate(obj.material_slots):
             slot.link = "OBJECT"
@@ -143,14 +144,14 @@ class _Palette:
         return self._of[key]
 
 
-def _emission(color: Colors) -> Any:
+def _emission(color: Colors) -> Material:
     rgba = (*map(float, color), 1.0)
     material = bpy.data.materials.new("#" + eight_bits(color).tobytes().hex())
     material.diffuse_color = rgba
     material.use_nodes = True
-    tree: Any = material.node_tree
+    tree: NodeTree = material.node_tree
     tree.nodes.clear()
-    emission = tree.nodes.new("ShaderNodeEmission")
+    emission: Any = tree.nodes.new("ShaderNodeEmission")
     emission.inputs["Color"].default_value = rgba
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     tree.links.new(emission.outputs[0], output.inputs["Surface"])

@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any
 
 import bpy
+from bpy.types import Context, Depsgraph
 
 from ...arrays import Colors
 from ...causes.case import Case
@@ -46,7 +47,7 @@ from .open_file import Choices
 from .variants import variants
 
 
-def gather_case(context: Any, **choices: Any) -> Case:
+def gather_case(context: Context, **choices: Any) -> Case:
     """Export the context's scene and view layer, and have Blender draw them.
 
     Parameters
@@ -100,7 +101,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
     return case
 
 
-def _planned(context: Any, chosen: Choices, judge: Judge) -> Plan:
+def _planned(context: Context, chosen: Choices, judge: Judge) -> Plan:
     """Return how the context's scene is to be drawn, which is decided before Blender draws."""
     scene = context.scene
     shading = solid_shading(context) if judge.needs_window and chosen.as_is else None
@@ -120,7 +121,7 @@ class _Export:
         self._plan = plan
         self._is_automatic = is_automatic
 
-    def __call__(self, tmp: Any, used: dict[str, Any], depsgraph: Any) -> Drawing:
+    def __call__(self, tmp: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
         plan = self._plan
         meshes: dict[Any, Any] = {}
         scene, manifest, self.certificate = export_certified(depsgraph, meshes)
@@ -147,7 +148,7 @@ class _Export:
         return Drawing.of(plan, scene, manifest)
 
 
-def _names(scene: Any) -> list[str]:
+def _names(scene: bpy.types.Scene) -> list[str]:
     return [o.name_full for o in scene.objects]
 
 
@@ -178,7 +179,7 @@ def _a_frame_later(drawing: Drawing) -> Scene:
 
 
 def compare_open_file(
-    context: Any,
+    context: Context,
     directory: str = "",
     trade: bool = False,
     extremes: bool = False,

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+from bpy.types import Context
 
 from ...causes.case import Case
 from ...comparison.comparing import compared
@@ -27,7 +28,9 @@ from .compare import gather_case
 from .open_file import Choices
 
 
-def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
+def compare_all(
+    context: Context, directory: str = "", **choices: Any
+) -> Work[tuple[EngineRow, ...]]:
     """Have every engine draw the scene at once; return the work of comparing each.
 
     Each comparison goes to a folder of its own in the directory, and the table into it; nothing is

@@ -11,6 +11,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Depsgraph
 
 from ...arrays import Colors
 from ...causes.case import Case
@@ -82,7 +83,7 @@ def _rendered(drawing: Drawing, judge: Judge, like_for_like: bool, making: Makin
     """Have an engine render what was exported."""
     own = replace(drawing, judge=judge, like_for_like=like_for_like)
 
-    def export(_: Any, used: dict[str, Any], depsgraph: Any) -> Drawing:
+    def export(_: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
         if like_for_like and used["color_type"] == "RANDOM":
             judge.check_random(drawing.exported, drawing.manifest.owners)
         return own

@@ -6,6 +6,8 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import Any
 
+from bpy.types import Context
+
 from ...manifest import Manifest
 from ...pictures.palette import VIEWPORT, By, GivenColors, Palette
 from ...scene import Scene
@@ -54,7 +56,7 @@ class Choices:
 
 
 def export_open_file(
-    context: Any,
+    context: Context,
     judge: Judge | None = None,
     palette: Palette = VIEWPORT,
     whole: bool = False,
@@ -69,7 +71,7 @@ def export_open_file(
     SceneError
         If the scene cannot be traced.
     """
-    scene = context.scene
+    scene: Any = context.scene
     layer = context.view_layer.name
     stored = scene.reference_tracer
     export_camera(scene)  # first: its errors name the user's scene, say what to do

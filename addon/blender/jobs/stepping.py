@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
 
 import bpy
+from bpy.types import Scene
 
 _SIMULATED = {"CLOTH", "DYNAMIC_PAINT", "FLUID", "PARTICLE_SYSTEM", "SOFT_BODY"}  # modifiers
 _ZONE = "GeometryNodeSimulationOutput"
 
 
-def visited(scene: Any, frames: list[int]) -> Iterable[int]:
+def visited(scene: Scene, frames: list[int]) -> Iterable[int]:
     """Return the frames to step through, in order, so that some sorted ones are as when played."""
     modifiers = (m.type in _SIMULATED for o in bpy.data.objects for m in o.modifiers)
     nodes = (n.bl_idname == _ZONE for tree in bpy.data.node_groups for n in tree.nodes)
@@ -20,7 +20,7 @@ def visited(scene: Any, frames: list[int]) -> Iterable[int]:
     return frames
 
 
-def stepped(scene: Any, frames: list[int]) -> Iterator[int]:
+def stepped(scene: Scene, frames: list[int]) -> Iterator[int]:
     """Yield each of some sorted frames once the scene is there; it goes back in the end."""
     own = scene.frame_current, scene.frame_subframe
     try:
@@ -32,7 +32,7 @@ def stepped(scene: Any, frames: list[int]) -> Iterator[int]:
         scene.frame_set(own[0], subframe=own[1])
 
 
-def bake_bodies(scene: Any, last: int) -> None:
+def bake_bodies(scene: Scene, last: int) -> None:
     """Bake rigid bodies up to a frame: a copy of the scene has them only so.
 
     Only for a command's own process, which never saves the file.

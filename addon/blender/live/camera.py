@@ -10,7 +10,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+import bpy
 import numpy as np
+from bpy.types import RegionView3D, Scene, SpaceView3D
 
 from ...arrays import Floats
 from ...projections import ORTHOGRAPHIC, PERSPECTIVE
@@ -19,7 +21,9 @@ from ...tracer.camera import film_of
 from ..reading.camera import border_region, projection_of
 
 
-def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:
+def camera_of(
+    region: bpy.types.Region, region_3d: RegionView3D, space: SpaceView3D, scene: Scene
+) -> Camera:
     """Return the camera of a 3D view; its picture is as large as the region.
 
     Clip range and render border are the view's own or the camera's, as Blender has it.
@@ -92,7 +96,7 @@ def coarser(camera: Camera, factor: int) -> Camera:
     )
 
 
-def frame_in_view(camera: Camera, through: Any, scene: Any) -> tuple[Floats, Floats]:
+def frame_in_view(camera: Camera, through: Any, scene: Scene) -> tuple[Floats, Floats]:
     """Return two corners of a Blender camera's frame in the view through it, (2,) in pixels.
 
     The lower left one, and the upper right one; `camera` is the view's own.
@@ -103,7 +107,7 @@ def frame_in_view(camera: Camera, through: Any, scene: Any) -> tuple[Floats, Flo
     return film.min(axis=1), film.max(axis=1)
 
 
-def _within_border(camera: Camera, through: Any, space: Any, scene: Any) -> Camera:
+def _within_border(camera: Camera, through: Any, space: SpaceView3D, scene: Scene) -> Camera:
     """Return the camera with the part of its picture that a render border leaves."""
     owner, name = (scene.render, "border") if through else (space, "render_border")
     if not getattr(owner, f"use_{name}"):

@@ -12,6 +12,8 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+from bpy.types import Region
+from gpu.types import GPUShader
 
 from ...arrays import parts
 from .shows import Picture
@@ -28,7 +30,7 @@ void main() { place = at; gl_Position = ModelViewProjectionMatrix * vec4(pos, 0.
 _FETCHED = "void main() { color = texelFetch(image, ivec2(floor(place)), 0); }"
 
 
-def pixel_shader(fragment: str = _FETCHED) -> Any:
+def pixel_shader(fragment: str = _FETCHED) -> GPUShader:
     """Return a shader that shows a texture, each of its pixels as it is, or as a source says.
 
     Its vertices have `pos`, in pixels of the region, and `at`, in pixels of the texture.
@@ -101,7 +103,7 @@ class Textures:
                 return number < len(done)
         return False
 
-    def draw(self, shader: Any, width: int, height: int) -> None:
+    def draw(self, shader: GPUShader, width: int, height: int) -> None:
         """Draw the layers over a region of this size."""
         from gpu_extras.batch import batch_for_shader
 
@@ -116,7 +118,7 @@ class Textures:
             batch.draw(shader)
 
 
-def draw_words(text: str, region: Any, scale: float) -> None:
+def draw_words(text: str, region: Region, scale: float) -> None:
     """Draw a sentence in the middle of a region, in as many lines as its width needs."""
     import blf
 

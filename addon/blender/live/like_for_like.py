@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import bpy
+from bpy.types import SpaceView3D, ViewLayer
 
 from ...arrays import Colors
 from ...causes.case import Case
@@ -38,7 +39,7 @@ AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is p
 
 def is_busy() -> bool:
     """Return whether the user, or a render, is in the middle of something."""
-    manager: Any = bpy.context.window_manager
+    manager = bpy.context.window_manager
     busy = any(w.modal_operators or w.screen.is_animation_playing for w in manager.windows)
     return busy or bpy.app.is_job_running("RENDER")
 
@@ -72,7 +73,7 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
 
 
 def _turns(
-    tmp: Any, layer: str, scene: Scene
+    tmp: bpy.types.Scene, layer: str, scene: Scene
 ) -> Turns[tuple[Scene, Manifest, CameraCertificate | None, Colors]]:
     """Draw a view's scene, and return it as it is to be compared, with what is known of it."""
     depsgraph = yield False
@@ -86,12 +87,12 @@ def _turns(
 
 def _view_of(space: int) -> tuple[Any, Any]:
     """Return the window and the `SpaceView3D` of a space's address."""
-    manager: Any = bpy.context.window_manager
+    manager = bpy.context.window_manager
     spaces = ((w, a.spaces.active) for w in manager.windows for a in w.screen.areas)
     return next((w, s) for w, s in spaces if s.as_pointer() == space)
 
 
-def _leave_out_unseen(tmp: Any, layer: Any, space: Any) -> None:
+def _leave_out_unseen(tmp: bpy.types.Scene, layer: ViewLayer, space: SpaceView3D) -> None:
     """Leave out of a temporary scene what a 3D view does not show of a view layer."""
     unshown = types_left_out(space)
     if unshown.difference(NO_SURFACE):  # a camera's picture has them

@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Depsgraph, Object, SpaceView3D
 
 from ...arrays import Colors
 from ...manifest import Effect
@@ -40,19 +41,19 @@ class ViewScene:
         self._background: Colors = np.zeros(4, np.float32)
         self._look: tuple[object, ...] = ()  # settings of the view
 
-    def outdated(self, scene: Any, space: Any) -> bool:
+    def outdated(self, scene: bpy.types.Scene, space: SpaceView3D) -> bool:
         """Return whether a `SpaceView3D` is to show other things than at the last update."""
         return self._look != _look(scene, space)
 
-    def update(self, depsgraph: Any, space: Any) -> None:
+    def update(self, depsgraph: Depsgraph, space: Any) -> None:
         """Read what has changed in an evaluated depsgraph, as a `SpaceView3D` shows it."""
         ids = (u.id for u in depsgraph.updates if u.is_updated_geometry)
-        objects: list[Any] = [o.original for o in ids if isinstance(o, bpy.types.Object)]
+        objects = [o.original for o in ids if isinstance(o, bpy.types.Object)]
         changed = {o.session_uid for o in objects}
         known = self._meshes
         self._meshes = {}
 
-        def read(obj: Any, name: str, with_colors: bool) -> Read | None:
+        def read(obj: Object, name: str, with_colors: bool) -> Read | None:
             key = obj.data.session_uid, with_colors
             found = known.get(key) if obj.original.session_uid not in changed else None
             found = found or read_mesh(obj, name, with_colors, True)
@@ -98,7 +99,7 @@ def _lines(seen: dict[str, Seen]) -> tuple[str, ...]:
     return (*lost, *(f"not modelled: {u}" for u in features if u.effect is not Effect.NONE))
 
 
-def _look(scene: Any, space: Any) -> tuple[object, ...]:
+def _look(scene: bpy.types.Scene, space: SpaceView3D) -> tuple[object, ...]:
     """Return the settings of a view, and of its scene, on which what it shows depends."""
     shading = scene.display.shading
     behind = space.shading

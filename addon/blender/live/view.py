@@ -13,6 +13,7 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import bpy
+from bpy.types import Context, Depsgraph, RenderEngine
 
 from ...errors import failure
 from ...scene import Camera
@@ -87,11 +88,11 @@ class LiveView:
         """Whether nothing is left to do: the whole picture is there, or why it cannot be."""
         return not self._job and self._is_drawn and bool(self.shown or self.said)
 
-    def update(self, context: Any, depsgraph: Any) -> None:
+    def update(self, context: Context, depsgraph: Depsgraph) -> None:
         """Take over what has changed in the scene."""
         self._unread = failure(self._scene.update, depsgraph, context.space_data)
 
-    def draw(self, engine: Any, context: Any, depsgraph: Any) -> None:
+    def draw(self, engine: RenderEngine, context: Any, depsgraph: Depsgraph) -> None:
         """Draw the view, as well as it is known at once."""
         if self._scene.outdated(context.scene, context.space_data):
             self.update(context, depsgraph)
@@ -108,7 +109,7 @@ class LiveView:
             self._timer = partial(_tick, weakref.ref(engine))
             bpy.app.timers.register(self._timer, first_interval=0.0)
 
-    def tick(self, engine: Any) -> float | None:
+    def tick(self, engine: RenderEngine) -> float | None:
         """Work for a while; returns when to go on, in seconds, None for not."""
         until = time.perf_counter() + AT_ONCE
         pause = 0.0
@@ -121,10 +122,10 @@ class LiveView:
             engine.tag_redraw()
         return pause if self._job else None
 
-    def _aim(self, context: Any) -> None:
+    def _aim(self, context: Context) -> None:
         """Find out what is wanted, and begin to make it."""
-        scene = context.scene
-        space = context.space_data
+        scene: Any = context.scene
+        space: Any = context.space_data
         camera = camera_of(context.region, context.region_data, space, scene)
         settings = scene.reference_tracer.settings()
         show = shows.SHOWS[scene.reference_tracer.show]
@@ -175,7 +176,7 @@ class LiveView:
             self._is_drawn = False
             self._layers = Layers()
 
-    def _draw(self, engine: Any, context: Any, until: float) -> None:
+    def _draw(self, engine: RenderEngine, context: Context, until: float) -> None:
         """Draw the pictures that there are, the better ones over the others."""
         import gpu
 

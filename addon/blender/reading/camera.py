@@ -8,9 +8,9 @@ rays against those of Cycles.)
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from bpy.types import Depsgraph, Object, RenderSettings, Scene
+from mathutils import Matrix
 
 from ...arrays import Floats
 from ...pictures.certificate import CameraCertificate, certify, known_points
@@ -37,18 +37,18 @@ def border_region(
     return Region(cut(min_x, width), cut(min_y, height), cut(max_x, width), cut(max_y, height))
 
 
-def resolution(render: Any) -> tuple[int, int]:
+def resolution(render: RenderSettings) -> tuple[int, int]:
     """Return the size in pixels of the whole picture of `bpy.types.RenderSettings`."""
     percent = render.resolution_percentage
     return render.resolution_x * percent // 100, render.resolution_y * percent // 100
 
 
-def pixel_height(render: Any) -> float:
+def pixel_height(render: RenderSettings) -> float:
     """Return the height of a pixel of `bpy.types.RenderSettings`, in widths."""
     return render.pixel_aspect_y / render.pixel_aspect_x
 
 
-def window_of(scene: Any) -> ViewWindow:
+def window_of(scene: Scene) -> ViewWindow:
     """Return what the camera of a `bpy.types.Scene` shows, in its type's units."""
     data = scene.camera.data
     render = scene.render
@@ -77,7 +77,7 @@ def window_of(scene: Any) -> ViewWindow:
     return ViewWindow(*own.window(data, sensor, around))
 
 
-def camera_axes(matrix_world: Any, name: str) -> np.ndarray:
+def camera_axes(matrix_world: Matrix, name: str) -> np.ndarray:
     """Return world_from_camera, (4, 4) float64, without the scale of the camera object.
 
     Blender divides each axis by its length; what is mirrored or sheared stays so.
@@ -92,7 +92,7 @@ def camera_axes(matrix_world: Any, name: str) -> np.ndarray:
     return matrix
 
 
-def projection_of(obj: Any, scene: Any) -> Projection:
+def projection_of(obj: Object, scene: Scene) -> Projection:
     """Return how an object projects that a `bpy.types.Scene` is seen through.
 
     Raises
@@ -117,7 +117,7 @@ def projection_of(obj: Any, scene: Any) -> Projection:
     return projections[kind]
 
 
-def export_camera(scene: Any) -> Camera:
+def export_camera(scene: Scene) -> Camera:
     """Return the active camera of an evaluated `bpy.types.Scene`.
 
     Raises
@@ -158,7 +158,7 @@ def export_camera(scene: Any) -> Camera:
     )
 
 
-def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate:
+def certify_camera(scene: Scene, depsgraph: Depsgraph, camera: Camera) -> CameraCertificate:
     """Return how far apart the camera exported of a scene and Blender's own see known points.
 
     Not of a panorama: Blender has no matrix of it.
@@ -167,7 +167,7 @@ def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertific
     return certify(camera, points, film_of_blender(scene, depsgraph, points))
 
 
-def film_of_blender(scene: Any, depsgraph: Any, points: Floats) -> Floats:
+def film_of_blender(scene: Scene, depsgraph: Depsgraph, points: Floats) -> Floats:
     """Return where Blender has world points (3, n), (2, n) pixels of the whole picture."""
     obj = scene.camera.evaluated_get(depsgraph)
     render = scene.render

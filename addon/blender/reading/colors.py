@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from bpy.types import Object
 
 from ...arrays import Colors
 from ...scene import GREY
@@ -15,7 +16,7 @@ _SATURATION = 0.5
 _VALUE = 0.8
 
 
-def instance_colors(obj: Any, holder: Any, shading: Any, materials: list[Any]) -> Colors:
+def instance_colors(obj: Object, holder: Object, shading: Any, materials: list[Any]) -> Colors:
     """Return the colour of each material slot, at least one: (k, 4) float32 linear RGBA.
 
     Parameters
@@ -40,7 +41,7 @@ def instance_colors(obj: Any, holder: Any, shading: Any, materials: list[Any]) -
     return np.array([m.diffuse_color if m else GREY for m in materials] or [GREY], np.float32)
 
 
-def slot_materials(obj: Any) -> list[Any]:
+def slot_materials(obj: Object) -> list[Any]:
     """Return the material of each slot, None where empty; a slot may be linked to the object."""
     slots = obj.material_slots
     return [
@@ -65,7 +66,7 @@ def background(scene: Any) -> Colors:
     return np.array((*scene.world.color, 1.0), np.float32)
 
 
-def random_color(obj: Any) -> tuple[float, float, float, float]:
+def random_color(obj: Object) -> tuple[float, float, float, float]:
     """Return the colour that Blender draws an object with under 'RANDOM'.
 
     A hue from a hash of the object's name (MurmurHash2 over Blender's "OB" + name with its ending

@@ -14,6 +14,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Depsgraph, Object, ViewLayer
 
 from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
@@ -45,7 +46,9 @@ class Parts:
         return Scene(camera, self.meshes, self.instances, self.planes, background, self.objects)
 
 
-def export(depsgraph: Any, known: dict[Any, Read | None] | None = None) -> tuple[Scene, Manifest]:
+def export(
+    depsgraph: Depsgraph, known: dict[Any, Read | None] | None = None
+) -> tuple[Scene, Manifest]:
     """Return what the tracer is to see of an evaluated depsgraph, and what the manifest says of it.
 
     The depsgraph's mode decides on visibility and modifier levels. What is `known` of its meshes is
@@ -168,7 +171,7 @@ def _plane(index: int, matrix: Floats, color: Colors) -> Plane:
 
 
 def _manifest(
-    depsgraph: Any, camera: str, seen: dict[str, Seen], meshes: dict[int, Read]
+    depsgraph: Depsgraph, camera: str, seen: dict[str, Seen], meshes: dict[int, Read]
 ) -> Manifest:
     drawn = depsgraph.scene
     layer = depsgraph.view_layer
@@ -226,7 +229,7 @@ def _nothing(entry: Seen) -> str:
     return "has no triangles as it is evaluated and drawn here"
 
 
-def _hidden(obj: Any, is_there: bool, layer: Any, mode: str) -> str:
+def _hidden(obj: Object, is_there: bool, layer: ViewLayer, mode: str) -> str:
     """Return why the depsgraph does not hand an object out."""
     flag = "hide_viewport" if mode == "VIEWPORT" else "hide_render"
     where = "the viewport" if mode == "VIEWPORT" else "renders"

@@ -11,7 +11,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import bpy
 import numpy as np
+from bpy.types import Object
 
 from ...arrays import Bools, Colors, Integers
 from ...scene import Mesh, drop_non_finite
@@ -20,7 +22,12 @@ Read = tuple[Mesh, int]  # with the number of triangles left out
 
 
 def read_mesh(
-    obj: Any, name: str, with_colors: bool, viewport: bool = False, hiding: bool = True
+    obj: Object,
+    name: str,
+    with_colors: bool,
+    viewport: bool = False,
+    hiding: bool = True,
+    slots: str = "material_index",
 ) -> Read | None:
     """Return the triangles of an evaluated object's mesh, and how many were left out.
 
@@ -35,6 +42,8 @@ def read_mesh(
         Whether it is as the viewport draws it, else as a render does.
     hiding : bool
         Whether what draws it leaves out faces that Edit Mode hides; Cycles draws them.
+    slots : str
+        The attribute of faces that takes the place of the material's slot.
 
     Returns
     -------
@@ -50,25 +59,25 @@ def read_mesh(
             return None
         loops = _integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
         triangles = _integers(mesh.attributes[".corner_vert"].data, "value", 1)[loops]
-        slots = _slots(mesh)
+        numbers = _slots(mesh, slots)
         colors = _corner_colors(mesh, triangles, loops) if with_colors else None
         vertices = _floats(mesh.attributes["position"].data, "vector", 3)
         is_shown = ~_hidden(mesh) if hides else None
     if is_shown is not None and not is_shown.all():
         if not is_shown.any():
             return None
-        triangles, slots = triangles[is_shown], slots[is_shown]
+        triangles, numbers = triangles[is_shown], numbers[is_shown]
         colors = None if colors is None else colors[is_shown]
     vertices, is_kept = drop_non_finite(vertices, triangles)
     left_out = len(is_kept) - int(is_kept.sum())
     if left_out:
         triangles = triangles[is_kept]
-        slots = slots[is_kept]
+        numbers = numbers[is_kept]
         colors = None if colors is None else colors[is_kept]
-    return Mesh(vertices, triangles, slots, colors, name), left_out
+    return Mesh(vertices, triangles, numbers, colors, name), left_out
 
 
-def _hides_faces(obj: Any, viewport: bool) -> bool:
+def _hides_faces(obj: Object, viewport: bool) -> bool:
     """Return whether Blender draws an evaluated object without its mesh's hidden faces.
 
     It does where it draws the editor's own mesh: in Edit Mode without modifiers that show there,
@@ -91,7 +100,7 @@ def _hidden(mesh: Any) -> Bools:
 
 
 @contextmanager
-def _whole_mesh(obj: Any) -> Iterator[Any]:
+def _whole_mesh(obj: Object) -> Iterator[Any]:
     """Give an evaluated object's mesh with all of its faces and attributes.
 
     In Edit Mode it is a wrapper that has none, or those of the mesh in the editor.
@@ -102,9 +111,9 @@ def _whole_mesh(obj: Any) -> Iterator[Any]:
         obj.to_mesh_clear()
 
 
-def _slots(mesh: Any) -> Integers:
-    """Return each triangle's material slot, (n,)."""
-    attribute = mesh.attributes.get("material_index")
+def _slots(mesh: Any, name: str) -> Integers:
+    """Return what an attribute says of each triangle, (n,), or its material slot."""
+    attribute = mesh.attributes.get(name)
     if not attribute:  # all show the first
         return np.zeros(len(mesh.loop_triangles), np.int32)
     if (attribute.domain, attribute.data_type) == ("FACE", "INT"):
@@ -115,9 +124,9 @@ def _slots(mesh: Any) -> Integers:
     return np.maximum(slots, 0)
 
 
-def _corner_colors(mesh: Any, triangles: Integers, loops: Integers) -> Colors | None:
+def _corner_colors(mesh: bpy.types.Mesh, triangles: Integers, loops: Integers) -> Colors | None:
     """Return the active colour attribute at each triangle's corners, (n, 3, 4) linear RGBA."""
-    attribute = mesh.color_attributes.active_color
+    attribute: Any = mesh.color_attributes.active_color
     if attribute is None:
         return None
     values = _floats(attribute.data, "color", 4)

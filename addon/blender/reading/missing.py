@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 
 import bpy
+from bpy.types import ID, Object, Scene, ViewLayer
 
 from ...manifest import Effect, Unmodelled
 from .missing_files import Lost, exists, lost_files
@@ -34,7 +35,9 @@ _OF_MATERIALS = ("MATERIAL", "TEXTURE")  # types of colours
 _Users = dict[Any, set[Any]]  # as `bpy.data.user_map` has it: of each data-block, what uses it
 
 
-def missing(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterator[Unmodelled]:
+def missing(
+    drawn: Scene, layer: ViewLayer, mode: str, shown: Collection[str]
+) -> Iterator[Unmodelled]:
     """Yield what is missing of what a scene shows.
 
     Parameters
@@ -71,7 +74,7 @@ def gone_objects() -> dict[str, str]:
     return {obj.name_full: why for obj in bpy.data.objects if (why := why_gone(obj))}
 
 
-def why_gone(obj: Any) -> str:
+def why_gone(obj: Object) -> str:
     """Return why an object is a placeholder, or shows one; empty if neither is so."""
     for block in (obj, obj.data, obj.instance_collection):
         if block and block.is_missing:
@@ -98,18 +101,18 @@ def _unknown_nodes() -> Iterator[Lost]:
                 yield Lost(tree, "type of node", node.name, f"node group '{tree.name}'")
 
 
-def _source(block: Any) -> Any:
+def _source(block: ID) -> Any:
     """Return the library of a placeholder, or of what an override overrides."""
     override = block.override_library
     return override.reference.library if override and override.reference else block.library
 
 
-def _library(block: Any) -> str:
+def _library(block: ID) -> str:
     source = _source(block)
     return source.filepath if source else "unknown"
 
 
-def _is_there(block: Any) -> bool:
+def _is_there(block: ID) -> bool:
     """Return whether the library of a placeholder is a file."""
     source = _source(block)
     return bool(source) and exists(source, source.filepath)
@@ -119,7 +122,7 @@ def _named(block: Any) -> str:
     return f"{block.bl_rna.name.lower()} '{block.name}'"
 
 
-def _first(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterator[Any]:
+def _first(drawn: Scene, layer: ViewLayer, mode: str, shown: Collection[str]) -> Iterator[Any]:
     """Yield the data-blocks that are seen without being used by anything else."""
     yield drawn
     yield drawn.camera
@@ -198,7 +201,7 @@ def _told(lost: Iterable[Lost], users: _Users, reached: set[Any]) -> Iterator[Un
         yield Unmodelled(name, f"missing {kind}", _listed(things), None, Effect.MISSING)
 
 
-def _objects(block: Any, users: _Users, reached: set[Any]) -> set[str]:
+def _objects(block: ID, users: _Users, reached: set[Any]) -> set[str]:
     """Return the names of the objects by which a data-block is seen, in quotes."""
     found: set[str] = set()
     seen: set[Any] = set()

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import bpy
+from bpy.types import ID, Library, Object
 
 from ..versions import bake_folder
 
@@ -24,7 +25,7 @@ _NUMBER = re.compile(r"\d+(?=\D*(?:\.\w+)?$)")
 class Lost(NamedTuple):
     """Something that a data-block needs, and that is not there."""
 
-    block: Any  # bpy.types.ID
+    block: ID
     kind: str
     name: str  # a path, as the .blend has it
     of: str  # what of the block needs it
@@ -87,7 +88,7 @@ def _of_frame(path: str, frame: int) -> str:
     return _NUMBER.sub(lambda number: f"{frame:0{len(number[0])}}", path, count=1)
 
 
-def exists(block: Any, path: str) -> bool:
+def exists(block: ID, path: str) -> bool:
     """Return whether a path of a data-block leads anywhere; it may have a * in its name."""
     full = _absolute(path, block.library)
     if os.path.exists(full):
@@ -97,13 +98,13 @@ def exists(block: Any, path: str) -> bool:
     return "*" in pattern and bool(glob(os.path.join(escape(folder), pattern)))
 
 
-def _absolute(path: str, library: Any) -> str:
+def _absolute(path: str, library: Library) -> str:
     """Return a path of a library, or of the .blend itself; one of Windows' as Blender reads it."""
     start = os.path.dirname(_absolute(library.filepath, library.parent)) if library else None
     return bpy.path.abspath(path.replace("\\", "/"), start=start)
 
 
-def _of_object(obj: Any, mode: str) -> Iterator[tuple[str, str, str]]:
+def _of_object(obj: Object, mode: str) -> Iterator[tuple[str, str, str]]:
     """Yield what of an object reads files, what kind they are, and where they should be."""
     for modifier in obj.modifiers:
         if modifier.show_viewport if mode == "VIEWPORT" else modifier.show_render:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+from bpy.types import Window
 
 from ...wording import show
 
@@ -65,7 +66,7 @@ def _heard() -> Iterator[list[Any]]:
 
     @bpy.app.handlers.persistent
     def hear(*_: Any) -> None:
-        window: Any = bpy.context.window
+        window: Window = bpy.context.window
         loaded.append(window.scene)
         if all(obj.mode == "OBJECT" for obj in bpy.data.objects):
             empty: Any = bpy.data.scenes.new("Reference Tracer")

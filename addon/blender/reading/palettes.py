@@ -10,6 +10,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Material
 
 from ...arrays import Colors
 from ...manifest import Manifest
@@ -30,7 +31,7 @@ from .colors import slot_materials
 _NAMED = 3  # materials that are named in a line
 
 
-def palette_by(scene: Any, by: By | GivenColors) -> Palette:
+def palette_by(scene: bpy.types.Scene, by: By | GivenColors) -> Palette:
     """Return the colours of a scene of the user's; for AUTOMATIC those that are tried first.
 
     Colours from a file are as :func:`palette_given` has them.
@@ -78,7 +79,7 @@ def palette_given(given: GivenColors) -> Palette:
     return Palette(By.MATERIAL, found, given=given)
 
 
-def automatic(scene: Any, exported: Scene, manifest: Manifest) -> Palette:
+def automatic(scene: bpy.types.Scene, exported: Scene, manifest: Manifest) -> Palette:
     """Return the viewport's colours, in which a scene was exported, if they tell objects apart.
 
     Else a clear colour for each object.
@@ -121,7 +122,7 @@ def noted(palette: Palette, exported: Scene, manifest: Manifest) -> Manifest:
     return replace(manifest, notes=(*manifest.notes, *filter(None, [palette.note])))
 
 
-def _object_names(scene: Any) -> list[str]:
+def _object_names(scene: bpy.types.Scene) -> list[str]:
     """Return all objects that have a colour, those of a scene first; hidden ones have theirs, too.
 
     So an object keeps its colour in every frame, view layer and engine.
@@ -131,7 +132,7 @@ def _object_names(scene: Any) -> list[str]:
     return [*sorted(own), *sorted(every - own)]
 
 
-def _of_materials(scene: Any) -> Palette:
+def _of_materials(scene: bpy.types.Scene) -> Palette:
     found = {m.name_full: _base_color(m) for m in bpy.data.materials}
     colors = {name: color for name, color in found.items() if color is not None}
     slots = (slot for o in scene.objects if o.type not in NOT_DRAWN for slot in o.material_slots)
@@ -144,7 +145,7 @@ def _of_materials(scene: Any) -> Palette:
     return Palette(By.MATERIAL, colors, note)
 
 
-def _base_color(material: Any) -> Colors | None:
+def _base_color(material: Material) -> Colors | None:
     """Return the base colour, (3,) linear RGB, of the Principled BSDF that a material shows.
 
     None where it shows something else, or nodes make its colour.
@@ -155,5 +156,5 @@ def _base_color(material: Any) -> Colors | None:
     links = output.inputs["Surface"].links if output else ()
     if not links or links[0].from_node.type != "BSDF_PRINCIPLED":
         return None
-    socket = links[0].from_node.inputs["Base Color"]
+    socket: Any = links[0].from_node.inputs["Base Color"]
     return None if socket.is_linked else np.array(socket.default_value[:3], np.float32)

@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Image, Scene
 
 from ...arrays import by_runs
 from ...files.exr import MissingLibraryError
@@ -34,14 +35,14 @@ _SETTINGS = "media_type", "file_format", "color_mode", "color_depth", "exr_codec
 class Held(PictureFile):
     """The pixels that Blender holds of an image."""
 
-    image: Any
+    image: Image
     engine: str = ""  # this and the remarks as `StoredPicture` has them
     remarks: tuple[str, ...] = ()
     rendered_by: str = ""  # Blender's name of the engine, of a Render Result, where it is known
 
     def read(self) -> StoredPicture:
         """Read the pixels: floats are linear, bytes have sRGB's curve and a straight alpha."""
-        image = self.image
+        image: Any = self.image
         pixels = np.empty(self.height * self.width * 4, np.float32)
         image.pixels.foreach_get(pixels)
         color = pixels.reshape(self.height, self.width, 4)
@@ -52,7 +53,7 @@ class Held(PictureFile):
         return StoredPicture(color.reshape(self.height, self.width, 4), EIGHT_BITS, opaque)
 
 
-def image_file(image: Any) -> PictureFile:
+def image_file(image: Image) -> PictureFile:
     """Return an image of Blender's, by its file where it shows no more than that.
 
     Raises
@@ -77,7 +78,7 @@ def image_file(image: Any) -> PictureFile:
     width, height = image.size
     if not width * height:
         raise SceneError(f"{name} has no pixels: load it again, or choose another one.")
-    space = image.colorspace_settings.name
+    space: Any = image.colorspace_settings.name
     if not image.is_float and space != "sRGB":
         raise SceneError(
             f"{name} has 8 bits a channel in the colour space '{space}': what it shows is known of "
@@ -87,7 +88,7 @@ def image_file(image: Any) -> PictureFile:
 
 
 @contextmanager
-def render_result(scene: Any, layer: str) -> Iterator[Held]:
+def render_result(scene: Scene, layer: str) -> Iterator[Held]:
     """Give a scene's Render Result as a file, for a while: its pixels cannot be read otherwise.
 
     It says so where it may show more, or less, than the view layer that is compared.
@@ -98,7 +99,7 @@ def render_result(scene: Any, layer: str) -> Iterator[Held]:
         If there is none, or it is stereo.
     """
     image = result_image()
-    settings = scene.render.image_settings
+    settings: Any = scene.render.image_settings
     with tempfile.TemporaryDirectory() as folder, _kept(settings):
         path = Path(folder) / "Render Result.exr"
         # Its own colour management stays: switching that off and on has Blender overwrite it. The
@@ -129,7 +130,7 @@ def render_result(scene: Any, layer: str) -> Iterator[Held]:
             bpy.data.images.remove(loaded)
 
 
-def _header_of_layers(image: Any, scene: Any, path: Path) -> bytes:
+def _header_of_layers(image: Image, scene: Scene, path: Path) -> bytes:
     """Return how a file of all layers of a scene's Render Result begins: with their names."""
     set_format(scene.render, LAYERS, "RGBA", "16")
     scene.render.image_settings.exr_codec = "NONE"  # the quickest
@@ -138,7 +139,7 @@ def _header_of_layers(image: Any, scene: Any, path: Path) -> bytes:
         return file.read(1 << 16)
 
 
-def _remarks(scene: Any, layer: str, is_rendered: bool) -> Iterator[str]:
+def _remarks(scene: Scene, layer: str, is_rendered: bool) -> Iterator[str]:
     """Say what a scene's Render Result shows beside a view layer, as far as its settings tell.
 
     Of several view layers that are rendered, the first is the picture.

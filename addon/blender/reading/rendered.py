@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from bpy.types import Image, Scene
 
 from ..temporary import is_temporary
 
@@ -17,7 +18,7 @@ _engines: dict[tuple[int, int], str] = {}
 
 
 @bpy.app.handlers.persistent
-def _begins(scene: Any, *_: Any) -> None:
+def _begins(scene: Scene, *_: Any) -> None:
     if is_temporary(scene):
         return
     slot = _slot()
@@ -26,7 +27,7 @@ def _begins(scene: Any, *_: Any) -> None:
     _engines[slot, scene.session_uid] = scene.render.engine
 
 
-def result_image() -> Any:
+def result_image() -> Image:
     """Return the image that shows Render Results; None if nothing was rendered."""
     return next((i for i in bpy.data.images if i.type == "RENDER_RESULT"), None)
 
@@ -37,7 +38,7 @@ def _slot() -> int:
     return image.render_slots.active_index if image else 0
 
 
-def engine_of_result(scene: Any) -> str:
+def engine_of_result(scene: Scene) -> str:
     """Return Blender's name of the engine that rendered a scene last; '' if that is not known.
 
     It is not if the slot that is shown is another than was rendered into last.

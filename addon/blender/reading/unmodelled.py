@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from bpy.types import Object, ParticleSettings, Scene, View3DShading, ViewLayer
+from mathutils import Matrix
 
 from ...arrays import Floats
 from ...manifest import Effect, Unmodelled
@@ -32,19 +33,19 @@ _DRAWN_OTHERWISE = {
 }
 
 
-def is_hair(settings: Any) -> bool:
+def is_hair(settings: ParticleSettings) -> bool:
     """Return whether particle settings draw hair."""
     return settings.type == "HAIR" and settings.render_type == "PATH"
 
 
-def world_bounds(obj: Any, matrix: Any) -> Floats:
+def world_bounds(obj: Object, matrix: Matrix) -> Floats:
     """Return the box (2, 3) in world space, metres, around an evaluated object's own box."""
     corners = np.array([(*c, 1.0) for c in obj.bound_box]) @ np.array(matrix, float).T
     reach = max(_reaches(obj), default=0.0)
     return np.stack((corners[:, :3].min(axis=0) - reach, corners[:, :3].max(axis=0) + reach))
 
 
-def _reaches(obj: Any) -> Iterator[float]:
+def _reaches(obj: Object) -> Iterator[float]:
     """Yield how far beyond its own box an object is drawn, in metres."""
     for system in getattr(obj, "particle_systems", ()):
         if system.settings.type == "HAIR":
@@ -54,7 +55,7 @@ def _reaches(obj: Any) -> Iterator[float]:
             yield from radii(obj, frame)
 
 
-def unfilled(obj: Any, holder: Any) -> bool:
+def unfilled(obj: Object, holder: Object) -> bool:
     """Return whether a viewport draws no surface of an object, or of an instance by its holder."""
     return obj.display_type in _UNFILLED or holder.display_type in _UNFILLED
 
@@ -63,8 +64,8 @@ def unfilled(obj: Any, holder: Any) -> bool:
 class Viewing:
     """The settings under which a depsgraph's objects are drawn."""
 
-    shading: Any  # bpy.types.View3DShading
-    layer: Any  # bpy.types.ViewLayer
+    shading: View3DShading
+    layer: ViewLayer
     viewport: bool  # as the viewport draws them, else as a render does
     ignored: tuple[str, ...]  # features that the judge does not show
 
@@ -72,7 +73,9 @@ class Viewing:
 _Feature = tuple[str, Effect, str]  # its name, its effect, and what there is to say of it
 
 
-def of_object(obj: Any, holder: Any, matrix: Any, viewing: Viewing) -> Iterator[Unmodelled]:
+def of_object(
+    obj: Object, holder: Object, matrix: Matrix, viewing: Viewing
+) -> Iterator[Unmodelled]:
     """Yield what is not modelled of an evaluated object as it appears with a world_from_object.
 
     Its holder is what instances it, else itself. What the judge does not show has no effect, and no
@@ -88,7 +91,7 @@ def of_object(obj: Any, holder: Any, matrix: Any, viewing: Viewing) -> Iterator[
         yield Unmodelled(name, feature, detail, bounds, effect)
 
 
-def _features(obj: Any, holder: Any, viewing: Viewing) -> Iterator[_Feature]:
+def _features(obj: Object, holder: Object, viewing: Viewing) -> Iterator[_Feature]:
     if obj.type in _DRAWN_OTHERWISE:
         detail = "Blender draws it, but not as triangles"
         yield _DRAWN_OTHERWISE[obj.type], Effect.DRAWN, detail
@@ -112,7 +115,7 @@ def _features(obj: Any, holder: Any, viewing: Viewing) -> Iterator[_Feature]:
             yield HAIR, Effect.DRAWN, f"particle system '{system.name}'"
 
 
-def _of_colors(obj: Any, holder: Any, color_type: str) -> Iterator[_Feature]:
+def _of_colors(obj: Object, holder: Object, color_type: str) -> Iterator[_Feature]:
     """Yield what is not modelled of an object's colours, by `View3DShading.color_type`."""
     if color_type in ("OBJECT", "VERTEX") and holder.color[3] < 1:
         detail = f"the object's colour has alpha {holder.color[3]:.3g}"
@@ -132,7 +135,7 @@ def _of_colors(obj: Any, holder: Any, color_type: str) -> Iterator[_Feature]:
         yield "colour attribute", Effect.COLOR, "it has some, but none is the active one"
 
 
-def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
+def of_scene(scene: Scene, drawn: Scene) -> Iterator[Unmodelled]:
     """Yield what is not modelled of the user's scene and its camera as a whole, without bounds.
 
     What is `drawn` is that scene or a temporary copy. In a copy for a judge, all of this is off.
@@ -169,7 +172,7 @@ def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
             yield Unmodelled(name, "rigid bodies", detail, None, Effect.UNPLACED)
 
 
-def by_handlers(scene: Any) -> Unmodelled:
+def by_handlers(scene: Scene) -> Unmodelled:
     """Return that handlers changed which objects the scene has while Blender drew it."""
     detail = "a script's handlers added or removed objects while Blender drew"
     return Unmodelled(f"scene '{scene.name}'", "handlers", detail, None, Effect.PICTURE)

@@ -13,6 +13,14 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
+from bpy.types import (
+    Depsgraph,
+    DepsgraphObjectInstance,
+    Object,
+    SpaceView3D,
+    View3DShading,
+    ViewLayer,
+)
 
 from ...arrays import Colors, Floats
 from ...manifest import Unmodelled
@@ -58,7 +66,10 @@ _Look = tuple[str, int | None, tuple[float, ...] | None]
 
 
 def visible(
-    depsgraph: Any, shading: Any, read: Callable[[Any, str, bool], Read | None], space: Any = None
+    depsgraph: Depsgraph,
+    shading: View3DShading,
+    read: Callable[[Any, str, bool], Read | None],
+    space: SpaceView3D | None = None,
 ) -> tuple[dict[str, Seen], list[Shown], dict[int, Read]]:
     """Return what is visible by name, every appearance of it, and the meshes by address.
 
@@ -83,10 +94,10 @@ class _Looking:
 
     def __init__(
         self,
-        depsgraph: Any,
-        shading: Any,
+        depsgraph: Depsgraph,
+        shading: View3DShading,
         read: Callable[[Any, str, bool], Read | None],
-        space: Any,
+        space: SpaceView3D,
     ) -> None:
         ignored = ignored_features(depsgraph.scene) or ()
         viewport = depsgraph.mode == "VIEWPORT"
@@ -100,7 +111,7 @@ class _Looking:
         self._modelled: set[_Look] = set()  # as a whole
         self._colors: dict[_Look, Colors] = {}
 
-    def add(self, item: Any) -> None:
+    def add(self, item: DepsgraphObjectInstance) -> None:
         """Take in a `bpy.types.DepsgraphObjectInstance`."""
         obj = item.object
         # Once a script has looked at an evaluated object, Blender (4.3 to 5.2) hands out that for
@@ -110,7 +121,7 @@ class _Looking:
             return
         name = obj.original.name_full
         if name not in self.seen:
-            original = obj.original
+            original: Any = obj.original
             self.seen[name] = Seen(original.type, original.reference_tracer.infinite_plane)
         entry = self.seen[name]
         if not (item.show_self or item.show_particles):
@@ -137,7 +148,7 @@ class _Looking:
         owner = holder.original.name_full
         self.shown.append(Shown(name, owner, key, matrix, self._colors[look]))
 
-    def _is_drawn(self, obj: Any, holder: Any) -> bool:
+    def _is_drawn(self, obj: Object, holder: Object) -> bool:
         """Return whether this view draws what the depsgraph hands out.
 
         It also hands out what only the eye of a collection hides.
@@ -148,7 +159,7 @@ class _Looking:
             return in_types and in_view(self._space, self._unshown, holder, layer)
         return not self._viewing.viewport or holder.original.visible_get(view_layer=layer)
 
-    def _add_features(self, entry: Seen, item: Any, holder: Any) -> bool:
+    def _add_features(self, entry: Seen, item: DepsgraphObjectInstance, holder: Object) -> bool:
         """Add what is not modelled of an appearance; return whether there is any."""
         found = list(of_object(item.object, holder, item.matrix_world, self._viewing))
         if not item.show_self:  # its hair is shown without it
@@ -159,7 +170,7 @@ class _Looking:
             _widen(entry.features, replace(feature, by=by))
         return bool(found)
 
-    def _colors_of(self, entry: Seen, obj: Any, holder: Any) -> Colors:
+    def _colors_of(self, entry: Seen, obj: Object, holder: Object) -> Colors:
         shading = self._viewing.shading
         materials = [obj.active_material] if entry.is_plane else slot_materials(obj)
         if shading.color_type == "MATERIAL" and not entry.is_plane:
@@ -167,7 +178,7 @@ class _Looking:
         return instance_colors(obj, holder, shading, materials)
 
 
-def types_left_out(space: Any) -> set[str]:
+def types_left_out(space: SpaceView3D) -> set[str]:
     """Return the types of objects that a 3D view does not show, as `Object.type` has them."""
     of_type: Any = bpy.types.Object.bl_rna.properties["type"]
     types = of_type.enum_items.keys()
@@ -175,7 +186,7 @@ def types_left_out(space: Any) -> set[str]:
     return {t for t, name in names.items() if not getattr(space, name, True)}
 
 
-def in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
+def in_view(space: SpaceView3D, unshown: set[str], holder: Object, layer: ViewLayer) -> bool:
     """Return whether a 3D view draws an object or the instances by it, whatever their own type.
 
     Blender says that an object of a type that the view does not show is hidden, but draws the

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import bpy
+from bpy.types import Area, Context, Window
 
 # Types of areas that show progress, and of regions in them.
 _SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
@@ -14,21 +15,21 @@ _SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADE
 
 def areas(*kinds: str) -> Iterator[tuple[Any, Any]]:
     """Yield the areas of some types, with their windows: those of the context's window first."""
-    context: Any = bpy.context
+    context = bpy.context
     for window in sorted(context.window_manager.windows, key=lambda w: w != context.window):
         yield from ((window, area) for area in window.screen.areas if area.type in kinds)
 
 
 @contextmanager
-def within(window: Any, area: Any) -> Iterator[Any]:
+def within(window: Window, area: Area) -> Iterator[Any]:
     """Have operators work in the main region of an area for a while, and give it."""
     inside = next(r for r in area.regions if r.type == "WINDOW")
-    context: Any = bpy.context
+    context = bpy.context
     with context.temp_override(window=window, area=area, region=inside):
         yield inside
 
 
-def redraw(context: Any) -> None:
+def redraw(context: Context) -> None:
     """Have the context's window drawn again, where there is one."""
     for area in context.window.screen.areas if context.window else ():
         area.tag_redraw()

@@ -1,7 +1,7 @@
 """Shows pictures and texts in data-blocks of Blender's: ours, which no file and no undo step has.
 
-Blender stores no data-block that is marked as runtime data. A picture is shown from a file of the
-session's, so there is nothing in it to be saved. Undo takes them away, and they are put back.
+Blender stores no data-block that is marked as runtime data. A picture is packed, so nothing in it
+has to be saved. Undo takes them away, and they are put back from files of the session's.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.types import Image, Text
 
 from .areas import areas
 
@@ -30,7 +31,7 @@ _made: dict[str, int] = {}  # from these: the latest one's `session_uid`
 _seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
 
 
-def show(name: str, color: Colors) -> Any:
+def show(name: str, color: Colors) -> Image:
     """Show linear RGBA (h, w, 4) as our image of this name, in place of the one that there is."""
     import numpy as np
 
@@ -58,6 +59,8 @@ def _loaded(name: str) -> Any:
     if linear:
         block = bpy.data.images.load(path)
         block.colorspace_settings.name = linear
+        block.pack()
+        block.filepath_raw = ""  # so Save As proposes the folder of the .blend, not the session's
     else:
         block = bpy.data.texts.load(path, internal=True)
     _give_up(name, block)
@@ -101,7 +104,7 @@ def _blocks(name: str) -> Any:
     return bpy.data.images if linear else bpy.data.texts
 
 
-def show_text(name: str, content: str) -> Any:
+def show_text(name: str, content: str) -> Text:
     """Put a text into our text of this name, and show it in a text editor."""
     path = Path(bpy.app.tempdir, f"{name}.md")
     path.write_text(content, encoding="utf-8")

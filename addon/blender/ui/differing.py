@@ -9,6 +9,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import IntProperty, StringProperty
+from bpy.types import Context, OperatorProperties, UILayout, Window
 
 from . import results, shown
 from .areas import areas, within
@@ -40,12 +41,12 @@ class REFERENCE_TRACER_OT_frame_region(bpy.types.Operator):
     )
 
     @classmethod
-    def description(cls, context: Any, properties: Any) -> str:
+    def description(cls, context: Context, properties: OperatorProperties) -> str:
         """Return what the region is, too: the button may have no room for it."""
         found = _regions(context)[properties.number :][:1]
         return "\n".join((*(texts_of(r)[0] for r in found), tip_(cls.bl_description)))
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from ...scene import SceneError
 
         found = _regions(context)
@@ -71,13 +72,13 @@ class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Allow it in Object Mode."""
         if context.mode != "OBJECT":
             cls.poll_message_set(rpt_(OBJECT_MODE))
         return context.mode == "OBJECT"
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from ...scene import SceneError
 
         layer = context.view_layer
@@ -107,7 +108,7 @@ class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _enlarge(window: Any, area: Any, region: Region) -> None:
+def _enlarge(window: Window, area: Any, region: Region) -> None:
     """Enlarge a region in an Image Editor."""
     around = max(_AROUND, region.width // 2, region.height // 2)
     width, height = area.spaces.active.image.size
@@ -121,12 +122,12 @@ def _enlarge(window: Any, area: Any, region: Region) -> None:
         bpy.ops.image.view_zoom_border(xmin=x0, xmax=x1, ymin=y0, ymax=y1)
 
 
-def _regions(context: Any) -> tuple[Region, ...]:
+def _regions(context: Context) -> tuple[Region, ...]:
     found = results.latest(Kind.COMPARISON, context.scene)
     return found.regions if found else ()
 
 
-def draw_causes(layout: Any, context: Any) -> None:
+def draw_causes(layout: UILayout, context: Context) -> None:
     """Draw each cause in its colour with its pixels, and a button for each of the first regions."""
     from ...causes.explain import BY_NUMBER
 
@@ -176,6 +177,6 @@ class IMAGE_PT_reference_tracer_shown(bpy.types.Panel):
     def poll(cls, context: Any) -> bool:
         return shown.chosen(context.space_data) is not None
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Draw the legend and the regions; the header has the switch."""
         draw_causes(self.layout, context)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
+from bpy.types import Context, Event
 
 from ...wording import count_of
 from ..drawing.judges import judge_or_none
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 TEXT = "Reference Tracer Pixel"
 
 
-def derive_here(context: Any, x: int, y: int, source: str) -> Derivation:
+def derive_here(context: Context, x: int, y: int, source: str) -> Derivation:
     """Derive a pixel of the context's scene.
 
     Parameters
@@ -79,7 +80,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from ...derivation import document
 
         found = derive_here(context, self.x, self.y, self.source)
@@ -87,7 +88,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         if self.source == "PUT_RIGHT":
             told = results.shown_put_right(context.scene)
             said = rpt_("With this put right: {}. {}").format(told.sentence, said)
-        results.keep(Kind.PIXEL, found, [said], context.scene.name)
+        results.keep(Kind.PIXEL, found, [said], context.scene.session_uid)
         blocks.show_text(TEXT, document.document_markdown(found))
         if self.draw_ray:
             draw: Any = bpy.ops.reference_tracer.draw_ray  # type: ignore[attr-defined]
@@ -99,7 +100,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
 
 class _OfLatest:
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         return results.latest(Kind.PIXEL, context.scene) is not None
 
 
@@ -113,7 +114,7 @@ class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
     )
     bl_options = {"UNDO"}
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from . import ray_objects
 
         found = results.content(Kind.PIXEL, context.scene)
@@ -130,12 +131,12 @@ class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
     bl_options = {"UNDO"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         from . import ray_objects
 
         return ray_objects.are_drawn()
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from . import ray_objects
 
         self.report({"INFO"}, rpt_("{} objects removed").format(ray_objects.remove()))
@@ -157,11 +158,11 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
     )
     filter_glob: StringProperty(default="*.html;*.md;*.json", options={"HIDDEN"})
 
-    def invoke(self, context: Any, event: Any) -> Answer:
+    def invoke(self, context: Context, event: Event) -> Answer:
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from ...derivation import reproducer
         from ...report import folders, pixel
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy.types import Context
 from bpy_extras.io_utils import ExportHelper
 
 from ...wording import say
@@ -15,7 +16,7 @@ from .long_work import Answer, is_blocked, named
 _items: list[tuple[str, str, str]] = []  # Blender does not keep the texts that a function gives
 
 
-def _conventions(operator: Any, context: Any) -> list[tuple[str, str, str]]:
+def _conventions(operator: Any, context: Context) -> list[tuple[str, str, str]]:
     from ...camera_files.files import WRITTEN
 
     _items[:] = _items or [(name, own.title, own.file) for name, own in WRITTEN.items()]
@@ -23,9 +24,7 @@ def _conventions(operator: Any, context: Any) -> list[tuple[str, str, str]]:
 
 
 @named
-class REFERENCE_TRACER_OT_export_camera(  # type: ignore[misc]  # Blender's own helper is no operator
-    ExportHelper, bpy.types.Operator
-):
+class REFERENCE_TRACER_OT_export_camera(ExportHelper, bpy.types.Operator):
     bl_label = "Export Camera"
     bl_description = (
         "Write the scene's camera as another program reads it, and measure how far that is from "
@@ -55,11 +54,11 @@ class REFERENCE_TRACER_OT_export_camera(  # type: ignore[misc]  # Blender's own 
     )
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Allow it where there is a camera, and nothing else at work."""
         return not is_blocked(cls, context, needs_camera=True)
 
-    def check(self, context: Any) -> bool:  # type: ignore[override]  # the stub returns nothing
+    def check(self, context: Context) -> bool:  # type: ignore[override]  # the stub returns nothing
         """Give the file the ending of the convention; returns whether the name is another now."""
         from ...camera_files.files import WRITTEN
 
@@ -71,7 +70,7 @@ class REFERENCE_TRACER_OT_export_camera(  # type: ignore[misc]  # Blender's own 
             self.filepath = str(path.with_suffix(ending))
         return self.filepath != before
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         """Write the camera, or those of all frames."""
         from ...camera_files.convention import HALF, INTEGER
         from ...camera_files.files import WRITTEN

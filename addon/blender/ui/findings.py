@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import IntProperty
+from bpy.types import Context, UILayout
 
 from . import blocks, results
 from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object
@@ -42,7 +43,7 @@ class _OfFinding:
     )
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Allow it where something was found, in Object Mode if it needs that."""
         own: Any = cls
         comparison = results.content(Kind.COMPARISON, context.scene)
@@ -54,7 +55,7 @@ class _OfFinding:
             return False
         return True
 
-    def told(self, context: Any) -> Told:
+    def told(self, context: Context) -> Told:
         """Return the fault.
 
         Raises
@@ -79,7 +80,7 @@ class REFERENCE_TRACER_OT_copy_camera(_OfFinding, bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from ...scene import SceneError
         from ..drawing.camera_object import copy_camera
 
@@ -106,7 +107,7 @@ class REFERENCE_TRACER_OT_activate_copy(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Allow it for a copy that was added for the latest comparison."""
         own: Any = cls
         if _copied_for(context) is None:
@@ -116,7 +117,7 @@ class REFERENCE_TRACER_OT_activate_copy(bpy.types.Operator):
             return False
         return True
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         context.scene.camera = context.view_layer.objects.active
         return {"FINISHED"}
 
@@ -131,7 +132,7 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
     bl_options = set()  # it changes no data
     in_object_mode = False
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from ...scene import SceneError
 
         said = self.told(context).sentence
@@ -145,13 +146,13 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _put_right(context: Any) -> Mapping[int, Colors]:
+def _put_right(context: Context) -> Mapping[int, Colors]:
     """Return the pictures that are put right, by the number of their fault."""
     found = results.latest(Kind.COMPARISON, context.scene)
     return found.put_right if found else {}
 
 
-def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
+def draw_findings(layout: UILayout, context: Context, comparison: Comparison) -> None:
     """Draw what accounts for the unexplained pixels: a line each, with its button."""
     diagnosis = comparison.diagnosis
     if diagnosis is None:
@@ -176,7 +177,7 @@ def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
             before = told.frame.scene.camera
 
 
-def _copied_for(context: Any) -> int | None:
+def _copied_for(context: Context) -> int | None:
     """Return the number of what the active object was added for, if it is a copy.
 
     None if it is the scene's camera already.

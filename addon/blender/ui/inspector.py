@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.types import Context, Event
 
 from .long_work import Answer, is_blocked, named
 
@@ -29,18 +30,18 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
     running: ClassVar[bool] = False
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Allow one at a time, where there is a camera, and none beside long work."""
         if cls.running:
             cls.poll_message_set(rpt_("The inspector is on: click a pixel, or end it with Esc"))
         return not (cls.running or is_blocked(cls, context, needs_camera=True))
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         """Refuse a script's call: it has no mouse."""
         self.report({"ERROR"}, "There is no mouse to click with: use reference_tracer.explain")
         return {"CANCELLED"}
 
-    def invoke(self, context: Any, event: Any) -> Answer:
+    def invoke(self, context: Context, event: Event) -> Answer:
         if bpy.app.background:
             return self.execute(context)
         type(self).running = True
@@ -49,7 +50,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    def modal(self, context: Any, event: Any) -> Answer:
+    def modal(self, context: Any, event: Event) -> Answer:
         """Explain the pixel under a click; leave all else to the interface."""
         if event.type == "ESC" and event.value == "PRESS":
             self.cancel(context)
@@ -76,7 +77,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
             context.workspace.status_text_set(rpt_(_HINT))
         return {"RUNNING_MODAL"}
 
-    def cancel(self, context: Any) -> None:
+    def cancel(self, context: Context) -> None:
         """End, also when Blender itself ends it, as at quitting or loading a file."""
         type(self).running = False
         if context.window:

@@ -9,6 +9,7 @@ from typing import Any
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
+from bpy.types import Context, UILayout
 
 from ...methods import Method
 
@@ -26,7 +27,7 @@ _SIDEBAR = {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "
 class Part:
     """Mixed into a panel: its class has the rest."""
 
-    layout: Any
+    layout: UILayout
 
 
 def both(part: type, suffix: str = "", **more: Any) -> list[type]:
@@ -48,7 +49,7 @@ def short_name(row: Any) -> str:
     return f"{name[0].upper()}{name[1:]} {row.precision.removeprefix('float')}"
 
 
-def draw_facts(layout: Any, context: Any, facts: Iterable[tuple[str, str]]) -> None:
+def draw_facts(layout: UILayout, context: Context, facts: Iterable[tuple[str, str]]) -> None:
     """Draw names and values in two columns, or as sentences where one has no room."""
     names, values = zip(*((iface_(name), iface_(value)) for name, value in facts), strict=True)
     if not (fit(context, names, _NAMES, _BETWEEN) and fit(context, values, 1 - _NAMES, _BETWEEN)):
@@ -65,14 +66,14 @@ def draw_facts(layout: Any, context: Any, facts: Iterable[tuple[str, str]]) -> N
             column.label(text=text, translate=False)
 
 
-def folded(layout: Any, key: str, title: str) -> Any:
+def folded(layout: UILayout, key: str, title: str) -> UILayout:
     """Add a part of a panel that is closed at first; None while it is."""
     head, body = layout.panel(f"reference_tracer_{key}", default_closed=True)
     head.label(text=title)
     return body
 
 
-def setting(layout: Any, context: Any, owner: Any, name: str) -> None:
+def setting(layout: UILayout, context: Context, owner: Any, name: str) -> None:
     """Draw a setting beside its name, or below it where either has no room there."""
     known = owner.bl_rna.properties[name]
     is_box = known.type == "BOOLEAN"  # a checkbox shows its own label
@@ -87,24 +88,24 @@ def setting(layout: Any, context: Any, owner: Any, name: str) -> None:
     column.prop(owner, name, text=None if is_box else "")
 
 
-def button(layout: Any, context: Any, operator: Any, icon: str) -> None:
+def button(layout: UILayout, context: Context, operator: Any, icon: Any) -> None:
     """Draw an operator's button, with an icon where there is room for both."""
     has_room = fit(context, [operator.bl_label], 1.0)
     layout.operator(operator.bl_idname, icon=icon if has_room else "NONE")
 
 
-def beside(layout: Any, context: Any, texts: Sequence[str]) -> Any:
+def beside(layout: UILayout, context: Context, texts: Sequence[str]) -> UILayout:
     """Return a row for buttons of these texts, or a column where they have no room in a row."""
     return (layout.row if fit(context, texts, 1 / len(texts)) else layout.column)(align=True)
 
 
-def fit(context: Any, texts: Iterable[str], share: float, icon: float = _ICON) -> bool:
+def fit(context: Context, texts: Iterable[str], share: float, icon: float = _ICON) -> bool:
     """Return whether each text, beside an icon, is one line in a share of the panel's width."""
     size, width = _measured(context, share, icon)
     return all(len(lines(iface_(text), width, size)) == 1 for text in texts)
 
 
-def _measured(context: Any, share: float, icon: float) -> tuple[float, float]:
+def _measured(context: Context, share: float, icon: float) -> tuple[float, float]:
     """Return the size of the font, and the width of a share of the panel less an icon, pixels."""
     preferences = context.preferences
     scale = preferences.system.ui_scale
@@ -113,7 +114,9 @@ def _measured(context: Any, share: float, icon: float) -> tuple[float, float]:
     return preferences.ui_styles[0].widget.points * scale, width
 
 
-def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE", swatch: int = 0) -> None:
+def wrapped(
+    layout: UILayout, context: Context, text: str, icon: Any = "NONE", swatch: int = 0
+) -> None:
     """Draw a sentence in as many lines as the panel's width needs, beside an icon or a swatch."""
     has_icon = bool(swatch) or icon != "NONE"
     size, width = _measured(context, 1.0, _ICON if has_icon else 0)

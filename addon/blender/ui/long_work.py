@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
+from bpy.types import Context, Event
 
 from ...tracer.progress import Found, Meter, Work, result_of
 from ...wording import say
@@ -47,7 +48,7 @@ def named(operator: T) -> T:
     own: Any = operator
     execute = own.execute
 
-    def guarded(self: Any, context: Any) -> Answer:
+    def guarded(self: Any, context: Context) -> Answer:
         try:
             return execute(self, context)
         except Exception as error:
@@ -76,6 +77,7 @@ class LongWork(Mixin):
     left: str = "nothing was changed"  # at Esc
     announced: ClassVar[str] = ""  # what is done in one go at the beginning, and takes long
     pressed: bool = False  # by a user, who is to see the result
+    scene: int  # the `session_uid` of the scene that it is of
 
     directory: StringProperty(
         name="Folder",
@@ -94,28 +96,28 @@ class LongWork(Mixin):
             say(f"Results go to {directory}")
         return made_folder(directory) if directory else None
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         """Return the work; what has to be done in one go is done here."""
         raise NotImplementedError
 
-    def show(self, context: Any, result: Any) -> Work[None]:
+    def show(self, context: Context, result: Any) -> Work[None]:
         """Show a result that is there before the end."""
         yield from ()
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         """Show the result of the work; return what to report: 'INFO' or 'WARNING', and a text."""
         raise NotImplementedError
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Allow one at a time, with a camera if it needs one."""
         return not is_blocked(cls, context, cls.needs_camera)
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         """Run through, as a script wants it."""
         return self._end(context, result_of(self._begun(context)))
 
-    def invoke(self, context: Any, event: Any) -> Answer:
+    def invoke(self, context: Context, event: Event) -> Answer:
         """Begin, and go on while the interface stays alive."""
         if bpy.app.background:
             return self.execute(context)
@@ -132,8 +134,9 @@ class LongWork(Mixin):
         self._say(context, self.announced and announced(context.view_layer, self.announced))
         return {"RUNNING_MODAL"}
 
-    def _begun(self, context: Any) -> Work[Any]:
+    def _begun(self, context: Context) -> Work[Any]:
         """Begin once what is announced has been drawn, which is before the timer's first event."""
+        self.scene = context.scene.session_uid  # its name, and the window's scene, may change
         with closing(self.begin(context)) as work:
             while True:
                 try:
@@ -145,7 +148,7 @@ class LongWork(Mixin):
                 else:
                     yield event
 
-    def modal(self, context: Any, event: Any) -> Answer:
+    def modal(self, context: Context, event: Event) -> Answer:
         """Work for one step, or stop at Esc."""
         if event.type == "ESC" and event.value == "PRESS":
             self.stop(context)
@@ -174,7 +177,7 @@ class LongWork(Mixin):
             self._show_progress(context)
         return {"PASS_THROUGH"}  # the timers of others are theirs
 
-    def _show_progress(self, context: Any) -> None:
+    def _show_progress(self, context: Context) -> None:
         self._shown = time.monotonic()
         percent = int(100 * self.meter.share)
         context.window_manager.progress_update(percent)
@@ -182,7 +185,7 @@ class LongWork(Mixin):
         left = "" if seconds is None else f"  {seconds:.0f} s"
         self._say(context, self.meter.words, f": {percent} %{left}")
 
-    def _say(self, context: Any, what: str, rest: str = "") -> None:
+    def _say(self, context: Context, what: str, rest: str = "") -> None:
         """Say where the user looks what is done, how far it is, and how to end it."""
         what = ": ".join(map(rpt_, what.split(": ")))  # the frame, too
         said = ", ".join(filter(None, (rpt_(self.bl_label), what))) + rest
@@ -191,12 +194,12 @@ class LongWork(Mixin):
         context.workspace.status_text_set(LongWork.said)
         redraw_said()
 
-    def cancel(self, context: Any) -> None:
+    def cancel(self, context: Context) -> None:
         """Stop, as Blender itself asks for at quitting or loading a file."""
         self.stop(context)
 
     @staticmethod
-    def stop(context: Any) -> None:
+    def stop(context: Context) -> None:
         """Stop whatever is running."""
         LongWork.running = ""
         LongWork._work.close()
@@ -208,7 +211,7 @@ class LongWork(Mixin):
         LongWork._told.clear()
         redraw_said()
 
-    def _end(self, context: Any, result: Any) -> Answer:
+    def _end(self, context: Context, result: Any) -> Answer:
         """Show the result, and report it."""
         level, text = self.finish(context, result)
         redraw(context)
@@ -252,7 +255,7 @@ def with_ending(filepath: str, *endings: str) -> Path:
     return path
 
 
-def is_blocked(operator: Any, context: Any, needs_camera: bool) -> bool:
+def is_blocked(operator: Any, context: Context, needs_camera: bool) -> bool:
     """Return whether long work or a missing camera is in the way; the button's tooltip says so."""
     why = ""
     name = context.scene.name

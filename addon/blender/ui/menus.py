@@ -12,12 +12,14 @@ from xml.sax.saxutils import quoteattr
 import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
+from bpy.types import Context, Header, Menu
 
 from .export_camera import REFERENCE_TRACER_OT_export_camera
 from .long_work import named
 from .outcome import draw_in_header
 from .properties import ReferenceTracerScene
 from .samples import REFERENCE_TRACER_MT_samples
+from .select_seen import REFERENCE_TRACER_MT_select_seen
 from .shown import chosen, draw_switch
 
 _GROUP = ReferenceTracerScene.__name__
@@ -36,9 +38,7 @@ class REFERENCE_TRACER_PT_presets(PresetPanel, bpy.types.Panel):
 
 
 @named
-class REFERENCE_TRACER_OT_preset_add(  # type: ignore[misc]  # Blender's own base is no operator
-    AddPresetBase, bpy.types.Operator
-):
+class REFERENCE_TRACER_OT_preset_add(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Reference Tracer Preset"
     bl_description = "Store the panel's settings under a name, or remove the chosen preset"
     preset_menu = REFERENCE_TRACER_PT_presets.__name__
@@ -54,11 +54,11 @@ class REFERENCE_TRACER_OT_preset_add(  # type: ignore[misc]  # Blender's own bas
         Path(filepath).write_text(f"<bpy><{_GROUP} {' '.join(said)} /></bpy>\n", encoding="utf-8")
 
 
-def _add(menu: Any, operator: str, text: str | None = None) -> None:
+def _add(menu: Menu, operator: str, text: str | None = None) -> None:
     menu.layout.operator(f"reference_tracer.{operator}", text=text)
 
 
-def _draw_in_render(menu: Any, context: Any) -> None:
+def _draw_in_render(menu: Menu, context: Context) -> None:
     menu.layout.separator()
     _add(menu, "compare")
     _add(menu, "compare_all")
@@ -68,40 +68,48 @@ def _draw_in_render(menu: Any, context: Any) -> None:
     _add(menu, "open_page")
 
 
-def _draw_in_image(menu: Any, context: Any) -> None:
+def _draw_in_image(menu: Menu, context: Context) -> None:
     menu.layout.separator()
     _add(menu, "inspect")
     _add(menu, "save_pixel", "Save Pixel...")
     _add(menu, "open_page")
 
 
-def _draw_in_export(menu: Any, context: Any) -> None:
+def _draw_in_export(menu: Menu, context: Context) -> None:
     menu.layout.separator()
     _add(menu, "export", "Reference Tracer (.npz)")
     text = "Camera for Other Programs (.json, .txt, .gltf, .xml)"
     menu.layout.operator(REFERENCE_TRACER_OT_export_camera.bl_idname, text=text)
 
 
-def _draw_in_header(header: Any, context: Any) -> None:
+def _draw_in_header(header: Header, context: Any) -> None:
     if chosen(context.space_data):
         draw_in_header(header.layout, context)
     draw_switch(header.layout.row(align=True), context.space_data)
 
 
-def _draw_in_new(menu: Any, context: Any) -> None:
+def _draw_in_new(menu: Menu, context: Context) -> None:
     menu.layout.separator()
     menu.layout.menu(REFERENCE_TRACER_MT_samples.__name__)
+
+
+def _draw_in_select(menu: Any, context: Any) -> None:
+    menu.layout.separator()
+    menu.layout.menu(REFERENCE_TRACER_MT_select_seen.__name__)
 
 
 MENUS = {
     "TOPBAR_MT_render": _draw_in_render,
     "IMAGE_MT_image": _draw_in_image,
     "TOPBAR_MT_file_export": _draw_in_export,
+    "TOPBAR_MT_file_new": _draw_in_new,
+    "VIEW3D_MT_select_object": _draw_in_select,
+    "VIEW3D_MT_select_edit_mesh": _draw_in_select,
 }
 
 
 _register, _unregister = bpy.utils.register_classes_factory(
-    (REFERENCE_TRACER_PT_presets, REFERENCE_TRACER_MT_samples)
+    (REFERENCE_TRACER_PT_presets, REFERENCE_TRACER_MT_samples, REFERENCE_TRACER_MT_select_seen)
 )
 
 
@@ -111,7 +119,6 @@ def register() -> None:
     bpy.utils.register_preset_path(_SHIPPED)
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).append(draw)
-    bpy.types.TOPBAR_MT_file_new.append(_draw_in_new)
     bpy.types.IMAGE_HT_header.prepend(_draw_in_header)  # a small window shows the first of it
 
 
@@ -119,7 +126,6 @@ def unregister() -> None:
     """Undo :func:`register`."""
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).remove(draw)
-    bpy.types.TOPBAR_MT_file_new.remove(_draw_in_new)
     bpy.types.IMAGE_HT_header.remove(_draw_in_header)
     bpy.utils.unregister_preset_path(_SHIPPED)
     _unregister()

@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty
+from bpy.types import Context
 
 from ...tracer.progress import Found, Work
 from ...wording import say
@@ -31,7 +32,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
     announced = "Blender draws the scene"
     _is_shown = False
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         """Have Blender draw the scene, and compare."""
         from ..jobs.compare import compare_open_file
 
@@ -39,9 +40,9 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         yield Found(comparison)
         return comparison
 
-    def show(self, context: Any, result: Any) -> Work[None]:
+    def show(self, context: Context, result: Any) -> Work[None]:
         """Keep a comparison, and show the user the traced picture, once."""
-        yield from results.keep_comparison(result)
+        yield from results.keep_comparison(result, self.scene)
         self.left = rpt_("the comparison stays, without a diagnosis")
         redraw(context)
         if not self._is_shown:
@@ -50,7 +51,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
             self._is_shown = True
             self.kind = None
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         """Print the comparison; report its first line."""
         from ...report.lines import describe
 
@@ -70,18 +71,18 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
     needs_camera = True
     announced = "Blender draws the scene"
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         """Have every engine draw the scene at once; return the work that is left."""
         from ..jobs.engines import compare_all
 
         return compare_all(context, str(self.folder() or ""))
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         from ...comparison import engines
         from ...report import engines as engines_report
 
         lines = engines_report.lines(result)
-        say(*results.keep(Kind.ENGINES, tuple(result), lines, context.scene.name).lines)
+        say(*results.keep(Kind.ENGINES, tuple(result), lines, self.scene).lines)
         verdict = engines.worst(result)
         text = ", ".join(f"{row.engine}: {row.verdict}" for row in result)
         return "INFO" if verdict == "agree" else "WARNING", text[0].upper() + text[1:]
@@ -107,29 +108,26 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
             cls.poll_message_set(rpt_(OF_ONE_FRAME))
         return not is_still and super().poll(context)
 
-    def begin(self, context: Any) -> Work[Any]:
-        from ...scene import SceneError
+    def begin(self, context: Context) -> Work[Any]:
         from ..jobs import animation
 
-        if context.screen and context.screen.is_animation_playing:
-            raise SceneError("The animation is playing: stop it, then compare it.")
         self._folder = self.folder() or results.session_folder() / "animation"
         self._frames = animation.frames_of(context.scene)
         return animation.compare_frames(str(self._folder), self._frames)
 
-    def show(self, context: Any, result: Any) -> Work[None]:
+    def show(self, context: Context, result: Any) -> Work[None]:
         """Keep the rows of the frames so far."""
         from ...comparison.animation import worst_first
         from ...report import animation as frames_report
 
         content = self._folder / frames_report.PAGE, worst_first(result)
         lines = frames_report.lines(self._frames, result)
-        found = results.keep(Kind.FRAMES, content, lines, context.scene.name)
+        found = results.keep(Kind.FRAMES, content, lines, self.scene)
         self.left = ", ".join(found.lines[-2:])
         redraw(context)
         yield None
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         found = results.latest(Kind.FRAMES, context.scene)
         say(*(found.lines if found else ()))
         return "INFO" if self.left.endswith(": agree") else "WARNING", self.left.capitalize()
@@ -152,21 +150,21 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Allow it where there is a comparison, and nothing else at work."""
         found = results.latest(Kind.COMPARISON, context.scene)
         if not found:
             cls.poll_message_set(rpt_("Trace and Compare comes first"))
         return super().poll(context) and bool(found)
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         from ...comparison.extras import extras
 
         self._folder = self.folder() or results.session_folder()
         self._comparison = results.content(Kind.COMPARISON, context.scene)
         return extras(self._comparison)
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         """Write the page, with the studies that there are, and open it."""
         from ...report import page
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from bpy.app.translations import pgettext_iface as iface_
+from bpy.types import Context, UILayout
 
 from ..drawing.judges import label_of
 from . import operators, results
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 Facts = Iterator[tuple[str, str]]  # names and values
 
 
-def draw_outcome(layout: Any, context: Any, comparison: Comparison) -> None:
+def draw_outcome(layout: UILayout, context: Context, comparison: Comparison) -> None:
     """Draw the verdict, the way to the page, and what differs and why."""
     text, icon = _verdict(comparison)
     wrapped(layout, context, text, icon)
@@ -32,7 +33,7 @@ def draw_outcome(layout: Any, context: Any, comparison: Comparison) -> None:
     draw_causes(layout, context)
 
 
-def draw_in_header(layout: Any, context: Any) -> None:
+def draw_in_header(layout: UILayout, context: Context) -> None:
     """Draw the verdict beside the picture of a comparison, or how far the work on it is."""
     comparison = results.content(Kind.COMPARISON, context.scene)
     if LongWork.running:
@@ -43,13 +44,13 @@ def draw_in_header(layout: Any, context: Any) -> None:
         layout.label(text=text, icon=icon, translate=False)
 
 
-def _verdict(comparison: Comparison) -> tuple[str, str]:
+def _verdict(comparison: Comparison) -> tuple[str, Any]:
     """Return the verdict in a line, and its icon."""
     icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
     return comparison.verdict.in_words(comparison.counts, iface_), icon
 
 
-def draw_figures(layout: Any, context: Any, comparison: Comparison) -> None:
+def draw_figures(layout: UILayout, context: Context, comparison: Comparison) -> None:
     """Draw the metrics, and what each method needed and got wrong."""
     from ...diagnosis.fault_rows import table
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
+from bpy.types import Context, Panel, UILayout
 
 from ...methods import Method
 from ..drawing.judges import JUDGES
@@ -78,7 +79,7 @@ class _Main(Part):
             samples.draw_scenes(body.column(align=True))
 
 
-def _draw_settings(layout: Any, context: Any, stored: Any) -> None:
+def _draw_settings(layout: UILayout, context: Context, stored: Any) -> None:
     layout.use_property_split = True
     layout.use_property_decorate = False
     greyed = {
@@ -95,7 +96,7 @@ def _draw_settings(layout: Any, context: Any, stored: Any) -> None:
                 stored.draw_given(column)
 
 
-def _draw_more(layout: Any, context: Any) -> None:
+def _draw_more(layout: UILayout, context: Context) -> None:
     button(layout, context, operators.REFERENCE_TRACER_OT_compare_all, "RENDERLAYERS")
     for row in results.content(Kind.ENGINES, context.scene) or ():
         box = layout.box()
@@ -120,7 +121,7 @@ def _of_engine(row: EngineRow) -> tuple[str, str]:
     return judge.label if judge else row.engine, said
 
 
-def _draw_frames(layout: Any, context: Any, path: Path, rows: Sequence[FrameRow]) -> None:
+def _draw_frames(layout: UILayout, context: Context, path: Path, rows: Sequence[FrameRow]) -> None:
     """Draw the worst frames, each with a button that goes there."""
     for row in rows[:_WORST]:
         go = layout.operator("wm.context_set_int", text=f"{iface_('Frame')} {row.frame}")
@@ -139,10 +140,10 @@ class _Export(Part):
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         return results.latest(Kind.COMPARISON, context.scene) is not None
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Draw the manifest: what was exported, skipped, not modelled."""
         manifest = results.content(Kind.COMPARISON, context.scene).manifest
         for line, warns in manifest.facts():
@@ -157,16 +158,16 @@ class OBJECT_PT_reference_tracer(bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         return context.object is not None
 
     def draw(self, context: Any) -> None:
-        layout: Any = self.layout
+        layout: UILayout = self.layout
         layout.use_property_split = True
         layout.prop(context.object.reference_tracer, "infinite_plane")
 
 
-def _draw_passes(panel: Any, context: Any) -> None:
+def _draw_passes(panel: Panel, context: Any) -> None:
     """Draw the choice of passes in Blender's own panel of passes."""
     if context.engine == ENGINE:
         panel.layout.column().prop(context.view_layer.reference_tracer, "passes")

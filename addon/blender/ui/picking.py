@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from bpy.types import Area, Context, Region, SpaceImageEditor
 
 from ...scene import Camera, SceneError
 from ..live.camera import camera_of, frame_in_view
@@ -21,7 +22,7 @@ class Pick(NamedTuple):
     source: str
 
 
-def pick(context: Any, mouse_x: int, mouse_y: int) -> Pick | None:
+def pick(context: Context, mouse_x: int, mouse_y: int) -> Pick | None:
     """Return the pixel at a place of the window; None where there is no picture.
 
     Raises
@@ -29,6 +30,7 @@ def pick(context: Any, mouse_x: int, mouse_y: int) -> Pick | None:
     SceneError
         If the mouse is over an editor that shows no pixel of the picture there; it says why.
     """
+    area: Any
     for area in context.window.screen.areas:
         region = _region_at(area, mouse_x, mouse_y)
         if region is None:
@@ -40,7 +42,7 @@ def pick(context: Any, mouse_x: int, mouse_y: int) -> Pick | None:
     return None
 
 
-def _region_at(area: Any, x: int, y: int) -> Any | None:
+def _region_at(area: Area, x: int, y: int) -> Region | None:
     """Return the region of an area at a place; sidebars lie above the main one."""
     found = [
         r
@@ -50,7 +52,7 @@ def _region_at(area: Any, x: int, y: int) -> Any | None:
     return min(found, key=lambda r: r.type == "WINDOW", default=None)
 
 
-def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
+def _of_image(context: Context, space: SpaceImageEditor, region: Region, x: int, y: int) -> Pick:
     image = space.image
     camera = export_camera(context.scene)
     if image is None:
@@ -76,7 +78,7 @@ def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
     return Pick(int(u * width), int(v * height), source)
 
 
-def _of_view(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
+def _of_view(context: Context, space: Any, region: Region, x: int, y: int) -> Pick:
     scene = context.scene
     view = region.data
     if view.view_perspective != "CAMERA":

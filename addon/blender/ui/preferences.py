@@ -7,6 +7,7 @@ from typing import Any
 
 import bpy
 from bpy.props import StringProperty
+from bpy.types import Context, UILayout
 
 from ..versions import RELATIVE
 
@@ -23,8 +24,8 @@ class ReferenceTracerPreferences(bpy.types.AddonPreferences):
         options=RELATIVE,
     )
 
-    def draw(self, context: Any) -> None:
-        layout: Any = self.layout
+    def draw(self, context: Context) -> None:
+        layout: UILayout = self.layout
         layout.use_property_split = True
         layout.prop(self, "folder")
 

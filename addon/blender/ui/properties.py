@@ -17,6 +17,7 @@ from bpy.props import (
     PointerProperty,
     StringProperty,
 )
+from bpy.types import Context, UILayout
 
 from ...methods import Method
 from ..drawing import judges
@@ -28,11 +29,11 @@ if TYPE_CHECKING:
     from ...tracer.settings import Settings
 
 
-def _redraw(owner: Any, context: Any) -> None:
+def _redraw(owner: Any, context: Context) -> None:
     redraw(context)  # the 3D views in Rendered mode
 
 
-def _engines(owner: Any, context: Any, typed: str) -> list[str]:
+def _engines(owner: Any, context: Context, typed: str) -> list[str]:
     from ..drawing.engines import others
 
     return [judge.engine for judge in others().values() if judge.engine]
@@ -145,7 +146,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         default=True,
     )
 
-    def draw_given(self, layout: Any) -> None:
+    def draw_given(self, layout: UILayout) -> None:
         """Draw what is to be known of a picture that is no judge's."""
         if self.judge == judges.IMAGE:
             layout.template_ID(self, "image", open="image.open", text="Image")

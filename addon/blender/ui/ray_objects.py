@@ -11,6 +11,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import Material, Object, Scene
 
 from ...derivation.derivation import Derivation
 from ...derivation.figure import Shape, shapes
@@ -19,7 +20,7 @@ from ..temporary import DRAWN
 NAME = "Reference Tracer Ray"
 
 
-def draw(scene: Any, derivation: Derivation) -> Any:
+def draw(scene: Scene, derivation: Derivation) -> Any:
     """Draw a derivation in a scene, in place of the one that was drawn; return its collection."""
     remove()
     collection = bpy.data.collections.new(NAME)
@@ -62,14 +63,14 @@ def _own(blocks: Any) -> list[Any]:
     return [b for b in blocks if b.get(DRAWN) and not b.library]
 
 
-def _material(color: tuple[float, ...]) -> Any:
+def _material(color: tuple[float, ...]) -> Material:
     material = bpy.data.materials.new(NAME)
     material[DRAWN] = True
     material.diffuse_color = color
     return material
 
 
-def _object(shape: Shape, material: Any) -> Any:
+def _object(shape: Shape, material: Material) -> Object:
     """Return an object with its origin at a vertex: so float32 still has digits far away."""
     origin = np.float32(shape.vertices[0]).astype(np.float64)
     mesh = bpy.data.meshes.new(shape.name)

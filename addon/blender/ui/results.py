@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.types import Scene
 
 from ...tracer.progress import Work, by_rows
 from . import blocks
@@ -44,8 +45,11 @@ class Result:
 _latest: dict[Kind, Result] = {}
 
 
-def keep_comparison(comparison: Comparison) -> Work[Result]:
-    """Remember a comparison, and show its pictures; ended in between, there is none."""
+def keep_comparison(comparison: Comparison, scene: int) -> Work[Result]:
+    """Remember a comparison of the scene of a `session_uid`, and show its pictures.
+
+    Ended in between, there is none.
+    """
     from ...causes.maps import cause_map, difference_map
     from ...comparison.put_right import pictures_put_right
     from ...report.comparison import differing_regions
@@ -68,7 +72,7 @@ def keep_comparison(comparison: Comparison) -> Work[Result]:
             right[number] = color
             yield None
         blocks.remove(blocks.PUT_RIGHT)
-        kept = keep(Kind.COMPARISON, comparison, describe(comparison), comparison.manifest.scene)
+        kept = keep(Kind.COMPARISON, comparison, describe(comparison), scene)
         _latest[Kind.COMPARISON] = replace(kept, regions=regions, put_right=right)
         return _latest[Kind.COMPARISON]
     finally:
@@ -84,22 +88,20 @@ def session_folder() -> Path:
 
 
 def keep(
-    kind: Kind, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
+    kind: Kind, content: Any, lines: Iterable[str], scene: int | None = None, page: str = ""
 ) -> Result:
-    """Remember a result of a kind, of the scene of a name, for :func:`latest`."""
-    uids = {s.name: s.session_uid for s in bpy.data.scenes}
-    own = None if scene is None else uids.get(scene, 0)
-    _latest[kind] = Result(content, tuple(lines), own, page)
+    """Remember a result of a kind, of the scene of a `session_uid`, for :func:`latest`."""
+    _latest[kind] = Result(content, tuple(lines), scene, page)
     return _latest[kind]
 
 
-def latest(kind: Kind, scene: Any) -> Result | None:
+def latest(kind: Kind, scene: Scene) -> Result | None:
     """Return the latest result of a kind, if it is of this scene."""
     found = _latest.get(kind)
     return found if found and found.scene in (None, scene.session_uid) else None
 
 
-def content(kind: Kind, scene: Any) -> Any:
+def content(kind: Kind, scene: Scene) -> Any:
     """Return what :func:`latest` has of a kind; None if there is none."""
     found = latest(kind, scene)
     return found and found.content
@@ -124,7 +126,7 @@ def forget(*_: Any) -> None:
     blocks.remove_all()
 
 
-def shown_put_right(scene: Any) -> Told:
+def shown_put_right(scene: Scene) -> Told:
     """Return the fault of a scene's latest comparison that our picture shows put right.
 
     Raises

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import bpy
+from bpy.types import Context, UILayout
 
 FOLDER = Path(__file__).parents[3] / "sample_scenes"
 TITLE = "Open Sample Scene"
@@ -23,7 +23,7 @@ def scenes() -> tuple[Path, ...]:
     return tuple(sorted(FOLDER.glob("*.blend")))
 
 
-def draw_scenes(layout: Any) -> None:
+def draw_scenes(layout: UILayout) -> None:
     """Draw an entry for each scene."""
     layout.operator_context = "INVOKE_DEFAULT"
     for path in scenes():
@@ -34,5 +34,5 @@ def draw_scenes(layout: Any) -> None:
 class REFERENCE_TRACER_MT_samples(bpy.types.Menu):
     bl_label = TITLE
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         draw_scenes(self.layout)

@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
+from bpy.types import Context
 from bpy_extras.io_utils import ExportHelper
 
 from ...tracer.progress import Work
@@ -23,7 +24,7 @@ class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: Any) -> Answer:
+    def execute(self, context: Context) -> Answer:
         from ..jobs.choice import frame_all
 
         camera = frame_all(context.scene, context.view_layer)
@@ -42,7 +43,7 @@ class REFERENCE_TRACER_OT_write_colors(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Allow it where there is a camera."""
         return context.scene.camera is not None
 
@@ -59,9 +60,7 @@ class REFERENCE_TRACER_OT_write_colors(bpy.types.Operator):
 
 
 @named
-class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper is no operator
-    ExportHelper, LongWork, bpy.types.Operator
-):
+class REFERENCE_TRACER_OT_export(ExportHelper, LongWork, bpy.types.Operator):
     bl_label = "Export Reference Tracer Scene"
     bl_description = (
         "Write what the camera sees, as a render has it, to a file that `reftrace trace "
@@ -80,7 +79,7 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
     )
     filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         """Export the scene as a render has it, and write it: it is whole, or not there."""
         from ...files.scenes import save_scene
         from ...report import folders
@@ -94,5 +93,5 @@ class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper 
         say(*manifest.lines())
         return scene
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         return "INFO", f"{count_of(result.triangle_count, 'triangle')}: {self.filepath}"

@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty
+from bpy.types import Context, Image, OperatorProperties, SpaceImageEditor, UILayout
 
 from . import blocks
 from .areas import areas, redraw_said, within
@@ -57,7 +58,7 @@ class REFERENCE_TRACER_OT_show_image(bpy.types.Operator):
         return context.area is not None and chosen(context.space_data) is not None
 
     @classmethod
-    def description(cls, context: Any, properties: Any) -> str:
+    def description(cls, context: Context, properties: OperatorProperties) -> str:
         """Return the choice's own."""
         return next(tip_(text) for key, _, text in _CHOICES if key == properties.image)
 
@@ -68,7 +69,7 @@ class REFERENCE_TRACER_OT_show_image(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def chosen(space: Any) -> str | None:
+def chosen(space: SpaceImageEditor) -> str | None:
     """Return which image of the comparison a space shows, as the switch names it, or None."""
     image = space.image if space.type == "IMAGE_EDITOR" else None
     if image is None or image.get(blocks.MARK) not in IMAGES.values():
@@ -79,7 +80,7 @@ def chosen(space: Any) -> str | None:
     return next(key for key, name in IMAGES.items() if name == image[blocks.MARK])
 
 
-def open_as_render(context: Any, image: Any) -> None:
+def open_as_render(context: Context, image: Image) -> None:
     """Show an image where F12 would show its own: the user's preference decides.
 
     An editor that shows an image of a comparison already is taken first, in any window. A new one
@@ -92,7 +93,7 @@ def open_as_render(context: Any, image: Any) -> None:
 
 def _open(window: int, name: str) -> None:
     """Have Blender open its editor for renders from a window's address; show our image in it."""
-    context: Any = bpy.context
+    context = bpy.context
     image = blocks.ours(name)
     found = [w for w in context.window_manager.windows if w.as_pointer() == window]
     if not (image and found):  # another file was opened since
@@ -113,7 +114,7 @@ def _open(window: int, name: str) -> None:
             bpy.data.images.remove(extra)
 
 
-def _fit(space: Any) -> None:
+def _fit(space: SpaceImageEditor) -> None:
     """Have an Image Editor show all of its picture."""
     for window, area in areas("IMAGE_EDITOR"):
         if area.spaces.active == space:
@@ -121,13 +122,13 @@ def _fit(space: Any) -> None:
                 bpy.ops.image.view_all(fit_view=True)
 
 
-def _of_render() -> Any:
+def _of_render() -> SpaceImageEditor:
     """Return the first space that shows a Render Result, or None."""
     shown = (s for s in _spaces() if s.image and s.image.type == "RENDER_RESULT")
     return next(shown, None)
 
 
-def show_where_shown(context: Any, image: Any) -> bool:
+def show_where_shown(context: Context, image: Image) -> bool:
     """Show an image in an editor that shows one of a comparison, or none; return whether it is."""
     found = [s for s in _spaces() if s.image is None or chosen(s)]
     for space in sorted(found, key=lambda s: s.image is None)[:1]:
@@ -135,13 +136,13 @@ def show_where_shown(context: Any, image: Any) -> bool:
     return bool(found)
 
 
-def _spaces() -> list[Any]:
+def _spaces() -> list[SpaceImageEditor]:
     """Return the spaces of all Image Editors that view; those of the context's window first."""
     spaces = (area.spaces.active for _, area in areas("IMAGE_EDITOR"))
     return [space for space in spaces if space.mode == "VIEW"]
 
 
-def draw_switch(layout: Any, space: Any) -> None:
+def draw_switch(layout: UILayout, space: SpaceImageEditor) -> None:
     """Draw the switch of a space that shows an image of a comparison."""
     now = chosen(space)
     there = (choice for choice in _CHOICES if now and blocks.ours(IMAGES[choice[0]]))

@@ -13,6 +13,8 @@ from typing import Any, NamedTuple
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
+from bpy.types import Context, Event, Image, Region
+from gpu.types import GPUShader
 
 from ..drawing.judges import label_of
 from . import blocks, results
@@ -38,7 +40,7 @@ void main() {
 
 
 @cache
-def _shader() -> Any:
+def _shader() -> GPUShader:
     from ..live.layers import pixel_shader
 
     return pixel_shader(_SHOWN)
@@ -54,7 +56,7 @@ class Place(NamedTuple):
     line: float
 
 
-def place_of(region: Any, share: float) -> Place:
+def place_of(region: Region, share: float) -> Place:
     """Return where the editor's image lies in its region, with the line at a share of its width."""
     view = region.view2d
     u0, v0 = view.region_to_view(0, 0)
@@ -66,7 +68,7 @@ def place_of(region: Any, share: float) -> Place:
     return Place(left, left + across, bottom, bottom + up, left + share * across)
 
 
-def _draw_side(image: Any, at: Place, left: float, right: float) -> None:
+def _draw_side(image: Image, at: Place, left: float, right: float) -> None:
     """Draw the part of an image that is between two places of the region."""
     import gpu
     from gpu_extras.batch import batch_for_shader
@@ -97,7 +99,7 @@ def _draw_lines(ends: Sequence[tuple[float, float]], color: Sequence[float], sca
     gpu.state.blend_set("NONE")
 
 
-def _draw_marks(context: Any, at: Place, scale: float) -> None:
+def _draw_marks(context: Context, at: Place, scale: float) -> None:
     """Draw a frame around each region that differs, in the colour of its cause."""
     import numpy as np
 
@@ -121,7 +123,7 @@ def _draw_marks(context: Any, at: Place, scale: float) -> None:
         _draw_lines(ends, curve(np.array(color)).tolist(), scale)
 
 
-def _draw_names(context: Any, at: Place, scale: float) -> None:
+def _draw_names(context: Context, at: Place, scale: float) -> None:
     """Name the picture on each side of the line."""
     import blf
 
@@ -170,11 +172,11 @@ class REFERENCE_TRACER_GT_split(bpy.types.Gizmo):
         is_near = abs(location[0] - at.line) <= near and at.bottom <= location[1] <= at.top
         return 0 if is_near else -1
 
-    def invoke(self, context: Any, event: Any) -> Answer:
+    def invoke(self, context: Any, event: Event) -> Answer:
         self._before = context.window_manager.reference_tracer.split
         return {"RUNNING_MODAL"}
 
-    def modal(self, context: Any, event: Any, tweak: Any) -> Answer:
+    def modal(self, context: Any, event: Event, tweak: Any) -> Answer:
         """Follow the mouse."""
         at = place_of(context.region, 0)
         share = (event.mouse_region_x - at.left) / (at.right - at.left)
@@ -198,7 +200,7 @@ class REFERENCE_TRACER_GGT_split(bpy.types.GizmoGroup):
     def poll(cls, context: Any) -> bool:
         return chosen(context.space_data) is not None
 
-    def setup(self, context: Any) -> None:
+    def setup(self, context: Context) -> None:
         gizmo = self.gizmos.new(REFERENCE_TRACER_GT_split.bl_idname)
         gizmo.use_draw_modal = True
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import EnumProperty, IntProperty
+from bpy.types import Context
 
 from ...methods import Method
 from ...tracer.progress import Work
@@ -45,7 +46,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         max=16,
     )
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         """Export the scene at once, as a render has it; return the work of measuring."""
         from ...study import tradeoff
         from ..jobs.open_file import export_open_file
@@ -54,12 +55,12 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         scene, manifest, _ = export_open_file(context)
         return tradeoff.measure(scene, self.width, self.samples, manifest.scene)
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         from ...report import trade as trade_report
 
         if self._folder:
             trade_report.write(self._folder, result)
-        keep_trade(result)
+        keep_trade(result, self.scene)
         show(*trade_report.table(result).split("\n"))
         return "INFO", result.advice
 
@@ -86,7 +87,7 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         soft_max=10000,
     )
 
-    def begin(self, context: Any) -> Work[Any]:
+    def begin(self, context: Context) -> Work[Any]:
         """Return the work."""
         from ...study.extremes import measure
         from ...study.scenarios.sweeps import SCENARIOS
@@ -95,7 +96,7 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         scenarios = [s for s in SCENARIOS if self.scenario in (choices.EVERY, s.name)]
         return measure(scenarios, self.rays or None)
 
-    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+    def finish(self, context: Context, result: Any) -> tuple[str, str]:
         from ...report import extremes as extremes_report
 
         if self._folder:
@@ -105,12 +106,12 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         return "INFO", said
 
 
-def keep_trade(trade: Trade) -> results.Result:
-    """Remember a trade, and write its plot for the browser."""
+def keep_trade(trade: Trade, scene: int) -> results.Result:
+    """Remember a trade of the scene of a `session_uid`, and write its plot for the browser."""
     from ...report import trade as trade_report
 
     page = _page("trade", trade_report.page(trade))
-    return results.keep(results.Kind.TRADE, trade, [trade.advice], trade.scene, page)
+    return results.keep(results.Kind.TRADE, trade, [trade.advice], scene, page)
 
 
 def keep_extremes(rows: Sequence[ExtremesRow]) -> results.Result:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
+from bpy.types import Context, UILayout
 
 from ..drawing.judges import label_of
 from . import explain, results, studies
@@ -51,7 +52,7 @@ class _Inspector(Part):
             _draw(layout, context, found.content, found.lines[0])
 
 
-def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
+def _draw(layout: UILayout, context: Context, derivation: Any, said: str) -> None:
     from ...derivation.document import CERTAINTY_SENTENCES
     from ...derivation.textbook import Arithmetic
 
@@ -70,14 +71,18 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
     box.label(text=tested)
     for number, test in enumerate(derivation.tests, 1):
         judged = test.judgements[Arithmetic.EXACT]
-        icon = "CHECKMARK" if judged.accepted else "X"
-        box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
+        box.label(
+            text=f"2.{number} {test.candidate.title}{_t(test)}",
+            icon="CHECKMARK" if judged.accepted else "X",
+        )
         for reason in judged.reasons[:1]:
             wrapped(box, context, reason.sentence, "BLANK1")
     wrapped(layout, context, f"{iface_('All of it is in the text')} '{explain.TEXT}'.", "TEXT")
 
 
-def _draw_compared(layout: Any, context: Any, comparison: Comparison, x: int, y: int) -> None:
+def _draw_compared(
+    layout: UILayout, context: Context, comparison: Comparison, x: int, y: int
+) -> None:
     """Draw a pixel's colour on both sides of the latest comparison, and why they differ."""
     from ...causes.explain import BY_NUMBER
 
@@ -103,7 +108,7 @@ def _t(test: Any) -> str:
     return f", t = {float(t[0]):.6g}" if t else ""
 
 
-def _numbers(layout: Any, context: Any, test: Any) -> None:
+def _numbers(layout: UILayout, context: Context, test: Any) -> None:
     """Draw the key numbers of the surface that is seen; wrong digits are in brackets."""
     from ...derivation.digits import exact_text, marked, off_text, ulps
     from ...derivation.textbook import Arithmetic
@@ -123,7 +128,7 @@ def _numbers(layout: Any, context: Any, test: Any) -> None:
         _number(column, context, "exact", known, "")
 
 
-def _number(layout: Any, context: Any, name: str, value: str, off: str) -> None:
+def _number(layout: UILayout, context: Context, name: str, value: str, off: str) -> None:
     """Draw a number with its error: in columns, or below its name where it has no room there."""
     if value and not fit(context, [value], _VALUE, 0):
         wrapped(layout, context, f"{name} {off}")
@@ -149,7 +154,7 @@ class _Trade(Part):
     bl_label = "Time and Accuracy"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         measure = studies.REFERENCE_TRACER_OT_trade.bl_idname
         self.layout.operator(measure, text="Measure", icon="TIME")
         _draw_measured(
@@ -161,7 +166,7 @@ class _Extremes(Part):
     bl_label = "Where Methods Break"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         measure = studies.REFERENCE_TRACER_OT_extremes.bl_idname
         self.layout.operator(measure, text="Measure", icon="MOD_NOISE")
         _draw_measured(
@@ -169,7 +174,7 @@ class _Extremes(Part):
         )
 
 
-def _draw_measured(layout: Any, context: Any, kind: Kind, what: str) -> None:
+def _draw_measured(layout: UILayout, context: Context, kind: Kind, what: str) -> None:
     """Draw what a study found in one sentence, with a button that opens its plot; or what it is."""
     found = results.latest(kind, context.scene)
     wrapped(layout, context, found.lines[0] if found else what, "INFO" if found else "NONE")

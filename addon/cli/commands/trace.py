@@ -9,8 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...camera_files.files import of_frames
-from ...comparison.animation import frames_named
 from ...files import exr, images, npz
 from ...files.certificates import save_certificate
 from ...opened import mesh_formats
@@ -26,7 +24,7 @@ from ..arguments import (
     add_settings,
 )
 from ..camera_options import add_camera
-from ..opening import SOURCES, load, open_blend
+from ..opening import SOURCES, load, open_frames
 from ..parser import AGREE, INTEGER, Parser
 from ..running import progress_bar
 from ..trace_options import TraceOptions
@@ -113,23 +111,11 @@ def trace(options: TraceOptions) -> int:
 
 def _frames(options: TraceOptions, named: str, place: dict[str, Any]) -> None:
     """Trace the frames that are named of a .blend, which is opened once."""
-    with open_blend(options.scene, options.choice) as blender:
-        from ...blender.jobs.animation import frames_of
-        from ...blender.jobs.choice import seen_by
-        from ...blender.jobs.open_file import export_open_file
-        from ...blender.jobs.stepping import bake_bodies, stepped
-
-        user = blender.context.scene
-        frames = frames_named(named) or frames_of(user)
-        views = of_frames(options.choice.views, frames) if options.choice.views else {}
-        bake_bodies(user, frames[-1])
-        said: dict[str, None] = {}
-        for frame in stepped(user, [*frames]):
-            with seen_by(user, views.get(frame)):
-                scene, manifest, stored = export_open_file(blender.context)
-            said |= dict.fromkeys(manifest.remarks())
-            _traced(options.of_frame(frame), scene, stored, place)
-        show(*said)
+    said: dict[str, None] = {}
+    for frame, opened in open_frames(options.scene, options.choice, named):
+        said |= dict.fromkeys(opened.manifest.remarks())
+        _traced(options.of_frame(frame), opened.scene, opened.settings, place)
+    show(*said)
 
 
 def _traced(options: TraceOptions, scene: Scene, stored: Settings, place: dict[str, Any]) -> None:

@@ -19,15 +19,15 @@ from ...scene import Instance, Scene
 from ...tracer.camera import film_of
 from ...tracer.progress import Work
 from ...tracer.vector import transform_points
-from .climbing import values_of
 from .fault import Values, with_instances
 from .fitting import FOUND
 from .looked import Looked
 from .matching import Fitted, fitted, matches
-from .search import Search
+from .search import Search, values_of
 from .stand import rotation
 
 FINEST = 1 / 128  # pixels
+DEPTHS = (1.0, 0.5, 0.6, 0.7, 0.8, 0.9)  # of that at which it would be as large as what is shown
 TURNS = (*range(-165, 0, 15), *range(15, 181, 15))  # degrees, where edges say nothing
 FACTORS = (-1.0, 0.25, 0.35, 0.5, 0.7, 1.4, 2.0, 2.8, 4.0)  # likewise, along one axis
 
@@ -56,12 +56,13 @@ class Change:
 
     def matched(self, looked: Looked) -> Fitted | None:
         """Return the change with which the object's edges are where the picture has them."""
-        known, key = looked.evidence.known, f"changed {id(self)} {looked.name}"
-        if key not in known:
-            found = (self._matched(looked, about) for about in (looked.start()[:2], np.zeros(2)))
-            known[key] = next((f for f in found if f and f.share >= FOUND), None)
-        out: Fitted | None = known[key]
-        return out
+        places = looked.displacement(), np.zeros(2)
+
+        def first() -> Fitted | None:
+            found = (self._matched(looked, about) for about in places)
+            return next((f for f in found if f and f.share >= FOUND), None)
+
+        return looked.evidence.once(f"changed {id(self)} {looked.name}", first)
 
     def _matched(self, looked: Looked, about: Floats) -> Fitted | None:
         evidence, axes, own = looked.evidence, self.axes(looked), looked.alone.instances[0]
@@ -105,9 +106,12 @@ def _unseen_moves(looked: Looked) -> Floats | None:
 
 
 def _places(looked: Looked) -> Iterable[Values]:
-    """Return where its middle is shown."""
+    """Return where its middle is shown, at some depths: what is shown of it may be hidden, too."""
+    if not (looked.kept or looked.is_left):
+        return []
     axes = _moves(looked)
-    return [values_of(axes @ looked.start()[: axes.shape[1]])]
+    depths = (factor / looked.growth for factor in DEPTHS)
+    return [values_of(axes @ looked.start(depth)[: axes.shape[1]]) for depth in depths]
 
 
 # The point that stays: the object's origin, the middle of its base, its middle.

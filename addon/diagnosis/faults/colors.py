@@ -13,7 +13,6 @@ from ...scene import Instance
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .climbing import values_of
 from .fault import (
     AnyFault,
     Effort,
@@ -25,6 +24,7 @@ from .fault import (
     of_object,
 )
 from .painted import exchanged, of_one_color, other_source, painted_case, two_colors
+from .search import values_of
 
 
 def _in_color(instance: Instance, *rgb: float) -> Instance:

@@ -30,21 +30,9 @@ class Guess:
 
     object: str = ""  # that has it; empty where it is the whole scene's, or the picture's
     words: str = ""  # what else the sentence says
-
-    @property
-    def values(self) -> Values:
-        """The numbers in the sentence, in the order of the fault's `numbers`."""
-        return ()
-
-    @property
-    def low(self) -> Values:
-        """The least of each with which as many pixels agree; empty if not fitted."""
-        return ()
-
-    @property
-    def high(self) -> Values:
-        """The largest of each, likewise."""
-        return ()
+    values: Values = ()  # the numbers in the sentence, in the order of the fault's `numbers`
+    low: Values = ()  # the least of each with which as many pixels agree; empty if not fitted
+    high: Values = ()  # the largest of each, likewise
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from ...pictures.metrics import beside_edges
 from ...tracer import shading
 from ...tracer.progress import Work
 from ..evidence import NEAR, NOISE, Evidence
-from .fault import AnyFault, Effort, Fault, Guess, Numbers, Values
+from .fault import AnyFault, Effort, Fault, Guess, Numbers
 from .matching import touched_parts
 from .sizes import CODINGS, Coding, at_size, sampled_right
 
@@ -55,11 +55,6 @@ class Mean(Guess):
     n: int
     coding: Coding
 
-    @property
-    def values(self) -> Values:
-        """The count along each axis."""
-        return (float(self.n),)
-
 
 def _supersampled(case: Case, guess: Mean) -> Case | None:
     """Return the case traced at n times its size."""
@@ -92,7 +87,7 @@ def _find_samples(evidence: Evidence) -> Work[list[Mean]]:
                 total += coding.into(seen) / n**2
         for total, coding in zip(totals, CODINGS, strict=True):
             if sampled_right(evidence, coding.back(total)):
-                out.append(Mean(n, coding, words=coding.words))
+                out.append(Mean(n, coding, words=coding.words, values=(float(n),)))
     return out
 
 

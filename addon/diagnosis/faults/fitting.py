@@ -22,10 +22,9 @@ from ...scene import Camera
 from ...tracer.camera import film_of
 from ...tracer.progress import Work
 from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
-from .climbing import values_of
 from .fault import Find, Numbers, Refine, Values
 from .matching import Fitted, fitted, is_everywhere, matches, seen_by
-from .search import Search
+from .search import Search, values_of
 
 REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
 FINE_REACH = 1.0  # the same in a refinement: fewer triangles are near
@@ -104,17 +103,16 @@ class Family:
 
     def matched(self, evidence: Evidence) -> Fitted | None:
         """Return the numbers, in units, with which the edges are where the picture has them."""
-        key = f"matched {id(self)}"
-        if key not in evidence.known:
-            axes, own = self.columns(evidence), evidence.case.scene.camera
-            found = matches(evidence)
+        return evidence.once(f"matched {id(self)}", lambda: self._matched(evidence))
 
-            def seen(units: Floats) -> Floats | None:
-                return seen_by(self.camera(own, *axes @ units), found.points)
+    def _matched(self, evidence: Evidence) -> Fitted | None:
+        axes, own = self.columns(evidence), evidence.case.scene.camera
+        found = matches(evidence)
 
-            evidence.known[key] = fitted(found, seen, axes.shape[1])
-        out: Fitted | None = evidence.known[key]
-        return out
+        def seen(units: Floats) -> Floats | None:
+            return seen_by(self.camera(own, *axes @ units), found.points)
+
+        return fitted(found, seen, axes.shape[1])
 
 
 class Fit(NamedTuple):

@@ -112,6 +112,14 @@ GIVEN_FAULTS = (
         witness="NikolaiVChr/Blender-AC3D#5",
     ),
     _given(
+        "delta_left_out",
+        "the delta transform is left out: {words}",
+        "Blender adds `delta_location`, `delta_rotation_euler` and `delta_scale` to an object's "
+        "own.",
+        "use matrix_world: it has the delta transform, the parent's and the constraints",
+        witness="godotengine/godot-blender-exporter#163",
+    ),
+    _given(
         "camera_type",
         "the camera is taken for one of another type: {words}",
         "The renderer has one type of camera so far, or the exporter writes every camera"

@@ -125,22 +125,24 @@ class Looked:
         return float((~unexplained).sum() + WORTH * unexplained.sum())
 
     @property
-    def pixel(self) -> float:
-        """The width of a pixel at the object, in metres."""
-        camera = self.evidence.case.scene.camera
-        return pixel_size(camera)[0] * camera.projection.scale(self.depth)
+    def is_left(self) -> bool:
+        """Whether the object is not shown where it is traced: it may be far from there."""
+        return bool(self.evidence.unexplained[self.seen].mean() >= WORTH)
 
     @property
     def growth(self) -> float:
         """The width of the object as shown, relative to that as traced."""
         return float(np.sqrt(int(self.shown.sum()) / int(self.seen.sum())))
 
-    def start(self) -> Floats:
-        """Estimate the object's displacement right, up, forward, in units of about a pixel."""
+    def displacement(self) -> Floats:
+        """Estimate how many pixels to the right and up the object is shown, (2,)."""
         rows, columns = (np.mean(v) for v in np.nonzero(self.shown))
         own_rows, own_columns = (np.mean(v) for v in np.nonzero(self.seen))
-        forward = (1 / self.growth - 1) * self._depth_units
-        return np.array((columns - own_columns, rows - own_rows, forward))
+        return np.array((columns - own_columns, rows - own_rows))
+
+    def start(self, depth: float) -> Floats:
+        """Return the displacement so many times as far away, in units right, up and away."""
+        return np.array((*self.displacement(), (depth - 1) * self._depth_units))
 
     @property
     def width(self) -> float:
@@ -155,14 +157,15 @@ class Looked:
     def axes(self) -> Floats:
         """Return the units right, up and away in world space, (3, 3) columns.
 
-        Away is along the ray through the object's middle, so that it changes the size alone.
+        Away is along the ray through the middle of what is shown: it changes the size alone.
         """
         camera = self.evidence.case.scene.camera
-        rows, columns = (float(np.mean(v)) + 0.5 for v in np.nonzero(self.seen))
+        rows, columns = (float(np.mean(v)) + 0.5 for v in np.nonzero(self.shown))
         r = camera.region
         ray = camera_rays(camera, np.array([columns + r.x0]), np.array([rows + r.y0]))
         away = self.depth / self._depth_units * ray.directions[:, 0]
-        return np.stack((self.pixel * camera.right, self.pixel * camera.up, away), axis=1)
+        width, height = (v * camera.projection.scale(self.depth) for v in pixel_size(camera))
+        return np.stack((width * camera.right, height * camera.up, away), axis=1)
 
 
 def _shown(evidence: Evidence, own: list[int]) -> Bools:

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...arrays import Array, Bools, Floats, Integers, Places
+from ...pictures.bounds import largest_within
 from ...pictures.metrics import beside_edges
 from ...scene import Camera
 from ...tracer.camera import camera_rays, film_of
@@ -65,13 +66,9 @@ def matches(
 
     Those of an object are in a mask (h, w), and moved by about so many pixels.
     """
+    some = np.ones(evidence.unexplained.shape, bool) if where is None else where
     key = f"matches {name} {about}"
-    if key not in evidence.known:
-        everywhere = np.ones(evidence.unexplained.shape, bool)
-        some = everywhere if where is None else where
-        evidence.known[key] = _matched(evidence, some, np.rint(about))
-    found: Matches = evidence.known[key]
-    return found
+    return evidence.once(key, lambda: _matched(evidence, some, np.rint(about)))
 
 
 def seen_by(camera: Camera | None, points: Floats) -> Floats | None:
@@ -153,7 +150,10 @@ def _matched(evidence: Evidence, where: Bools, about: Floats) -> Matches:
     rows, columns = rows[known], columns[known]
     camera = evidence.case.scene.camera
     film = np.stack((columns + camera.region.x0 + 0.5, rows + camera.region.y0 + 0.5))
-    points = camera_rays(camera, *film).at(in_front(evidence)[0][rows, columns])
+    t = evidence.frame.t
+    far = BEYOND * float(np.max(t[np.isfinite(t)], initial=1.0))
+    nearest = -largest_within(-np.where(np.isfinite(t), t, far), 1)  # at an edge, what is in front
+    points = camera_rays(camera, *film).at(nearest[rows, columns])
     return Matches(points, film + (moved + mean)[:, known], each[known])
 
 
@@ -202,29 +202,6 @@ def _compared(
     return wrong, steps.astype(np.float64)
 
 
-def in_front(evidence: Evidence) -> tuple[Floats, Integers]:
-    """Return the depth and the instance of what is nearest in and beside each pixel, (h, w) each.
-
-    Of an edge, what is in front moves.
-    """
-    t = evidence.frame.t
-    far = BEYOND * float(np.max(t[np.isfinite(t)], initial=1.0))
-    height, width = t.shape
-
-    def around(values: Array) -> Array:
-        padded = np.pad(values, 1, mode="edge")
-        return np.stack([padded[y : y + height, x : x + width] for y in range(3) for x in range(3)])
-
-    depth = around(np.where(np.isfinite(t), t, far))
-    first = depth.argmin(axis=0)[None]
-    near = (
-        np.take_along_axis(v, first, axis=0)[0]
-        for v in (depth, around(evidence.frame.instance_index))
-    )
-    out: tuple[Floats, Integers] = tuple(near)
-    return out
-
-
 def is_everywhere(evidence: Evidence) -> bool:
     """Return whether edges in most parts of the picture are unexplained, as with another camera.
 
@@ -235,14 +212,13 @@ def is_everywhere(evidence: Evidence) -> bool:
 
 def touched_parts(evidence: Evidence) -> float:
     """Return the share of the picture's parts with edges in which some are unexplained (cached)."""
-    if "parts" not in evidence.known:
-        edges = beside_edges(
-            np.nan_to_num(evidence.picture.made_of(evidence.frame.color)), 2 * NEAR
-        )
-        tiles, touched = (_in_tiles(v) for v in (edges, edges & evidence.unexplained))
-        share = touched[tiles > 0].astype(bool).mean() if tiles.any() else 1.0
-        evidence.known["parts"] = float(share)
-    return float(evidence.known["parts"])
+    return evidence.once("parts", lambda: _touched(evidence))
+
+
+def _touched(evidence: Evidence) -> float:
+    edges = beside_edges(np.nan_to_num(evidence.picture.made_of(evidence.frame.color)), 2 * NEAR)
+    tiles, touched = (_in_tiles(v) for v in (edges, edges & evidence.unexplained))
+    return float(touched[tiles > 0].astype(bool).mean()) if tiles.any() else 1.0
 
 
 def _in_tiles(mask: Bools) -> Integers:

@@ -18,13 +18,10 @@ from .fault import (
     Guess,
     Make,
     Option,
-    instances_named,
     of_object,
     one_of,
 )
 from .suspects import suspects
-
-SHEARED = 1e-6  # of the longest axis' square: products of axes below are rounding
 
 
 def _with_axes(change: Callable[[Floats, Floats], Floats]) -> Make[Guess]:
@@ -55,17 +52,9 @@ def _rotation(axes: Floats) -> Floats:
 
 
 @at_once
-def _sheared(evidence: Evidence) -> list[Option]:
-    """Guess both options for each suspect with axes that are not orthogonal."""
-    scene = evidence.case.scene
-    found = []
-    for name in evidence.suspects:
-        for n in instances_named(scene, name)[:1]:
-            axes = scene.instances[n].world_from_object[:3, :3]
-            products = (axes.T @ axes)[np.triu_indices(3, 1)]
-            if np.abs(products).max() > SHEARED * np.abs(axes).max() ** 2:
-                found += [Option(way, object=name) for way in (0, 1)]
-    return found
+def _each_way(evidence: Evidence) -> list[Option]:
+    """Guess both options for each suspect."""
+    return [Option(way, object=name) for name in evidence.suspects for way in (0, 1)]
 
 
 @at_once
@@ -136,7 +125,7 @@ OBJECT_MATRIX_FAULTS: tuple[AnyFault, ...] = (
             _with_axes(lambda axes, lengths: _rotation(axes) * lengths),
             _with_axes(lambda axes, lengths: nearest_rotation(axes) * lengths),
         ),
-        _sheared,
+        _each_way,
         witness="donmccurdy/glTF-Transform#1680",
     ),
 )

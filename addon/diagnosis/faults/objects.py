@@ -15,7 +15,6 @@ from ...tracer.frame import Frame
 from ...tracer.progress import at_once
 from ..evidence import LEAST_SEEN, Evidence
 from .changes import MOVED, SCALED, TURNED
-from .climbing import values_of
 from .fault import (
     AnyFault,
     Effort,
@@ -30,6 +29,7 @@ from .fault import (
 )
 from .object_matrices import OBJECT_MATRIX_FAULTS
 from .pose import posing
+from .search import values_of
 from .suspects import largest, seen_instances, suspects
 
 NAMED = 4  # objects

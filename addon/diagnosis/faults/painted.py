@@ -4,23 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from ...arrays import Array, Bools, Colors, Floats, Places
+from ...arrays import Array, Colors, Floats, Places
 from ...causes.case import Case
-from ...causes.checks.color import medians
 from ...pictures.curves import FITTED_SHARE
-from ...pictures.picture import MAJORITY
 from ...scene import Scene
-from ...tracer import shading
 from ...tracer.frame import Frame
-from ...tracer.hits import NOTHING
 from ...tracer.progress import at_once
 from ..evidence import NEAR, Evidence
-from .fault import Key, Numbers, keys_of
+from .fault import Key, Numbers, Values, keys_of
 from .processed import shades_apart
+from .surfaces import Surfaces, surfaces
 from .suspects import seen_instances
 
 ALL = 0.8  # of the colours, at least, that are others where all come from another source
@@ -58,7 +54,7 @@ def painted_case(case: Case, guess: Painted) -> Case:
     return case.with_scenes(painted)
 
 
-def with_table(scene: Scene, table: Array, *numbers: float, words: str) -> Painted:
+def with_table(scene: Scene, table: Array, words: str, numbers: Values = ()) -> Painted:
     """Guess the colours of a table, one for each row of the scene's `color_table`."""
     first, last = scene.color_rows
     rows = zip(keys_of(scene), first, last, strict=False)
@@ -83,69 +79,42 @@ def two_colors(case: Case, frame: Frame) -> Painted | None:
     return None
 
 
-class Shown(NamedTuple):
-    """The k colours of the scene that are seen, and what is shown in their place."""
-
-    rows: Places  # (k,) of `color_table`, those with the most pixels first
-    colors: Floats  # (k, 4) the median of what is shown
-    wrong: Bools  # (k,) most of their pixels are unexplained
-    alike: Floats  # (k,) the share of their pixels that show that median
-    pixels: Places  # (k,) how many there are
-
-    def names(self, scene: Scene) -> list[str]:
-        """Return the objects that have them."""
-        instance = np.searchsorted(scene.color_rows[1], self.rows)
-        return [scene.objects[n] for n in scene.instance_objects[instance]]
-
-
-def shown_colors(evidence: Evidence) -> Shown | None:
-    """Return the colours that are seen (cached); None where the picture says nothing of them."""
-    if "colors" not in evidence.known:
-        evidence.known["colors"] = _looked_at(evidence)
-    found: Shown | None = evidence.known["colors"]
-    return found
-
-
-def _looked_at(evidence: Evidence) -> Shown | None:
-    picture, frame, scene = evidence.picture, evidence.frame, evidence.case.scene
-    seen = (evidence.unexplained | evidence.judged) & (frame.instance_index != NOTHING)
-    unknown = picture.transform is not None or picture.lit or not picture.has_colors
-    mixed = any(mesh.corner_colors is not None for mesh in scene.meshes)
-    if unknown or mixed or not seen.any():
-        return None
-    numbers = np.repeat(np.arange(len(scene.color_table))[:, None], 4, axis=1)
-    numbered = painted_case(evidence.case, with_table(scene, numbers, words="")).scene
-    row = shading.colors(numbered, frame.hits())[:, 0].reshape(seen.shape)[seen].astype(np.intp)
-    rows, group, count = np.unique(row, return_inverse=True, return_counts=True)
-    shown = picture.color[seen]
-    _, middle = medians(shown, group)
-    flat = replace(picture.at(seen), color=middle[group].astype(np.float32), owners=None)
-    alike = np.bincount(group, ~flat.other_color(shown)) / count
-    wrong = np.bincount(group, evidence.unexplained[seen]) > MAJORITY * count
-    order = np.argsort(-count, kind="stable")
-    return Shown(rows[order], middle[order], wrong[order], alike[order], count[order])
+def _repainted(
+    scene: Scene, found: Surfaces, colors: Floats, words: str, numbers: Values = ()
+) -> Painted:
+    """Guess k surfaces in other colours, (k, 4)."""
+    table = scene.color_table.copy()
+    for (first, last), own, color in zip(
+        scene.color_rows.T[found.instance], found.traced, colors, strict=True
+    ):
+        rows = scene.color_table[first : last + 1]
+        table[first : last + 1][(rows == own).all(axis=1)] = color
+    return with_table(scene, table, words, numbers)
 
 
 @at_once
 def exchanged(evidence: Evidence) -> list[Painted]:
     """Guess that objects have one another's colours, if all that are wrong show these."""
-    shown, scene = shown_colors(evidence), evidence.case.scene
-    if shown is None:
+    found, scene = _colors(evidence), evidence.case.scene
+    if found is None:
         return []
-    wrong = np.flatnonzero(shown.wrong & (shown.alike > FITTED_SHARE))
-    names = [shown.names(scene)[n] for n in wrong]
+    found = found.take(found.wrong & (found.alike > FITTED_SHARE))
+    names = found.names(scene)
     if len(set(names)) < 2:  # those of one object's material slots are another fault
         return []
-    own = scene.color_table[shown.rows[wrong]]
-    apart = np.abs(shown.colors[wrong][:, None, :3] - own[None, :, :3]).max(axis=-1)
+    apart = np.abs(found.shown[:, None, :3] - found.traced[None, :, :3]).max(axis=-1)
     other = apart.argmin(axis=1)
     if apart.min(axis=1).max() > NEAR or len(set(other)) < len(other):
         return []
-    table = scene.color_table.copy()
-    table[shown.rows[wrong]] = own[other]
     pairs = [f"'{a}' that of '{names[b]}'" for a, b in zip(names, other, strict=True)]
     more = f", and {len(pairs) - NAMED} more" if len(pairs) > NAMED else ""
-    return [with_table(scene, table, words=", ".join(pairs[:NAMED]) + more)]
+    return [_repainted(scene, found, found.traced[other], ", ".join(pairs[:NAMED]) + more)]
+
+
+def _colors(evidence: Evidence) -> Surfaces | None:
+    """Return the colours that are seen; None where they are interpolated."""
+    mixed = any(mesh.corner_colors is not None for mesh in evidence.case.scene.meshes)
+    return None if mixed else surfaces(evidence, whole=True)
 
 
 # Which material slot's colour a face of slot k of n is shown in, by mistake.
@@ -162,24 +131,23 @@ _SLOTS: tuple[tuple[str, Callable[[Places, int], Places]], ...] = (
 @at_once
 def other_source(evidence: Evidence) -> list[Painted]:
     """Guess other material slots, and the colours that are shown where nearly all are others."""
-    scene, shown = evidence.case.scene, shown_colors(evidence)
+    scene, found = evidence.case.scene, _colors(evidence)
     first, last = scene.color_rows
     out = []
     for words, slot in _SLOTS if (first < last).any() else ():
         each = zip(first, last - first + 1, strict=True)
         rows = np.concatenate([start + slot(np.arange(n), n) for start, n in each])
         out.append(with_table(scene, scene.color_table[rows], words=words))
-    if shown is None or len(shown.rows) < SEVERAL or shown.wrong.mean() < ALL:
+    if found is None or len(found.wrong) < SEVERAL or found.wrong.mean() < ALL:
         return out
-    if np.average(shown.alike, weights=shown.pixels) < FITTED_SHARE:
+    if np.average(found.alike, weights=found.pixels) < FITTED_SHARE:
         return out
-    if np.abs(shown.colors - scene.background).max() <= NEAR:
+    if np.abs(found.shown - scene.background).max() <= NEAR:
         return out  # no surface is shown
-    if shades_apart(scene.color_table[shown.rows], shown.colors) is not None:
+    if shades_apart(found.traced, found.shown) is not None:
         return out  # these are the same, processed
-    table = scene.color_table.copy()
-    table[shown.rows] = shown.colors
-    some = zip(shown.names(scene)[:NAMED], shown.colors[:, :3], strict=False)
+    colors = found.shown[:, :3]
+    some = zip(found.names(scene)[:NAMED], colors, strict=False)
     named = ", ".join("'{}' in ({:.3f}, {:.3f}, {:.3f})".format(name, *rgb) for name, rgb in some)
-    numbers = shown.colors[:, :3].ravel().tolist()
-    return [*out, with_table(scene, table, *numbers, words=f"{named}, linear")]
+    numbers = tuple(colors.ravel().tolist())
+    return [*out, _repainted(scene, found, found.shown, f"{named}, linear", numbers)]

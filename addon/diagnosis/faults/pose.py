@@ -14,10 +14,10 @@ from ...scene import Scene
 from ...tracer.progress import Work
 from ..evidence import Evidence, least_with
 from .changes import CHANGES, MOVED, Change
-from .climbing import values_of
 from .fault import Numbers, Values, instances_named
 from .fitting import FINER, MORE, NEARLY
 from .looked import Looked
+from .search import values_of
 
 FIRST = 1 / 4  # of the object's width: the first step
 TRIED = 2  # objects that are fitted
@@ -42,19 +42,22 @@ class Posed(Numbers):
         return cls(*numbers, object=looked.name, words=words, change=change)
 
 
+Starts = dict[Change, list[Values]]  # where numbers are looked for
+
+
 def _climbed(
-    looked: Looked, change: Change, start: Values, step: float
+    looked: Looked, change: Change, starts: Sequence[Values], step: float
 ) -> Work[tuple[Posed | None, bool]]:
-    """Return the best numbers near a start, and whether nearly all is right with them."""
+    """Return the best numbers near some starts, and whether nearly all is right with them."""
     search = change.search(looked, looked.least_right)
-    found = yield from search.guess([start], step, enclose=False)
+    found = yield from search.guess(starts, step, enclose=False)
     if found is None:
         return None, False
     right = yield from search.count(found.values)
     return Posed.of(found, looked, change), right >= ALL * len(looked.at[0])
 
 
-def _far(looked: Looked, changes: Sequence[Change]) -> Work[list[tuple[Change, Values]]]:
+def _far(looked: Looked, changes: Sequence[Change]) -> Work[Starts]:
     """Return the starts that are right in the most pixels, the smallest changes first.
 
     One that is hardly better than no change is none.
@@ -67,17 +70,22 @@ def _far(looked: Looked, changes: Sequence[Change]) -> Work[list[tuple[Change, V
             right = yield from search.count(start)
             size = float(np.abs(np.subtract(start, change.none)).sum())
             out += [(-right, size, len(out), change, start)] if right >= least else []
-    return [(change, start) for *_, change, start in sorted(out, key=lambda one: one[:3])[:KEPT]]
+    starts: Starts = {}
+    for *_, change, start in sorted(out, key=lambda one: one[:3])[:KEPT]:
+        starts.setdefault(change, []).append(start)
+    return starts
 
 
-def _near(looked: Looked, changes: Sequence[Change], is_some: bool) -> list[tuple[Change, Values]]:
+def _near(looked: Looked, changes: Sequence[Change], is_some: bool) -> Starts:
     """Return the starts where edges are found; that of a move where it is, too."""
     matched = {c: f for c in CHANGES if (f := c.matched(looked))}
     most = max((f.share for f in matched.values()), default=0.0)
     least = most - MORE if is_some or most >= CLEAR else NEARLY * most
-    some = [c for c in changes if c in matched and matched[c].share >= least]
-    starts = [(c, values_of(c.none + c.axes(looked) @ matched[c].units)) for c in some]
-    return starts + [(c, c.none) for c in changes if c in MOVED]
+    starts: Starts = {c: [c.none] for c in changes if c in MOVED}
+    for c in (c for c in changes if c in matched and matched[c].share >= least):
+        there = values_of(c.none + c.axes(looked) @ matched[c].units)
+        starts[c] = [there, *starts.get(c, ())]
+    return starts
 
 
 def _found(
@@ -99,8 +107,8 @@ def _found(
             step = FIRST * looked.width / (4 if count == 1 else 1)
         else:
             tries, step = _near(looked, some, bool(enough)), NEAR_STEP
-        for change, start in tries:
-            guess, is_all = yield from _climbed(looked, change, start, step)
+        for change, starts in tries.items():
+            guess, is_all = yield from _climbed(looked, change, starts, step)
             out += [guess] if guess else []
             enough |= {change.kind} if is_all else set()
         if far and enough:
@@ -169,8 +177,8 @@ class Posing:
             return [*out, *(guess for guess in found if guess.change in self.changes)]
         for name in evidence.suspects[:TRIED]:
             if looked := (yield from Looked.of(evidence, name, kept=True)):
-                for start in first.starts(looked):
-                    guess, _ = yield from _climbed(looked, first, start, FIRST * looked.width)
+                for starts in (yield from _far(looked, self.changes)).values():
+                    guess, _ = yield from _climbed(looked, first, starts, FIRST * looked.width)
                     out += [guess] if guess else []
         return out
 

@@ -1,19 +1,32 @@
 """Finds the numbers of a fault with which the most sampled pixels are right, and their ranges.
 
-Hill climbing leads to the best place (`climbing.py`). From there, bisection finds how far each
-number goes by itself with as many right pixels.
+Their count is an integer that jumps wherever an edge passes a pixel's centre, so it has no
+gradient: hill climbing leads to the best place, with ever smaller steps. From there, bisection
+finds how far each number goes by itself with as many right pixels.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from ...arrays import Floats
+from ...arrays import Array, Bools, Floats
 from ...tracer.progress import Work
-from .climbing import COARSE, SMALL, Climb, Right, values_of
+from ..evidence import SEED
 from .fault import Numbers, Values
+
+Right = Callable[
+    [Values], Work[Bools | None]
+]  # which pixels are right; None if the numbers are impossible
+
+# Neighbours on each side of an axis, by the number of axes; 1 otherwise.
+WIDE = {1: 4, 2: 2}
+NARROW = {1: 2}
+COARSE = 1 / 2  # of a unit: smaller steps have fewer neighbours
+ASKEW = 8  # random directions besides those of three axes and more
+NOISE = 2.0**12  # last places of the largest number
+SMALL = 1 / 8  # of a unit: the first step where a place is nearly the best
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
 ROUGH = 1 / 32  # of a unit: the last step if a refinement follows
@@ -23,19 +36,23 @@ NEARLY = 0.97  # of the right pixels: from a place with as many it is climbed ag
 DIGITS = range(-1, 6)  # digits of a number beyond those that its range fixes
 
 
-class Search(Climb):
-    """A search among the numbers of one fault.
+class Search:
+    """A search among the numbers of one fault; each place is evaluated once.
 
     Parameters
     ----------
-    right, axes, moves
-        As those of :class:`Climb`.
+    right : callable
+        Which of n pixels are right with m numbers.
+    axes : (m, k) or (m,) float
+        What a unit, about a pixel, along each of k axes adds to the numbers; or of each alone.
     finest : float
         Units: the last step.
     least : float
         Right pixels after large steps, for smaller ones to be worth while.
     unseen : (m, j) float, optional
         Further axes, along which nothing changes: they are not searched.
+    moves : float
+        With steps of one length, at most.
     """
 
     def __init__(
@@ -47,10 +64,14 @@ class Search(Climb):
         unseen: Floats | None = None,
         moves: float = np.inf,
     ) -> None:
-        super().__init__(right, axes, moves)
+        axes = np.asarray(axes, np.float64)
+        self._right = right
+        self.axes = np.diag(axes) if axes.ndim == 1 else axes
         self.unseen = np.zeros((len(self.axes), 0)) if unseen is None else unseen
         self.finest = finest
         self.least = least
+        self.moves = moves
+        self._known: dict[Values, int] = {}
 
     def guess(
         self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
@@ -132,3 +153,55 @@ class Search(Climb):
                 if (yield from self.count(near)) >= right:
                     return near
         return best
+
+    def climbed(self, values: Values, step: float, last: float) -> Work[tuple[Values, int]]:
+        """Climb with ever smaller steps; return the best place and its count of right pixels."""
+        right = yield from self.count(values)
+        moves = 0
+        while step >= last and right >= 0:
+            values, better = yield from self._around(values, step)
+            moves += 1
+            if better == right or moves >= self.moves:
+                step, moves = step / 2, 0
+            right = better
+        return values, right
+
+    def count(self, values: Values) -> Work[int]:
+        """Return how many pixels are right with these numbers; -1 if they are impossible."""
+        if values not in self._known:
+            found = yield from self._right(values)
+            self._known[values] = -1 if found is None else int(np.count_nonzero(found))
+        return self._known[values]
+
+    def _places(self, values: Values, step: float) -> list[Values]:
+        """Return the neighbours of a place, a step away."""
+        directions = _directions(self.axes.shape[1], WIDE if step >= COARSE else NARROW)
+        return [values_of(values + step * self.axes @ direction) for direction in directions]
+
+    def _around(self, values: Values, step: float) -> Work[tuple[Values, int]]:
+        """Return the best of a place and its neighbours, and its count."""
+        best, most = values, (yield from self.count(values))
+        for there in self._places(values, step):
+            found = yield from self.count(there)
+            if found > most:
+                best, most = there, found
+        return best, most
+
+
+def values_of(numbers: Floats) -> Values:
+    """Return numbers (m,) as a tuple, without their last digits: BLAS adds in any order."""
+    last = np.spacing(np.abs(numbers).max(initial=0.0)) * NOISE
+    return tuple((np.rint(numbers / last) * last).tolist())
+
+
+def _directions(count: int, far: Mapping[int, int]) -> Array:
+    """Return the directions to the neighbours, (m, count): along axes, and some askew."""
+    askew = np.random.default_rng(SEED).normal(size=(ASKEW, count))
+    if count > 3:
+        return np.concatenate((np.eye(count), -np.eye(count), askew))
+    steps = far.get(count, 1)
+    around = np.array(np.meshgrid(*[range(-steps, steps + 1)] * count)).reshape(count, -1).T
+    around = around[around.any(axis=1)]
+    if count < 3:
+        return around
+    return np.concatenate((around[np.abs(around).sum(axis=1) < 3], askew))

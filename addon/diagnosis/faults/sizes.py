@@ -26,9 +26,10 @@ from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import AnyFault, Effort, Fault, Guess, Values
+from .fault import AnyFault, Effort, Fault, Guess
 
 SHARES = {2: "half", 3: "a third of", 4: "a quarter of"}  # of the size, by the factor
+ROUNDING = 1e-9  # of a row
 RIGHT = 0.8  # of the sampled pixels that are unexplained, for a guess to be tried
 
 
@@ -143,13 +144,10 @@ class Small(Guess):
     down: Way | None  # how it was shrunk; None if it was rendered so small
     up: Way
     coding: Coding
-    corner: tuple[int, int] = (0, 0)  # which pixel of each n x n is taken if one is: row, column
+    # Which pixel of each n x n is taken if one is: row and column, as shares of n.
+    corner: tuple[float, float] = (0.0, 0.0)
+    spans: bool = True  # the whole picture; else a last row or column may span more than it shows
     hues: bool = False  # whether these alone were, and not the brightness
-
-    @property
-    def values(self) -> Values:
-        """The factor."""
-        return (float(self.n),)
 
 
 def _shrunk(colors: Array, guess: Small) -> Array:
@@ -158,8 +156,7 @@ def _shrunk(colors: Array, guess: Small) -> Array:
     out = np.asarray(colors, np.float64)[::-1]
     if guess.down is Way.NEAREST:
         rows, columns = (
-            np.minimum(np.arange(0, size, n) + at, size - 1)
-            for size, at in zip(out.shape[:2], guess.corner, strict=True)
+            _taken(size, guess, at) for size, at in zip(out.shape[:2], guess.corner, strict=True)
         )
         return out[rows][:, columns][::-1]
     for axis in (0, 1):
@@ -168,6 +165,13 @@ def _shrunk(colors: Array, guess: Small) -> Array:
         shares = [-1 if k == axis else 1 for k in range(out.ndim)]
         out = np.add.reduceat(out, starts, axis=axis) / count.reshape(shares)
     return out[::-1]
+
+
+def _taken(size: int, guess: Small, corner: float) -> Places:
+    """Return which of so many rows or columns are left."""
+    count = size // guess.n if guess.spans else -(-size // guess.n)
+    step = size / count if guess.spans else guess.n
+    return np.minimum((np.arange(count) + corner + ROUNDING) * step, size - 1).astype(int)
 
 
 def _grown(small: Array, guess: Small, shape: tuple[int, ...], at: At) -> Array:
@@ -179,7 +183,7 @@ def _grown(small: Array, guess: Small, shape: tuple[int, ...], at: At) -> Array:
         for place, size, have in zip(
             (shape[0] - 1 - at[0], at[1]), shape, small.shape, strict=False
         )
-        for step in [guess.n if guess.down else size / have]
+        for step in [size / have if guess.spans else guess.n]
     )
     return small[::-1][tuple(blocks)]
 
@@ -194,7 +198,8 @@ def _enlarged(colors: Colors, guess: Small, evidence: Evidence) -> Colors:
 def _recoded(coded: Array, large: Array, guess: Small) -> Colors:
     """Return linear colours; with their own brightness (Rec. 601) if the hues alone were shrunk."""
     if guess.hues:
-        large[..., :3] += ((coded - large)[..., :3] @ (0.299, 0.587, 0.114))[..., None]
+        luma = (coded - large)[..., :3] @ (0.299, 0.587, 0.114)
+        large = np.concatenate((large[..., :3] + luma[..., None], coded[..., 3:]), axis=-1)
     return guess.coding.back(large).astype(np.float32)
 
 
@@ -204,7 +209,7 @@ def _find(evidence: Evidence) -> Work[list[Small]]:
     for n, name in SHARES.items():
         rendered = Frame.empty(at_size(evidence.case, 1 / n).scene)
         yield from steps(rendered.scene, SOUND, rendered)
-        for guesses in _downs(n, name):
+        for guesses in _downs(n, name, any(size % n for size in shape)):
             first = guesses[0]
             coded = first.coding.into((evidence.frame if first.down else rendered).color)
             small = _shrunk(coded, first) if first.down else coded
@@ -217,18 +222,31 @@ def _find(evidence: Evidence) -> Work[list[Small]]:
     return out
 
 
-def _downs(n: int, name: str) -> Iterator[list[Small]]:
-    """Yield the guesses of each way to come to a picture smaller by n."""
-    places = sorted({0, n // 2, n - 1})
-    downs: list[tuple[Way | None, tuple[int, int]]] = [(None, (0, 0)), (Way.MEAN, (0, 0))]
-    downs += [(Way.NEAREST, corner) for corner in product(places, places)]
-    for coding, (down, corner) in product(CODINGS, downs):
+def _downs(n: int, name: str, remains: bool) -> Iterator[list[Small]]:
+    """Yield the guesses of each way to come to a picture smaller by n; a row may remain."""
+    corners = [*product((0.0, 0.5), (0.0, 0.5))]
+    downs: list[tuple[Way | None, tuple[float, float], bool]] = [
+        (None, (0.0, 0.0), True),
+        (Way.MEAN, (0.0, 0.0), False),
+        *((Way.NEAREST, corner, spans) for corner in corners for spans in {False, remains}),
+    ]
+    for coding, (down, corner, spans) in product(CODINGS, downs):
         made = f"shrunk to {name} its size {down}" if down else f"rendered at {name} its size"
         whose = {False: f" was {made}"}
         if down is Way.MEAN and coding.words:
             whose[True] = f"'s hues alone were shrunk to {name} the size {down}"
         yield [
-            Small(n, down, up, coding, corner, hues, words=f"{words}, and enlarged {up}")
+            Small(
+                n,
+                down,
+                up,
+                coding,
+                corner,
+                spans,
+                hues,
+                words=f"{words}, and enlarged {up}",
+                values=(float(n),),
+            )
             for hues, words in whose.items()
             for up in (Way.NEAREST, *_KERNELS)
         ]

@@ -5,67 +5,79 @@ What is done to all colours is the same everywhere, so it is looked for in these
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from ...arrays import Bools, Colors
+from ...arrays import Bools, Colors, Floats, Index
 from ...causes.checks.color import groups, medians
-from ...files.images import EIGHT_BITS, encoded
 from ...pictures.metrics import boundary
 from ...pictures.picture import Picture, Transform
+from ...scene import Scene
 from ...tracer.hits import NOTHING
 from ..evidence import Evidence, spread
 
-MOST = 1 << 14  # sampled pixels of surfaces
-FLAT = 0.3  # levels of 8 bits: the least standard deviation of noise within a surface
-ENOUGH = 32  # pixels, at least, for a surface to be measured
+MOST = 1 << 15  # sampled pixels of surfaces
 
 
-class Surfaces(NamedTuple):
-    """The traced and shown colours of k surfaces of one colour each, away from edges."""
+@dataclass(frozen=True, eq=False)
+class Surfaces:
+    """The traced and shown colours of k surfaces of one colour each, the largest first."""
 
+    instance: Index  # (k,) or plane
     traced: Colors  # (k, 4)
     shown: Colors  # (k, 4) the median of its pixels
     wrong: Bools  # (k,) most of its pixels are unexplained
-    noisy: Bools  # (k,) its pixels deviate by more than rounding
-    measured: Bools  # (k,) it has enough pixels to say so
+    alike: Floats  # (k,) the share of its pixels that show the median
+    pixels: Index  # (k,) of the sample
+
+    def take(self, some: Bools | Index) -> Surfaces:
+        """Return some of them."""
+        return Surfaces(*(getattr(self, f.name)[some] for f in fields(self)))
+
+    def names(self, scene: Scene) -> list[str]:
+        """Return the objects that have them."""
+        return [scene.objects[n] for n in scene.instance_objects[self.instance]]
 
 
 def inside(evidence: Evidence) -> Bools:
     """Return which pixels (h, w) show a surface away from edges, and can be judged."""
-    inside = ~boundary(evidence.frame) & (evidence.causes.blind < 0)
-    inside &= evidence.unexplained | evidence.judged
-    return inside & (evidence.frame.instance_index != NOTHING)
+    return _judged(evidence) & ~boundary(evidence.frame) & (evidence.causes.blind < 0)
 
 
-def surfaces(evidence: Evidence) -> Surfaces | None:
-    """Return the surfaces (cached); None where colours say nothing, or none is wrong."""
-    if "surfaces" not in evidence.known:
-        evidence.known["surfaces"] = _looked_at(evidence)
-    found: Surfaces | None = evidence.known["surfaces"]
-    return found
+def _judged(evidence: Evidence) -> Bools:
+    seen = evidence.frame.instance_index != NOTHING
+    return seen & (evidence.unexplained | evidence.judged)
 
 
-def _looked_at(evidence: Evidence) -> Surfaces | None:
-    picture, some = evidence.picture, spread(inside(evidence), MOST)
-    if picture.transform is not None or picture.lit or not len(some):
+def surfaces(evidence: Evidence, whole: bool = False) -> Surfaces | None:
+    """Return the surfaces (cached), away from edges or as a `whole`.
+
+    None where colours say nothing, or none is wrong.
+    """
+    where = _judged if whole else inside
+    return evidence.once(f"surfaces {whole}", lambda: _looked_at(evidence, where(evidence)))
+
+
+def _looked_at(evidence: Evidence, where: Bools) -> Surfaces | None:
+    picture, some = evidence.picture, spread(where, MOST)
+    if picture.transform is not None or picture.lit or not picture.has_colors or not len(some):
         return None
     traced, shown = (v.reshape(-1, 4)[some] for v in (evidence.frame.color, picture.color))
     if not np.isfinite(shown).all():
         return None
-    group = groups(np.column_stack((evidence.frame.instance_index.ravel()[some], traced)))
+    instance = evidence.frame.instance_index.ravel()[some]
+    group = groups(np.column_stack((instance, traced)))
     first, middle = medians(shown, group)
     count = np.bincount(group)
     wrong = np.bincount(group, evidence.unexplained.ravel()[some]) > count / 2
     if not wrong.any():
         return None
-    levels = EIGHT_BITS * encoded(shown)[:, :3]
-    means = np.array([np.bincount(group, v) / count for v in levels.T])
-    apart = (levels.T - means[:, group]) ** 2
-    deviation = np.sqrt(np.max([np.bincount(group, v) / count for v in apart], axis=0))
-    return Surfaces(traced[first], middle, wrong, deviation > FLAT, count >= ENOUGH)
+    flat = replace(picture, color=middle[group].astype(np.float32), owners=None)
+    alike = np.bincount(group, ~flat.other_color(shown)) / count
+    found = Surfaces(instance[first], traced[first], middle, wrong, alike, count)
+    order = np.argsort(-count, kind="stable")
+    return found.take(order)
 
 
 def agree(picture: Picture, found: Surfaces, of: Transform | None) -> Bools:

@@ -91,16 +91,13 @@ def _rounded(evidence: Evidence) -> Sequence[Curve]:
     found = surfaces(evidence)
     if found is None:
         return ()
-    if "rounded" not in evidence.known:
-        once = (agree(evidence.picture, found, ROUNDED_ONCE.of) & found.wrong).sum()
-        evidence.known["rounded"] = [
-            c
-            for c in (ROUNDED_ONCE, *ROUNDED)
-            if (same := agree(evidence.picture, found, c.of)).mean() > FITTED_SHARE
-            and (same & found.wrong).sum() > (once if c is not ROUNDED_ONCE else 0)
-        ]
-    rounded: Sequence[Curve] = evidence.known["rounded"]
-    return rounded
+    once = (agree(evidence.picture, found, ROUNDED_ONCE.of) & found.wrong).sum()
+    return [
+        c
+        for c in (ROUNDED_ONCE, *ROUNDED)
+        if (same := agree(evidence.picture, found, c.of)).mean() > FITTED_SHARE
+        and (same & found.wrong).sum() > (once if c is not ROUNDED_ONCE else 0)
+    ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +114,8 @@ def _through(case: Case, guess: OfCurve) -> Case:
 def _find_curve(key: str) -> Find[OfCurve]:
     def find(evidence: Evidence) -> Work[list[OfCurve]]:
         best = yield from _curve_of(evidence)
-        found = (*([best] if best else []), *_rounded(evidence))
+        rounded = evidence.once("rounded", lambda: _rounded(evidence))
+        found = (*([best] if best else []), *rounded)
         return [OfCurve(c, words=c.name) for c in found if c.key == key]
 
     return find

@@ -69,6 +69,7 @@ function roundedBefore() {
 }
 
 function metrics() {
+  if (!page.comparison.metrics) return []; // of ids
   const { rmse, psnr, ssim, largest_difference: most } = page.comparison.metrics;
   const [x, y] = most.pixel;
   return [

@@ -26,7 +26,7 @@ def groups(seed: int = SEED) -> dict[str, Pairs]:
     return {
         "front": front,
         "back": (o, d, p[:, [0, 2, 1]]),
-        "whole": _whole(rng),
+        "whole": whole(rng),
         "scaled": _scaled(front),
         "outside": _towards(rng, _triangles(rng), _outside(rng)),
         "beside": _towards(rng, _triangles(rng), _beside(rng)),
@@ -98,7 +98,7 @@ def _beside(rng: np.random.Generator) -> Floats:
     return s
 
 
-def _whole(rng: np.random.Generator) -> Pairs:
+def whole(rng: np.random.Generator) -> Pairs:
     """Return hits whose every product, sum and quotient is a float: legs are powers of two."""
     legs = 2.0 ** rng.integers(0, 4, (EACH, 2))
     s2 = rng.integers(1, 8, EACH) / 16

@@ -7,16 +7,15 @@ spoil are wrong, nearly all, and others, which it would leave alone, are not.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
-from itertools import combinations, permutations
+from itertools import permutations
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..group_faults import FEW, FLOAT32, LOSSY, MOST, Found, Tests, always, never, single
-from ..programs import Condition, Mask, Program, condition
+from ..mutations import mutations
+from ..programs import Mask
 
 if TYPE_CHECKING:
     from ..cases import TableAnswers
@@ -37,30 +36,15 @@ def sign_of_t(a: TableAnswers) -> Found:
 def of_conditions(a: TableAnswers) -> Found:
     """See whether what is hit is what the textbook hits with a condition too many, or too few."""
     right, whole = a.cases.subject.programs[0], a.cases.among("whole")
-    for name, text, conditions in _wrong_conditions(right):
-        program = replace(right, conditions=conditions)
-        theirs = np.isfinite(program.answers(a.cases.letters)[:, 0])
+    for mutation in mutations(right):
+        # An opposite condition spoils every hit: other faults look the same.
+        if not mutation.conditions or mutation.name == "condition_opposite":
+            continue
+        theirs = np.isfinite(mutation.of(right).answers(a.cases.letters)[:, 0])
         spoiled, alike = (theirs != a.to_hit) & a.cases.counts, theirs == a.hit
         lost = spoiled & whole  # that the others are seen tells one side from nearly nothing
         if alike[spoiled].mean() > MOST and (not lost.any() or alike[whole].mean() > MOST):
-            yield name, text, spoiled & alike
-
-
-def _wrong_conditions(right: Program) -> Iterator[tuple[str, str, tuple[Condition, ...]]]:
-    *inside, before = right.conditions
-    for slip in right.slips:
-        if slip.name in ("back_faces_culled", "front_faces_culled"):
-            [sides] = slip.conditions.values()
-            yield slip.name, slip.sentence, (*inside, *map(condition, sides))
-    for some in (
-        *combinations(inside, 3),
-        *combinations(inside, 2),
-        *combinations(right.conditions, 1),
-    ):
-        name = "inside_not_tested" if len(some) == 3 else "edge_not_tested"
-        text = f"{' and '.join(map(str, some))} is not tested"
-        rest = tuple(c for c in right.conditions if c not in some)
-        yield "hits_behind" if before in some else name, text, rest
+            yield mutation.name, mutation.sentence, spoiled & alike
 
 
 def sum_equals_one(a: TableAnswers) -> Found:

@@ -44,13 +44,9 @@ from .pictures import (
     all_behind,
     all_hidden,
     camera_looks_away,
-    depth_of_field,
     far_from_origin,
     fine_edges,
-    freestyle,
     huge,
-    motion_blur,
-    multiview,
     no_mesh,
     tiny,
 )

@@ -57,12 +57,15 @@ def edited_shared(build: Any) -> None:
     """One mesh of two objects and an instanced one; one of the objects has a modifier."""
     obj = _edited(build, "SUBSURF")
     obj.modifiers[0].levels = obj.modifiers[0].render_levels = 1
-    other = build.link(bpy.data.objects.new("Other", obj.data))
+    other = build.object("Other", obj.data)
     other.location, other.scale = (1.1, -1.2, 0.4), (0.8, 0.8, 0.8)
     instanced = bpy.data.objects.new("Instanced", obj.data)
-    empty = build.empty("Instances", location=(-0.9, -1.2, -0.4), scale=(0.6, 0.6, 0.6))
-    empty.instance_type = "COLLECTION"
-    empty.instance_collection = build.collection("Kit", instanced)
+    build.instances(
+        "Instances",
+        build.collection("Kit", instanced),
+        location=(-0.9, -1.2, -0.4),
+        scale=(0.6, 0.6, 0.6),
+    )
     _edit()
 
 
@@ -82,7 +85,7 @@ def edited_and_changed(build: Any) -> None:
 def edited_and_hidden(build: Any) -> None:
     """Every third face is hidden there, and the mesh has another user."""
     obj = _edited(build)
-    other = build.link(bpy.data.objects.new("Other", obj.data))
+    other = build.object("Other", obj.data)
     other.location = (1.1, -1.2, 0.4)
     _edit()
     hide_faces(obj.data, 3)
@@ -91,7 +94,7 @@ def edited_and_hidden(build: Any) -> None:
 def edited_subdivided_and_hidden(build: Any) -> None:
     """What a modifier makes of hidden faces is shown by a render."""
     obj = _edited(build, "SUBSURF")
-    other = build.link(bpy.data.objects.new("Other", obj.data))
+    other = build.object("Other", obj.data)
     other.location = (1.1, -1.2, 0.4)
     _edit()
     hide_faces(obj.data, 1)

@@ -72,8 +72,7 @@ def instanced_hair(build: Any) -> None:
         "Cube", 0.4, link=False, location=(0, 0.3, 0.2), material=colored(build, "Cyan", CYAN)
     )
     kit = build.collection("Kit", _hair_curves(build, link=False), tuft, cube)
-    empty = build.empty("Instances", location=(-0.4, -1.3, -0.8))
-    empty.instance_type, empty.instance_collection = "COLLECTION", kit
+    build.instances("Instances", kit, location=(-0.4, -1.3, -0.8))
 
 
 def _grease_pencil(build: Any, kind: str) -> None:
@@ -108,12 +107,12 @@ def point_cloud(build: Any) -> None:
     radius = cloud.attributes.get("radius") or cloud.attributes.new("radius", "FLOAT", "POINT")
     radius.data.foreach_set("value", np.full(80, 0.06, np.float32))
     cloud.materials.append(colored(build, "Orange", ORANGE))
-    build.place(build.link(bpy.data.objects.new("Cloud", cloud)), location=(0, -1.2, 0.1))
+    build.object("Cloud", cloud, location=(0, -1.2, 0.1))
 
 
 def empty_volume(build: Any) -> None:
     stage(build)
-    build.link(bpy.data.objects.new("Volume", bpy.data.volumes.new("Volume")))
+    build.object("Volume", bpy.data.volumes.new("Volume"))
 
 
 def _nodes_beside_mesh(build: Any, name: str) -> tuple[Any, Any, Any]:

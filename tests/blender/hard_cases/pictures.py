@@ -81,8 +81,42 @@ def multiview(build: Any) -> None:
     render.use_multiview, render.views_format = True, "STEREO_3D"
 
 
-# What the temporary scene switches off, or Workbench does not draw.
-SWITCHED_OFF = (depth_of_field, motion_blur, freestyle, multiview)
+def x_ray(build: Any) -> None:
+    stage(build).display.shading.show_xray = True
+
+
+def backface_culling(build: Any) -> None:
+    stage(build).display.shading.show_backface_culling = True
+
+
+def mist(build: Any) -> None:
+    scene = stage(build)
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.mist_settings.use_mist = True
+
+
+def compositor(build: Any) -> None:
+    stage(build)
+    build.compositor()
+
+
+def sequencer(build: Any) -> None:
+    stage(build)
+    build.sequencer()
+
+
+# What the temporary scene switches off, or Workbench does not draw; and what it is called.
+SWITCHED_OFF = {
+    depth_of_field: "depth of field",
+    motion_blur: "motion blur",
+    freestyle: "freestyle lines",
+    multiview: "multiview",
+    x_ray: "x-ray shading",
+    backface_culling: "backface culling",
+    mist: "mist",
+    compositor: "compositor",
+    sequencer: "sequencer",
+}
 
 
 def far_from_origin(build: Any) -> None:

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+from bpy.types import ID
 
 from ....causes.case import Variant
 from ....scene import Camera, SceneError
@@ -22,7 +23,7 @@ TYPES = {"PERSP": "perspective", "ORTHO": "orthographic"}
 class _Other:
     """Something of Blender's with some of its attributes changed, for who only reads it."""
 
-    def __init__(self, block: Any, **changed: Any) -> None:
+    def __init__(self, block: ID, **changed: Any) -> None:
         self._block = block
         self.__dict__.update(changed)
 
@@ -42,7 +43,7 @@ def _others(origin: Origin) -> Iterator[tuple[str, str, Camera]]:
     own = origin.tmp.camera
     others = [o for o in origin.scene.objects if o.type == "CAMERA" and o != own]
     for other in others[:MOST]:
-        seen_through = _Other(origin.tmp, camera=other)
+        seen_through: Any = _Other(origin.tmp, camera=other)
         try:
             yield "other_camera", f"'{other.name_full}'", export_camera(seen_through)
         except SceneError:  # of a kind that cannot be traced
@@ -69,8 +70,8 @@ def _lenses(origin: Origin) -> Iterator[tuple[str, str, Camera]]:
 
 def _with_data(origin: Origin, camera: Camera, data: Any) -> Camera:
     """Return the camera with other settings of its lens."""
-    obj = SimpleNamespace(name=camera.name, type="CAMERA", data=data)
-    scene = _Other(origin.tmp, camera=obj)
+    obj: Any = SimpleNamespace(name=camera.name, type="CAMERA", data=data)
+    scene: Any = _Other(origin.tmp, camera=obj)
     return replace(camera, projection=projection_of(obj, scene), window=window_of(scene))
 
 

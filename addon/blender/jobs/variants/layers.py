@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
+from bpy.types import Object
 
 from ....causes.case import Variant
 from ....scene import Instance, Scene
@@ -43,7 +43,7 @@ def _hidden(origin: Origin) -> Iterator[Variant]:
         yield Variant("hidden_shown", whole, "all that is hidden", names)
 
 
-def _with(scene: Scene, obj: Any, origin: Origin) -> Scene:
+def _with(scene: Scene, obj: Object, origin: Origin) -> Scene:
     """Return a scene with an object more, as it is without modifiers."""
     name = obj.name_full
     read = read_mesh(obj, name, False)

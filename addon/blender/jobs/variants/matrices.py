@@ -1,4 +1,4 @@
-"""Objects in other places: without their parents, the parents' inverse, or as instances."""
+"""Objects in other places: without parents, their inverse, deltas, or as instances."""
 
 from __future__ import annotations
 
@@ -33,10 +33,23 @@ def variants(origin: Origin) -> Iterator[Variant]:
         parented,
         lambda o: without_scale(o.parent.matrix_world) @ o.matrix_parent_inverse @ o.matrix_basis,
     )
+    yield from _all_and_each(origin, "delta_left_out", origin.objects, _without_delta)
     yield from _instances(origin)
 
 
-def without_scale(matrix: Any) -> Any:
+def _without_delta(obj: Any) -> Matrix:
+    """Return an object's world matrix without its delta transform."""
+    rotation = obj.rotation_euler
+    if obj.rotation_mode == "QUATERNION":
+        rotation = obj.rotation_quaternion
+    elif obj.rotation_mode == "AXIS_ANGLE":
+        angle, *axis = obj.rotation_axis_angle
+        rotation = Matrix.Rotation(angle, 3, axis).to_quaternion()
+    own = Matrix.LocRotScale(obj.location, rotation, obj.scale)
+    return obj.matrix_world @ obj.matrix_basis.inverted_safe() @ own
+
+
+def without_scale(matrix: Matrix) -> Matrix:
     """Return the place and the rotation of a matrix of Blender's, as it takes them apart."""
     place, rotation, _ = matrix.decompose()
     return Matrix.LocRotScale(place, rotation, None)

@@ -40,28 +40,19 @@ def _without_modifiers(origin: Origin) -> Iterator[Variant]:
             continue
         only_moved = {m.type for m in obj.modifiers} <= DEFORMING
         (rest if only_moved else found)[name] = read[0]
-    for fault, meshes in (("no_modifiers", found), ("rest_pose", rest)):
-        for some in _all_and_each(meshes):
-            scene = _with_meshes(origin.exported, some)
-            alone = next(iter(some)) if len(some) == 1 else ""
-            yield Variant(fault, scene, _names(some), alone)
+    yield from _all_and_each(origin.exported, "no_modifiers", found)
+    yield from _all_and_each(origin.exported, "rest_pose", rest)
 
 
-def _all_and_each(meshes: dict[str, Mesh]) -> Iterator[dict[str, Mesh]]:
-    if meshes:
-        yield meshes
-    if len(meshes) > 1:
-        yield from ({name: meshes[name]} for name in list(meshes)[:MOST])
-
-
-def _names(some: dict[str, Any]) -> str:
-    return ", ".join(f"'{name}'" for name in list(some)[:3]) + (" ..." if len(some) > 3 else "")
-
-
-def _with_meshes(scene: Scene, others: dict[str, Mesh]) -> Scene:
-    """Return the scene with other meshes of some objects."""
-    named = ((n, scene.objects[i.object]) for n, i in enumerate(scene.instances))
-    return scene.with_meshes({n: others[name] for n, name in named if name in others})
+def _all_and_each(scene: Scene, fault: str, meshes: dict[str, Mesh]) -> Iterator[Variant]:
+    """Yield the scene with other meshes of all these objects, then of single ones."""
+    named = [(n, scene.objects[i.object]) for n, i in enumerate(scene.instances)]
+    names = list(meshes)
+    alone = [[name] for name in names[:MOST]]
+    for some in (names, *alone) if len(names) > 1 else alone:
+        other = scene.with_meshes({n: meshes[name] for n, name in named if name in some})
+        said = ", ".join(f"'{name}'" for name in some[:3]) + (" ..." if len(some) > 3 else "")
+        yield Variant(fault, other, said, some[0] if len(some) == 1 else "")
 
 
 def _as_in_the_viewport(origin: Origin) -> Iterator[Variant]:
@@ -74,10 +65,7 @@ def _as_in_the_viewport(origin: Origin) -> Iterator[Variant]:
         for i in origin.exported.instances
     }
     changed = {n: m for n, m in meshes.items() if n in own and not _alike(m, own[n])}
-    for some in _all_and_each(changed):
-        alone = next(iter(some)) if len(some) == 1 else ""
-        scene = _with_meshes(origin.exported, some)
-        yield Variant("viewport_modifiers", scene, _names(some), alone)
+    yield from _all_and_each(origin.exported, "viewport_modifiers", changed)
 
 
 def _alike(one: Mesh, other: Mesh) -> bool:

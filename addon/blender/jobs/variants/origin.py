@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import bpy
+
 from ....pictures.palette import Palette
 from ....scene import Scene
 from ...evaluating import export_for_render
@@ -14,9 +16,9 @@ from ...evaluating import export_for_render
 class Origin:
     """A scene of Blender's, and what is exported of it."""
 
-    scene: Any  # bpy.types.Scene, the user's
+    scene: bpy.types.Scene  # the user's
     layer: str
-    tmp: Any  # a temporary copy of it
+    tmp: bpy.types.Scene  # a temporary copy of it
     exported: Scene  # with all that the view leaves out
     palette: Palette  # its colours
 

@@ -5,13 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from reference_tracer.arrays import Bools, Bytes, Floats, Index
-from reference_tracer.certified.any_rays import decide
-from reference_tracer.certified.arithmetic import sound
-from reference_tracer.scene import Scene, SceneError
-from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.hits import NOTHING
 
+from ..arrays import Bools, Bytes, Floats, Index
+from ..certified.any_rays import decide
+from ..certified.arithmetic import sound_steps
+from ..methods import Method
+from ..rendering import hits as trace_hits
+from ..scene import Scene, SceneError
+from ..tracer.camera import Rays
+from ..tracer.hits import NOTHING, Statistics
+from ..tracer.progress import Progress, Work, result_of
+from ..tracer.settings import Settings
 from .cover import Cover
 from .faces import Faces
 from .points import points_of
@@ -50,8 +54,6 @@ class Visible:
     start: Index
 
 
-@sound
-@np.errstate(all="ignore")
 def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
     """Decide which faces of a scene its camera sees.
 
@@ -68,15 +70,27 @@ def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
     SceneError
         If the camera is a panorama.
     """
+    return result_of(steps(scene, limit, work))
+
+
+@sound_steps
+def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]:
+    """Decide as :func:`visible`, in steps."""
     camera = scene.camera
     if not camera.projection.is_linear:
         raise SceneError(
             f"Camera '{camera.name}' is {camera.projection.name}: which faces are seen is decided "
             "for perspective and orthographic cameras"
         )
+    yield Progress(None, "tracing the pixels' centres")
+    hits = yield from trace_hits(scene, Settings(method=Method.CERTIFIED), Statistics())
+    yield Progress(None, "looking behind what is seen")
     faces = Faces(scene)
+    yield None
     search = _Search(scene, faces, limit, work)
-    search.run()
+    search.bound(Centres(scene, faces, hits))
+    yield None
+    yield from search.steps()
     seen = np.flatnonzero(search.seen == SEEN)
     behind = np.zeros(faces.count, bool)
     behind[seen] = faces.turn[seen] > 0
@@ -102,23 +116,14 @@ class _Search:
         self.witness = np.full((2, faces.count), np.nan)
         self.area = np.zeros(faces.count)
 
-    def run(self) -> None:
-        """Decide every face."""
-        centres = Centres(self._scene, self._faces)
-        self._enter(centres.face, centres.at)
-        self._bound(centres)
-        some = self.seen == UNDECIDED
-        self.seen[some & (self.area == 0)] = HIDDEN
-        self._cover()
-        self.area[self.seen != UNDECIDED] = 0
-
     def _enter(self, face: Index, at: Floats) -> None:
         self.seen[face] = SEEN
         self.witness[:, face] = at
 
-    def _bound(self, centres: Centres) -> None:
+    def bound(self, centres: Centres) -> None:
         """Find the part of the film in which each face may be seen: a box, and its area."""
         faces = self._faces
+        self._enter(centres.face, centres.at)
         self._low, self._high = np.full((2, 2, faces.count), np.inf)
         self._high = -self._high
         some = np.flatnonzero(self.seen == UNDECIDED)
@@ -146,48 +151,55 @@ class _Search:
             np.minimum.at(self._low[k], face, low[k])
             np.maximum.at(self._high[k], face, high[k])
 
-    def _cover(self) -> None:
+    def steps(self) -> Work[None]:
         """Look for each face, and for what is before it, until nothing new is found."""
         faces = self._faces
+        self.seen[(self.seen == UNDECIDED) & (self.area == 0)] = HIDDEN
         self._sights = Sights(self._scene, faces)
-        cover = Cover(faces, self._low, self._high, self._work)
-        covered = np.zeros(faces.count, bool)  # in one ray
-        tries = np.zeros(faces.count, np.intp)  # since more was known of what is before a face
-        cut = np.arange(faces.count)  # what each face may cross, or itself
-        left = self.seen == UNDECIDED
-        at: Floats = np.zeros((2, 0))
-        face: Index = np.zeros(0, np.intp)
+        self._before = Cover(faces, self._low, self._high, self._work)
+        self._covered = np.zeros(faces.count, bool)  # in one ray
+        self._tries = np.zeros(faces.count, np.intp)  # since more was known of what is before it
+        self._cut = np.arange(faces.count)  # what each face may cross, or itself
+        self._left = self.seen == UNDECIDED
+        rays: tuple[Index, Floats] = np.zeros(0, np.intp), np.zeros((2, 0))
         for _ in range(_ROUNDS):
-            some = np.flatnonzero(left & (~covered | (tries > 0)))
-            box = self._low[:, some], self._high[:, some]
-            new = points_of(faces, some, cut[some], *box, tries[some] // 2)
-            face, at = np.concatenate((face, some)), np.concatenate((at, new), axis=1)
-            if not len(face) or cover.work <= 0:
+            yield None
+            rays = self._round(*rays)
+            if not self._left.any() or self._before.work <= 0:
                 break
-            before, rays = self._look(face, at)
-            left &= self.seen == UNDECIDED
-            rows = np.flatnonzero(left[face])
-            face, at, before, rays = face[rows], at[:, rows], before[rows], rays.take(rows)
-            tries[face] += 1
-            tries[cover.add(face, before)] = 0
-            # What is before the face, but not all of it: another one may be, right before it.
-            rows = np.flatnonzero(~cover.holds(face, before))
-            cut[face[rows]] = np.where(before[rows] == NOTHING, face[rows], before[rows])
-            before[rows] = self._sights.before(face[rows], rays.take(rows))
-            tries[cover.add(face[rows], before[rows])] = 0
-            inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
-            rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
-            for met in (face, before):
-                corners = faces.points[:, faces.corners[:, met[rows]]].swapaxes(0, 1)
-                rows = rows[decide(rays.take(rows), corners).crossed]
-            covered[face[rows]] = True
-            face, at = cover.gaps(left & covered, tries)
-            whole = left & covered
-            whole[face] = False
-            self.seen[whole] = HIDDEN
-            left &= ~whole & (tries < _TRIES) & (self.area > self._limit)
-            some = left[face]
-            face, at = face[some], at[:, some]
+        self.area[self.seen != UNDECIDED] = 0
+
+    def _round(self, face: Index, at: Floats) -> tuple[Index, Floats]:
+        """Trace rays past edges, and others; decide what they tell, and return the next ones."""
+        faces, cover, covered, tries = self._faces, self._before, self._covered, self._tries
+        some = np.flatnonzero(self._left & (~covered | (tries > 0)))
+        box = self._low[:, some], self._high[:, some]
+        new = points_of(faces, some, self._cut[some], *box, tries[some] // 2)
+        face, at = np.concatenate((face, some)), np.concatenate((at, new), axis=1)
+        before, rays = self._look(face, at)
+        self._left &= self.seen == UNDECIDED
+        rows = np.flatnonzero(self._left[face])
+        face, at, before, rays = face[rows], at[:, rows], before[rows], rays.take(rows)
+        tries[face] += 1
+        tries[cover.add(face, before)] = 0
+        # What is before the face, but not all of it: another one may be, right before it.
+        rows = np.flatnonzero(~cover.holds(face, before))
+        self._cut[face[rows]] = np.where(before[rows] == NOTHING, face[rows], before[rows])
+        before[rows] = self._sights.before(face[rows], rays.take(rows))
+        tries[cover.add(face[rows], before[rows])] = 0
+        inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
+        rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
+        for met in (face, before):
+            corners = faces.points[:, faces.corners[:, met[rows]]].swapaxes(0, 1)
+            rows = rows[decide(rays.take(rows), corners).crossed]
+        covered[face[rows]] = True
+        whole = self._left & covered
+        face, at = cover.gaps(whole, tries)
+        whole[face] = False
+        self.seen[whole] = HIDDEN
+        self._left &= ~whole & (tries < _TRIES) & (self.area > self._limit)
+        some = self._left[face]
+        return face[some], at[:, some]
 
     def _look(self, face: Index, at: Floats) -> tuple[Index, Rays]:
         """Trace rays that may see faces, and note those that do; return what they see, and rays."""

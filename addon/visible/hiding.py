@@ -13,8 +13,8 @@ known; others begin later and end earlier, by their errors.
 from __future__ import annotations
 
 import numpy as np
-from reference_tracer.arrays import Bools, Floats, Index
 
+from ..arrays import Bools, Floats, Index
 from .faces import EDGES, Faces
 
 THROUGH = 2  # an edge crosses a face

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from reference_tracer.arrays import Bools, Floats, Index, parts
-from reference_tracer.tracer.camera import film_of
-from reference_tracer.tracer.vector import spread
 
+from ..arrays import Bools, Floats, Index, parts
+from ..tracer.camera import film_of
+from ..tracer.vector import spread
 from .faces import Faces
 from .hiding import THROUGH, crossed, nearer
 

@@ -7,22 +7,19 @@ centre is the corner of four cells of one pixel. A cell of level k is 2^k pixels
 from __future__ import annotations
 
 import numpy as np
-from reference_tracer.arrays import Floats, Index, parts
-from reference_tracer.certified.bounds import Fractions, plane_fractions
-from reference_tracer.certified.ladder import Ladder
-from reference_tracer.certified.rounding import rounding
-from reference_tracer.certified.surfaces import Surfaces
-from reference_tracer.certified.sweep.depth_buffer import ROUNDING, nearness
-from reference_tracer.certified.triangle_tree import TriangleTree
-from reference_tracer.methods import Method
-from reference_tracer.rendering import trace
-from reference_tracer.scene import Scene
-from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
-from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
-from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Settings
-from reference_tracer.tracer.vector import cross, dot, spread
 
+from ..arrays import Floats, Index, parts
+from ..certified.bounds import Fractions, plane_fractions
+from ..certified.ladder import Ladder
+from ..certified.rounding import rounding
+from ..certified.surfaces import Surfaces
+from ..certified.sweep.depth_buffer import ROUNDING, nearness
+from ..certified.triangle_tree import TriangleTree
+from ..scene import Scene
+from ..tracer.camera import Rays, camera_rays, film_positions
+from ..tracer.hits import NOTHING, Hits, Statistics
+from ..tracer.progress import result_of
+from ..tracer.vector import cross, dot, spread
 from .faces import Faces
 
 _APART = 2.0**-30  # of t, from a face towards what is before it
@@ -37,11 +34,10 @@ class Centres:
     cell, -inf where none does. `face`, `at` are what is seen, and a film position of each, (2, n).
     """
 
-    def __init__(self, scene: Scene, faces: Faces) -> None:
+    def __init__(self, scene: Scene, faces: Faces, hits: Hits) -> None:
         camera = scene.camera
         region = camera.region
         shape = region.height, region.width
-        hits = trace(scene, Settings(method=Method.CERTIFIED))
         self.corner = region.x0 - 0.5, region.y0 - 0.5
         self.size = region.width, region.height
         name = _numbers(faces, hits)
@@ -53,8 +49,7 @@ class Centres:
         plane = np.where(hits.instance >= len(scene.instances), -2 - hits.instance, NOTHING)
         name = np.where(name >= 0, name, plane).reshape(shape)
         t = hits.t.reshape(shape)
-        with np.errstate(all="ignore"):
-            least = nearness(camera, t, t, ROUNDING)[0]
+        least = nearness(camera, t, t, ROUNDING)[0]
         off = 0.0 if camera.projection.shares_direction else 2 * faces.film.ray_error
         least -= np.abs(least) * off
         # All rays between four that meet one triangle, which is convex, meet it, too.

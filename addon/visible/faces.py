@@ -9,17 +9,18 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from reference_tracer.arrays import Bools, Floats, Index
-from reference_tracer.certified.bounds import bound, cross_magnitude
-from reference_tracer.certified.integers import cross as exact_cross
-from reference_tracer.certified.integers import dot as exact_dot
-from reference_tracer.certified.integers import integers, sub
-from reference_tracer.certified.sweep.depth_buffer import ClipRange
-from reference_tracer.certified.sweep.edge_functions import set_up
-from reference_tracer.certified.sweep.film import DELTA, Film
-from reference_tracer.certified.sweep.vertices import Vertices
-from reference_tracer.scene import Scene
-from reference_tracer.tracer.vector import cross, dot, transform_points
+
+from ..arrays import Bools, Floats, Index
+from ..certified.bounds import bound, cross_magnitude
+from ..certified.integers import cross as exact_cross
+from ..certified.integers import dot as exact_dot
+from ..certified.integers import integers, sub
+from ..certified.sweep.depth_buffer import ClipRange
+from ..certified.sweep.edge_functions import set_up
+from ..certified.sweep.film import DELTA, Film
+from ..certified.sweep.vertices import Vertices
+from ..scene import Scene
+from ..tracer.vector import cross, dot, transform_points
 
 EDGES = (1, 2), (2, 0), (0, 1)  # the corners of a face's edges, in their order
 _ROOM = 4  # pixels around a box in which functions are evaluated, too

@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-from reference_tracer.arrays import Floats, Index
-from reference_tracer.tracer.vector import cross, dot
 
+from ..arrays import Floats, Index
+from ..tracer.vector import cross, dot
 from .faces import EDGES, Faces
 
 _ROOM = 1e-9  # of lines that meet, relative: to be taken for within, too
