@@ -100,12 +100,14 @@ def fitted(found: Matches, seen: Callable[[Floats], Floats | None], count: int) 
             return None
         slope = (now - np.array(beside)) / STEP  # (k, 2, n)
         known = np.isfinite(now).all(axis=0) & np.isfinite(slope).all(axis=(0, 1))
+        if not known.any():  # all are behind the camera
+            return None
         apart = _apart(now, found.sure)[known]
         scale = max(HIT, float(np.median(apart)) * 2 / (1 + number / 4))
         weighted = found.sure[known] / (1 + (apart / scale) ** 2)[:, None, None]
         j, r = slope[..., known], now[:, known]
         normal = np.einsum("ain,nij,bjn->ab", j, weighted, j) + FIXED * np.eye(count)
-        sizes, own = np.linalg.eigh(normal / max(int(known.sum()), 1) / INFORMED)
+        sizes, own = np.linalg.eigh(normal / int(known.sum()) / INFORMED)
         axes = own / np.maximum(np.sqrt(np.maximum(sizes, 0)), 1 / LONGEST)
         step = np.linalg.solve(normal, np.einsum("ain,nij,jn->a", j, weighted, r))
         units = units + step
