@@ -1,38 +1,50 @@
-"""All faces of a scene on the camera's film: where each may appear, and its edge functions.
+"""All faces of a scene on the camera's film: where each may appear, and exact signs of its corners.
 
-A face is a triangle of an instance; faces are numbered through all instances. The film is measured
-in pixels. What bounds a face there is `certified/sweep/`: its projected vertices, edge functions
-and nearness. On which side of a plane a point lies, `certified/bounds.py` says.
+A face is a triangle of an instance; faces are numbered through all instances. Edge k of face f is
+k m + f. The film is measured in pixels. What bounds a face there is `certified/sweep/`.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..arrays import Bools, Floats, Index
-from ..certified.bounds import FromPoint, Parallel
-from ..certified.integers import cross, dot, integers, sub
+from ..certified.bounds import bound, cross_magnitude
+from ..certified.integers import cross as exact_cross
+from ..certified.integers import dot as exact_dot
+from ..certified.integers import integers, sub
 from ..certified.sweep.depth_buffer import ClipRange
 from ..certified.sweep.edge_functions import set_up
 from ..certified.sweep.film import DELTA, Film
 from ..certified.sweep.vertices import Vertices
 from ..scene import Scene
-from ..tracer.camera import Rays
-from ..tracer.vector import transform_points
+from ..tracer.vector import cross, dot, transform_points
 
-_ROOM = 4  # pixels around a face in which its functions are evaluated, too
-_SET_UP = 1 << 14  # faces set up together
-_EDGES = ((1, 2), (2, 0), (0, 1))  # of the edge functions, in their order
-_UNKNOWN = 2  # a turn that nobody asked for yet
+EDGES = (1, 2), (2, 0), (0, 1)  # the corners of a face's edges, in their order
+_ROOM = 4  # pixels around a box in which functions are evaluated, too
+
+
+class Signs(NamedTuple):
+    """The signs of n determinants, exactly; and the values as computed, with their bounds."""
+
+    sign: Index
+    value: Floats
+    error: Floats
 
 
 class Faces:
     """The m faces of a scene.
 
     `start` (k + 1,) is the first of each instance; `corners` (3, m) indexes `points` (3, v), in
-    world space. Corners with the same coordinates have the same number in `welded` (v,).
-    `low`, `high` (2, m) enclose each face on the film; `nearest` (m,) bounds its nearness.
-    `may_show` (m,) is False for what is not finite, or wholly outside the clip range or the region.
+    world space. Corners with the same coordinates have the same number in `welded` (v,), and edges
+    with the same two ends the same `edge_name` (3 m,).
+    `low`, `high` (2, m) enclose each face on the film, and `near`, `far` (m,) its depth;
+    `nearest` (m,) bounds its nearness; one `in_clip` (m,) surely is in the clip range.
+    `turn` (m,) is the side that the camera sees: 1 the back,
+    -1 the front, 0 none. That is the sign of d . n for rays d that meet it, n = (b - a) x (c - a).
+    `may_show` (m,) is False for what is edge-on, not finite, or outside the clip range or region.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -51,207 +63,162 @@ class Faces:
         self.corners = np.concatenate([np.zeros((3, 0), np.intp), *corners], axis=1)
         self.vertices = Vertices.empty(int(first[-1]), np.int32)
         self.film.enter(self.vertices, 0, self.points)
-        self._enclose(scene)
         self.welded = _welded(self.points)
+        self._enclose(scene)
         self._pair_edges()
-        self._known = np.zeros(self.count, bool)
-        self._turn = np.full(self.count, _UNKNOWN, np.int8)
-        self._coefficients = np.empty((self.count, 12))  # of 1, y and x: 4 each
-        self._origin = np.empty((2, self.count))
-        self.edge_error = np.empty(self.count)
-        self.nearness_error = np.empty(self.count)
-        self.sure = np.empty(self.count, bool)
 
     def _enclose(self, scene: Scene) -> None:
-        """Find where each face may appear: within `low` and `high`, or, if not `may_show`, nowhere.
-
-        A vertex that is `certain` is off by DELTA; the box of another one says which pixels'
-        centres a face may cover.
-        """
-        camera = scene.camera
+        """Find where each face may appear."""
         v = self.vertices
         constant, slope = self.film.depth_error
         own = constant + slope * v.size
-        before = self._of_corners(v.depth + own < camera.clip_start).all(axis=0)
-        behind = self._of_corners(v.depth - own > camera.clip_end).all(axis=0)
-        self.nearest = self._of_corners(v.nearest).max(axis=0, initial=-np.inf)
-        self.nearest[~np.isfinite(self._of_corners(v.depth)).all(axis=0)] = np.inf
+        self.near = self.of_corners(v.depth - own).min(axis=0)
+        self.far = self.of_corners(v.depth + own).max(axis=0)
+        camera = scene.camera
+        room = 0.0 if camera.projection.shares_direction else 4 * self.film.ray_error
+        self.in_clip = self.near * (1 - room) > camera.clip_start
+        self.in_clip &= self.far * (1 + room) < camera.clip_end
+        self.nearest = self.of_corners(v.nearest).max(axis=0, initial=-np.inf)
+        self.nearest[~np.isfinite(self.of_corners(v.depth)).all(axis=0)] = np.inf
         region = camera.region
         first = np.array([[region.x0], [region.y0]], np.float64)
         last = np.array([[region.x1], [region.y1]], np.float64)
-        low = np.where(v.certain, (v.x, v.y), v.box[:, :2].T + 0.5) - 2 * DELTA
-        low = np.where(v.certain, low, low - 1)
-        high = np.where(v.certain, (v.x, v.y), -v.box[:, 2:].T + 0.5) + 2 * DELTA
-        high = np.where(v.certain, high, high + 1)
-        self.at = np.stack((low, high))
+        # As film.py has it: what is farther beside the picture truly lies on that side of it.
+        beyond = 2 * max(camera.width, camera.height)
+        constant, slope = self.film.place
+        margin = constant + (slope + beyond * self.film.weight) * v.size
+        margin = 1.01 * margin / v.w + 2 * DELTA
+        at = np.clip((v.x, v.y), -beyond, beyond)
+        self.at = np.stack((at - margin, at + margin))
         self.at[:, :, ~v.ahead] = np.array([[[-np.inf]], [[np.inf]]])
-        self.low = np.maximum(self._of_corners(self.at[0]).min(axis=0), first)
-        self.high = np.minimum(self._of_corners(self.at[1]).max(axis=0), last)
-        self.may_show = self._of_corners(v.finite).all(axis=0) & ~before & ~behind
+        self.low = np.maximum(self.of_corners(self.at[0]).min(axis=0), first)
+        self.high = np.minimum(self.of_corners(self.at[1]).max(axis=0), last)
+        self.may_show = self.of_corners(v.finite).all(axis=0)
+        self.may_show &= (self.far >= camera.clip_start) & (self.near <= camera.clip_end)
         self.may_show &= (self.low < self.high).all(axis=0)
+        self.turn = np.zeros(self.count, np.int8)
+        some = np.flatnonzero(self.may_show)
+        self.turn[some] = self.signs(*self.corners[:, some]).sign
+        self.may_show &= self.turn != 0
 
-    def _of_corners(self, values: Floats | Bools) -> Floats:
+    def of_corners(self, values: Floats | Bools) -> Floats:
         """Return what is known of vertices, (..., v), for the corners of faces, (3, ..., m)."""
         return np.stack([values[..., corner] for corner in self.corners])
 
     def _pair_edges(self) -> None:
-        """Find for each edge k of face f, as k m + f, another one with the same two ends.
+        """Find for each edge another one with the same two ends.
 
         Each has one partner at most, or is its own. Where more meet, those of neighbours in the
         list of faces are partners.
         """
         ends = self.welded[self.corners]
-        a = np.concatenate([ends[i] for i, _ in _EDGES])
-        b = np.concatenate([ends[j] for _, j in _EDGES])
-        self._forward = a < b
+        a = np.concatenate([ends[i] for i, _ in EDGES])
+        b = np.concatenate([ends[j] for _, j in EDGES])
+        self.forward = np.where(a < b, 1, -1)
         key = np.minimum(a, b) * np.int64(len(self.welded)) + np.maximum(a, b)
         every = np.arange(len(key))
         order = np.argsort(key.reshape(3, -1).T.ravel(), kind="stable")
         order = every.reshape(3, -1).T.ravel()[order]
         starts = np.diff(key[order], prepend=-1) != 0
-        number = every - np.flatnonzero(starts)[np.cumsum(starts) - 1]
-        second = np.flatnonzero(number % 2 == 1)
-        self._mate = every
-        self._mate[order[second]] = order[second - 1]
-        self._mate[order[second - 1]] = order[second]
+        name = np.cumsum(starts) - 1
+        self.edge_name = np.empty_like(every)
+        self.edge_name[order] = name
+        second = np.flatnonzero((every - np.flatnonzero(starts)[name]) % 2 == 1)
+        self.mate = every.copy()
+        self.mate[order[second]] = order[second - 1]
+        self.mate[order[second - 1]] = order[second]
 
-    def need(self, faces: Index) -> None:
-        """Have the functions of some faces ready."""
-        new = np.unique(faces[~self._known[faces]])
-        for begin in range(0, len(new), _SET_UP):
-            some = new[begin : begin + _SET_UP]
-            origin = np.floor(self.low[:, some])
-            reach = np.maximum(*(self.high[:, some] - origin)) + _ROOM
-            found = set_up(
-                self.film,
-                self.vertices,
-                self.corners[:, some],
-                self.nearest[some],
-                origin,
-                reach,
-            ).take(slice(len(some)))
-            self._coefficients[some] = found.coefficients.reshape(12, -1).T
-            self._origin[:, some] = origin + 0.5
-            self.edge_error[some] = found.edge_error
-            self.nearness_error[some] = found.nearness_error
-            self.sure[some] = found.sure
-        self._known[new] = True
+    def ends(self, edge: Index) -> Index:
+        """Return the two vertices of edges, (2, ...): of partners, in the same order."""
+        k, face = np.divmod(edge, self.count)
+        first, last = np.array(EDGES).T[:, k]
+        forward = self.forward[edge] > 0
+        return self.corners[np.where(forward, (first, last), (last, first)), face]
 
-    def at_points(self, faces: Index, x: Floats, y: Floats) -> Floats:
-        """Return edge functions and nearness at film positions (n,): (4, n)."""
-        of_1, of_y, of_x = self._functions(faces)
-        x0, y0 = self._origin[:, faces]
-        return of_1 + of_y * (y - y0) + of_x * (x - x0)
+    def side(self, edge: Index) -> Index:
+        """Return on which side of edges their faces are, (n,), as `turn`: 1 is to the right."""
+        return self.forward[edge] * self.turn[edge % self.count]
 
-    def nearness_at(self, faces: Index, x: Floats, y: Floats) -> Floats:
-        """Return the nearness of n faces at film positions (..., n)."""
-        of_1, of_y, of_x = self._functions(faces)[:, 3]
-        x0, y0 = self._origin[:, faces]
-        return of_1 + of_y * (y - y0) + of_x * (x - x0)
+    def inside(self, edge: Index, point: Index) -> Signs:
+        """Return on which side of edges of faces points are: positive within."""
+        first, last = self.ends(edge)
+        found = self.signs(first, last, point)
+        turn = self.side(edge)
+        return Signs(found.sign * turn, found.value * turn, found.error)
 
-    def between(self, faces: Index, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-        """Return the least and the most of edge functions and nearness in boxes, (4, n) each.
+    def signs(self, a: Index, b: Index, c: Index, before: Index | None = None) -> Signs:
+        """Return how points, by their numbers (...), turn for the camera, as `turn` of a face.
 
-        The boxes of the film go from `low` to `high`, (2, n) each.
+        Or, if `before` is given: for an eye in those points.
         """
-        of_1, of_y, of_x = self._functions(faces)
-        origin = self._origin[:, faces]
-        (x0, y0), (x1, y1) = low - origin, high - origin
+        points = np.broadcast_arrays(a, b, c, *(() if before is None else (before,)))
+        every = np.stack([each.ravel() for each in points])
+        own = self.welded[every]
+        same = np.zeros(own.shape[1], bool)
+        for k in range(1, len(own)):
+            same |= (own[k] == own[:k]).any(axis=0)
+        camera = self.film.camera
+        parallel = before is None and camera.projection.shares_direction
+        eye = camera.forward if parallel else camera.origin
+        corners = [self.points.take(each, axis=1) for each in every]
+        v = np.broadcast_to(eye[:, None], (3, len(same))) if before is None else corners.pop()
+        sides = corners[1] - corners[0], corners[2] - corners[0]
+        size = cross_magnitude(*np.abs(sides))
+        arm = v if parallel else corners[0] - v
+        value = dot(arm, cross(*sides))
+        error = bound(dot(np.abs(arm), size), np.abs(arm))
+        sign = np.where(same, 0, np.sign(value))
+        doubt = np.flatnonzero(~same & (~(np.abs(value) > error) | ~np.isfinite(value)))
+        doubtful = [corner[:, doubt] for corner in corners]
+        sign[doubt] = _exact_signs(doubtful, v[:, doubt], parallel)
+        value[same] = error[same] = 0
+        shape = points[0].shape
+        return Signs(
+            sign.astype(np.int8).reshape(shape), value.reshape(shape), error.reshape(shape)
+        )
+
+    def within(self, faces: Index, low: Floats, high: Floats) -> tuple[Bools, Floats, Floats]:
+        """Evaluate n faces in boxes of the film, (2, n) each.
+
+        Returns
+        -------
+        missed : (n,) bool
+            None of the box's rays meets the face, in the clip range.
+        least, most : (n,) float64
+            Bound the nearness of what is met.
+        """
+        origin = np.floor(low)
+        reach = np.maximum(*(high - origin)) + _ROOM
+        found = set_up(
+            self.film, self.vertices, self.corners[:, faces], self.nearest[faces], origin, reach
+        ).take(slice(len(faces)))
+        of_1, of_y, of_x = found.coefficients
+        (x0, y0), (x1, y1) = low - origin - 0.5, high - origin - 0.5
         up, down = of_y * y1, of_y * y0
         right, left = of_x * x1, of_x * x0
         least = of_1 + np.minimum(up, down) + np.minimum(right, left)
-        return least, of_1 + np.maximum(up, down) + np.maximum(right, left)
-
-    def lines(self, faces: Index) -> Floats:
-        """Return edges as a + b x + c y of the film position, roughly: (a b c, 3, n)."""
-        of_1, of_y, of_x = self._functions(faces)[:, :3]
-        x, y = self._origin[:, faces]
-        return np.stack((of_1 - of_x * x - of_y * y, of_x, of_y))
-
-    def _functions(self, faces: Index) -> Floats:
-        """Return the coefficients of 1, y and x, (3, 4, n)."""
-        return np.ascontiguousarray(self._coefficients.take(faces, axis=0).T).reshape(3, 4, -1)
-
-    def turn(self, faces: Index) -> Index:
-        """Return which side the camera sees of faces: 1 the back, -1 the front, 0 none.
-
-        That is the sign of d . n for the rays that meet it, n = (b - a) x (c - a).
-        """
-        new = np.unique(faces[self._turn[faces] == _UNKNOWN])
-        if len(new):
-            self._turn[new] = self.orientation(*self.corners[:, new])
-        return self._turn[faces]
-
-    def orientation(self, a: Index, b: Index, c: Index) -> Index:
-        """Return how three points, by their numbers (n,), turn for the camera, as :meth:`turn`."""
-        own = [self.welded[k] for k in (a, b, c)]
-        out = np.zeros(len(a), np.int8)
-        some = np.flatnonzero((own[0] != own[1]) & (own[1] != own[2]) & (own[2] != own[0]))
-        corners = self.points[:, np.stack((a[some], b[some], c[some]))].swapaxes(0, 1)
-        every = np.arange(len(some))
-        camera = self.film.camera
-        ray = Rays(camera.origin[:, None], camera.forward[:, None])
-        if camera.projection.shares_direction:
-            ends = ray.origins, ray.origins
-            f = Parallel(ray.directions, *ends, corners).fractions(every, ray)
-            values = f.denominator, f.denominator_error
-            out[some] = _signs(*values, corners, ray.directions, True)
-        else:
-            f = FromPoint(ray.origins, np.abs(ray.directions), corners).fractions(every, ray)
-            values = f.numerator, f.numerator_error
-            out[some] = _signs(*values, corners, ray.origins, False)
-        return out
-
-    def side(self, faces: Index, point: Index) -> Index:
-        """Return on which side of faces' planes points are: as :meth:`turn` on the camera's side.
-
-        0 where they are in the plane.
-        """
-        shared = (self.welded[self.corners[:, faces]] == self.welded[point]).any(axis=0)
-        some = np.flatnonzero(~shared)
-        corners = self.points[:, self.corners[:, faces[some]]].swapaxes(0, 1)
-        origins = self.points[:, point[some]]
-        f = FromPoint(origins, np.zeros((3, 1)), corners)
-        found = f.fractions(np.arange(len(some)), Rays(origins, origins))
-        out = np.zeros(len(faces), np.int8)
-        values = found.numerator, found.numerator_error
-        out[some] = _signs(*values, corners, origins, False)
-        return out
-
-    def across(self, edge: Index) -> tuple[Index, Bools]:
-        """Return the edges (k m + f) that continue a surface beyond others, and whether they do.
-
-        They do if, as the camera sees them, the two faces lie on both sides of the edge.
-        """
-        mate = self._mate[edge]
-        own = self.turn(edge % self.count) * np.where(self._forward[edge], 1, -1)
-        other = self.turn(mate % self.count) * np.where(self._forward[mate], 1, -1)
-        return mate, (mate != edge) & (own == -other) & (own != 0)
-
-    def ends(self, edge: Index) -> tuple[Index, Index]:
-        """Return the vertices of edges, k m + f."""
-        k, face = np.divmod(edge, self.count)
-        pairs = np.array(_EDGES)[k].T
-        return self.corners[pairs[0], face], self.corners[pairs[1], face]
+        most = of_1 + np.maximum(up, down) + np.maximum(right, left)
+        missed = (most[:3] < -found.edge_error).any(axis=0)
+        # One that is not sure may have the other orientation.
+        missed &= found.sure | (least[:3] > found.edge_error).any(axis=0)
+        missed |= (self.low[:, faces] > high).any(axis=0) | (self.high[:, faces] < low).any(axis=0)
+        bounds = least[3] - found.nearness_error, most[3] + found.nearness_error
+        nearest = np.fmin(bounds[1], self.nearest[faces])
+        return missed | self.clip.outside(bounds[0], nearest), bounds[0], nearest
 
 
-def _signs(value: Floats, error: Floats, corners: Floats, v: Floats, parallel: bool) -> Index:
-    """Return the signs of values: where their bounds leave a doubt, in integers.
-
-    They are (a - v) . n of the corners (3, 3, n), or v . n if `parallel`; v is (3, n) or (3, 1).
-    """
-    found = np.sign(value)
-    doubt = np.flatnonzero(~(np.abs(value) > error) | ~np.isfinite(value))
-    v = np.broadcast_to(v, corners.shape[1:])[:, doubt]
-    lengths, _ = integers(np.hstack((*corners[..., doubt], *(() if parallel else (v,)))))
-    count = len(doubt)
+def _exact_signs(corners: list[Floats], v: Floats, parallel: bool) -> list[int]:
+    """Return the signs of (a - v) . n of corners (3, n) each, or v . n, in integers."""
+    lengths, _ = integers(np.hstack((*corners, *(() if parallel else (v,)))))
+    count = v.shape[1]
     a, b, c = (lengths[k * count : (k + 1) * count] for k in range(3))
-    along, _ = integers(v) if parallel else (lengths[3 * count :], 0)
+    along = integers(v)[0] if parallel else lengths[3 * count :]
+    found = []
     for k in range(count):
-        normal = cross(sub(b[k], a[k]), sub(c[k], a[k]))
-        exact = dot(along[k] if parallel else sub(a[k], along[k]), normal)
-        found[doubt[k]] = (exact > 0) - (exact < 0)
-    return found.astype(np.int8)
+        normal = exact_cross(sub(b[k], a[k]), sub(c[k], a[k]))
+        exact = exact_dot(along[k] if parallel else sub(a[k], along[k]), normal)
+        found.append((exact > 0) - (exact < 0))
+    return found
 
 
 def _welded(points: Floats) -> Index:

@@ -2,34 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Bools, Bytes, Floats, Index, parts
+from ..arrays import Bools, Bytes, Floats, Index
+from ..certified.any_rays import decide
 from ..certified.arithmetic import sound_steps
 from ..methods import Method
 from ..rendering import hits as trace_hits
 from ..scene import Scene, SceneError
-from ..tracer.hits import NOTHING, Hits, Statistics
+from ..tracer.camera import Rays
+from ..tracer.hits import NOTHING, Statistics
 from ..tracer.progress import Progress, Work, result_of
 from ..tracer.settings import Settings
-from ..tracer.vector import spread
+from .cover import Cover
 from .faces import Faces
-from .hiding import Cells, behind_planes, covers, reached, surely_in
-from .polygons import in_cells
-from .sights import TOP, Centres, Sights, start_cells
+from .points import points_of
+from .sights import TOP, Centres, Sights, behind_planes
 
 HIDDEN, SEEN, UNDECIDED = 0, 1, 2
 LIMIT = 1e-6  # square pixels
-WORK = 1 << 20  # cells of at most one pixel, each with a face
-_DEEPEST = -12  # the level of the smallest cells
-_SMALL = -6  # in which a face is left undecided, if so little may be seen of it
-_CELLS = 256  # of a face, that are divided further
-_LOOKS = 4, 16  # rays of each face in cells of one pixel, and in smaller ones of a level
-_ROOM = 1 / 16  # of a cell's size, on each side: so that no cell has only a corner of a face
-_TOGETHER = 1 << 15
+WORK = 1 << 24  # pairs of faces that are compared, and of edges and faces
+_ROOM = 2.0**-8  # pixels around what may be seen, so that more than a corner is there
+_ROUNDS = 32  # of rays
+_TRIES = 6  # of them without anything new, for a face
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,12 +55,6 @@ class Visible:
 
 
 def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
-    """Return what :func:`steps` decides."""
-    return result_of(steps(scene, limit, work))
-
-
-@sound_steps
-def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]:
     """Decide which faces of a scene its camera sees.
 
     Parameters
@@ -71,13 +62,20 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
     limit : float
         Square pixels: if no more than that may be seen of a face, it stays undecided.
     work : int
-        About how many cells may be looked at, counted for each face: then the rest is undecided.
+        About how many pairs, of faces and of edges and faces, may be compared: then the rest is
+        undecided.
 
     Raises
     ------
     SceneError
         If the camera is a panorama.
     """
+    return result_of(steps(scene, limit, work))
+
+
+@sound_steps
+def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]:
+    """Decide as :func:`visible`, in steps."""
     camera = scene.camera
     if not camera.projection.is_linear:
         raise SceneError(
@@ -86,14 +84,16 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
         )
     yield Progress(None, "tracing the pixels' centres")
     hits = yield from trace_hits(scene, Settings(method=Method.CERTIFIED), Statistics())
-    yield Progress(None, "dividing the film")
+    yield Progress(None, "looking behind what is seen")
     faces = Faces(scene)
     yield None
-    search = _Search(scene, faces, hits, limit, work)
+    search = _Search(scene, faces, limit, work)
+    search.bound(Centres(scene, faces, hits))
+    yield None
     yield from search.steps()
     seen = np.flatnonzero(search.seen == SEEN)
     behind = np.zeros(faces.count, bool)
-    behind[seen] = faces.turn(seen) > 0
+    behind[seen] = faces.turn[seen] > 0
     return Visible(
         search.seen,
         search.witness.T.copy(),
@@ -103,32 +103,11 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Items:
-    """n cells (2, n) of one level, and a face that may be seen in each, (n,)."""
-
-    face: Index
-    cell: Index
-
-    def take(self, index: Index | Bools | slice) -> _Items:
-        return _Items(self.face[index], self.cell[:, index])
-
-    def divided(self) -> _Items:
-        """Return each cell's four."""
-        x, y = 2 * self.cell
-        cells = np.stack([(x + i, y + j) for j in (0, 1) for i in (0, 1)], axis=2)
-        return _Items(np.repeat(self.face, 4), cells.reshape(2, -1))
-
-    def joined(self, others: Sequence[_Items]) -> _Items:
-        face = np.concatenate([self.face, *(other.face for other in others)])
-        cell = np.concatenate([self.cell, *(other.cell for other in others)], axis=1)
-        return _Items(face, cell)
-
-
 class _Search:
-    """Finds a witness of each face, or proves in ever smaller cells that it is hidden."""
+    """Finds a witness of each face, or proves that it is hidden."""
 
-    def __init__(self, scene: Scene, faces: Faces, hits: Hits, limit: float, work: int) -> None:
+    def __init__(self, scene: Scene, faces: Faces, limit: float, work: int) -> None:
+        self._scene = scene
         self._faces = faces
         self._limit = limit
         self._work = work
@@ -136,158 +115,97 @@ class _Search:
         self.seen[faces.may_show] = UNDECIDED
         self.witness = np.full((2, faces.count), np.nan)
         self.area = np.zeros(faces.count)
-        self._centres = Centres(scene, faces, hits)
-        self._enter(*self._centres.witnesses(scene))
-        self._scene = scene
 
     def _enter(self, face: Index, at: Floats) -> None:
         self.seen[face] = SEEN
         self.witness[:, face] = at
 
-    def steps(self) -> Work[None]:
-        """Decide every face, from the largest cells to the smallest."""
+    def bound(self, centres: Centres) -> None:
+        """Find the part of the film in which each face may be seen: a box, and its area."""
         faces = self._faces
-        self._cover_cells()
-        yield None
+        self._enter(centres.face, centres.at)
+        self._low, self._high = np.full((2, 2, faces.count), np.inf)
+        self._high = -self._high
         some = np.flatnonzero(self.seen == UNDECIDED)
-        level, ends = start_cells(faces, some, self._centres.corner)
-        items = _Items(some[:0], np.zeros((2, 0), np.int64))
-        left = np.zeros(faces.count, bool)  # given up
-        for now in range(TOP, _DEEPEST - 1, -1):
-            own = np.flatnonzero(level == now)
-            items = items.divided().joined([_cells_of(some[own], ends[..., own])])
-            items = yield from self._in_parts(self._not_hidden, items, now)
-            if now == 0:
-                items = items.take(faces.turn(items.face) != 0)  # edge-on, no ray crosses it
-                # No ray sees another face than these.
-                open_ = np.union1d(np.flatnonzero(self.seen == SEEN), items.face)
-                self._sights = Sights(self._scene, faces, open_, self._centres.corner)
-            if now <= 0:
-                self._work -= len(items.face)
-                items = yield from self._in_parts(self._look_closer, items, now)
-                items = items.take(self.seen[items.face] != SEEN)
-                given_up = self._given_up(items, now)
-                left[items.face[given_up]] = True
-                items = items.take(~given_up)
-        self.seen[(self.seen == UNDECIDED) & ~left] = HIDDEN
+        start, which, new = centres.cells_of(faces, some)
+        face, cell = some[:0], new[:, :0]
+        for level in range(TOP, -1, -1):
+            own = start[which] == level
+            face = np.concatenate((np.repeat(face, 4), some[which[own]]))
+            x, y = 2 * cell
+            four = np.stack([(x + i, y + j) for j in (0, 1) for i in (0, 1)], axis=2)
+            cell = np.concatenate((four.reshape(2, -1), new[:, own]), axis=1)
+            farthest = centres.hidden[level][cell[1], cell[0]]
+            near = np.flatnonzero(~(faces.nearest[face] < farthest))
+            face, cell, farthest = face[near], cell[:, near], farthest[near]
+            low, high = centres.film(level, cell)
+            if level == 0:
+                farthest = np.maximum(farthest, behind_planes(self._scene, faces, low, high))
+            missed, _, nearest = faces.within(face, low, high)
+            left = np.flatnonzero(~(missed | (nearest < farthest)))
+            face, cell = face[left], cell[:, left]
+        low = np.maximum(low[:, left] - _ROOM, faces.low[:, face])
+        high = np.minimum(high[:, left] + _ROOM, faces.high[:, face])
+        np.add.at(self.area, face, np.prod(high - low, axis=0))
+        for k in (0, 1):
+            np.minimum.at(self._low[k], face, low[k])
+            np.maximum.at(self._high[k], face, high[k])
+
+    def steps(self) -> Work[None]:
+        """Look for each face, and for what is before it, until nothing new is found."""
+        faces = self._faces
+        self.seen[(self.seen == UNDECIDED) & (self.area == 0)] = HIDDEN
+        self._sights = Sights(self._scene, faces)
+        self._before = Cover(faces, self._low, self._high, self._work)
+        self._covered = np.zeros(faces.count, bool)  # in one ray
+        self._tries = np.zeros(faces.count, np.intp)  # since more was known of what is before it
+        self._cut = np.arange(faces.count)  # what each face may cross, or itself
+        self._left = self.seen == UNDECIDED
+        rays: tuple[Index, Floats] = np.zeros(0, np.intp), np.zeros((2, 0))
+        for _ in range(_ROUNDS):
+            yield None
+            rays = self._round(*rays)
+            if not self._left.any() or self._before.work <= 0:
+                break
         self.area[self.seen != UNDECIDED] = 0
 
-    def _in_parts(
-        self, work: Callable[[_Items, int], _Items], items: _Items, level: int
-    ) -> Work[_Items]:
-        done = []
-        for part in parts(len(items.face), _TOGETHER):
-            done.append(work(items.take(part), level))
-            yield None
-        return items.take(slice(0)).joined(done)
+    def _round(self, face: Index, at: Floats) -> tuple[Index, Floats]:
+        """Trace rays past edges, and others; decide what they tell, and return the next ones."""
+        faces, cover, covered, tries = self._faces, self._before, self._covered, self._tries
+        some = np.flatnonzero(self._left & (~covered | (tries > 0)))
+        box = self._low[:, some], self._high[:, some]
+        new = points_of(faces, some, self._cut[some], *box, tries[some] // 2)
+        face, at = np.concatenate((face, some)), np.concatenate((at, new), axis=1)
+        before, rays = self._look(face, at)
+        self._left &= self.seen == UNDECIDED
+        rows = np.flatnonzero(self._left[face])
+        face, at, before, rays = face[rows], at[:, rows], before[rows], rays.take(rows)
+        tries[face] += 1
+        tries[cover.add(face, before)] = 0
+        # What is before the face, but not all of it: another one may be, right before it.
+        rows = np.flatnonzero(~cover.holds(face, before))
+        self._cut[face[rows]] = np.where(before[rows] == NOTHING, face[rows], before[rows])
+        before[rows] = self._sights.before(face[rows], rays.take(rows))
+        tries[cover.add(face[rows], before[rows])] = 0
+        inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
+        rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
+        for met in (face, before):
+            corners = faces.points[:, faces.corners[:, met[rows]]].swapaxes(0, 1)
+            rows = rows[decide(rays.take(rows), corners).crossed]
+        covered[face[rows]] = True
+        whole = self._left & covered
+        face, at = cover.gaps(whole, tries)
+        whole[face] = False
+        self.seen[whole] = HIDDEN
+        self._left &= ~whole & (tries < _TRIES) & (self.area > self._limit)
+        some = self._left[face]
+        return face[some], at[:, some]
 
-    def _cells(self, items: _Items, level: int) -> Cells:
-        return Cells(*self._centres.film(level, items.cell))
-
-    def _not_hidden(self, items: _Items, level: int) -> _Items:
-        """Return the cells that a face may reach, and that no triangle before it covers."""
-        faces = self._faces
-        items = items.take(self.seen[items.face] == UNDECIDED)
-        farthest = self._centres.nearness_in(level, items.cell)
-        some = np.flatnonzero(~(faces.nearest[items.face] < farthest))
-        items, farthest = items.take(some), farthest[some]
-        cells = self._cells(items, level)
-        if level <= 0:
-            farthest = np.maximum(farthest, behind_planes(self._scene, faces, cells))
-        found = reached(faces, items.face, cells)
-        return items.take(~(found.missed | (found.nearest < farthest)))
-
-    def _cover_cells(self) -> None:
-        """Find what hides all of the cells of one pixel that more than one triangle covers."""
-        hidden = self._centres.hidden[0]
-        cell = np.stack(np.nonzero(hidden == -np.inf)[::-1])
-        for corner in range(4):
-            base, at = self._centres.around(0, cell, corner)
-            new = base != NOTHING
-            for before in range(corner):
-                new &= base != self._centres.around(0, cell, before)[0]
-            some = np.flatnonzero(new)
-            for part in parts(len(some), _TOGETHER):
-                k = some[part]
-                own = Cells(*self._centres.film(0, cell[:, k]))
-                found = covers(self._faces, base[k], at[:, k], own)
-                x, y = cell[:, k[found.sure]]
-                hidden[y, x] = found.least[found.sure]
-            cell = cell[:, hidden[cell[1], cell[0]] == -np.inf]
-        self._centres.refresh()
-
-    def _look_closer(self, items: _Items, level: int) -> _Items:
-        """Trace rays within the faces, and return the cells in which they still may be seen."""
-        faces = self._faces
-        cells = Cells(*self._centres.film(level, items.cell, _ROOM))
-        at, area = in_cells(faces, items.face, cells)
-        order = np.lexsort((-area, items.face))
-        starts = np.diff(items.face[order], prepend=-1) != 0
-        number = np.cumsum(starts) - 1
-        rank = np.arange(len(order)) - np.flatnonzero(starts)[number]
-        looks = _LOOKS[level < 0]
-        largest = order[rank < looks]
-        base = np.empty(len(order), np.intp)
-        base[largest] = self._look(items.face[largest], at[:, largest])
-        base[order[rank >= looks]] = base[order[starts]][number[rank >= looks]]
-        open_ = self.seen[items.face] == UNDECIDED
-        edges = []
-        bases = [base] + [self._centres.around(level, items.cell, k)[0] for k in range(4)]
-        for k, own in enumerate(bases):
-            new = open_ & (own != NOTHING) & (own != items.face)
-            for other in bases[:k]:
-                new &= own != other
-            some = np.flatnonzero(new)
-            covered = covers(faces, own[some], at[:, some], cells.take(some), items.face[some])
-            open_[some[covered.sure & surely_in(faces, items.face[some], at[:, some])]] = False
-            edges.append((some, covered.edge))
-        some, edge = (np.concatenate(each) for each in zip(*edges, strict=True))
-        use = open_[some] & (edge >= 0)
-        self._look_past(items, cells, some[use], edge[use], open_)
-        return items.take(open_ & (self.seen[items.face] == UNDECIDED))
-
-    def _look_past(
-        self, items: _Items, cells: Cells, some: Index, edge: Index, open_: Bools
-    ) -> None:
-        """Trace rays just past edges that were in the way in `some` cells; note what is hidden."""
-        faces = self._faces
-        at, area = in_cells(faces, items.face[some], cells.take(some), edge)
-        some = some[area > 0]
-        at = at[:, area > 0]
-        base = self._look(items.face[some], at)
-        new = (self.seen[items.face[some]] == UNDECIDED) & (base != NOTHING)
-        some = some[new]
-        at = at[:, new]
-        face = items.face[some]
-        covered = covers(faces, base[new], at, cells.take(some), face)
-        open_[some[covered.sure & surely_in(faces, face, at)]] = False
-
-    def _look(self, face: Index, at: Floats) -> Index:
-        """Trace rays that may see faces; note those that do, and return what they see."""
-        faces = self._faces
-        near = faces.at_points(face, *at)[3] - faces.nearness_error[face]
-        found = self._sights.look(at[0], at[1], np.nan_to_num(near, nan=-np.inf, posinf=-np.inf))
+    def _look(self, face: Index, at: Floats) -> tuple[Index, Rays]:
+        """Trace rays that may see faces, and note those that do; return what they see, and rays."""
+        found, rays = self._sights.look(at)
         r = self._scene.camera.region
-        x, y = at
         # A ray along the picture's border may see what is wholly beyond it.
-        own = (found == face) & (r.x0 < x) & (x < r.x1) & (r.y0 < y) & (y < r.y1)
+        own = (found == face) & (r.x0 < at[0]) & (at[0] < r.x1) & (r.y0 < at[1]) & (at[1] < r.y1)
         self._enter(face[own], at[:, own])
-        return found
-
-    def _given_up(self, items: _Items, level: int) -> Bools:
-        """Note how much may be seen of faces; return the cells of those that stay undecided."""
-        faces = self._faces
-        _, area = in_cells(faces, items.face, self._cells(items, level))
-        self.area[items.face] = 0
-        np.add.at(self.area, items.face, area)
-        many = np.bincount(items.face, minlength=1)[items.face] > _CELLS
-        little = (self.area[items.face] <= self._limit) & (level <= _SMALL)
-        return (level == _DEEPEST) | (self._work < 0) | many | little
-
-
-def _cells_of(face: Index, ends: Index) -> _Items:
-    """Return all cells from the first to the last of each face."""
-    width, height = ends[1] - ends[0] + 1
-    which, number = spread(np.arange(len(face)), width * height)
-    y, x = np.divmod(number, width[which])
-    return _Items(face[which], np.stack((x, y)) + ends[0][:, which])
+        return found, rays

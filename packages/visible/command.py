@@ -71,8 +71,8 @@ def add(parser: Parser) -> None:
         "--work",
         type=COUNT,
         default=WORK,
-        metavar="CELLS",
-        help="leave undecided what more cells than these would decide (default %(default)s)",
+        metavar="PAIRS",
+        help="leave undecided what more pairs of faces than these would decide (default %(default)s)",
     )
     parser.add_argument(
         "--frames",

@@ -6,8 +6,7 @@ import numpy as np
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.visible.faces import Faces
-from reference_tracer.visible.hiding import Cells, reached
-from reference_tracer.visible.polygons import in_cells
+from reference_tracer.visible.points import points_of
 
 from .test_visible import ORTHOGRAPHIC, camera, scene_of, triangles
 
@@ -23,11 +22,10 @@ def test_a_face_nearly_edge_on_is_beside_no_cell_that_it_covers():
     faces = Faces(scene)
     some = np.flatnonzero(faces.may_show)
     at = random.uniform(0, 16, (2, len(some)))
-    touched = reached(faces, some, Cells(at, at + 2.0**-6)).touched
+    missed, _, _ = faces.within(some, at, at + 2.0**-6)
     rays = camera_rays(scene.camera, *(at + 2.0**-7))
     met = decide(rays, faces.points[:, faces.corners[:, some]].swapaxes(0, 1)).crossed
-    assert met.sum() > 9 and touched[met].all()
-    assert not faces.sure[some[met]].all()
+    assert met.sum() > 9 and missed.any() and not missed[met].any()
 
 
 def test_what_is_traced_for_a_cell_is_in_it():
@@ -38,8 +36,7 @@ def test_what_is_traced_for_a_cell_is_in_it():
     points = np.concatenate((corners, np.zeros((3, 1, 200))), axis=1).transpose(2, 0, 1)
     faces = Faces(scene_of(triangles(points), camera=camera(ORTHOGRAPHIC)))
     every = np.arange(200)
-    faces.need(every)
     low = (tip[0] + 2) * 4 + random.choice([-1e-11, 1e-11], (2, 200))
-    cells = Cells(low, low + 0.25)
-    at, area = in_cells(faces, every, cells)
-    assert (area > 0).any() and (cells.low <= at).all() and (at <= cells.high).all()
+    for number in range(4):
+        at = points_of(faces, every, every, low, low + 0.25, every * 0 + number)
+        assert (low <= at).all() and (at <= low + 0.25).all()
