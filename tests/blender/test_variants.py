@@ -187,6 +187,17 @@ def test_a_variant_is_what_blender_exports_after_the_change(
     assert_same(variant, expected)
 
 
+def test_what_has_no_delta_transform_has_none_left_out(rich, build):
+    """Neither far away, nor where Blender normalises a quaternion itself."""
+    build.cube("Far", location=(1e5, 2e5, 0.1), rotation=(0.1, 0.2, 0.3))
+    long = build.cube("Long", location=(-5, 0, 0))
+    long.rotation_mode = "QUATERNION"
+    long.rotation_quaternion = (2, 1, 0, 0)
+    bpy.context.view_layer.update()
+    found = variants(rich.name_full, rich.view_layers[0].name, ())
+    assert [v.words for v in found if v.fault == "delta_left_out"] == ["that of 'Bent'"]
+
+
 def test_a_parents_scale_is_left_out(rich, export, build):
     """Of an object and of the camera: its place is scaled, and the object itself."""
     scaled = build.empty("Scaled", location=(1, -2, 0), rotation=(0.2, 0.1, -0.3))

@@ -43,11 +43,13 @@ def _without_delta(obj: Any) -> Matrix:
     """Return an object's world matrix without its delta transform."""
     rotation = obj.rotation_euler
     if obj.rotation_mode == "QUATERNION":
-        rotation = obj.rotation_quaternion
+        rotation = obj.rotation_quaternion.normalized()
     elif obj.rotation_mode == "AXIS_ANGLE":
         angle, *axis = obj.rotation_axis_angle
         rotation = Matrix.Rotation(angle, 3, axis).to_quaternion()
     own = Matrix.LocRotScale(obj.location, rotation, obj.scale)
+    if np.allclose(own, obj.matrix_basis, atol=NEAR):
+        return obj.matrix_world  # it has none: far away, the inverse is rounded
     return obj.matrix_world @ obj.matrix_basis.inverted_safe() @ own
 
 
