@@ -186,13 +186,13 @@ class Guessing:
         ranks = [tried.update([fault.name]) or tried[fault.name] for _, fault, _ in scored]
         best = scored[0][0] if scored else 0.0
         cost = [len(g.low) if gain >= AS_GOOD * best else np.inf for gain, _, g in scored]
-        order = sorted(
-            range(len(scored)),
-            key=lambda n: (scored[n][1].vague, cost[n], -scored[n][0], ranks[n]),
-        )
+        order = sorted(range(len(scored)), key=lambda n: (cost[n], -scored[n][0], ranks[n]))
+        scored = [scored[n] for n in order]
+        exact = [one for one in scored if not one[1].vague]
+        vague = [one for one in scored if one[1].vague]
         out: list[Trial] = []
         done: dict[str, int] = {}  # faults with a guess that does it all, in so many numbers
-        for gain, fault, guess in (scored[n] for n in order[:most]):
+        for gain, fault, guess in (*exact[:most], *vague[:most]):
             worse = gain < AS_GOOD * best
             longer = not guess.object and len(guess.low) > min(done.values(), default=0)
             if fault.name in done or (done and (worse or longer)):

@@ -64,9 +64,8 @@ def _looked_at(evidence: Evidence, where: Bools) -> Surfaces | None:
     some = spread(where, MOST)
     if picture.transform is not None or picture.lit or not picture.has_colors or not len(some):
         return None
+    some = some[np.isfinite(picture.color.reshape(-1, 4)[some]).all(axis=1)]
     traced, shown = (v.reshape(-1, 4)[some] for v in (evidence.frame.color, picture.color))
-    if not np.isfinite(shown).all():
-        return None
     instance = evidence.frame.instance_index.ravel()[some]
     group = groups(np.column_stack((instance, traced)))
     first, middle = medians(shown, group)
