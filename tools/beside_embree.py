@@ -160,7 +160,8 @@ def hits_and_points() -> str:
 
 def by_samples(scene: Scene) -> np.ndarray:
     """Return which triangles embreex sees by 8 x 8 samples a pixel."""
-    embree, camera = Embreex(scene.meshes[0]), scene.camera
+    embree = Embreex(scene.meshes[0])
+    camera = scene.camera
     x = (np.arange(SAMPLES * camera.width) + 0.5) / SAMPLES
     seen = np.zeros(scene.triangle_count, bool)
     for y in (np.arange(SAMPLES * camera.height) + 0.5) / SAMPLES:

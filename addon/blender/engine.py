@@ -98,7 +98,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         from ..rendering import steps
         from ..tracer.progress import Meter
 
-        began, meter = time.monotonic(), Meter()
+        began = time.monotonic()
+        meter = Meter()
         due = began + SHOW_EVERY
         shown = 0
         for event in steps(frame.scene, settings, frame):

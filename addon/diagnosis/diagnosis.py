@@ -208,11 +208,16 @@ def diagnose(
         if remain < max(LEAST_SETTLED, broken, own):
             break
     left = int(evidence.unexplained.sum())
-    framed = _regions(evidence) if left else ()
-    seconds = time.monotonic() - began
-    untried = tuple(sorted(guessing.untried))
-    work = guessing.guesses, guessing.steps, seconds, untried
-    return Diagnosis(tuple(told), *work, left, framed, silent)
+    return Diagnosis(
+        tuple(told),
+        guessing.guesses,
+        guessing.steps,
+        time.monotonic() - began,
+        tuple(sorted(guessing.untried)),
+        left,
+        _regions(evidence),
+        silent,
+    )
 
 
 def _regions(evidence: Evidence) -> tuple[Region, ...]:

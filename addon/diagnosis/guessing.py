@@ -87,14 +87,9 @@ class Guessing:
         self.untried: set[str] = set()  # names of faults whose search was not finished
         self.spent: Counter[str] = Counter()  # steps of each fault, in this round
 
-    @property
-    def ended(self) -> bool:
-        """Whether the limit of steps is reached."""
-        return self.steps >= self.limit
-
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
         """Run work that looks for a fault; None if that fault, or all work, reaches its limit."""
-        while not self.ended and self.spent[fault.name] < self.limit / PART:
+        while self.steps < self.limit and self.spent[fault.name] < self.limit / PART:
             try:
                 next(work)
             except StopIteration as stop:

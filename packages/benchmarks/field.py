@@ -30,7 +30,9 @@ class Field:
 
     def __init__(self, slow: float, bench: Bench, cache: Path) -> None:
         """Start nothing yet; `slow` is the seconds for a peer that traces a sample of rays."""
-        self._slow, self._bench, self._cache = slow, bench, cache
+        self._slow = slow
+        self._bench = bench
+        self._cache = cache
         self._gone: set[str] = set()  # the peers that are missing or have failed
         self._mesh: Mesh | None = None
         self._embreex: Embreex | None = None
@@ -62,7 +64,9 @@ class Field:
                 self._blender.make_suzanne(path)
             except MissingPeerError as error:
                 self._bench.note(str(error))
-        self._mesh, self._embreex, self._is_new = mesh_of(name, self._cache), None, True
+        self._mesh = mesh_of(name, self._cache)
+        self._embreex = None
+        self._is_new = True
         if SUBJECTS[name].copies == 1:
             self._try({"embreex"}, self._prepare_embreex)
         else:

@@ -98,7 +98,8 @@ def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int |
 
 
 def _trace(pictures: tuple[Scene, Scene], job: Job, writes: Connection) -> None:
-    work, settings = render if job.whole else trace, Settings(Method(job.method))
+    work = render if job.whole else trace
+    settings = Settings(Method(job.method))
     _ = work(pictures[0], settings).t  # pages of libraries come in once they are used
     before = _peak()
     result = work(pictures[1], settings)

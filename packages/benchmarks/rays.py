@@ -37,7 +37,8 @@ def rays_of(camera: Camera, every: int = 1) -> Rays:
     rows = slice(min(every // 2, camera.height - 1), None, every)
     y, x = np.indices((camera.height, camera.width))[:, rows].reshape(2, -1) + 0.5
     own = camera_rays(camera, x, y)
-    near, pixels = camera.clip_start, camera.width * camera.height
+    near = camera.clip_start
+    pixels = camera.width * camera.height
     directions = np.broadcast_to(own.directions, (3, len(x)))
     origins = own.origins + near * directions
     return Rays(_float32(origins), _float32(directions), camera.clip_end - near, pixels, rows)

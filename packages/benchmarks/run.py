@@ -29,7 +29,8 @@ def run(wanted: Plan, out: Path, progress: Callable[[Event], None]) -> Bench:
     OSError
         If the folder cannot be written.
     """
-    bench, written = Bench(), 0
+    bench = Bench()
+    written = 0
 
     def keep(event: Event) -> None:
         nonlocal written

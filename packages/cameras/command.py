@@ -40,7 +40,7 @@ def check(given: Namespace) -> None:
 
 
 def add(parser: Parser) -> None:
-    """Add the command's given."""
+    """Add the command's options."""
     examples = (
         "reftrace camera scene.blend --out camera.json\n"
         "  reftrace camera scene.blend --check transforms.json"

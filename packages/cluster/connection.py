@@ -149,7 +149,8 @@ def _check_workers(cluster: Cluster) -> None:
     except TimeoutError:
         do = "start some (docs/cluster.md says how, safely)"
         raise ClusterError(f"the scheduler at {address} has no workers: {do}") from None
-    own, said = tasks.about(), {}
+    own = tasks.about()
+    said = {}
     with suppress(TimeoutError):  # of who is silent; and each task asks again
         options = {"on_error": "return", "callback_timeout": TIMEOUT}
         said = cluster.client.run(tasks.about, **options)

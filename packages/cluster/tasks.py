@@ -107,7 +107,8 @@ def trace(
 @_named
 def trade_rows(scene: bytes, camera: str, settings: str, truth: bytes) -> list[TradeRow]:
     """Return a row of the trade; it is held against the colour `truth` (h, w, 4)."""
-    seen, color = _seen(scene, camera), np.load(BytesIO(truth), allow_pickle=False)
+    seen = _seen(scene, camera)
+    color = np.load(BytesIO(truth), allow_pickle=False)
     wanted = tradeoff.Choice(Settings(**json.loads(settings)), seen)
     proven = tradeoff.Choice(PROVEN, seen)
     return _done(tradeoff.rows_of([proven, wanted], color))[-1:]

@@ -72,7 +72,7 @@ def add(parser: Parser) -> None:
         type=COUNT,
         default=WORK,
         metavar="PAIRS",
-        help="leave undecided what more pairs than these would decide (default %(default)s)",
+        help="compare about so many pairs of faces; the rest is undecided (default %(default)s)",
     )
     parser.add_argument(
         "--frames",

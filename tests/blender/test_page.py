@@ -9,6 +9,7 @@ import bpy
 import pytest
 from reference_tracer.blender.ui import results, studies
 from reference_tracer.blender.ui.long_work import LongWork
+from reference_tracer.comparison import extras
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
@@ -62,6 +63,24 @@ def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
     found = held(tmp_path)
     assert found["trade"]["advice"] == trade.advice and len(found["trade"]["plot"]["panels"]) == 2
     assert found["extremes"]["breaking_points"] and len(found["extremes"]["plot"]["panels"]) == 1
+
+
+def test_the_page_has_the_studies_of_its_own_scene(solids, compare, tmp_path, monkeypatch):
+    """Also if the window shows another one by the time that it is written."""
+    own = bpy.context.scene.session_uid
+    comparison = compare()
+    result_of(results.keep_comparison(comparison, own))
+    trade = result_of(tradeoff.measure(comparison.scene, 12, 2, "Scene"))
+    studies.keep_trade(trade, own)
+    find = extras.extras
+
+    def elsewhere(*args):
+        bpy.context.window.scene = bpy.data.scenes.new("Other")
+        return (yield from find(*args))
+
+    monkeypatch.setattr(extras, "extras", elsewhere)
+    assert open_page(tmp_path) == {"FINISHED"}
+    assert held(tmp_path)["trade"]["advice"] == trade.advice
 
 
 def test_it_waits_for_other_work(solids, compare, monkeypatch):

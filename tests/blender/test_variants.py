@@ -42,6 +42,9 @@ def rich(build):
     other.data.lens = 25
     other.matrix_world = Matrix.Translation((3, 0, 40))
     camera.scale = (2, 2, 2)
+    kit = build.collection("Kit", build.cube("InKit", link=False, location=(1, 0, 0)))
+    kit.instance_offset = (2, -1, 0.5)
+    build.instances("Instance", kit, location=(-5, -4, 0), rotation=(0, 0, 0.4))
     sub = build.collection("Extra", build.cube("InExtra", link=False, location=(5, 5, 0)))
     scene.collection.children.link(sub)
     second = scene.view_layers.new("Second")
@@ -117,6 +120,10 @@ def without_delta(scene):
     bent.delta_scale = (1, 1, 1)
 
 
+def without_offset(scene):
+    bpy.data.collections["Kit"].instance_offset = (0, 0, 0)
+
+
 def shown(scene):
     bpy.data.objects["Hidden"].hide_render = False
 
@@ -156,6 +163,7 @@ def parallel(scene):
         ("parent_left_out", "Child", None, without_parent),
         ("parent_inverse", "Child", None, without_inverse),
         ("delta_left_out", "Bent", None, without_delta),
+        ("instance_offset", "'Kit'", None, without_offset),
         ("hidden_shown", "", "Hidden", shown),
         ("other_frame", "6 in place of 5", None, a_frame_later),
         ("other_frame", "4.5 in place of 5", None, half_a_frame_earlier),
@@ -177,6 +185,17 @@ def test_a_variant_is_what_blender_exports_after_the_change(
     with pytest.raises(AssertionError):
         assert_same(before, expected)  # the change changes something
     assert_same(variant, expected)
+
+
+def test_what_has_no_delta_transform_has_none_left_out(rich, build):
+    """Neither far away, nor where Blender normalises a quaternion itself."""
+    build.cube("Far", location=(1e5, 2e5, 0.1), rotation=(0.1, 0.2, 0.3))
+    long = build.cube("Long", location=(-5, 0, 0))
+    long.rotation_mode = "QUATERNION"
+    long.rotation_quaternion = (2, 1, 0, 0)
+    bpy.context.view_layer.update()
+    found = variants(rich.name_full, rich.view_layers[0].name, ())
+    assert [v.words for v in found if v.fault == "delta_left_out"] == ["that of 'Bent'"]
 
 
 def test_a_parents_scale_is_left_out(rich, export, build):

@@ -202,6 +202,7 @@ MADE = {
         halved,
         lambda c: halved(mean(2)(c)),
         lambda c: halved(np.roll(c, -1, (0, 1))),
+        lambda c: c[::4, ::4].repeat(4, 0).repeat(4, 1),  # from the lowest row
     ],
 }
 # The first of each is quick enough for every run.
@@ -263,6 +264,12 @@ def resolved(scene, ratio):
     width, height = (int(ratio * n) for n in (camera.width, camera.height))
     region = replace(camera.region, x1=width, y1=height)
     return render(scene.seen_by(replace(camera, width=width, height=height, region=region))).color
+
+
+def test_a_picture_of_three_rows_is_looked_at_in_each_size(quads):
+    camera = replace(quads.camera, height=3, region=Region(0, 0, 72, 3))
+    scene = quads.seen_by(camera)
+    assert "resampled" not in told(scene, 0.7 * render(scene).color[:, ::-1])
 
 
 def in_part(change):

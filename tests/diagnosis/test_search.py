@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.diagnosis.faults.matching import Matches, fitted
 from reference_tracer.diagnosis.faults.search import Search
 from reference_tracer.tracer.progress import result_of
 
@@ -74,3 +75,9 @@ def test_a_plateau_has_an_end():
 
     guess = result_of(Search(right, np.ones(3)).guess([(0.0, 0.0, 0.0)]))
     assert np.abs((guess.low, guess.high)).max() < 1e5
+
+
+def test_of_edges_behind_the_camera_nothing_is_fitted():
+    places = Matches(np.ones((3, 20)), np.ones((2, 20)), np.tile(np.eye(2), (20, 1, 1)))
+    assert fitted(places, lambda units: np.full((2, 20), np.nan), 1) is None
+    assert fitted(places, lambda units: np.ones((2, 20)) + units, 1).share == 1

@@ -79,7 +79,7 @@ class Plan:
 
 
 def _is_changed(obj: Any) -> bool:
-    """Return whether what is drawn of an evaluation is another one once it is exported.
+    """Return whether exporting an evaluation changes what Blender draws of it.
 
     A plane leaves the scene, and what shares its collection is copied anew; to read a mesh in Edit
     Mode changes which of its faces are hidden.

@@ -1,4 +1,4 @@
-"""What the camera sees of the open file: of each object, and of each face of some meshes.
+"""Finds what the camera sees of the open file: objects, and the faces of some meshes.
 
 Faces are decided as a render has them. An attribute says which face of the user's mesh each comes
 from: it goes through the modifiers on a copy of the object. Of n faces, each has a code below 2^31
@@ -37,7 +37,7 @@ _Key: TypeAlias = tuple[str, bytes]
 
 
 class CameraSees:
-    """What the camera of a scene sees, in all frames in which it was looked at, as ranks.
+    """The ranks of what a scene's camera sees, over all frames that were looked at.
 
     `objects` has that of each object that shows faces, by its full name: an instance is of what
     instances it. `faces` has those of each face (n,) of the meshes that were asked for: it is seen

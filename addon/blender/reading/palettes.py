@@ -94,7 +94,7 @@ def automatic(scene: bpy.types.Scene, exported: Scene, manifest: Manifest) -> Pa
 
 
 def as_compared(scene: Any, exported: Scene, manifest: Manifest) -> tuple[Scene, Manifest]:
-    """Return what a render exported in the clear colours that a comparison would have it in.
+    """Return a render's export in the clear colours that a comparison would use.
 
     With other choices of colours it stays as it is, in those of the viewport.
 
@@ -110,7 +110,7 @@ def as_compared(scene: Any, exported: Scene, manifest: Manifest) -> tuple[Scene,
         palette = palette_by(scene, by) if by == By.OBJECT else VIEWPORT
     if palette.by == By.OBJECT:
         whose = zip(exported.instance_objects, manifest.owners, strict=False)
-        grey = np.array(GREY[:3], np.float32)  # of what instances, and is of a type without colour
+        grey = np.array(GREY[:3], np.float32)  # of instancers whose type has no colour
         slots = {(exported.objects[n], o): palette.colors.get(o, grey)[None] for n, o in whose}
         exported = recolored(exported, GivenColors("--colors", slots), manifest.owners)
     return exported, noted(palette, exported, manifest)

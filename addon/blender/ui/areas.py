@@ -36,7 +36,7 @@ def redraw(context: Context) -> None:
 
 
 def redraw_said() -> None:
-    """Have what says how far the work is drawn again, and nothing that costs more."""
+    """Redraw what shows the progress, and nothing that costs more."""
     for _, area in areas(*dict(_SAID_IN)):
         for region in area.regions:
             if (area.type, region.type) in _SAID_IN:

@@ -28,7 +28,7 @@ _SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of a
 
 _files: dict[str, tuple[str, str]] = {}  # of our images, with their colour spaces, and texts
 _made: dict[str, int] = {}  # from these: the latest one's `session_uid`
-_seen: list[tuple[Any, str]] = []  # the areas that show ours, before those are made again
+_seen: list[tuple[Any, str]] = []  # areas, and the name of ours that each shows
 
 
 def show(name: str, color: Colors) -> Image:
@@ -128,7 +128,7 @@ def remember_editors(*_: Any) -> None:
 
 @bpy.app.handlers.persistent
 def put_back(*_: Any) -> None:
-    """Make again what undo has taken away, or has put an older one in the place of."""
+    """Load again what undo removed, or replaced by an older one."""
     for name in _files:
         block = ours(name)
         if block is None or block.session_uid != _made[name]:

@@ -159,9 +159,10 @@ class LongWork(Mixin):
             is_alone = self.alone or any(map(is_temporary, bpy.data.scenes))
             return {"RUNNING_MODAL"} if is_alone else {"PASS_THROUGH"}
         until = time.monotonic() + SECONDS_A_STEP
-        meter, words = self.meter, self.meter.words
+        meter = self.meter
+        words = meter.words
         try:
-            meter.read(next(self._work))  # at least: a busy machine may be back too late
+            meter.read(next(self._work))  # once in any case: a busy machine may come too late
             while time.monotonic() < until and meter.words == words:
                 meter.read(next(self._work))
         except StopIteration as stop:
@@ -186,7 +187,7 @@ class LongWork(Mixin):
         self._say(context, self.meter.words, f": {percent} %{left}")
 
     def _say(self, context: Context, what: str, rest: str = "") -> None:
-        """Say where the user looks what is done, how far it is, and how to end it."""
+        """Show in the status bar and the editors what is done, how far it is, and how to end it."""
         what = ": ".join(map(rpt_, what.split(": ")))  # the frame, too
         said = ", ".join(filter(None, (rpt_(self.bl_label), what))) + rest
         LongWork.said = f"{said}  ({rpt_('Esc: cancel')})"

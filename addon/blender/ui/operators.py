@@ -162,6 +162,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
 
         self._folder = self.folder() or results.session_folder()
         self._comparison = results.content(Kind.COMPARISON, context.scene)
+        self._trade = results.content(Kind.TRADE, context.scene)
         return extras(self._comparison)
 
     def finish(self, context: Context, result: Any) -> tuple[str, str]:
@@ -169,9 +170,8 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         from ...report import page
 
         path = self._folder / page.NAME
-        trade = results.content(Kind.TRADE, context.scene)
         extremes = results.content(Kind.EXTREMES, context.scene)
-        page.write(path, self._comparison, replace(result, trade=trade, extremes=extremes))
+        page.write(path, self._comparison, replace(result, trade=self._trade, extremes=extremes))
         if self.open_browser:
             bpy.ops.wm.url_open(url=path.resolve().as_uri())
         return "INFO", rpt_("The page is {}").format(path)

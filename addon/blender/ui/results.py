@@ -78,7 +78,7 @@ def keep_comparison(comparison: Comparison, scene: int) -> Work[Result]:
     finally:
         found = _latest.get(Kind.COMPARISON)
         if found is None or found.content.causes is not comparison.causes:
-            _forget_comparison()  # the pictures are of two
+            _forget_comparison()  # some pictures are of another one
 
 
 @cache

@@ -18,7 +18,7 @@ from . import blocks
 from .areas import areas, redraw_said, within
 from .long_work import Answer, named
 
-SETTLED = 0.5  # seconds from when on panels are at rest, which Blender moves where one has grown
+SETTLED = 0.5  # seconds until Blender has moved the panels below one that has grown
 
 # By the identifiers of the switch; Both is the traced picture with the other one over it.
 IMAGES = {

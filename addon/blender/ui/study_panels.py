@@ -175,7 +175,7 @@ class _Extremes(Part):
 
 
 def _draw_measured(layout: UILayout, context: Context, kind: Kind, what: str) -> None:
-    """Draw what a study found in one sentence, with a button that opens its plot; or what it is."""
+    """Draw a study's result, a sentence, and a button for its plot; else what it measures."""
     found = results.latest(kind, context.scene)
     wrapped(layout, context, found.lines[0] if found else what, "INFO" if found else "NONE")
     if found:

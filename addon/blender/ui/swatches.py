@@ -1,4 +1,4 @@
-"""Has an icon of each cause's colour, for the legend."""
+"""Makes an icon of each cause's colour, for the legend."""
 
 from __future__ import annotations
 

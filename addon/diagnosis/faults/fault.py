@@ -170,11 +170,6 @@ def of_camera(change: Callable[..., Camera | None]) -> Make[Guess]:
     return assume
 
 
-def one_of(*makes: Make[Guess]) -> Make[Option]:
-    """Return a function that makes a fault in the way that the option says."""
-    return lambda case, guess: makes[guess.number](case, guess)
-
-
 Way = tuple[str, Callable[[Camera], Camera | None]]  # the words of an option, and how it is made
 
 

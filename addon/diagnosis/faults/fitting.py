@@ -106,7 +106,8 @@ class Family:
         return evidence.once(f"matched {id(self)}", lambda: self._matched(evidence))
 
     def _matched(self, evidence: Evidence) -> Fitted | None:
-        axes, own = self.columns(evidence), evidence.case.scene.camera
+        axes = self.columns(evidence)
+        own = evidence.case.scene.camera
         found = matches(evidence)
 
         def seen(units: Floats) -> Floats | None:

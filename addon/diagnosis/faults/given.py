@@ -165,6 +165,13 @@ GIVEN_FAULTS = (
         witness="KhronosGroup/glTF-Blender-IO#1981",
     ),
     _given(
+        "instance_offset",
+        "the offset of an instanced collection is left out: {words}",
+        "A collection has a point that its instances put where the empty is (`instance_offset`).",
+        "use the matrices of `depsgraph.object_instances`, which have it",
+        witness="armory3d/armory#1415",
+    ),
+    _given(
         "hidden_shown",
         "'{object}' is shown, and the scene hides it: {words}",
         "Blender hides objects for the viewport, for renders, by the eye, and by "

@@ -60,15 +60,16 @@ def matches(
     evidence: Evidence,
     name: str = "",
     where: Bools | None = None,
-    about: tuple[float, float] = (0, 0),
+    about: tuple[float, float] | None = None,
 ) -> Matches:
     """Return the points at edges, and where they are shown (cached).
 
-    Those of an object are in a mask (h, w), and moved by about so many pixels.
+    Those of an object are in a mask (h, w), and moved by about so many pixels; all others by about
+    as many as most of the picture.
     """
     some = np.ones(evidence.unexplained.shape, bool) if where is None else where
     key = f"matches {name} {about}"
-    return evidence.once(key, lambda: _matched(evidence, some, np.rint(about)))
+    return evidence.once(key, lambda: _matched(evidence, some, about))
 
 
 def seen_by(camera: Camera | None, points: Floats) -> Floats | None:
@@ -99,12 +100,14 @@ def fitted(found: Matches, seen: Callable[[Floats], Floats | None], count: int) 
             return None
         slope = (now - np.array(beside)) / STEP  # (k, 2, n)
         known = np.isfinite(now).all(axis=0) & np.isfinite(slope).all(axis=(0, 1))
+        if not known.any():  # all are behind the camera
+            return None
         apart = _apart(now, found.sure)[known]
         scale = max(HIT, float(np.median(apart)) * 2 / (1 + number / 4))
         weighted = found.sure[known] / (1 + (apart / scale) ** 2)[:, None, None]
         j, r = slope[..., known], now[:, known]
         normal = np.einsum("ain,nij,bjn->ab", j, weighted, j) + FIXED * np.eye(count)
-        sizes, own = np.linalg.eigh(normal / max(int(known.sum()), 1) / INFORMED)
+        sizes, own = np.linalg.eigh(normal / int(known.sum()) / INFORMED)
         axes = own / np.maximum(np.sqrt(np.maximum(sizes, 0)), 1 / LONGEST)
         step = np.linalg.solve(normal, np.einsum("ain,nij,jn->a", j, weighted, r))
         units = units + step
@@ -124,25 +127,25 @@ def _apart(off: Floats, sure: Floats) -> Floats:
     return np.sqrt(np.maximum(SNAPPED * np.einsum("in,nij,jn->n", off, sure, off), 0))
 
 
-def _matched(evidence: Evidence, where: Bools, about: Floats) -> Matches:
+def _matched(evidence: Evidence, where: Bools, about: tuple[float, float] | None) -> Matches:
     traced = evidence.picture.made_of(evidence.frame.color)
     shown = evidence.picture.color[..., : traced.shape[-1]]
     edges = beside_edges(np.nan_to_num(traced), 2 * NEAR) & where
     rows, columns = np.unravel_index(spread(edges, POINTS), edges.shape)
     pair = _gray(traced), _gray(shown)
-    moved = np.repeat(about[:, None], len(rows), axis=1)
-    scale = _coarsest(where)
-    reach = FAR
-    while scale >= 1:
-        wrong, steps = _compared(pair, (rows, columns), moved.astype(int), scale, reach)
-        moved += steps[:, wrong.argmin(axis=1)]
-        scale, reach = scale // 2, CLOSE
+    starts = _starts(*pair) if about is None else [np.rint(about)]
+    found = [_followed(pair, (rows, columns), start, _coarsest(where)) for start in starts]
+    moved, wrong, steps = found[0]
+    for other, wrong_there, _ in found[1:]:
+        better = wrong_there.min(axis=1) < wrong.min(axis=1) - ALIKE
+        moved = np.where(better, other, moved)
+        wrong = np.where(better[:, None], wrong_there, wrong)
     good = wrong <= wrong.min(axis=1, keepdims=True) + ALIKE
     good &= wrong.min(axis=1, keepdims=True) < 0.5
     share = good / np.maximum(good.sum(axis=1), 1)[:, None]
-    about = steps - steps[:, wrong.argmin(axis=1)].T[..., None]  # (n, 2, m)
-    mean = np.einsum("nm,nim->in", share, about)
-    apart = about - mean.T[..., None]
+    beside = steps - steps[:, wrong.argmin(axis=1)].T[..., None]  # (n, 2, m)
+    mean = np.einsum("nm,nim->in", share, beside)
+    apart = beside - mean.T[..., None]
     spreads, axes = np.linalg.eigh(np.einsum("nm,nim,njm->nij", share, apart, apart))
     sure = np.where(spreads < STRAIGHT, 1 / (spreads + SNAPPED), 0.0) * good.any(axis=1)[:, None]
     known = np.flatnonzero(sure.any(axis=1))
@@ -162,6 +165,31 @@ def _gray(colors: Array) -> Floats:
     weights = np.array((0.31, 0.53, 0.97, 0.41))[: colors.shape[-1]]
     known = np.nan_to_num(colors.astype(np.float64), posinf=0, neginf=0)
     return np.clip(known, -4, 4) @ weights
+
+
+def _followed(
+    pair: tuple[Floats, Floats], at: tuple[Places, ...], start: Floats, scale: int
+) -> tuple[Floats, Floats, Floats]:
+    """Return by how much n windows are moved, (2, n), and what is wrong at places beside that."""
+    moved, reach = np.repeat(start[:, None], len(at[0]), axis=1), FAR
+    while scale >= 1:
+        wrong, steps = _compared(pair, at, moved.astype(int), scale, reach)
+        moved += steps[:, wrong.argmin(axis=1)]
+        scale, reach = scale // 2, CLOSE
+    return moved, wrong, steps
+
+
+def _starts(traced: Floats, shown: Floats) -> Floats:
+    """Return by how many pixels, right and up, a picture (h, w) may be moved, (k, 2).
+
+    Beside none, it is where the phases of both correlate (Kuglin and Hines 1975).
+    """
+    both = np.conj(np.fft.rfft2(traced)) * np.fft.rfft2(shown)
+    alike = np.fft.irfft2(both / np.maximum(np.abs(both), np.finfo(float).tiny), traced.shape)
+    size = np.array(traced.shape)
+    place = np.array(np.unravel_index(np.argmax(alike), alike.shape))
+    up, right = (place + size // 2) % size - size // 2
+    return np.array([*dict.fromkeys([(0, 0), (int(right), int(up))])], np.float64)
 
 
 def _coarsest(where: Bools) -> int:

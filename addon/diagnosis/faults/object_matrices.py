@@ -19,7 +19,6 @@ from .fault import (
     Make,
     Option,
     of_object,
-    one_of,
 )
 from .suspects import suspects
 
@@ -63,6 +62,11 @@ def _transposed(evidence: Evidence) -> list[Guess]:
     each = (Guess(object=name, words=f"'{name}'") for name in evidence.suspects)
     return [Guess(words="all objects"), *each]
 
+
+_UNSHEARED = (  # the scale is the length of the axes
+    _with_axes(lambda axes, lengths: _rotation(axes) * lengths),
+    _with_axes(lambda axes, lengths: nearest_rotation(axes) * lengths),
+)
 
 OBJECT_MATRIX_FAULTS: tuple[AnyFault, ...] = (
     Fault(
@@ -121,10 +125,7 @@ OBJECT_MATRIX_FAULTS: tuple[AnyFault, ...] = (
         "Translation, rotation and scale, as in glTF's nodes or from `Matrix.decompose()`, "
         "cannot hold a shear.",
         "a child that is turned in a parent with a scale is sheared: store its whole world matrix",
-        one_of(  # the scale is the length of the axes
-            _with_axes(lambda axes, lengths: _rotation(axes) * lengths),
-            _with_axes(lambda axes, lengths: nearest_rotation(axes) * lengths),
-        ),
+        lambda case, guess: _UNSHEARED[guess.number](case, guess),
         _each_way,
         witness="donmccurdy/glTF-Transform#1680",
     ),

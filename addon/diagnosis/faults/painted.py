@@ -95,7 +95,8 @@ def _repainted(
 @at_once
 def exchanged(evidence: Evidence) -> list[Painted]:
     """Guess that objects have one another's colours, if all that are wrong show these."""
-    found, scene = _colors(evidence), evidence.case.scene
+    found = _colors(evidence)
+    scene = evidence.case.scene
     if found is None:
         return []
     found = found.take(found.wrong & (found.alike > FITTED_SHARE))
@@ -131,7 +132,8 @@ _SLOTS: tuple[tuple[str, Callable[[Places, int], Places]], ...] = (
 @at_once
 def other_source(evidence: Evidence) -> list[Painted]:
     """Guess other material slots, and the colours that are shown where nearly all are others."""
-    scene, found = evidence.case.scene, _colors(evidence)
+    scene = evidence.case.scene
+    found = _colors(evidence)
     first, last = scene.color_rows
     out = []
     for words, slot in _SLOTS if (first < last).any() else ():

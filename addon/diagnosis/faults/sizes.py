@@ -169,7 +169,7 @@ def _shrunk(colors: Array, guess: Small) -> Array:
 
 def _taken(size: int, guess: Small, corner: float) -> Places:
     """Return which of so many rows or columns are left."""
-    count = size // guess.n if guess.spans else -(-size // guess.n)
+    count = max(1, size // guess.n) if guess.spans else -(-size // guess.n)
     step = size / count if guess.spans else guess.n
     return np.minimum((np.arange(count) + corner + ROUNDING) * step, size - 1).astype(int)
 
@@ -224,7 +224,8 @@ def _find(evidence: Evidence) -> Work[list[Small]]:
 
 def _downs(n: int, name: str, remains: bool) -> Iterator[list[Small]]:
     """Yield the guesses of each way to come to a picture smaller by n; a row may remain."""
-    corners = [*product((0.0, 0.5), (0.0, 0.5))]
+    places = sorted({0.0, 0.5, 1 - 1 / n})  # the last: counted from the lowest row
+    corners = [*product(places, places)]
     downs: list[tuple[Way | None, tuple[float, float], bool]] = [
         (None, (0.0, 0.0), True),
         (Way.MEAN, (0.0, 0.0), False),

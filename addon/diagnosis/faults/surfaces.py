@@ -60,7 +60,8 @@ def surfaces(evidence: Evidence, whole: bool = False) -> Surfaces | None:
 
 
 def _looked_at(evidence: Evidence, where: Bools) -> Surfaces | None:
-    picture, some = evidence.picture, spread(where, MOST)
+    picture = evidence.picture
+    some = spread(where, MOST)
     if picture.transform is not None or picture.lit or not picture.has_colors or not len(some):
         return None
     traced, shown = (v.reshape(-1, 4)[some] for v in (evidence.frame.color, picture.color))

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
+import bpy
 import numpy as np
 from mathutils import Matrix
 
@@ -35,17 +36,20 @@ def variants(origin: Origin) -> Iterator[Variant]:
     )
     yield from _all_and_each(origin, "delta_left_out", origin.objects, _without_delta)
     yield from _instances(origin)
+    yield from _without_offsets(origin)
 
 
 def _without_delta(obj: Any) -> Matrix:
     """Return an object's world matrix without its delta transform."""
     rotation = obj.rotation_euler
     if obj.rotation_mode == "QUATERNION":
-        rotation = obj.rotation_quaternion
+        rotation = obj.rotation_quaternion.normalized()
     elif obj.rotation_mode == "AXIS_ANGLE":
         angle, *axis = obj.rotation_axis_angle
         rotation = Matrix.Rotation(angle, 3, axis).to_quaternion()
     own = Matrix.LocRotScale(obj.location, rotation, obj.scale)
+    if np.allclose(own, obj.matrix_basis, atol=NEAR):
+        return obj.matrix_world  # it has none: far away, the inverse is rounded
     return obj.matrix_world @ obj.matrix_basis.inverted_safe() @ own
 
 
@@ -102,3 +106,19 @@ def _instances(origin: Origin) -> Iterator[Variant]:
     if count:
         scene = replace(origin.exported, instances=instances)
         yield Variant("instance_transform", scene, f"{count} instances are at their object's place")
+
+
+def _without_offsets(origin: Origin) -> Iterator[Variant]:
+    """Yield the scene with the offsets of all instanced collections left out."""
+    moved = [c for c in bpy.data.collections if c.instance_offset.length]
+    offsets = [c.instance_offset.copy() for c in moved]
+    if not moved:
+        return
+    try:
+        for collection in moved:
+            collection.instance_offset = (0, 0, 0)
+        scene = origin.again()
+    finally:
+        for collection, offset in zip(moved, offsets, strict=True):
+            collection.instance_offset = offset
+    yield Variant("instance_offset", scene, "that of " + ", ".join(f"'{c.name}'" for c in moved))
