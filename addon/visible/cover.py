@@ -11,7 +11,6 @@ from .faces import Faces
 from .hiding import THROUGH, crossed, nearer
 
 _BESIDE = 2.0**-24  # pixels from an edge, where a ray looks past it
-_RAYS = 8  # past edges of what is before a face, at a time
 _PLACES = np.array([0.5, 0.03, 0.97, 0.25, 0.75, 0.002])  # in a gap, where rays look, in turn
 _TOGETHER = 1 << 9  # edges whose cover is found together
 
@@ -153,12 +152,6 @@ class Cover:
     def _past(self, row: Index, gap: Floats, tries: Index) -> tuple[Index, Floats]:
         """Return faces, and film positions just past their edges, in gaps."""
         faces = self._faces
-        order = np.lexsort((gap[0] - gap[1], self._face[row]))
-        face = self._face[row[order]]
-        starts = np.diff(face, prepend=-1) != 0
-        rank = np.arange(len(row)) - np.flatnonzero(starts)[np.cumsum(starts) - 1]
-        order = order[rank < _RAYS]
-        row, gap = row[order], gap[:, order]
         face, edge = self._face[row], self._edge[row]
         a, b = faces.points[:, faces.ends(edge)].swapaxes(0, 1)
         share = _PLACES[tries[face] % len(_PLACES)]

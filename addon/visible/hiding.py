@@ -68,9 +68,7 @@ def nearer(faces: Faces, own: Index, other: Index, low: Floats, high: Floats) ->
     """
     out = (faces.turn[own] != 0) & (own != other)
     rows = np.flatnonzero(out & ~faces.in_clip[own])
-    few = own[rows]
-    low, high = (np.clip(v[:, rows], faces.low[:, few], faces.high[:, few]) for v in (low, high))
-    _, least, most = faces.within(few, low, high)
+    _, least, most = faces.within(own[rows], low[:, rows], high[:, rows])
     out[rows] = faces.clip.inside(least, most)
     rows = np.flatnonzero(out & ~(faces.far[own] < faces.near[other]))
     out[rows] = _before(faces, own[rows], other[rows])

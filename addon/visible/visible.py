@@ -12,7 +12,6 @@ from ..certified.arithmetic import sound_steps
 from ..methods import Method
 from ..rendering import hits as trace_hits
 from ..scene import Scene, SceneError
-from ..tracer.camera import Rays
 from ..tracer.hits import NOTHING, Statistics
 from ..tracer.progress import Progress, Work, result_of
 from ..tracer.settings import Settings
@@ -176,10 +175,14 @@ class _Search:
         box = self._low[:, some], self._high[:, some]
         new = points_of(faces, some, self._cut[some], *box, tries[some] // 2)
         face, at = np.concatenate((face, some)), np.concatenate((at, new), axis=1)
-        before, rays = self._look(face, at)
+        before, rays = self._sights.look(at)
+        # A ray along the picture's border may see what is wholly beyond it.
+        inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
+        own = (before == face) & inside
+        self._enter(face[own], at[:, own])
         self._left &= self.seen == UNDECIDED
         rows = np.flatnonzero(self._left[face])
-        face, at, before, rays = face[rows], at[:, rows], before[rows], rays.take(rows)
+        face, before, inside, rays = face[rows], before[rows], inside[rows], rays.take(rows)
         tries[face] += 1
         tries[cover.add(face, before)] = 0
         # What is before the face, but not all of it: another one may be, right before it.
@@ -187,7 +190,6 @@ class _Search:
         self._cut[face[rows]] = np.where(before[rows] == NOTHING, face[rows], before[rows])
         before[rows] = self._sights.before(face[rows], rays.take(rows))
         tries[cover.add(face[rows], before[rows])] = 0
-        inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
         rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
         for met in (face, before):
             corners = faces.points[:, faces.corners[:, met[rows]]].swapaxes(0, 1)
@@ -200,12 +202,3 @@ class _Search:
         self._left &= ~whole & (tries < _TRIES) & (self.area > self._limit)
         some = self._left[face]
         return face[some], at[:, some]
-
-    def _look(self, face: Index, at: Floats) -> tuple[Index, Rays]:
-        """Trace rays that may see faces, and note those that do; return what they see, and rays."""
-        found, rays = self._sights.look(at)
-        r = self._scene.camera.region
-        # A ray along the picture's border may see what is wholly beyond it.
-        own = (found == face) & (r.x0 < at[0]) & (at[0] < r.x1) & (r.y0 < at[1]) & (at[1] < r.y1)
-        self._enter(face[own], at[:, own])
-        return found, rays
