@@ -32,6 +32,7 @@ FINEST = 1 / 512  # of a unit, which is about a pixel
 ROUGH = 1 / 32  # of a unit: the last step if a refinement follows
 FARTHEST = 256.0  # units: the largest distance of an end
 CLOSE = 1 / 16  # of the distance of an end: its precision
+LEAST_UNITS = 1e-9  # along a number that hardly changes anything, alone
 NEARLY = 0.97  # of the right pixels: from a place with as many it is climbed again
 DIGITS = range(-1, 6)  # digits of a number beyond those that its range fixes
 
@@ -91,9 +92,9 @@ class Search:
         best, _ = yield from self.climbed(best, step / 2, COARSE)
         last = self.finest if enclose else ROUGH
         best, right = yield from self.climbed(best, min(step, COARSE), last)
+        best, right = yield from self._with_fewer(best, right, last)
         if not enclose:
             return Numbers(best, best, best, object=name)
-        best, right = yield from self._with_fewer(best, right)
         places = yield from self._region(np.array(best), right)
         told = yield from self._rounded(best, places, right)
         places = np.array([told, *places])
@@ -101,18 +102,23 @@ class Search:
         low, high = places.min(axis=0) - beyond, places.max(axis=0) + beyond
         return Numbers(told, values_of(low), values_of(high), object=name)
 
-    def _with_fewer(self, best: Values, right: int) -> Work[tuple[Values, int]]:
-        """Return a place as good with a number near 0, if there is one; else the best place.
+    def _with_fewer(self, best: Values, right: int, last: float) -> Work[tuple[Values, int]]:
+        """Return a place as good where some numbers are 0, as many as can be; else the best place.
 
         On a ridge, climbing ends somewhere.
         """
-        numbers = np.array(best)
-        kept = sorted(np.ndindex(*(2,) * len(best)), key=sum)[1:-1]
-        for some in kept:
-            place = values_of(numbers * some)
-            if (yield from self.count(place)) >= NEARLY * right:
-                there, found = yield from self.climbed(place, SMALL, self.finest)
-                return (there, found) if found >= right else (best, right)
+        units = np.linalg.pinv(self.axes)
+        alone = np.diag(1 / np.maximum(np.linalg.norm(units, axis=0), LEAST_UNITS))
+        for some in sorted(np.ndindex(*(2,) * len(best)), key=sum)[1:-1]:
+            kept = np.flatnonzero(some)
+            fewer = Search(self._right, alone[:, kept])
+            fewer._known = self._known
+            near = np.zeros(len(best))
+            near[kept] = np.linalg.lstsq(units[:, kept], units @ np.array(best))[0]
+            if (yield from self.count(values_of(near))) >= NEARLY * right:
+                there, found = yield from fewer.climbed(values_of(near), SMALL, last)
+                if found >= right:
+                    return there, found
         return best, right
 
     def _region(self, best: Floats, right: int) -> Work[Floats]:
