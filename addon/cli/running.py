@@ -171,7 +171,10 @@ def _bar() -> Any:
     except ImportError:
         return None
     layout = "{percentage:3.0f} %|{bar}| {elapsed}{postfix}"
-    return tqdm(total=1.0, bar_format=layout, leave=False) if sys.stderr.isatty() else None
+    if not sys.stderr.isatty():
+        return None
+    # miniters: words change where the share does not.
+    return tqdm(total=1.0, bar_format=layout, leave=False, miniters=0)
 
 
 def _rest(meter: Meter, past: float) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from ..causes.cause import UNEXPLAINED
 from ..comparison.comparison import Comparison
 from ..comparison.verdict import Verdict
+from ..diagnosis.evidence import shows_colors
 from ..diagnosis.fault_rows import table
 from ..tracer.hits import NOTHING
 from ..wording import count_of
@@ -68,11 +69,14 @@ def _of_causes(found: Comparison) -> Iterator[str]:
 
 
 def _of_other_colors(found: Comparison) -> Iterator[str]:
-    """Say that most surfaces differ, where no fault was found."""
-    surfaces = found.causes.cause[found.frame.object_index != NOTHING]
-    most = 2 * (surfaces == UNEXPLAINED).sum() > surfaces.size
-    of_colors = found.case.picture.has_colors
-    if most and of_colors and not (found.diagnosis and found.diagnosis.told):
+    """Say that most surfaces are shown in colours that none has, where no fault was found."""
+    case, diagnosis = found.case, found.diagnosis
+    if not case.picture.has_colors or (diagnosis and diagnosis.told):
+        return
+    surfaces = (found.frame.object_index != NOTHING).reshape(case.picture.color.shape[:2])
+    other = (found.causes.cause == UNEXPLAINED).reshape(surfaces.shape) & surfaces
+    other &= ~shows_colors(case.picture, case.scene.color_table)
+    if 2 * other.sum() > surfaces.sum():
         yield "most surfaces are shown in other colours than the scene's"
         yield "           Draw each flat, in those that --colors-out writes"
 

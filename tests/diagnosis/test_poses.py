@@ -121,7 +121,10 @@ def test_an_orthographic_camera_has_a_scale_and_no_focal_length(few):
     scene = few(96, 54, parallel=True)
     color = pictured(scene, "focal_length", Numbers((4.0,)))
     [said] = [t.sentence for t in told(scene, color, "focal_length", "pixel_offset").values()]
-    assert said.startswith("the orthographic scale is -3.84") and "focal" not in said
+    assert (
+        said.startswith("everything is +4 % off in size: the orthographic scale")
+        and "focal" not in said
+    )
 
 
 @pytest.mark.parametrize("way", [0, 1, 2])

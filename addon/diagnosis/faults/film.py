@@ -77,9 +77,9 @@ def _focal(camera: Camera, percent: float) -> str:
     if camera.projection is ORTHOGRAPHIC:
         right = max(camera.window.size)
         other = right / (1 + percent / 100)
-        off = 100 * (other / right - 1)
         return (
-            f"the orthographic scale is {off:+.4g} % off: {other:.4g} m, not {right:.4g}; {shows}"
+            f"everything is {percent:+.4g} % off in size: the orthographic scale is {other:.4g} m, "
+            f"not {right:.4g}; {shows}"
         )
     own = SENSOR / camera.window.size[0]
     millimetres = (

@@ -103,22 +103,26 @@ class Search:
         return Numbers(told, values_of(low), values_of(high), object=name)
 
     def _with_fewer(self, best: Values, right: int, last: float) -> Work[tuple[Values, int]]:
-        """Return a place as good where some numbers are 0, as many as can be; else the best place.
+        """Return a place as good with one number alone, or a number near 0; else the best place.
 
         On a ridge, climbing ends somewhere.
         """
-        units = np.linalg.pinv(self.axes)
-        alone = np.diag(1 / np.maximum(np.linalg.norm(units, axis=0), LEAST_UNITS))
+        numbers, units = np.array(best), np.linalg.pinv(self.axes)
+        if len(best) > 1:
+            for axis, one in zip(np.eye(len(best)), units.T, strict=True):
+                size = max(float(np.linalg.norm(one)), LEAST_UNITS)
+                alone = Search(self._right, axis[:, None] / size)
+                alone._known = self._known
+                place = values_of(axis * (one / size**2 @ units @ numbers))
+                if (yield from self.count(place)) >= NEARLY * right:
+                    there, found = yield from alone.climbed(place, SMALL, last)
+                    if found >= right:
+                        return there, found
         for some in sorted(np.ndindex(*(2,) * len(best)), key=sum)[1:-1]:
-            kept = np.flatnonzero(some)
-            fewer = Search(self._right, alone[:, kept])
-            fewer._known = self._known
-            near = np.zeros(len(best))
-            near[kept] = np.linalg.lstsq(units[:, kept], units @ np.array(best))[0]
-            if (yield from self.count(values_of(near))) >= NEARLY * right:
-                there, found = yield from fewer.climbed(values_of(near), SMALL, last)
-                if found >= right:
-                    return there, found
+            place = values_of(numbers * some)
+            if (yield from self.count(place)) >= NEARLY * right:
+                there, found = yield from self.climbed(place, SMALL, last)
+                return (there, found) if found >= right else (best, right)
         return best, right
 
     def _region(self, best: Floats, right: int) -> Work[Floats]:
