@@ -92,9 +92,13 @@ class Search:
         best, _ = yield from self.climbed(best, step / 2, COARSE)
         last = self.finest if enclose else ROUGH
         best, right = yield from self.climbed(best, min(step, COARSE), last)
-        best, right = yield from self._with_fewer(best, right, last)
+        first = best
+        if len(best) > 1:
+            best, right = yield from self._one_alone(best, right, last)
         if not enclose:
             return Numbers(best, best, best, object=name)
+        if best == first:
+            best, right = yield from self._with_fewer(best, right)
         places = yield from self._region(np.array(best), right)
         told = yield from self._rounded(best, places, right)
         places = np.array([told, *places])
@@ -102,26 +106,31 @@ class Search:
         low, high = places.min(axis=0) - beyond, places.max(axis=0) + beyond
         return Numbers(told, values_of(low), values_of(high), object=name)
 
-    def _with_fewer(self, best: Values, right: int, last: float) -> Work[tuple[Values, int]]:
-        """Return a place as good with one number alone, or a number near 0; else the best place.
+    def _one_alone(self, best: Values, right: int, last: float) -> Work[tuple[Values, int]]:
+        """Return a place as good where all numbers but one are 0; else the best place."""
+        numbers, units = np.array(best), np.linalg.pinv(self.axes)
+        for axis, one in zip(np.eye(len(best)), units.T, strict=True):
+            size = max(float(np.linalg.norm(one)), LEAST_UNITS)
+            alone = Search(self._right, axis[:, None] / size)
+            alone._known = self._known
+            place = values_of(axis * (one / size**2 @ units @ numbers))
+            if (yield from self.count(place)) >= NEARLY * right:
+                there, found = yield from alone.climbed(place, SMALL, last)
+                if found >= right:
+                    return there, found
+        return best, right
+
+    def _with_fewer(self, best: Values, right: int) -> Work[tuple[Values, int]]:
+        """Return a place as good with a number near 0, if there is one; else the best place.
 
         On a ridge, climbing ends somewhere.
         """
-        numbers, units = np.array(best), np.linalg.pinv(self.axes)
-        if len(best) > 1:
-            for axis, one in zip(np.eye(len(best)), units.T, strict=True):
-                size = max(float(np.linalg.norm(one)), LEAST_UNITS)
-                alone = Search(self._right, axis[:, None] / size)
-                alone._known = self._known
-                place = values_of(axis * (one / size**2 @ units @ numbers))
-                if (yield from self.count(place)) >= NEARLY * right:
-                    there, found = yield from alone.climbed(place, SMALL, last)
-                    if found >= right:
-                        return there, found
-        for some in sorted(np.ndindex(*(2,) * len(best)), key=sum)[1:-1]:
+        numbers = np.array(best)
+        kept = sorted(np.ndindex(*(2,) * len(best)), key=sum)[1:-1]
+        for some in kept:
             place = values_of(numbers * some)
             if (yield from self.count(place)) >= NEARLY * right:
-                there, found = yield from self.climbed(place, SMALL, last)
+                there, found = yield from self.climbed(place, SMALL, self.finest)
                 return (there, found) if found >= right else (best, right)
         return best, right
 
