@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -126,7 +127,9 @@ def test_a_peer_that_fails_is_left_out_from_then_on(monkeypatch, tmp_path):
 
 
 @pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="there is no bpy")
-def test_blender_answers(tmp_path):
+def test_blender_answers(tmp_path, monkeypatch):
+    # A process is given our path, to which bpy, imported by another test, adds its own folders.
+    monkeypatch.setattr(sys, "path", [p for p in sys.path if "scripts" not in Path(p).parts])
     blender = BlenderPeer(tmp_path)
     try:
         blender.open(scenes.build(scenes.mesh_of("cube", tmp_path), WIDTH, HEIGHT, "orthographic"))

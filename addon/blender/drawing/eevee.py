@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
-from bpy.types import Mesh, Object
-
 from .judge import Judge, check_slots, constant_colors
 
 if TYPE_CHECKING:
+    from bpy.types import Mesh, Object
+
     from ...scene import Scene
 
 

@@ -11,10 +11,10 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import bpy
-from bpy.types import Depsgraph
-
 if TYPE_CHECKING:
+    import bpy
+    from bpy.types import Depsgraph
+
     from ...scene import Scene
 
 

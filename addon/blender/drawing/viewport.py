@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-
-from bpy.types import Depsgraph, Scene
+from typing import TYPE_CHECKING
 
 from .judge import Judge
+
+if TYPE_CHECKING:
+    from bpy.types import Depsgraph, Scene
 
 
 @contextmanager
