@@ -34,6 +34,7 @@ FARTHEST = 256.0  # units: the largest distance of an end
 CLOSE = 1 / 16  # of the distance of an end: its precision
 LEAST_UNITS = 1e-9  # along a number that hardly changes anything, alone
 NEARLY = 0.97  # of the right pixels: from a place with as many it is climbed again
+LIKELY = 0.75  # likewise, where one number alone is climbed
 DIGITS = range(-1, 6)  # digits of a number beyond those that its range fixes
 
 
@@ -114,8 +115,8 @@ class Search:
             alone = Search(self._right, axis[:, None] / size)
             alone._known = self._known
             place = values_of(axis * (one / size**2 @ units @ numbers))
-            if (yield from self.count(place)) >= NEARLY * right:
-                there, found = yield from alone.climbed(place, SMALL, last)
+            if (yield from self.count(place)) >= LIKELY * right:
+                there, found = yield from alone.climbed(place, COARSE, last)
                 if found >= right:
                     return there, found
         return best, right
