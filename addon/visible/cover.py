@@ -38,7 +38,7 @@ class Cover:
     def add(self, face: Index, own: Index) -> Index:
         """Try whether `own` (n,), if any, are before faces (n,), and what continues them, too.
 
-        Returns the faces of which more is known now.
+        Returns the faces that more is known about.
         """
         count = self._faces.count
         some = (own >= 0) & (own != face)
@@ -173,7 +173,10 @@ def _below_zero(count: int, row: Index, ends: Floats, weight: Index) -> tuple[In
     row, weight = np.tile(row, 2), np.concatenate((weight, -weight))
     at, error, name = np.concatenate(ends, axis=1)
     some = np.flatnonzero(~np.isnan(name))
-    row, weight, at, error = row[some], weight[some], at[some], error[some]
+    row = row[some]
+    weight = weight[some]
+    at = at[some]
+    error = error[some]
     # What ends and begins at one edge or corner meets exactly.
     order = np.lexsort((name[some], row))
     key = np.stack((row, name[some]))[:, order]
@@ -186,7 +189,9 @@ def _below_zero(count: int, row: Index, ends: Floats, weight: Index) -> tuple[In
     at = np.concatenate((np.full(count, -np.inf), np.where(net > 0, high, low)[some]))
     weight = np.concatenate((base, net[some]))
     order = np.lexsort((weight, at, row))
-    row, at, weight = row[order], at[order], weight[order]
+    row = row[order]
+    at = at[order]
+    weight = weight[order]
     total = np.cumsum(weight)
     starts = np.diff(row, prepend=-1) != 0
     total -= (total - weight)[starts][row]

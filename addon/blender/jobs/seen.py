@@ -41,7 +41,7 @@ class CameraSees:
 
     `objects` has that of each object that shows faces, by its full name: an instance is of what
     instances it. `faces` has those of each face (n,) of the meshes that were asked for: it is seen
-    if any that modifiers made of it is, in any object. `notes` say of which it is not known.
+    if any that modifiers made of it is, in any object. `notes` name those that are not known.
     """
 
     def __init__(self, context: Any, meshes: Collection[Any]) -> None:
@@ -63,7 +63,7 @@ class CameraSees:
         Raises
         ------
         SceneError
-            If it has no camera of which this can be said, or shows no faces.
+            If it has no camera, or a panorama's, or shows no faces.
         """
         if not frames:
             yield from self._look()

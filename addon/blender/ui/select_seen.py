@@ -19,9 +19,9 @@ NAME = "camera_sees"
 class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
     bl_label = "Select What the Camera Sees"
     bl_description = (
-        "Select objects of which the camera sees any face, or in Edit Mode the faces that it sees, "
-        "be it a thousandth of a pixel: each is proven. A face is seen if any that modifiers make "
-        "of it is. Nothing is deleted"
+        "Select objects if the camera sees any face of theirs, in Edit Mode the faces that it "
+        "sees, be it a thousandth of a pixel: each is proven. A face is seen if any that modifiers "
+        "make of it is. Nothing is deleted"
     )
     bl_options = {"UNDO"}
     needs_camera = True
