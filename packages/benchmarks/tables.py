@@ -10,9 +10,8 @@ from tempfile import TemporaryDirectory
 
 from pyperf import Benchmark, BenchmarkSuite, Run
 
-from .commands import COMMAND, RULER, WAITED
+from .commands import COMMAND, RULER
 from .results import Bench
-from .spread import ONE, TWO
 
 # Who is the measure, and who is held against it.
 PAIRS = (
@@ -27,8 +26,6 @@ PAIRS = (
     ("workbench", "certified, render"),
     ("moller_trumbore, trace, memory", "certified, trace, memory"),
     (RULER, COMMAND),
-    (COMMAND, WAITED),
-    (ONE, TWO),
 )
 
 

@@ -17,7 +17,6 @@ from reference_tracer_benchmarks.plan import Case, Plan
 from reference_tracer_benchmarks.rays import rays_of
 from reference_tracer_benchmarks.results import Bench
 from reference_tracer_benchmarks.rounds import Runner, in_rounds
-from reference_tracer_benchmarks.window import WINDOW
 
 from ..cases import rising
 
@@ -191,31 +190,17 @@ def test_who_fails_has_no_time():
 
 
 def test_commands_are_beside_the_ruler_and_what_fails_is_named(monkeypatch, tmp_path):
-    def window():
-        raise MissingPeerError("no whole Blender here")
-
     monkeypatch.setattr(commands, "RULER", "sum(range(3_000_000))")
     monkeypatch.setattr(commands, "_files", lambda folder: dict.fromkeys(FILES, tmp_path / "none"))
-    monkeypatch.setattr(commands, "in_the_window", window)
-    names = "reftrace --help", "compare suzanne, 960 x 540", WINDOW[0]
+    names = "reftrace --help", "compare suzanne, 960 x 540"
     bench, wanted = Bench(), Plan((), True, 1, 9.0, 1.0, commands=names)
     result_of(commands.measure_commands(wanted, bench, tmp_path))
-    ruled = {(name, commands.RULER) for name in names[:2]}
+    ruled = {(name, commands.RULER) for name in names}
     assert set(bench.found) == {*ruled, (names[0], "command")}
     [seconds] = bench.found[names[0], "command"].get_values()
     assert 0.01 < seconds < 5
-    assert bench.notes[0].startswith(f"{names[1]}: command: it failed (")
-    assert "none" in bench.notes[0]
-    assert bench.notes[1:] == ["in the window: no whole Blender here"]
-
-
-def test_what_is_measured_in_the_window_has_what_a_user_waits_for(monkeypatch):
-    rounds = {WINDOW[1]: [(1.0, 3.0), (4.0, 2.0), (2.0, 9.0)]}
-    monkeypatch.setattr(commands, "in_the_window", lambda: rounds)
-    bench = Bench()
-    commands._enter_window(bench, Runner(None, seconds=[2.0]))
-    seconds = {who: found.get_values() for (_, who), found in bench.found.items()}
-    assert seconds == {"import bpy": (2,), "command": (1, 4, 2), "waited": (3, 2, 9)}
+    [note] = bench.notes
+    assert note.startswith(f"{names[1]}: command: it failed (") and "none" in note
 
 
 # ---- the whole

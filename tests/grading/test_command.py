@@ -9,13 +9,11 @@ import signal
 import subprocess
 import sys
 import time
-from functools import partial
 
 import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
 from reference_tracer.files.scenes import save_scene
-from reference_tracer_grading import extremes
 from reference_tracer_grading.command import built_in
 from reference_tracer_processes.sandbox import sandbox
 
@@ -152,15 +150,6 @@ def test_the_command_for_a_pixel_can_be_typed(template, tmp_path, capsys):
     command = shlex.split(line.partition(": reftrace ")[2])
     assert main(command) == AGREE
     assert "sees mesh, triangle 0" in capsys.readouterr().out
-
-
-def test_extremes(solution, capsys, monkeypatch):
-    """Of the scenarios, one: docs/grading.md has all, and is run by its own test."""
-    some = [s for s in extremes.SCENARIOS if s.name == "far_from_origin"]
-    monkeypatch.setattr(extremes, "extreme_scenes", partial(extremes.extreme_scenes, some))
-    assert main(["judge", str(solution), *SMALL, "--extremes"]) == AGREE
-    text = capsys.readouterr().out
-    assert "first scale that loses a ray" in text and "far_from_origin" in text
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer_grading.extremes import plain
 from reference_tracer_grading.faults import dependence, find_faults
+
+from .conftest import plain
 
 
 def function(text):

@@ -339,7 +339,7 @@ def test_the_command_and_all_that_it_writes(name, tmp_path, capsys):
 
 @pytest.mark.parametrize(
     ("words", "text"),
-    [(["--extremes"], "--extremes is for"), (["scene.npz"], "scenes are for --subject triangle")],
+    [(["--pixels", "9"], "--pixels is for"), (["scene.npz"], "scenes are for --subject triangle")],
 )
 def test_what_is_for_triangles_is_refused(words, text, written, capsys):
     assert main(["judge", "--subject", "plane", str(written(PLANE)), *words]) == INPUT_ERROR
