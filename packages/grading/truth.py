@@ -2,10 +2,10 @@
 
 A right program is computed in float64, each number with a bound on how far any sound order of its
 operations may take it (`bounded.py`). Nobody chose a tolerance: an answer may be off by ROUNDINGS
-times that, which also stands for formulas that are somewhat worse. What a
-condition compares is certain where it is farther from its limit than that. All else is computed
-anew in fractions, where nothing is rounded; it is *in doubt*, as sound float64 may have it either
-way, but for cases in which float64 rounds nothing.
+times that, which also stands for formulas that are somewhat worse. What a condition compares is
+certain where it is farther from its limit than that. All else is computed anew in fractions, where
+nothing is rounded; it is *in doubt*, as sound float64 may have it either way, but for cases in
+which float64 rounds nothing.
 """
 
 from __future__ import annotations

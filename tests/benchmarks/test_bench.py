@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.tracer.progress import result_of
-from reference_tracer_benchmarks import commands, field, measure, memory, peers, scenes
+from reference_tracer_benchmarks import children, commands, field, measure, peers, scenes
 from reference_tracer_benchmarks.blender_peer import BlenderPeer
 from reference_tracer_benchmarks.peers import Embreex, MissingPeerError, Rtree, Timed
 from reference_tracer_benchmarks.plan import Case, Plan
@@ -237,27 +237,12 @@ def test_each_picture_is_timed_beside_its_peers(bench):
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
-def test_memory_is_that_of_the_picture():
-    sizes = (64, 36), (640, 360)
-    jobs = [memory.Job(*s, "perspective", "certified", True) for s in sizes]
-    small, large = memory.peaks("cube", None, jobs)
-    # A frame is 16 + 8 + 24 + 2 * 4 + 1 bytes a pixel.
-    assert large > 57 * 640 * 360 and large - small > 50 * (640 * 360 - 64 * 36)
-    assert small < 32 << 20
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
 def test_a_plain_method_that_takes_too_long_is_not_timed(tmp_path, monkeypatch):
-    monkeypatch.setattr(memory, "LONGEST", 1e-6)
+    monkeypatch.setattr(children, "LONGEST", 1e-6)
     case = Case("cube", 64, 36, "perspective")
     found = Bench()
     result_of(measure.measure(Plan((case,), False, 1, 1.0, 0.1), found, tmp_path))
     who = {who for _, who in found.found}
     assert not any(name.startswith("moller_trumbore") for name in who)
-    assert {"certified, trace", "certified, trace, memory"} <= who
+    assert {"certified, trace", "certified, render"} <= who
     assert sum("takes more than" in note for note in found.notes) == 2
-
-
-def test_no_memory_is_known_where_a_child_fails(tmp_path):
-    jobs = [memory.Job(8, 8, "perspective", "certified", False)] * 2
-    assert list(memory.peaks("suzanne", tmp_path, jobs)) == [None, None]

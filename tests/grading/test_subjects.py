@@ -22,7 +22,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.cases import TableCases
 from reference_tracer_grading.child import checked
-from reference_tracer_grading.faults import dependence, find_faults
+from reference_tracer_grading.faults import find_faults
 from reference_tracer_grading.judging import judge
 from reference_tracer_grading.matching import alike
 from reference_tracer_grading.mutations import mutations
@@ -271,20 +271,6 @@ def test_the_length_of_a_direction_does_not_count():
     longer = cases.subject.rows(table[:, :3] * 7.3, table[:, 3:])
     assert find_faults(cases.answers(longer)) == ([], None)
     assert names_of(cases.answers(cases.subject.rows(-table[:, :3], table[:, 3:]))) != []
-
-
-def test_what_is_in_the_call_must_not_count():
-    cases = asked("nearest")
-    [program] = cases.subject.programs
-    answers = answered("nearest", program)
-
-    def ask(*given):
-        t, owner = program.answers(cases.subject.letters(*given)).T
-        return t * (1 + 1e-3 * (len(t) < 9)), owner
-
-    assert [f.name for f in dependence(answers, ask)] == ["depends_on_the_call"]
-    right = dependence(answers, lambda *g: program.answers(cases.subject.letters(*g)).T)
-    assert right == []
 
 
 PLANE = """
