@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Floats, Index, parts
-from ..certified.ladder import Ladder
+from ..arrays import Floats, Index
+from ..certified.any_rays import hits_through
 from ..certified.surfaces import Surfaces
 from ..certified.triangle_tree import TriangleTree
 from ..scene import Scene
 from ..tracer.camera import Rays, camera_rays
 from ..tracer.hits import NOTHING, Hits, Statistics
-from ..tracer.progress import result_of
+from ..tracer.progress import Work
 from ..tracer.vector import cross, dot
 from .faces import Faces
 
 _APART = 2.0**-30  # of t, from a face towards what is before it
-_TOGETHER = 1 << 14  # rays that are traced together
 
 
 class Sights:
@@ -27,18 +26,19 @@ class Sights:
         self._faces = faces
         self._tree = TriangleTree.of(scene)
 
-    def look(self, at: Floats) -> tuple[Index, Rays]:
+    def look(self, at: Floats) -> Work[tuple[Index, Rays]]:
         """Return the faces that rays through film positions (2, n) see, and the rays.
 
         NOTHING for planes, and for nothing.
         """
         camera = self._scene.camera
         rays = camera_rays(camera, *at)
-        return self._trace(
-            rays, Surfaces.planes_of(self._scene), (camera.clip_start, camera.clip_end)
-        ), rays
+        # Few of the triangles are near: each is prepared with its rays, not all for any.
+        rays = Rays(*np.broadcast_arrays(rays.origins, rays.directions))
+        clip = camera.clip_start, camera.clip_end
+        return (yield from self._trace(rays, Surfaces.planes_of(self._scene), clip)), rays
 
-    def before(self, face: Index, rays: Rays) -> Index:
+    def before(self, face: Index, rays: Rays) -> Work[Index]:
         """Return the faces that are met by n rays last before the given ones, (n,), about."""
         a, b, c = self._faces.points[:, self._faces.corners[:, face]].swapaxes(0, 1)
         normal = cross(b - a, c - a)
@@ -46,18 +46,12 @@ class Sights:
         known = np.flatnonzero(np.isfinite(t))
         back = Rays(rays.origins + t * rays.directions, -rays.directions).take(known)
         out = np.full(len(face), NOTHING)
-        out[known] = self._trace(back, None, (0.0, np.inf))
+        out[known] = yield from self._trace(back, Surfaces(), (0.0, np.inf))
         return out
 
-    def _trace(self, rays: Rays, planes: Surfaces | None, clip: tuple[float, float]) -> Index:
-        found: list[Index] = [np.zeros(0, np.intp)]
-        for some in parts(rays.count, _TOGETHER):
-            own = rays.take(np.arange(some.start, some.stop))
-            ladder = Ladder(own, planes, clip)
-            for pairs in self._tree.pairs(own, *clip):
-                ladder.test(pairs)
-            found.append(numbers(self._faces, result_of(ladder.hits(Statistics()))))
-        return np.concatenate(found)
+    def _trace(self, rays: Rays, planes: Surfaces, clip: tuple[float, float]) -> Work[Index]:
+        work = hits_through(self._tree, rays, planes, clip, Statistics())
+        return numbers(self._faces, (yield from work))
 
 
 def numbers(faces: Faces, hits: Hits) -> Index:

@@ -13,7 +13,7 @@ from ..methods import Method
 from ..rendering import hits as trace_hits
 from ..scene import Region, Scene, SceneError
 from ..tracer.hits import NOTHING, Statistics
-from ..tracer.progress import Progress, Work, result_of
+from ..tracer.progress import Progress, Work, result_of, scaled
 from ..tracer.settings import Settings
 from .cells import TOGETHER, TOP, Cells, behind_planes
 from .cover import Cover
@@ -95,7 +95,7 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
     yield from cells.join(faces)
     search = _Search(scene, faces, limit * scale**2, work)
     yield from search.bound(cells)
-    yield from search.steps()
+    yield from scaled(search.steps(), 0.0, None, "looking behind what is seen")
     seen = np.flatnonzero(search.seen == SEEN)
     behind = np.zeros(faces.count, bool)
     behind[seen] = faces.turn[seen] > 0
@@ -198,19 +198,19 @@ class _Search:
         rays: tuple[Index, Floats] = np.zeros(0, np.intp), np.zeros((2, 0))
         for _ in range(_ROUNDS):
             yield None
-            rays = self._round(*rays)
+            rays = yield from self._round(*rays)
             if not self._left.any() or self._before.work <= 0:
                 break
         self.area[self.seen != UNDECIDED] = 0
 
-    def _round(self, face: Index, at: Floats) -> tuple[Index, Floats]:
+    def _round(self, face: Index, at: Floats) -> Work[tuple[Index, Floats]]:
         """Trace rays past edges, and others; decide what they tell, and return the next ones."""
         faces, cover, covered, tries = self._faces, self._before, self._covered, self._tries
         some = np.flatnonzero(self._left & (~covered | (tries > 0)))
         box = self._low[:, some], self._high[:, some]
         new = points_of(faces, some, self._cut[some], *box, tries[some] // 2)
         face, at = np.concatenate((face, some)), np.concatenate((at, new), axis=1)
-        before, rays = self._sights.look(at)
+        before, rays = yield from self._sights.look(at)
         # A ray along the picture's border may see what is wholly beyond it.
         inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
         own = (before == face) & inside
@@ -223,7 +223,7 @@ class _Search:
         # What is before the face, but not all of it: another one may be, right before it.
         rows = np.flatnonzero(~cover.holds(face, before))
         self._cut[face[rows]] = np.where(before[rows] == NOTHING, face[rows], before[rows])
-        before[rows] = self._sights.before(face[rows], rays.take(rows))
+        before[rows] = yield from self._sights.before(face[rows], rays.take(rows))
         tries[cover.add(face[rows], before[rows])] = 0
         rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
         for met in (face, before):
