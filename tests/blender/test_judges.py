@@ -24,8 +24,8 @@ from reference_tracer.blender.drawing import judges
 drawn = []
 
 @contextmanager
-def set_up(scene, layer, depsgraph):
-    drawn.append(layer)
+def set_up(scene, depsgraph):
+    drawn.append(scene)
     yield
 
 del judges.JUDGES["eevee"]  # its shaders take seconds to compile

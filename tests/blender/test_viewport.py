@@ -25,10 +25,9 @@ def scene(build):
 
 def pictured(scene, judge="workbench", like_for_like=True):
     camera = export_camera(scene)
-    layer = bpy.context.view_layer.name
     with temporary_scene(scene) as copy:
         picture_module.prepare_scene(copy, JUDGES[judge], like_for_like)
-        return picture_module.drawn_once(copy, layer, JUDGES[judge], camera, like_for_like)
+        return picture_module.drawn_once(copy, JUDGES[judge], camera, like_for_like)
 
 
 @pytest.mark.parametrize(
@@ -81,9 +80,7 @@ def test_a_picture_of_another_size_is_an_error(scene):
         picture_module.prepare_scene(copy, JUDGES["workbench"], True)
         copy.render.resolution_x = 64
         with pytest.raises(SizeError, match="64 x 54 pixels, the camera's region 96 x 54"):
-            picture_module.drawn_once(
-                copy, bpy.context.view_layer.name, JUDGES["workbench"], camera, True
-            )
+            picture_module.drawn_once(copy, JUDGES["workbench"], camera, True)
 
 
 def test_the_viewport_needs_a_window_and_says_so(scene):
@@ -100,7 +97,7 @@ def test_the_viewport_needs_a_window_and_says_so(scene):
 def test_the_preference_is_set_and_put_back(dirty):
     preferences = bpy.context.preferences
     preferences.system.viewport_aa, preferences.is_dirty = "8", dirty
-    with pytest.raises(KeyError), viewport._without_anti_aliasing(None, "", None):
+    with pytest.raises(KeyError), viewport._without_anti_aliasing(None, None):
         assert preferences.system.viewport_aa == "OFF"
         raise KeyError
     assert (preferences.system.viewport_aa, preferences.is_dirty) == ("8", dirty)

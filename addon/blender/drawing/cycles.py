@@ -34,5 +34,4 @@ CYCLES = Judge(
     farthest=FARTHEST,
     traces_rays=True,
     solid=False,
-    random_instances=False,
 )

@@ -82,5 +82,4 @@ EEVEE = Judge(
     set_up=constant_colors,
     check_colors=_check_colors,
     solid=False,
-    random_instances=False,
 )

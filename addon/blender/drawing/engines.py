@@ -40,6 +40,5 @@ def _judge(engine: str, label: str) -> Judge:
         set_up=constant_colors,
         traces_rays=True,
         solid=False,
-        random_instances=False,
         known=False,
     )

@@ -76,7 +76,6 @@ def prepare_scene(scene: Scene, judge: Judge, like_for_like: bool) -> dict[str, 
 
 def picture(
     scene: Scene,
-    layer: str,
     judge: Judge,
     camera: Camera,
     depsgraph: Depsgraph,
@@ -89,8 +88,6 @@ def picture(
     ----------
     scene : bpy.types.Scene
         The temporary scene.
-    layer : str
-        Its view layer.
     judge : Judge
         The engine that draws.
     camera : Camera
@@ -114,7 +111,7 @@ def picture(
     SizeError
         If it made one of another size.
     """
-    with judge.set_up(scene, layer, depsgraph) if like_for_like else nullcontext():
+    with judge.set_up(scene, depsgraph) if like_for_like else nullcontext():
         yield not is_last
     written = Path(scene.render.filepath)
     found = list(written.parent.glob(f"{written.name}*.exr"))
@@ -133,15 +130,13 @@ def picture(
     return np.ascontiguousarray(pixels)
 
 
-def drawn_once(
-    scene: Scene, layer: str, judge: Judge, camera: Camera, like_for_like: bool
-) -> Colors:
+def drawn_once(scene: Scene, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:
     """Have a prepared temporary scene evaluated and drawn; return its :func:`picture`."""
 
     def turns() -> Turns[Colors]:
-        return (yield from picture(scene, layer, judge, camera, (yield False), like_for_like))
+        return (yield from picture(scene, judge, camera, (yield False), like_for_like))
 
-    return evaluated(scene, layer, judge, turns())
+    return evaluated(scene, judge, turns())
 
 
 def read(scene: Scene, path: Path, colorspace: str = "") -> Colors:

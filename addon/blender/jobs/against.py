@@ -103,7 +103,7 @@ def alternatives(
     layer = context.view_layer.name
     with (
         temporary_scene(context.scene, layer, palette=palette) as tmp,
-        context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]),
+        context.temp_override(scene=tmp, view_layer=tmp.view_layers[0]),
     ):
         other, viewport = export(bpy.context.evaluated_depsgraph_get())
     drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))

@@ -34,7 +34,7 @@ from ..drawing.judge import Judge
 from ..drawing.judges import judge_or_none
 from ..drawing.rasteriser import snapping_of
 from ..drawing.shading import of_shading, solid_shading
-from ..evaluating import export_certified, export_for_judge
+from ..evaluating import export_certified, export_for_render
 from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..reading.export import export
@@ -140,7 +140,7 @@ class _Export:
         if plan.like_for_like and used["color_type"] == "RANDOM":
             plan.judge.check_random(scene, manifest.owners)
         if plan.like_for_like:
-            plan.judge.check_colors(scene, used["color_type"], tmp.view_layers[plan.layer].objects)
+            plan.judge.check_colors(scene, used["color_type"], tmp.view_layers[0].objects)
         else:
             of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
             of_scene = (replace(u, object=f"scene '{plan.scene.name}'") for u in of_picture)
@@ -173,7 +173,7 @@ def _a_frame_later(drawing: Drawing) -> Scene:
     with drawing.prepared() as (tmp, _), values_restored():
         now = tmp.frame_current
         go_to(tmp, now + 1)
-        later, _, _ = export_for_judge(tmp, drawing.layer, drawing.judge)
+        later, _, _ = export_for_render(tmp, drawing.judge)
         go_to(tmp, now)
     return later
 
