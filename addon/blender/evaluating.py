@@ -23,7 +23,7 @@ from ..scene import Scene, SceneError
 from ..tracer.signals import held
 from .reading.camera import certify_camera
 from .reading.export import export
-from .temporary import ENGINE, remove
+from .temporary import ENGINE, go_to, remove
 from .turns import InTurns, T, Turns
 from .values import values_restored
 from .versions import ENGINES
@@ -74,6 +74,16 @@ def evaluated(scene: bpy.types.Scene, judge: Judge | None, work: Turns[T]) -> T:
 def _render_results() -> list[Any]:
     """Return the image of the last render, if there was one in this file."""
     return [image for image in bpy.data.images if image.type == "RENDER_RESULT"]
+
+
+def export_at(tmp: Any, frame: float, judge: Judge | None = None) -> Scene:
+    """Return what a temporary scene has at another frame, or between two; it goes back."""
+    now = tmp.frame_current + tmp.frame_subframe
+    with values_restored():
+        go_to(tmp, frame)
+        scene, _, _ = export_for_render(tmp, judge)
+        go_to(tmp, now)
+    return scene
 
 
 def _draw_in_window(turns: InTurns[Any], scene: bpy.types.Scene) -> None:

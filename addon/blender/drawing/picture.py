@@ -6,7 +6,7 @@ Everything is set on a temporary copy of the user's scene, and what cannot be is
 
 from __future__ import annotations
 
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from ..evaluating import evaluated
 from ..temporary import made_for
 from ..turns import Turns
 from ..versions import set_format
+from .constant_material import constant_colors
 from .judge import Judge
 
 # Settings of a picture that can be compared: property of the scene, and value.
@@ -111,7 +112,7 @@ def picture(
     SizeError
         If it made one of another size.
     """
-    with judge.set_up(scene, depsgraph) if like_for_like else nullcontext():
+    with _set_up(judge, scene, depsgraph) if like_for_like else nullcontext():
         yield not is_last
     written = Path(scene.render.filepath)
     found = list(written.parent.glob(f"{written.name}*.exr"))
@@ -128,6 +129,13 @@ def picture(
             f"region {region.width} x {region.height}."
         )
     return np.ascontiguousarray(pixels)
+
+
+def _set_up(judge: Judge, scene: Scene, depsgraph: Depsgraph) -> AbstractContextManager[None]:
+    """Have a judge draw an evaluation in constant colours, for a while."""
+    if judge.set_up:
+        return judge.set_up(scene, depsgraph)
+    return nullcontext() if judge.solid else constant_colors(scene, depsgraph)
 
 
 def drawn_once(scene: Scene, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:

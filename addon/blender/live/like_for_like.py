@@ -23,7 +23,8 @@ from ...pictures.source import Source
 from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
 from ..drawing.camera_object import add_camera
-from ..drawing.picture import picture, prepare_scene
+from ..drawing.drawings import Plan
+from ..drawing.picture import picture
 from ..drawing.rasteriser import snapping_of
 from ..drawing.stand_ins import stand_ins
 from ..drawing.viewport import VIEWPORT
@@ -31,7 +32,7 @@ from ..evaluating import evaluated
 from ..reading.camera import certify_camera
 from ..reading.export import NO_SURFACE, export
 from ..reading.visible import in_view, types_left_out
-from ..temporary import drawn, leave_out, made_for, temporary_scene
+from ..temporary import drawn, leave_out, made_for
 from ..turns import Turns
 
 AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
@@ -55,9 +56,8 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     window, shown = _view_of(space)
     layer = window.view_layer
     snapping = snapping_of(VIEWPORT)  # its drawing is the first, which may differ from the others
-    with temporary_scene(window.scene, layer.name, VIEWPORT.ignores) as tmp:
+    with Plan(window.scene, layer.name, VIEWPORT).prepared() as (tmp, _):
         _leave_out_unseen(tmp, layer, shown)
-        prepare_scene(tmp, VIEWPORT, True)
         tmp.render.use_border = False  # it is of the camera's picture, not of this one
         looking = made_for(tmp, add_camera(tmp, _from_before(scene.camera)))
         made_for(tmp, looking.data)

@@ -15,7 +15,7 @@ from bpy.props import IntProperty
 from bpy.types import Context, UILayout
 
 from . import blocks, results
-from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object
+from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object, select_alone
 from .layout import wrapped
 from .long_work import Answer, named
 from .results import Kind
@@ -43,17 +43,13 @@ class _OfFinding:
     )
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
+    def blocked(cls, context: Context) -> str:
         """Allow it where something was found, in Object Mode if it needs that."""
-        own: Any = cls
         comparison = results.content(Kind.COMPARISON, context.scene)
         if not (comparison and comparison.diagnosis and comparison.diagnosis.told):
-            own.poll_message_set(rpt_("No diagnosis has found something yet"))
-            return False
-        if cls.in_object_mode and context.mode != "OBJECT":
-            own.poll_message_set(rpt_(OBJECT_MODE))
-            return False
-        return True
+            return rpt_("No diagnosis has found something yet")
+        in_way = cls.in_object_mode and context.mode != "OBJECT"
+        return rpt_(OBJECT_MODE) if in_way else ""
 
     def told(self, context: Context) -> Told:
         """Return the fault.
@@ -89,10 +85,7 @@ class REFERENCE_TRACER_OT_copy_camera(_OfFinding, bpy.types.Operator):
         camera = self.told(context).frame.scene.camera
         name = f"{context.scene.camera.name} as in the picture"
         obj = copy_camera(context.scene, camera, name)
-        for other in context.selected_objects:
-            other.select_set(False)
-        obj.select_set(True)
-        context.view_layer.objects.active = obj
+        select_alone(context, obj)
         kept: Any = results.latest(Kind.COMPARISON, context.scene)
         kept.copies[obj.session_uid] = self.number
         said = rpt_("'{}' sees what the picture shows; your own camera is still the active one")
@@ -107,15 +100,10 @@ class REFERENCE_TRACER_OT_activate_copy(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
+    def blocked(cls, context: Context) -> str:
         """Allow it for a copy that was added for the latest comparison."""
-        own: Any = cls
-        if _copied_for(context) is None:
-            own.poll_message_set(
-                rpt_("The active object is no copy that 'Apply to a Copy' added for this result")
-            )
-            return False
-        return True
+        why = rpt_("The active object is no copy that 'Apply to a Copy' added for this result")
+        return why if _copied_for(context) is None else ""
 
     def execute(self, context: Context) -> Answer:
         context.scene.camera = context.view_layer.objects.active
