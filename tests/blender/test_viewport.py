@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.drawing import picture as picture_module
-from reference_tracer.blender.drawing import shading, viewport
+from reference_tracer.blender.drawing import shading
 from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.temporary import temporary_scene
@@ -91,16 +91,6 @@ def test_the_viewport_needs_a_window_and_says_so(scene):
         pictured(scene, "viewport")
     assert (preferences.system.viewport_aa, preferences.is_dirty) == ("16", False)
     assert len(bpy.data.scenes) == 1
-
-
-@pytest.mark.parametrize("dirty", [True, False])
-def test_the_preference_is_set_and_put_back(dirty):
-    preferences = bpy.context.preferences
-    preferences.system.viewport_aa, preferences.is_dirty = "8", dirty
-    with pytest.raises(KeyError), viewport._without_anti_aliasing(None, None):
-        assert preferences.system.viewport_aa == "OFF"
-        raise KeyError
-    assert (preferences.system.viewport_aa, preferences.is_dirty) == ("8", dirty)
 
 
 def test_the_shading_of_a_view_is_copied(scene):
