@@ -15,7 +15,6 @@ from . import results, shown
 from .areas import areas, within
 from .layout import fit, wrapped
 from .long_work import Answer, named
-from .results import Kind
 from .swatches import swatch
 
 if TYPE_CHECKING:
@@ -126,7 +125,7 @@ def _enlarge(window: Window, area: Any, region: Region) -> None:
 
 
 def _regions(context: Context) -> tuple[Region, ...]:
-    found = results.latest(Kind.COMPARISON, context.scene)
+    found = results.of_comparison(context)
     return found.regions if found else ()
 
 
@@ -134,7 +133,7 @@ def draw_causes(layout: UILayout, context: Context) -> None:
     """Draw each cause in its colour with its pixels, and a button for each of the first regions."""
     from ...causes.explain import BY_NUMBER
 
-    comparison = results.content(Kind.COMPARISON, context.scene)
+    comparison = results.comparison(context)
     if comparison is None:
         return
     for cause, count in comparison.counts.of_causes():

@@ -150,14 +150,14 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     @classmethod
     def blocked(cls, context: Context) -> str:
         """Allow it where there is a comparison, and nothing else at work."""
-        found = results.latest(Kind.COMPARISON, context.scene)
+        found = results.of_comparison(context)
         return super().blocked(context) if found else rpt_("Trace and Compare comes first")
 
     def begin(self, context: Context) -> Work[Any]:
         from ...comparison.extras import extras
 
         self._folder = self.folder() or results.session_folder()
-        self._comparison = results.content(Kind.COMPARISON, context.scene)
+        self._comparison = results.comparison(context)
         self._trade = results.content(Kind.TRADE, context.scene)
         return extras(self._comparison)
 

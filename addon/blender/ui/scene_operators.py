@@ -44,9 +44,9 @@ class REFERENCE_TRACER_OT_write_colors(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
-        """Allow it where there is a camera."""
-        return context.scene.camera is not None
+    def blocked(cls, context: Context) -> str:
+        """Allow it where there is a camera, and nothing else at work."""
+        return why_blocked(context, needs_camera=True)
 
     def execute(self, context: Any) -> Answer:
         from ...pictures.palette import By

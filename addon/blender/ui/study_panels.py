@@ -62,7 +62,7 @@ def _draw(layout: UILayout, context: Context, derivation: Any, said: str) -> Non
     wrapped(box, context, said)
     certainty = iface_(CERTAINTY_SENTENCES[derivation.certified.certainty])
     wrapped(box, context, iface_("This is {}.").format(certainty))
-    if comparison := results.content(Kind.COMPARISON, context.scene):
+    if comparison := results.comparison(context):
         _draw_compared(layout, context, comparison, pixel.x, pixel.y)
     if derivation.seen_test:
         _numbers(layout.box(), context, derivation.seen_test)
