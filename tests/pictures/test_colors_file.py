@@ -76,7 +76,10 @@ def changed(content, change):
     [
         (lambda c: c["objects"].pop(0), "no colour for 'Left'"),
         (lambda c: c["objects"][0].update(name="Lft"), "a colour for 'Lft', and the scene has no"),
-        (lambda c: c["objects"].append(c["objects"][0]), "objects[3]: 'Left' is there twice"),
+        (
+            lambda c: c["objects"].append(c["objects"][0]),
+            "name is 'Left', which is there twice",
+        ),
         (lambda c: c["objects"][0].update(slots=[]), "slots of 'Left' is empty"),
         (lambda c: c["objects"][0].pop("slots"), "objects[0].slots is missing"),
         (lambda c: c["objects"].insert(0, 1), "objects[0] must be an object in braces"),
