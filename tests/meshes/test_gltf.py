@@ -10,13 +10,7 @@ import pytest
 from reference_tracer_meshes.gltf import read as read_gltf
 from reference_tracer_meshes.load import load_meshes
 
-from .gltf_build import INDICES, SQUARE, UNIT, Build, area, box, corners, moved, read
-
-
-def test_a_square(path):
-    triangles, notes = read(Build().shown().write(path))
-    assert box(triangles) == UNIT and area(triangles) == 1 and not notes
-    assert triangles.tolist() == SQUARE[INDICES].reshape(2, 3, 3).tolist()
+from .gltf_build import INDICES, SQUARE, Build, area, box, corners, moved, read
 
 
 def test_y_is_turned_up(path):
@@ -42,13 +36,6 @@ class TestNodes:
         names = [p.object for p in read_gltf(build.write(path)).placed]
         assert names[:4] == ["A", "A (node 1)", "Mesh", "node 3"]
         assert len(set(names)) == 6 and names[5] == "\ud800\n"
-
-    def test_a_name_that_is_made_is_taken_already(self, path):
-        build = Build()
-        mesh = build.mesh()
-        build.scene(*(build.node(mesh=mesh, name=name) for name in ("A (node 2)", "A", "A")))
-        names = {p.object for p in read_gltf(build.write(path)).placed}
-        assert names == {"A (node 2)", "A", "A (node 2) (node 2)"}
 
     def test_a_node_that_is_hidden_and_those_below_it(self, path):
         build = Build()
