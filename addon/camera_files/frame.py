@@ -144,6 +144,8 @@ def pinhole(
     """
     if k[1, 0] or k[2, 0] or k[2, 1] or not (k[0, 0] and k[1, 1] and k[2, 2]):
         raise SceneError("its K is not of the form [[fx, skew, cx], [0, fy, cy], [0, 0, 1]]")
+    if (np.diag(k) < 0).all():
+        k = -k  # a negative scale
     depth = np.diag((1.0, 1.0, np.sign(k[2, 2]), 1.0))  # negative before a camera along -Z
     k = k / abs(k[2, 2]) @ depth[:3, :3]
     fx, fy, (cx, cy) = abs(k[0, 0]), abs(k[1, 1]), k[:2, 2] + (0.5 - center)
