@@ -10,6 +10,7 @@ from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
+from reference_tracer.camera_files.frame import rotation_vector
 from reference_tracer.diagnosis.faults.camera import CAMERA_FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault, Numbers, Values, Ways
 from reference_tracer.diagnosis.faults.film import FOCAL, FOCALS, OFFSET
@@ -152,22 +153,9 @@ def _move(camera: Camera, other: Camera) -> Values:
 
 
 def _turn(camera: Camera, other: Camera) -> Values:
-    """Return the rotation from one camera's axes to the other's in the angles of `TURNED`.
-
-    Its axis is that of the skew part of the rotation's matrix; near half a turn, where that
-    vanishes, it is the largest column of the symmetric part.
-    """
+    """Return the rotation from one camera's axes to the other's in the angles of `TURNED`."""
     own, its = (c.world_from_camera[:3, :3] for c in (camera, other))
-    r = np.linalg.solve(own, its)
-    skew = np.array((r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])) / 2
-    sine, cosine = float(np.linalg.norm(skew)), float(np.trace(r) - 1) / 2
-    if sine > 1e-4 or cosine > 0:
-        about = skew / sine if sine else skew
-    else:
-        outer = (r + r.T) / 2 + np.eye(3)
-        about = outer[:, int(np.argmax(np.diag(outer)))]
-        about = about / np.linalg.norm(about)
-    up, left, roll = np.degrees(np.arctan2(sine, cosine)) * about
+    up, left, roll = np.degrees(rotation_vector(np.linalg.solve(own, its)))
     return float(-left), float(up), float(roll)
 
 

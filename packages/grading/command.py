@@ -148,9 +148,6 @@ def add(parser: Parser) -> None:
         metavar="N",
         help="students that are run at a time (default: the cores)",
     )
-    parser.add_argument(
-        "--extremes", action="store_true", help="also find where it breaks at the extremes"
-    )
     add_camera(parser)
 
 
@@ -200,7 +197,7 @@ def _folder(options: JudgeOptions, submissions: Mapping[str, Path | Run]) -> Cla
     if options.out is None:
         return None
     scenes = [(path.read_bytes(), choice) for path, choice in options.scenes]
-    depends = scenes, options.pixels, options.time_limit, options.memory_limit, options.extremes
+    depends = scenes, options.pixels, options.time_limit, options.memory_limit
     return ClassFolder(options.out, subject(options.subject), tuple(submissions), depends, secret())
 
 
@@ -235,20 +232,18 @@ def _work(
     scenes: Sequence[Named],
     told: Callable[[Judgement], Student],
 ) -> Work[dict[str, Student]]:
-    from .extremes import extreme_scenes
     from .judged_scene import prepare
     from .judging import judge_all
 
     judged = []
     for k, (name, scene, path) in enumerate(scenes):
         work = prepare(name, scene, str(path), options.pixels, options.camera_options)
-        share = 0.3 / len(scenes)
+        share = 0.5 / len(scenes)
         judged.append((yield from scaled(work, k * share, share, f"tracing {name}")))
-    hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     limits = Limits(options.time_limit, options.memory_limit)
     cases = subject(options.subject).cases()
-    judging = judge_all(submissions, cases, judged, hard, limits, told=told, jobs=options.jobs)
-    return (yield from scaled(judging, 0.6, 0.4, "judging"))
+    judging = judge_all(submissions, cases, judged, limits, told=told, jobs=options.jobs)
+    return (yield from scaled(judging, 0.5, 0.5, "judging"))
 
 
 def built_in() -> list[Named]:

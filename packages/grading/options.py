@@ -30,7 +30,6 @@ class JudgeOptions:
     pixels: int
     time_limit: float  # seconds for each scene
     memory_limit: int  # bytes
-    extremes: bool
     jobs: int  # how many students are run at a time
     again: bool  # also those who were judged before
     formats: tuple[str, ...]  # what is written besides the pages and the JSON
@@ -61,7 +60,7 @@ class JudgeOptions:
                 "--template FILE to make a file"
             )
         if given.subject != "triangle":
-            refuse(given, ("extremes", "pixels"), "is for --subject triangle")
+            refuse(given, ("pixels",), "is for --subject triangle")
             if scenes:
                 raise SceneError(f"'{scenes[0]}': scenes are for --subject triangle")
         if not scenes:
@@ -75,7 +74,6 @@ class JudgeOptions:
             pixels=given.pixels or PIXELS,
             time_limit=given.time_limit,
             memory_limit=int(given.memory_limit * 2**30),
-            extremes=given.extremes,
             jobs=given.jobs or os.cpu_count() or 1,
             again=given.again,
             formats=tuple(dict.fromkeys(given.format or ())),

@@ -1,4 +1,4 @@
-"""`reftrace rays`: any rays, certified; and Embree, judged by it."""
+"""`reftrace rays`: any rays, certified."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from embreex.mesh_construction import TriangleMesh
-from embreex.rtcore_scene import EmbreeScene
 from reference_tracer.files.scenes import save_scene
 from reference_tracer.scene import Plane
 
@@ -92,37 +90,6 @@ def test_options_that_are_wrong_are_refused(scene, run, tmp_path, exit_code, cap
     assert "is a file that is read" in capsys.readouterr().err
     assert exit_code(["rays", str(tmp_path / "scene.npz"), "no.npz", "--out", "o.npz"]) == 4
     assert "no.npz" in capsys.readouterr().err
-
-
-def test_embree_is_judged(make, run):
-    """It sees the same triangles, but where a ray passes next to an edge, for float32."""
-    mesh = trimesh.creation.icosphere(4)
-    vertices = mesh.vertices.astype(np.float32)
-    given = {k: v.astype(np.float32) for k, v in random_rays(20_000, 3).items()}
-    given["directions"][:500] = vertices[:500] - given["origins"][:500]  # at corners
-    code, found, _ = run(make.scene(make.camera(4, 4), make.mesh(mesh)), **given)
-    embree = EmbreeScene()
-    TriangleMesh(embree, vertices, mesh.faces.astype(np.int32))
-    other = embree.run(given["origins"], given["directions"])
-    wrong = np.flatnonzero(other != found["triangle"])
-    assert code == 0 and len(wrong) and (wrong >= 500).sum() < 20
-    corners = vertices[mesh.faces].astype(float)
-    for k in wrong:  # on the one's or on the other's triangle: what is missed shows what is behind
-        named = [t for t in (found["triangle"][k], other[k]) if t >= 0]
-        rays = given["origins"][k].astype(float), given["directions"][k].astype(float)
-        assert min(beside_an_edge(corners[t], *rays) for t in named) < OF_FLOAT32
-
-
-OF_FLOAT32 = 16 * 2.0**-24  # roundings of (d x e) . s, in units of |d| |e| |s|
-
-
-def beside_an_edge(corners, origin, direction):
-    """Return how near a ray passes to an edge of a triangle: |(d x e) . s| / (|d| |e| |s|)."""
-    arms = corners - origin
-    sides = np.roll(corners, -1, axis=0) - corners
-    volumes = np.abs(np.cross(arms, sides) @ direction)
-    lengths = [np.linalg.norm(v, axis=-1) for v in (direction, arms, sides)]
-    return (volumes / np.prod(np.broadcast_arrays(*lengths), axis=0)).min()
 
 
 def test_the_example_of_the_page_runs(scene, tmp_path, monkeypatch, exit_code):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import trimesh
 from PIL import Image
 from reference_tracer.certified import arithmetic
 from reference_tracer.cli.main import main
@@ -21,13 +20,6 @@ def test_mesh_to_png(ball, tmp_path, capsys):
     assert picture.shape == (16, 24, 4)
     assert picture[8, 12, 3] == 255 and picture[0, 0, 3] == 0
     assert "24 x 16 pixels, 320 triangles" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize("suffix", ["obj", "off", "stl", "glb"])
-def test_other_meshes(suffix, tmp_path):
-    trimesh.creation.box().export(tmp_path / f"box.{suffix}")
-    assert trace(tmp_path / f"box.{suffix}", tmp_path / "box.png") == AGREE
-    assert np.asarray(Image.open(tmp_path / "box.png"))[8, 12, 3] == 255
 
 
 def test_target_and_up(ball, tmp_path):

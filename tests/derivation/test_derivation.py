@@ -145,9 +145,6 @@ def test_near_misses_come_first(one_triangle):
 def test_outside_the_picture(one_triangle, x, y, name):
     with pytest.raises(SceneError, match=f"picture of 3 x 3: {name} must be between 0 and 2"):
         derive(one_triangle(FACING), x, y)
-
-
-def test_half_a_pixel_is_none(one_triangle):
     with pytest.raises(SceneError, match="integer"):
         derive(one_triangle(FACING), 0.5, 1)
 
