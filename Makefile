@@ -15,7 +15,7 @@ export PYTHONDONTWRITEBYTECODE :=
 check test: export OPENBLAS_NUM_THREADS := 1
 
 .PHONY: help demo check test set-up-tests all-tests test-matrix prove test-browser test-gui test-gpu \
-	cameras torture bench docs lessons lesson-tools lint style types extension release clean
+	torture bench docs lessons lesson-tools lint style types extension release clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -61,10 +61,6 @@ test-matrix: extension ## run what needs Blender in 4.2, 4.3, 4.5, 5.0, 5.2, num
 # BLENDER=/path/to/blender: that one, with OpenGL and with Vulkan.
 test-gpu: extension ## compare all sample scenes with what draws here, a graphics card or software: one table
 	$(PYTHON_IN_VENV) tools/gpu.py $(if $(BLENDER),--blender "$(BLENDER)")
-
-# OPEN3D=1: Open3D's code, too, whose wheel has 400 MB.
-cameras: .venv/.stamp ## have the code of COLMAP, Mitsuba, OpenCV and pyrender read camera files: one table; 200 MB of wheels
-	$(PYTHON_IN_VENV) tools/cameras.py $(if $(OPEN3D),--open3d)
 
 # What `make test` samples, at its full length.
 torture: extension lesson-tools ## run the long tests, too long for every day: the suites at their full size

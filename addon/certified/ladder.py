@@ -116,8 +116,7 @@ class Ladder:
             return hits
         decisions = Decisions(hits, self._rays, surfaces, self._clip, self._around)
         some = found.take(np.flatnonzero(clear))
-        for _ in decisions.by_bound(some.ray, some.surface):
-            yield None
+        yield from decisions.by_bound(some.ray, some.surface)
         for part in found.take(np.flatnonzero(~clear)).by_ray(BY_ORDER):
             with np.errstate(all="ignore"):
                 rest = decisions.by_order(part, nearest or one_by_one)

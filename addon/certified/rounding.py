@@ -2,8 +2,7 @@
 
 Rays and corners are rounded before they are stored, and the proof is about what is stored.
 Unrounded, the camera's own rays, x right + y up + forward for a pixel's centre, and
-world_from_object . vertex are fractions, which may be other numbers. (`tools/check_rounding.py`
-counts the pixels that this changes.)
+world_from_object . vertex are fractions, which may be other numbers.
 """
 
 from __future__ import annotations

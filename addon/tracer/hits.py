@@ -36,10 +36,6 @@ class Statistics:
     reasons: Counter[Reason] = field(default_factory=Counter)  # pairs that were decided exactly
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0
-    stages: dict[str, float] = field(default_factory=dict)  # seconds by part of the work
-    # Of the sweep: triangles with a pixel in their box (boxed), not dropped as a whole (reached);
-    # pixels in which they were evaluated (computed), and that it did not decide (left).
-    culling: Counter[str] = field(default_factory=Counter)
 
     @property
     def pairs_exact(self) -> int:

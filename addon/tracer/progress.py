@@ -8,8 +8,7 @@ what to show, and stops the work by not asking for more.
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Callable, Generator, MutableMapping
+from collections.abc import Callable, Generator
 from contextlib import closing
 from functools import wraps
 from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeAlias, TypeVar
@@ -39,7 +38,6 @@ Work = Generator[Event, None, T]
 ROWS = 128  # a step, of work on the rows of a picture
 LEAST_SHARE = 0.01  # of the work: before, nobody knows how long the rest takes
 GROWN = 1.1  # times what was said before: an estimate that is more was no estimate
-Steps = Generator[str, None, T]  # each step yields the name of its stage of the work
 
 
 class Meter:
@@ -129,15 +127,3 @@ def by_rows(of: Callable[..., Array], *pictures: Array) -> Work[Array]:
         made[rows] = found
         yield None
     return made
-
-
-def timed(steps: Steps[T], stages: MutableMapping[str, float]) -> Work[T]:
-    """Add the seconds of each step to those of its stage."""
-    while True:
-        began = time.perf_counter()
-        try:
-            stage = next(steps)
-        except StopIteration as stop:
-            return stop.value
-        stages[stage] = stages.get(stage, 0.0) + time.perf_counter() - began
-        yield None

@@ -24,7 +24,7 @@ from .frame import Frame
 from .hits import Hits, Statistics
 from .nearest import TraceBand
 from .nearest import tracer as unproven_tracer
-from .progress import Event, Progress, Steps, Work, scaled, timed
+from .progress import Event, Progress, Work, scaled
 from .settings import Settings
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
@@ -154,7 +154,7 @@ class _Band:
             for part in parts(len(hits), PIXELS // 2):
                 color[part] += self._shaded(other.take(part), part, offset) / len(offsets)
                 yield None
-        yield from timed(self._write(hits, color), self.frame.statistics.stages)
+        yield from self._write(hits, color)
 
     def _shares(self) -> tuple[list[float], list[float]]:
         """Return where the work on the centres and on each sample begins, and their shares."""
@@ -174,7 +174,7 @@ class _Band:
             lambda: camera_rays(camera, *film_positions(self.region, *offset, pixel)), hits
         )
 
-    def _write(self, hits: Hits, color: Floats) -> Steps[None]:
+    def _write(self, hits: Hits, color: Floats) -> Work[None]:
         """Enter the band's colours, and what its centre rays met, in small steps.
 
         Without colours yet, t is found at once: the colours of the whole picture depend on it.
@@ -185,13 +185,12 @@ class _Band:
             for part in parts(len(hits), PIXELS // 2):
                 has_samples = len(color) > 0
                 colors[part] = color[part] if has_samples else self._shaded(hits.take(part), part)
-                yield "shade"
+                yield None
         if not self.wanted.is_traced:
             frame.enter(rows, hits)
         frame.rows_done[rows] = self.shade is not None
         if not self.shade:
-            for _ in frame.measures.steps(rows):
-                yield "measures"
+            yield from frame.measures.steps(rows)
 
 
 def sample_offsets(samples: int) -> list[Offset]:

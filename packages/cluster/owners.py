@@ -55,6 +55,3 @@ def count_in(own: Statistics, other: Statistics) -> None:
     """Add what a worker says that it took."""
     own.pairs_tested += other.pairs_tested
     own.reasons += other.reasons
-    own.culling += other.culling
-    for stage, seconds in other.stages.items():
-        own.stages[stage] = own.stages.get(stage, 0.0) + seconds

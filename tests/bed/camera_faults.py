@@ -198,8 +198,7 @@ def _perspective(scene: Description, camera: Camera) -> Camera:
 
 def _depth(scene: Description, camera: Camera) -> float:
     """Return how deep the second object lies, a third before its middle."""
-    corners = camera.project(solids_of(scene)[1].vertices)[:, 2]
-    return float(np.quantile(corners, 0.35))
+    return float(np.quantile(camera.depths(solids_of(scene)[1].vertices), 0.35))
 
 
 def clip(start: float | None = None, end: float | None = None) -> Callable:

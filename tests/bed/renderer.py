@@ -46,13 +46,9 @@ class Camera:
         beside = np.linalg.solve(self.r, np.stack((x[0], x[1], np.zeros(len(u))))).T
         return beside + self.near * forward, forward
 
-    def project(self, points: np.ndarray) -> np.ndarray:
-        """Return where world points (n, 3) appear, and their depths: (n, 3) of u, v, z."""
-        x = points @ self.r.T + self.t
-        plane = x.copy() if not self.parallel else np.column_stack((x[:, :2], np.ones(len(x))))
-        with np.errstate(all="ignore"):
-            film = plane @ self.k.T
-            return np.column_stack((film[:, :2] / film[:, 2:], x[:, 2]))
+    def depths(self, points: np.ndarray) -> np.ndarray:
+        """Return how deep world points (n, 3) lie, (n,)."""
+        return points @ self.r[2] + self.t[2]
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,8 +1,7 @@
-"""The test bed itself: its renderer, its scenes, what its faults leave, its damage, its names."""
+"""The test bed itself: its scenes, what its faults leave, its damage, its names."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import combinations, pairwise
 
 import numpy as np
@@ -17,16 +16,13 @@ from .bridge import case_of, scene_of, window_of
 from .faults import FAULTS, of
 from .making import Fault, right
 from .names import picture_of, right_names, same, says_nothing
-from .renderer import Camera, Solid, render
 from .scenes import scenes
-from .setup import FLIP, camera_through, intrinsics
+from .setup import FLIP, camera_through
 from .table import compared as compared_cell
 from .table import made_of
 from .variants import variants_of
 
 EVERY = pytest.mark.parametrize("scene", scenes(), ids=lambda s: s.name)
-BLACK = (0.0, 0.0, 0.0, 0.0)
-RED = (1.0, 0.0, 0.0, 1.0)
 
 
 def compared(scene, made):
@@ -34,61 +30,7 @@ def compared(scene, made):
     return result_of(trace_and_compare(case))
 
 
-# ---- the renderer, by closed forms
-
-
-def square(x0, x1, y0, y1, z) -> Solid:
-    corners = np.array([[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]], float)
-    return Solid("Square", corners, np.array([[0, 1, 2], [0, 2, 3]]), RED)
-
-
-def red(camera, *solids) -> np.ndarray:
-    return render(camera, solids, BLACK)[..., 0] == 1
-
-
-@pytest.mark.parametrize("parallel", [False, True])
-def test_a_square_covers_the_pixels_that_k_says(parallel):
-    """With R = 1 and t = 0 it is seen at f x / z + c, f y / z + c; parallel, at f x + c."""
-    k = np.array([[20.0, 0, 7.3], [0, 30.0, 5.1], [0, 0, 1]])
-    camera = Camera(k, np.eye(3), np.zeros(3), 40, 30, parallel)
-    z = 1.0 if parallel else 4.0
-    shown = red(camera, square(-0.9 * z, 1.2 * z, 0.1 * z, 0.7 * z, z))
-    u, v = np.meshgrid(np.arange(40) + 0.5, np.arange(30) + 0.5)
-    inside = (u > 20 * -0.9 + 7.3) & (u < 20 * 1.2 + 7.3)
-    inside &= (v > 30 * 0.1 + 5.1) & (v < 30 * 0.7 + 5.1)
-    assert np.array_equal(shown, inside) and inside.any()
-
-
-def test_the_nearer_square_is_seen_between_near_and_far():
-    camera = Camera(np.diag((10.0, 10, 1)), np.eye(3), np.zeros(3), 8, 8)
-    far = replace(square(-9, 9, -9, 9, 5), color=(0.0, 1.0, 0.0, 1.0))
-    both = far, square(-9, 9, -9, 9, 3)
-    assert red(camera, *both).all()
-    assert not red(replace(camera, near=3.5), *both).any()
-    assert (render(replace(camera, near=3.5), both, BLACK)[..., 1] == 1).all()
-    assert not render(replace(camera, near=3.5, far=4.5), both, BLACK).any()
-
-
-@EVERY
-def test_rays_pass_where_points_are_projected(scene):
-    camera = right(scene).camera
-    rng = np.random.default_rng(0)
-    u, v = rng.uniform(0, camera.width, 50), rng.uniform(0, camera.height, 50)
-    origins, directions = camera.rays(u, v)
-    points = camera.center + origins + rng.uniform(1, 20, (50, 1)) * directions
-    assert np.allclose(camera.project(points)[:, :2], np.stack((u, v), 1), atol=1e-8)
-
-
 # ---- both sides are built from one description
-
-
-@EVERY
-def test_k_has_the_edges_of_the_view_window(scene):
-    """Two formulas, one in pixels from above, one in lengths from below."""
-    w, k = window_of(scene.lens, scene.film), intrinsics(scene.lens, scene.film)
-    corners = np.array([[w.left, -w.top, 1], [w.right, -w.bottom, 1]]).T
-    width, height = scene.film.size
-    assert np.allclose((k @ corners)[:2].T, [[0, 0], [width, height]], atol=1e-9)
 
 
 @pytest.mark.blender
@@ -259,26 +201,6 @@ def test_damage_leaves_unexplained_pixels():
         kind, scene, picture = damage.damaged(number)
         found = result_of(trace_and_compare(case_of(scene, picture)))
         assert found.counts.unexplained > 20, kind
-
-
-def test_damage_is_what_it_says():
-    base = right(scenes()[0]).picture().astype(np.float64)
-    rng = np.random.default_rng(1)
-
-    def done(of):
-        return of(base.copy(), rng)
-
-    black = (done(damage.dead_rows)[..., :3] == 0).all(axis=(1, 2))
-    assert 5 <= black.sum() <= 40
-    woven = done(damage.interlaced)
-    assert np.array_equal(woven[::2], base[::2]) and not np.array_equal(woven[1::2], base[1::2])
-    dark = done(damage.vignette)
-    middle = base.shape[0] // 2, base.shape[1] // 2
-    assert np.allclose(dark[middle], base[middle], rtol=1e-4)
-    assert (dark[0, 0, :3] < 0.7 * base[0, 0, :3]).all()
-    bent = done(damage.radial)
-    assert np.array_equal(bent[middle], base[middle])
-    assert not done(damage.noise).min() < 0
 
 
 @pytest.mark.slow

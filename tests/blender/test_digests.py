@@ -16,14 +16,11 @@ from pathlib import Path
 
 import bpy
 import pytest
-from check_rounding import check_rounding
 from reference_tracer.blender.jobs.open_file import export_open_file
-from reference_tracer.certainty import Certainty
 from reference_tracer.files.certificates import save_certificate
 from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render
 from reference_tracer.scene import Scene
-from reference_tracer.tracer.settings import Settings
 from reference_tracer_verify.verify import verified
 
 from .. import others
@@ -105,15 +102,6 @@ def test_pictures_are_the_same_elsewhere(folder, kept, name, without, some):
     assert name.startswith(f"{found['python']}-{found['numpy']}-")
     assert not (without and found["features"])
     assert found["pictures"] == {scene: kept[scene]["picture"] for scene in sorted(kept)[some]}
-
-
-def test_no_owner_is_another_one_without_rounding(scenes):
-    """As docs/accuracy.md says; integers are asked for what is ambiguous, and a little more."""
-    for name, scene in scenes.items():
-        frame = render(scene, Settings("certified"))
-        found = check_rounding(scene, frame)
-        ties = int((frame.certainty == Certainty.AMBIGUOUS).sum())
-        assert not found.others and ties <= found.asked <= 1.1 * ties, (name, found)
 
 
 @pytest.mark.torture

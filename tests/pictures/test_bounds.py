@@ -126,6 +126,48 @@ def buffer(camera, depth, orthographic):
     return np.rint((value * F(0.5) + F(0.5)).astype(float) * (2**24 - 1))
 
 
+def test_dark_colours_are_told_apart():
+    """What is allowed goes with the value: near black, too, one colour is not another."""
+    dark, darker = np.full((1, 1, 4), 0.0019), np.full((1, 1, 4), 0.0002)
+    assert differing(dark, darker).all()
+    assert not differing(dark * 1e3, dark * 1e3 * (1 - 2.0**-10)).any()
+    assert differing(np.full((1, 1, 4), 1e9), np.full((1, 1, 4), 2e9)).all()
+
+
+def test_differing_is_symmetric_and_strict(rng):
+    first = (3 * rng.random((5, 6, 4)) + 0.01).astype(np.float16).astype(np.float64)
+    unit = np.spacing(first.astype(np.float16)).astype(np.float64)
+    allowed = np.maximum(HALF_UNITS * unit, LEAST_STEP)
+    second = first - allowed * rng.choice([0, 0.9, 1.1], first.shape, p=[0.6, 0.3, 0.1])
+    expected = (first - second > allowed).any(axis=-1)
+    assert 0 < expected.sum() < 30
+    assert np.array_equal(differing(first, second), expected)
+    assert np.array_equal(differing(second, first), expected)
+
+
+@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
+def test_what_is_near_agrees_at_once(rng, dtype):
+    """As if each were asked how far it may be: at any scale, at the least step, at no number."""
+    scale = np.exp2(rng.uniform(-30, 15, (4000, 1)))
+    first = (scale * rng.uniform(-1, 1, (4000, 4))).astype(dtype)
+    step = rng.choice([0, 0.5, 1 - 2.0**-12, 1, 1 + 2.0**-12, 2], first.shape) * LEAST_STEP
+    second = (first + step).astype(dtype)
+    for values in (first, second):
+        values[rng.random(values.shape) < 0.01] = rng.choice([np.inf, -np.inf, np.nan])
+    apart, allowed = difference(first, second)
+    with np.errstate(invalid="ignore"):
+        expected = ~((apart <= allowed) & np.isfinite(first) & np.isfinite(second)).all(axis=-1)
+    assert np.array_equal(differing(first, second), expected)
+    assert 100 < expected.sum() < 3900
+
+
+def test_half_floats_agree_and_bytes_do_not():
+    """Three units of a half float are missing at most; one step of an 8-bit picture is a fault."""
+    white = np.ones((1, 1, 4), np.float32)
+    assert not differing(white, white - 3 * np.float32(2.0**-11)).any()
+    assert differing(white, white - np.float32(1 / 255)).all()
+
+
 def test_differing_is_symmetric_and_strict(rng):
     first = (3 * rng.random((5, 6, 4)) + 0.01).astype(np.float16).astype(np.float64)
     unit = np.spacing(first.astype(np.float16)).astype(np.float64)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...arrays import Bools, Floats, Index, Integers, Places, groups, parts
 from ...scene import Mesh, Scene
-from ...tracer.progress import Steps
+from ...tracer.progress import Work
 from ...tracer.vector import Vectors, gather, occurring, transform_points
 from .film import Film
 from .small_triangles import SmallTriangles
@@ -156,7 +156,7 @@ class _Part:
             yield part.start, transform_points(own, self.mesh.vertices.take(vertex, axis=0).T)
 
 
-def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Steps[Expanded]:
+def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Work[Expanded]:
     """Project a chunk's vertices to the film, in small steps.
 
     Vertices that are not finite there make triangles that are dropped, or decided elsewhere.
@@ -165,7 +165,7 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Ste
     for part in _parts(scene, chunk, small):
         if part:
             found.append(part)
-        yield "project"
+        yield None
     size = max(film.camera.width, film.camera.height)
     count = sum(len(part.used) for part in found)
     vertices = Vertices.empty(count, np.int16 if size < 1 << 14 else np.int32)
@@ -173,7 +173,7 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Ste
     for part in found:
         for first, world in part.world(scene):
             film.enter(vertices, at + first, world)
-            yield "project"
+            yield None
         part.corners[:] += at
         at += len(part.used)
     starts = np.concatenate(([0], np.cumsum(np.concatenate([part.counts for part in found]))))

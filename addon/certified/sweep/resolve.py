@@ -16,7 +16,7 @@ from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
 from ...tracer.frame_measures import PIXELS
 from ...tracer.hits import NOTHING, Hits, Statistics
-from ...tracer.progress import Steps
+from ...tracer.progress import Work
 from ...tracer.ties import Ties
 from ...tracer.vector import gather, grouped
 from ...tracer.world import Pairs, WorldTriangles, world_corners
@@ -43,13 +43,13 @@ class Resolver:
     numbers: Numbering
     statistics: Statistics
 
-    def steps(self, fragments: list[Fragments]) -> Steps[Hits]:
-        """Decide every pixel, in small steps that yield their stage; empties `fragments`."""
+    def steps(self, fragments: list[Fragments]) -> Work[Hits]:
+        """Decide every pixel, in small steps; empties `fragments`."""
         region = self.depths.region
         count = region.width * region.height
         instance, triangle = np.full((2, count), NOTHING, np.int32)
         certainty = np.full(count, Certainty.BOUND, np.uint8)
-        yield "resolve"
+        yield None
         open_ = np.zeros(count, bool)
         pairs = []
         # Fragments are freed as soon as they are tested.
@@ -59,7 +59,7 @@ class Resolver:
             pixel = self.depths.pixels(some.pixel)
             open_[pixel] = True
             pairs.append((pixel, some.surface))
-            yield "resolve"
+            yield None
         winners = self.depths.winners
         for part in parts(count, PIXELS):
             own = winners[part]
@@ -70,7 +70,7 @@ class Resolver:
             triangle[part.start + decided] = names[1]
             beside = np.flatnonzero((own != NOTHING) & is_open)
             pairs.append((part.start + beside, gather(own, beside)))
-            yield "resolve"
+            yield None
         measured = Measured(self.scene, region, Known.none(), self.film.dx, self.film.dy)
         out = Hits(instance, triangle, certainty, measured)
         known = yield from self._enter_open(out, open_, pairs)
@@ -79,17 +79,16 @@ class Resolver:
 
     def _enter_open(
         self, hits: Hits, open_: Bools, pairs: list[tuple[Index, Index]]
-    ) -> Steps[Known]:
+    ) -> Work[Known]:
         """Decide the `open_` pixels, some at a time: they may see several surfaces, or none.
 
         `pairs` are these pixels and their surfaces; empties the list.
         """
         every = np.flatnonzero(open_)
-        self.statistics.culling["left"] += len(every)
         amount = np.zeros(len(open_), np.int32)
         for pixel, _ in pairs:
             np.add.at(amount, pixel, 1)
-            yield "ladder"
+            yield None
         ends = list(groups(amount[every] + _CANDIDATES // _RAYS, _CANDIDATES))
         starts = every[[first for first, _ in ends]]
         together: list[list[tuple[Index, Index]]] = [[] for _ in ends]
@@ -99,7 +98,7 @@ class Resolver:
             for members, own in zip(together, grouped(group, len(ends)), strict=True):
                 if len(own):
                     members.append((pixel[own], surface[own]))
-            yield "ladder"
+            yield None
         ties = []
         known = [Known.none()]
         for (first, last), members in zip(ends, together, strict=True):
@@ -116,7 +115,7 @@ class Resolver:
         hits.ties = Ties.joined(ties)
         return Known.joined(known)
 
-    def _decide(self, pixel: Index, ray: Index, surface: Index) -> Steps[Hits]:
+    def _decide(self, pixel: Index, ray: Index, surface: Index) -> Work[Hits]:
         """Decide the rays of pixels (n,), given all pairs of one of them and a surface, (p,)."""
         scene = self.scene
         film = self.film
@@ -134,11 +133,5 @@ class Resolver:
         ray, row = np.divmod(key, max(1, len(surface)))
         for part in parts(len(ray), _PAIRS):
             ladder.test(Pairs(ray[part], row[part], triangles))
-            yield "ladder"
-        deciding = ladder.hits(self.statistics, tournament)
-        while True:
-            try:
-                next(deciding)
-            except StopIteration as stop:
-                return stop.value
-            yield "ladder"
+            yield None
+        return (yield from ladder.hits(self.statistics, tournament))

@@ -31,7 +31,6 @@ Theorems: `SweepPixels.small_right`, `SweepPixels.small_one_right`.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -85,7 +84,6 @@ def small_pairs(
     expanded: Expanded,
     boxes: Boxes,
     depths: DepthBuffer,
-    culling: Counter[str],
     left: list[Index],
 ) -> Iterator[Covered]:
     """Yield the pairs of triangles that `are_small`, some thousand triangles at a time.
@@ -100,7 +98,6 @@ def small_pairs(
     for start, end in groups(np.maximum(area, _PIXELS // _TRIANGLES), _PIXELS):
         some = order[start:end]
         blocks = list(_blocks(gather(shape, some)))
-        culling["computed"] += sum(h * w * (end - start) for start, end, h, w in blocks)
         yield _pairs(film, expanded, boxes.take(some), blocks, depths, left)
 
 

@@ -16,7 +16,7 @@ from ...arrays import Floats, Index, parts
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
-from ...tracer.progress import Progress, Steps, Work, scaled, timed
+from ...tracer.progress import Progress, Work, scaled
 from ...tracer.vector import gather
 from ..arithmetic import sound_steps
 from ..bounds import plane_fractions
@@ -56,14 +56,12 @@ def sweep(
     """
     statistics = statistics or Statistics()
     pairs = statistics.pairs_tested
-    culling = statistics.culling.copy()
     film = Film(scene.camera, dx, dy)
     try:  # without a name for what is given up where memory ends
         return (yield from Sweep(scene, film, region, statistics).steps(memory))
     except _FullError as full:
         share = full.share
     statistics.pairs_tested = pairs  # each pair counts once
-    statistics.culling = culling
     size = (1 - share) / 2
     halves = []
     for k, half in enumerate(region.halves):
@@ -95,15 +93,14 @@ class Sweep:
     def steps(self, memory: int) -> Work[Hits]:
         """Sweep the scene in chunks, and decide every pixel; a `_FullError` without the memory."""
         room = max(_FRAGMENTS, memory // _BYTES_PER_FRAGMENT)
-        stages = self._statistics.stages
         yield None  # allocating the depth buffer of a large picture is a step of its own
-        for _ in timed(self.enter_planes(), stages):
+        for _ in self.enter_planes():
             yield None
             self._make_room(room, 0.0)
         if self._scene.instances:
             yield from self._instances(max(1, memory // _BYTES_PER_TRIANGLE), room)
         end = Resolver(self._scene, self._film, self._depths, self._numbers, self._statistics)
-        return (yield from timed(end.steps(self._fragments), stages))
+        return (yield from end.steps(self._fragments))
 
     def _instances(self, limit: int, room: int) -> Work[None]:
         """Sweep the instances in chunks of `limit` triangles, with room for some fragments."""
@@ -118,7 +115,7 @@ class Sweep:
                 hidden = around.hidden(chunk.instances, self._depths)
                 chunk = replace(chunk, instances=chunk.instances[~hidden])
             share = 0.6 * number / len(every)
-            for _ in timed(self.enter(chunk, small), self._statistics.stages):
+            for _ in self.enter(chunk, small):
                 yield Progress(share)
                 self._make_room(room, share)
 
@@ -137,7 +134,7 @@ class Sweep:
         if self._held > 0.75 * room and region.width * region.height > 1:
             raise _FullError(share)
 
-    def enter_planes(self) -> Steps[None]:
+    def enter_planes(self) -> Work[None]:
         """Sweep the infinite planes, in small steps."""
         planes = self._scene.planes
         if not planes:
@@ -158,48 +155,46 @@ class Sweep:
                 of = np.full(len(pixel), surface)
                 place = self._depths.places(pixel)
                 self._keep(self.of_pairs(Covered(place, of, least, most, np.isfinite(high)), of))
-                yield "planes"
+                yield None
 
-    def enter(self, chunk: Chunk, small: SmallTriangles) -> Steps[None]:
-        """Sweep the triangles of a chunk, in small steps that yield the stage of their work."""
+    def enter(self, chunk: Chunk, small: SmallTriangles) -> Work[None]:
+        """Sweep the triangles of a chunk, in small steps."""
         if not len(chunk.instances):
             return
         expanded = yield from expand(self._scene, self._film, chunk, small)
-        yield "project"
+        yield None
         low, high, nearest = boxes_of(self._scene, self._film, expanded)
-        yield "boxes"
+        yield None
         number = self._numbers.enter(expanded.names)
         boxed = Boxed.of(expanded, number, self._depths.region, low, high, nearest)
         if not len(boxed.seen):
             return
-        yield "boxes"
+        yield None
         bins = by_depth(boxed.seen, nearest, boxed.region_low, boxed.region_high)
-        yield "bins"
+        yield None
         for number, depth_bin in enumerate(bins):
             if number or self._fragments:
                 self._depths.refresh()
             for part in parts(len(depth_bin), _TRIANGLES):
                 yield from self._enter_triangles(boxed, depth_bin[part])
 
-    def _enter_triangles(self, boxed: Boxed, some: Index) -> Steps[None]:
+    def _enter_triangles(self, boxed: Boxed, some: Index) -> Work[None]:
         """Sweep some triangles of a chunk: the small ones first."""
         low, high = boxed.in_region(some)
         some = gather(some, self.not_hidden(low, high, gather(boxed.nearest, some)))
         small = are_small(self._film, boxed.expanded, boxed.low, boxed.high, some)
-        yield "set-up"
+        yield None
         own = gather(some, np.flatnonzero(small))
         boxes = Boxes(own, gather(boxed.low, own), gather(boxed.high, own))
         left = [some[~small]]
-        culling = self._statistics.culling
-        for pairs in small_pairs(self._film, boxed.expanded, boxes, self._depths, culling, left):
+        for pairs in small_pairs(self._film, boxed.expanded, boxes, self._depths, left):
             self._keep(self.of_pairs(pairs, boxed.first + pairs.owner))
-            yield "pixels"
+            yield None
         rest = np.concatenate(left)
-        culling["reached"] += len(some) - len(rest)
         for part in parts(len(rest), _SET_UP):
             yield from self._enter_large(boxed, rest[part])
 
-    def _enter_large(self, boxed: Boxed, some: Index) -> Steps[None]:
+    def _enter_large(self, boxed: Boxed, some: Index) -> Work[None]:
         """Sweep some triangles that are not small, or nearly edge-on."""
         expanded = boxed.expanded
         origin = gather(boxed.low, some)
@@ -210,26 +205,19 @@ class Sweep:
         of = gather(some, found.row)  # a triangle of unknown orientation occurs twice
         low, high = boxed.in_region(of)
         boxes = Boxes(np.arange(len(of)), low, high)
-        yield "set-up"
+        yield None
         for pairs in Covered.together(self.pairs(found, boxes), _PAIRS):
             self._keep(self.of_pairs(pairs, boxed.first + gather(of, pairs.owner)))
-            yield "pixels"
+            yield None
 
     def not_hidden(self, low: Index, high: Index, nearest: Floats) -> Index:
         """Return which boxes the depth buffer does not surely hide; it knows about small boxes."""
-        self._statistics.culling["boxed"] += len(nearest)
         return np.flatnonzero(~(nearest < self._depths.farthest_in(low, high)))
 
     def pairs(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
         """Rasterise boxes, in small steps."""
-        reached = np.zeros(len(found), bool)
-        culling = self._statistics.culling
         for some in split(found, boxes, self._depths):
-            reached[found.row.take(some.owner)] = True
-            sides = (some.high - some.low + 1).astype(np.int64)
-            culling["computed"] += int(sides.prod(axis=0).sum())
             yield from rasterised(found, some, self._depths)
-        culling["reached"] += int(reached.sum())
 
     def of_pairs(self, pairs: Covered, surface: Index) -> Fragments:
         """Enter sure hits into the depth buffer; return the fragments, and all that is not sure."""

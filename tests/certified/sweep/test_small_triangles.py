@@ -57,5 +57,4 @@ def test_the_picture_is_the_same(make, dense_scene, orthographic, together, monk
     whole = render(scene, Settings("certified"))
     for name in FIELDS:
         assert np.array_equal(getattr(found, name), getattr(whole, name), equal_nan=True), name
-    assert found.statistics.culling["boxed"] == whole.statistics.culling["boxed"]
     assert (found.triangle_index >= 0).sum() > 300

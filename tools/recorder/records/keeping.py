@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from types import SimpleNamespace
 from unittest import mock
 
@@ -92,10 +91,7 @@ def _hidden(v: Inputs) -> Kept:
 
 
 def _not_hidden(v: Inputs) -> Kept:
-    own = SimpleNamespace(
-        _statistics=SimpleNamespace(culling=Counter()),
-        _depths=SimpleNamespace(farthest_in=lambda *_: v.one("farthest")),
-    )
+    own = SimpleNamespace(_depths=SimpleNamespace(farthest_in=lambda *_: v.one("farthest")))
     Sweep.not_hidden(own, None, None, v.one("nearest"))
     return [v.chosen(0)]
 
