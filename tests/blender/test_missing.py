@@ -167,7 +167,7 @@ def test_a_node_that_this_blender_does_not_know(use, build, saved, export):
     user = build.cube("User")
     tree, (node,) = build.nodes(user, "GeometryNodeSetPosition")
     if use == "named alone":
-        user.modifiers.clear()
+        user.modifiers[0].node_group = bpy.data.node_groups.new("Other", "GeometryNodeTree")
         user["logic"] = tree
     elif use == "switched off":
         user.modifiers[0].show_render = user.modifiers[0].show_viewport = False
