@@ -283,12 +283,6 @@ def test_another_unit_of_length_is_asked_for(own):
     assert difference(own, longer(own)).unit is None
 
 
-def test_the_same_camera_agrees(own):
-    found = difference(own, with_world(own, lambda cv: cv))
-    assert found.agrees and found.largest < 1e-9 and not found.steps
-    assert found.lines()[0].startswith("agree")
-
-
 def test_what_rounding_moves_agrees_and_ten_times_that_does_not(own):
     def off(by):
         return with_k(own, lambda fx, fy, cx, cy: (fx, fy, cx + by, cy))

@@ -106,12 +106,9 @@ def test_what_is_not_finite_is_refused_and_counted():
         assert r.refused == (broken.sum() if r.scale else 0)
     found = at("huge", 1e300)
     float32 = found["watertight", "float32", 1e300]
-    assert float32.refused == scene_triangles("huge", 1e300) + float32.rays
+    triangles = BY_NAME["huge"].build(1e300, 32, 24).triangle_count
+    assert float32.refused == triangles + float32.rays
     assert found["certified", "float64", 1e300].refused == 0
-
-
-def scene_triangles(name, scale):
-    return BY_NAME[name].build(scale, 32, 24).triangle_count
 
 
 @pytest.fixture(scope="module")
