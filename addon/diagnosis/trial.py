@@ -163,9 +163,8 @@ def _of_object(name: str, before: Evidence, after: Evidence) -> float:
     """Return the settled share of an object's unexplained pixels; 1 without an object."""
     own = np.zeros(before.unexplained.shape, bool)
     for one in (before, after):
-        scene = one.case.scene
-        numbers = [n for n, o in enumerate(scene.objects) if o == name]
-        own |= np.isin(scene.instance_objects[one.frame.instance_index], numbers)
+        numbers = [n for n, o in enumerate(one.case.scene.objects) if o == name]
+        own |= np.isin(one.frame.object_index, numbers)
     own &= before.unexplained
     return float((~left_unexplained(after))[own].mean()) if own.any() else 1.0
 

@@ -10,19 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
-from ...arrays import Array, Bools, Floats
+from ...arrays import Bools, Floats
 from ...causes.checks.probe import Probe
-from ...pictures.picture import Picture
-from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
-from ...tracer.camera import film_of
+from ...tracer.camera import camera_rays, film_of
 from ...tracer.progress import Work
-from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
-from .fault import Find, Numbers, Refine, Values
+from ..evidence import WORTH, Evidence
+from .fault import Numbers, Values, of_camera
 from .matching import Fitted, fitted, is_everywhere, matches, seen_by
 from .search import Search, values_of
 
@@ -53,32 +51,21 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
     own = evidence.case.scene.camera
     few = _few(evidence)
     with np.errstate(invalid="ignore"):
-        film = film_beside_camera(own, camera, *evidence.film[:, few])
-        inside, where = _inside(camera, film)
+        rays = camera_rays(camera, *evidence.film[:, few])
+        # A panorama's or perspective's rays pass one point: any point of them will do.
+        film = np.stack(film_of(own, rays.at(np.ones(rays.count)))[:2])
+        column, row = np.floor(film - ((own.region.x0,), (own.region.y0,)))
+    height, width = evidence.unexplained.shape
+    inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
     if inside.mean() < VALID:
         return 0.0
-    return _share(evidence, evidence.shown.at(few).at(inside), where)
-
-
-def _share(evidence: Evidence, shown: Picture, traced: tuple[Array, ...]) -> float:
-    """Return the share of n pixels that agree with n traced ones, by row and column."""
-    made = shown.made_of(evidence.frame.color[traced])
-    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
-    if shown.owners:
-        right &= shown.owners.same(evidence.frame.instance_index[traced])
-    return float(right.mean())
+    traced = evidence.frame.hits().take((row * width + column)[inside].astype(int))
+    shown = evidence.shown.at(few).at(inside)
+    return float((~shown.differ(evidence.case.scene, traced)).mean())
 
 
 def _few(evidence: Evidence) -> slice:
     return slice(None, None, max(1, -(-evidence.film.shape[1] // LOOKED_UP)))
-
-
-def _inside(camera: Camera, film: Floats) -> tuple[Bools, tuple[Floats, Floats]]:
-    """Return which film positions (2, n) lie in the picture, and the pixels of these."""
-    r = camera.region
-    column, row = np.floor(film[0] - r.x0), np.floor(film[1] - r.y0)
-    inside = (column >= 0) & (column < r.width) & (row >= 0) & (row < r.height)
-    return inside, (row[inside].astype(int), column[inside].astype(int))
 
 
 @dataclass(frozen=True)
@@ -110,37 +97,29 @@ class Family:
         own = evidence.case.scene.camera
         found = matches(evidence)
 
-        def seen(units: Floats) -> Floats | None:
+        def seen(units: Floats) -> Floats:
             return seen_by(self.camera(own, *axes @ units), found.points)
 
         return fitted(found, seen, axes.shape[1])
 
 
-class Fit(NamedTuple):
-    """How the numbers of a fault are fitted to a picture."""
-
-    find: Find[Numbers]
-    refine: Refine[Numbers]  # finely
-
-
-def fitting(family: Family, *rivals: Family) -> Fit:
-    """Return how the numbers of a family are fitted.
+def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
+    """Return how a fault of the camera is made, found and refined, as fields of it.
 
     Where a rival, with more numbers, explains many more edges, no ray is traced for it.
     """
 
     def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         fine = bool(guess.low)
-        reach = FINE_REACH if fine else REACH
-        if len(guess.values) > ENCLOSED:
-            evidence = replace(evidence, size=min(evidence.size, FITTED))
-            reach *= WIDER
-        traced = Traced(evidence, family.camera, reach)
         axes, known = family.columns(evidence), len(guess.values) <= ENCLOSED
-        if not known and (found := family.matched(evidence)):
-            axes = axes @ found.axes
+        reach = FINE_REACH if fine else REACH
+        if not known:
+            evidence = replace(evidence, size=min(evidence.size, FITTED))
+            found = family.matched(evidence)
+            axes = axes @ found.axes if found else axes
+            reach *= WIDER
         search = Search(
-            traced.right,
+            Traced(evidence, family.camera, reach).right,
             axes,
             least=evidence.least_right(family.worth),
             unseen=family.unseen(evidence),
@@ -167,7 +146,7 @@ def fitting(family: Family, *rivals: Family) -> Fit:
                     break
         return out
 
-    return Fit(find, refine)
+    return {"assume": of_camera(family.camera), "find": find, "refine": refine}
 
 
 def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Work[list[Values]]:
@@ -228,9 +207,8 @@ class Traced:
         self.evidence = evidence
         self.camera = camera
         self.reach = reach
-        few = _few(evidence)
-        # Film positions, and what is seen there: how far it moves says whether triangles stay near.
-        self.guide = evidence.film[:, few], evidence.points[:, few]
+        # What is seen: how far it moves says whether triangles stay near.
+        self.guide = evidence.points[:, _few(evidence)]
         self.probes: list[Probe] = []  # the last one first
 
     def right(self, values: Values) -> Work[Bools | None]:
@@ -239,26 +217,17 @@ class Traced:
         camera = self.camera(evidence.case.scene.camera, *values)
         if camera is None:
             return None
+        scene = evidence.case.scene.seen_by(camera)
         probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
         if probe is None:
-            scene = evidence.case.scene.seen_by(camera)
             probe = yield from evidence.probe(scene, self.reach)
             self.probes = [probe, *self.probes[: PREPARED - 1]]
-        probe = replace(probe, scene=probe.scene.seen_by(camera))
-        hits = yield from probe.trace()
-        return evidence.agrees(probe.scene, hits)
+        return evidence.agrees(scene, (yield from replace(probe, scene=scene).trace()))
 
     def _near(self, prepared: Camera, camera: Camera) -> bool:
         """Return whether a camera sees everything near where the prepared one does."""
-        film, points = self.guide
         with np.errstate(all="ignore"):
-            before, now = (np.stack(film_of(c, points)[:2]) for c in (prepared, camera))
-            beside = film_beside_camera(prepared, camera, *film) - film
-            moved = now - before
-        # Parallel rays that are turned move what is far away by more than what is near.
-        same_place = np.array_equal(prepared.origin, camera.origin)
-        same_place &= camera.projection is not ORTHOGRAPHIC
-        if same_place:
-            return bool(np.abs(beside).max() <= self.reach)
+            before, now = (np.stack(film_of(c, self.guide)[:2]) for c in (prepared, camera))
+            moved = np.abs(now - before)
         known = np.isfinite(moved)
-        return bool(known.any() and np.abs(moved[known]).max() <= self.reach)
+        return bool(known.any() and moved[known].max() <= self.reach)
