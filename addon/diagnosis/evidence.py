@@ -81,8 +81,10 @@ class Evidence:
 
     @cached_property
     def unexplained(self) -> Bools:
-        """The unexplained pixels, (h, w)."""
-        return self.causes.cause == UNEXPLAINED
+        """The pixels (h, w) that are unexplained, or passed over as there were too many."""
+        out = self.causes.cause == UNEXPLAINED
+        out.flat[self.causes.passed_over] = True
+        return out
 
     @cached_property
     def judged(self) -> Bools:

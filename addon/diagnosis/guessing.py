@@ -37,7 +37,7 @@ from .faults.fault import TRIED, AnyFault, Effort, Guess
 from .faults.fitting import ENCLOSED
 from .faults.given import given
 from .faults.matching import is_everywhere
-from .trial import Trial, traced_anew, trial_of
+from .trial import Trial, in_full, traced_anew, trial_of
 from .variants import carried
 
 T = TypeVar("T")
@@ -242,7 +242,8 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
         if best := _best(evidence, seconds):
             return [[first], best]
-    for first in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
+    for trial in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
+        first = yield from in_full(trial)
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
         own = first.guess.object  # two changes of one object are one that is not known
         others = [t for t in seconds if not own or t.guess.object != own]
@@ -280,8 +281,8 @@ def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
             if other := fault.assume(case, guess):
                 traced = yield from traced_anew(other, case, frame)
                 if (yield from find_transform(traced, other.picture, ~boundary(traced))):
-                    trial = yield from trial_of(evidence, fault, guess, promising=True)
-                    out += [trial] if trial else []
+                    if trial := (yield from trial_of(evidence, fault, guess, promising=True)):
+                        out.append((yield from in_full(trial)))
     return out
 
 

@@ -16,8 +16,10 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ...causes.checks.probe import Probe
+from ...rendering import steps
 from ...scene import Camera
 from ...tracer.camera import camera_rays, film_of
+from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import WORTH, Evidence
 from .fault import Numbers, Values, of_camera
@@ -39,6 +41,7 @@ ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
 MOVES = 3  # with steps of one length, at most: a right start is off by a pixel or two
 BETTER = 0.03  # the least gain of a start in the share of right pixels
 ENCLOSED = 3  # numbers, at most, that get ranges
+FOLLOWED = 2  # times that edges are traced and found anew, at most
 FITTED = 1024  # sampled pixels of each kind for more numbers
 WIDER = 2.0  # times the reach of a fit of more numbers, which pulls at several
 
@@ -90,17 +93,41 @@ class Family:
 
     def matched(self, evidence: Evidence) -> Fitted | None:
         """Return the numbers, in units, with which the edges are where the picture has them."""
-        return evidence.once(f"matched {id(self)}", lambda: self._matched(evidence))
+        return evidence.once(f"matched {id(self)}", lambda: self._matched(evidence, evidence))
 
-    def _matched(self, evidence: Evidence) -> Fitted | None:
+    def followed(self, evidence: Evidence) -> Work[Fitted | None]:
+        """Return the same, found again in what is traced there: far away, much looks otherwise.
+
+        Only where it has many numbers, and explains some edges (cached).
+        """
+        key, found = f"followed {id(self)}", self.matched(evidence)
+        axes, scene = self.columns(evidence), evidence.case.scene
+        if key not in evidence.known and found and len(axes) > ENCLOSED:
+            for _ in range(FOLLOWED if found.share >= FOUND / 2 else 0):
+                camera = self.camera(scene.camera, *axes @ found.units)
+                frame = Frame.empty(scene if camera is None else scene.seen_by(camera))
+                yield from steps(frame.scene, evidence.case.settings, frame)
+                case = evidence.case.in_scene(frame.scene)
+                there = replace(evidence, case=case, frame=frame, known={})
+                again = self._matched(evidence, there, found.units)
+                if again is None or again.share <= found.share:
+                    break
+                found = again
+            evidence.known[key] = found
+        return evidence.known.get(key, found)
+
+    def _matched(
+        self, evidence: Evidence, there: Evidence, units: Floats | float = 0.0
+    ) -> Fitted | None:
         axes = self.columns(evidence)
         own = evidence.case.scene.camera
-        found = matches(evidence)
+        found = matches(there)
 
-        def seen(units: Floats) -> Floats:
-            return seen_by(self.camera(own, *axes @ units), found.points)
+        def seen(more: Floats) -> Floats:
+            return seen_by(self.camera(own, *axes @ (units + more)), found.points)
 
-        return fitted(found, seen, axes.shape[1])
+        more = fitted(found, seen, axes.shape[1])
+        return more and more._replace(units=units + more.units)
 
 
 def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
@@ -135,9 +162,9 @@ def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
         out: list[Numbers] = []
         found, own = family.matched(evidence), evidence.case.scene.camera
         for start in (yield from _likely(evidence, family, rivals)):
-            few = evidence.few if len(start) > 1 else evidence
-            guess = yield from refine(few, Numbers(start))
-            if not guess and found and found.share >= CLEAR:
+            few, many = evidence.few if len(start) > 1 else evidence, len(start) > ENCLOSED
+            guess = None if many else (yield from refine(few, Numbers(start)))
+            if not guess and found and (many or found.share >= CLEAR):
                 out.append(Numbers(start, start, start, words=family.words(own, *start)))
             elif guess:
                 out.append(guess)
@@ -159,7 +186,8 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
     if family.camera(own, *none) is None:
         return []
     film = seen_by(own, matches(evidence).points)
-    found, still = family.matched(evidence), fitted(matches(evidence), lambda units: film, 0)
+    found = yield from family.followed(evidence)
+    still = fitted(matches(evidence), lambda units: film, 0)
     others = [other.share for r in rivals if (other := r.matched(evidence))]
     if found and still and (most := max(found.share, still.share, *others)) >= FOUND:
         moves = found.share >= still.share + MORE or is_everywhere(evidence)
