@@ -42,7 +42,7 @@ def _write(views: Sequence[View], centers: str) -> Files:
     images = ["# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; then a line of points"]
     for number, (view, lens) in enumerate(zip(views, lenses, strict=True), 1):
         r = frame.rotation_of(frame.camera_from_world(view.camera)[:3, :3])
-        pose = [*quaternion(r), *(-r @ view.camera.origin)]
+        pose = [*frame.quaternion(r), *(-r @ view.camera.origin)]
         said = " ".join(repr(float(v)) for v in pose)
         images += [f"{number} {said} {numbers[lens]} {view.name}", ""]
     files = {CAMERAS: cameras, IMAGES: images, POINTS: ["# no points"]}
@@ -53,26 +53,6 @@ def _lens(view: View) -> str:
     camera = view.camera
     params = " ".join(map(repr, map(float, frame.intrinsics(camera))))
     return f"PINHOLE {camera.width} {camera.height} {params}"
-
-
-def quaternion(r: Floats) -> Floats:
-    """Return the unit quaternion (w, x, y, z) of a rotation (3, 3), w at least 0.
-
-    It is the eigenvector of the largest eigenvalue of Bar-Itzhack's matrix (AIAA Journal of
-    Guidance 23, 2000), which is well conditioned for every angle.
-    """
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = r
-    k = np.array(
-        (
-            (xx + yy + zz, 0.0, 0.0, 0.0),
-            (zy - yz, xx - yy - zz, 0.0, 0.0),
-            (xz - zx, yx + xy, yy - xx - zz, 0.0),
-            (yx - xy, zx + xz, zy + yz, zz - xx - yy),
-        )
-    )
-    _, vectors = np.linalg.eigh(k)  # of the lower triangle
-    q: Floats = vectors[:, -1]
-    return -q if q[0] < 0 else q
 
 
 def rotation(q: Floats) -> Floats:

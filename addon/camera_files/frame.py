@@ -29,6 +29,8 @@ FARTHEST = 1e12
 _UNCLIPPED = 1e-6, FARTHEST
 # How far rounding may leave the last row of a matrix from 0 0 0 1, in its own numbers.
 _AFFINE = 1e-6
+# The cosine of half an angle that is half a turn but for its rounding.
+_HALF_TURN = 5e-5
 
 
 def intrinsics(camera: Camera) -> tuple[float, float, float, float]:
@@ -65,6 +67,39 @@ def of_quaternion(w: float, x: float, y: float, z: float) -> Floats:
             (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
         )
     )
+
+
+def quaternion(r: Floats) -> Floats:
+    """Return the unit quaternion (w, x, y, z) of a rotation (3, 3), w at least 0.
+
+    It is the eigenvector of the largest eigenvalue of Bar-Itzhack's matrix (AIAA Journal of
+    Guidance 23, 2000), which is well conditioned for every angle.
+    """
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = r
+    k = np.array(
+        (
+            (xx + yy + zz, 0.0, 0.0, 0.0),
+            (zy - yz, xx - yy - zz, 0.0, 0.0),
+            (xz - zx, yx + xy, yy - xx - zz, 0.0),
+            (yx - xy, zx + xz, zy + yz, zz - xx - yy),
+        )
+    )
+    _, vectors = np.linalg.eigh(k)  # of the lower triangle
+    q: Floats = vectors[:, -1]
+    return -q if q[0] < 0 else q
+
+
+def rotation_vector(r: Floats) -> Floats:
+    """Return the axis of a rotation (3, 3), as long as its angle in radians, (3,).
+
+    Half a turn is the same about both ends of its axis: its largest component is positive.
+    """
+    w, x, y, z = quaternion(r)
+    along = np.array((x, y, z))
+    size = float(np.linalg.norm(along))
+    if w < _HALF_TURN and along[np.argmax(np.abs(along))] < 0:
+        along = -along
+    return along * (2 * np.arctan2(size, w) / size if size else 2.0)
 
 
 def camera_from_world(camera: Camera, axes: Floats = OPENCV) -> Floats:
@@ -109,6 +144,8 @@ def pinhole(
     """
     if k[1, 0] or k[2, 0] or k[2, 1] or not (k[0, 0] and k[1, 1] and k[2, 2]):
         raise SceneError("its K is not of the form [[fx, skew, cx], [0, fy, cy], [0, 0, 1]]")
+    if (np.diag(k) < 0).all():
+        k = -k  # a negative scale
     depth = np.diag((1.0, 1.0, np.sign(k[2, 2]), 1.0))  # negative before a camera along -Z
     k = k / abs(k[2, 2]) @ depth[:3, :3]
     fx, fy, (cx, cy) = abs(k[0, 0]), abs(k[1, 1]), k[:2, 2] + (0.5 - center)

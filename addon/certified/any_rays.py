@@ -71,6 +71,17 @@ def nearest_hits(
             yield None
         return (yield from ladder.hits(statistics))
     tree = TriangleTree.of(scene)
+    return (yield from hits_through(tree, rays, surfaces, clip, statistics))
+
+
+def hits_through(
+    tree: TriangleTree,
+    rays: Rays,
+    surfaces: Surfaces,
+    clip: tuple[float, float],
+    statistics: Statistics,
+) -> Work[Hits]:
+    """Find the nearest hits as :func:`nearest_hits`, of surfaces and what is in a tree."""
     found = []
     for some in parts(rays.count, _RAYS):
         yield Progress(some.start / rays.count)

@@ -87,16 +87,6 @@ def size(path: Path) -> tuple[int, int]:
         return spec.width, spec.height
 
 
-def notes(path: Path) -> set[str]:
-    """Return the names of what a file's header notes; raises as :func:`read` does."""
-    with _opened(path) as file:
-        return _notes(file)
-
-
-def _notes(file: Any) -> set[str]:
-    return {note.name for note in file.spec().extra_attribs}
-
-
 def read(path: Path) -> tuple[Colors, bool, set[str]]:
     """Return what a file shows, (h, w, 4) linear RGBA with premultiplied alpha, row 0 below.
 
@@ -117,7 +107,7 @@ def read(path: Path) -> tuple[Colors, bool, set[str]]:
         stored = file.read_image(min(at), max(at) + 1, "float")
         if stored is None:
             raise OSError(f"'{path}' cannot be read, save it again: {_error(file)}")
-        noted = _notes(file)
+        noted = {note.name for note in file.spec().extra_attribs}
     color = np.ones((*stored.shape[:2], 4), np.float32)
     color[..., : len(at)] = stored[::-1][..., np.subtract(at, min(at))]
     return color, len(at) == 3, noted

@@ -63,9 +63,9 @@ def rmse(first: Array, second: Array) -> float:
     return float(np.sqrt(np.mean((first.astype(np.float64) - second) ** 2)))
 
 
-def psnr(error: float, data_range: float = 1.0) -> float:
+def psnr(error: float) -> float:
     """Return the peak signal-to-noise ratio in decibels of an RMSE; infinite for equal pictures."""
-    return float("inf") if error == 0 else float(20 * np.log10(data_range / error))
+    return float("inf") if error == 0 else float(20 * np.log10(1 / error))
 
 
 def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) -> Work[float]:

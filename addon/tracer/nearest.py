@@ -89,7 +89,7 @@ def trace_tile(
             if literally:
                 began = time.perf_counter()
                 own = np.flatnonzero(sum_is_1(found.s))
-                _keep_nearest(printed, None, some.pixel[seen[own]], found.take(own))
+                keep_nearest(printed, None, some.pixel[seen[own]], found.take(own))
                 statistics.seconds -= time.perf_counter() - began
         yield Progress(share)
     if literally:
@@ -138,7 +138,7 @@ def test_pairs(
     hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.corners)
     seen = np.flatnonzero(hit & within_clip(scene.camera, t))
     found = Hits.of(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
-    _keep_nearest(hits, after, some.pixel[seen], found)
+    keep_nearest(hits, after, some.pixel[seen], found)
     return seen, found
 
 
@@ -154,7 +154,7 @@ def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None)
         found = Hits.none(len(seen))
         found.t[:] = t[seen]
         found.instance[:] = len(scene.instances) + index
-        _keep_nearest(hits, after, seen, found)
+        keep_nearest(hits, after, seen, found)
 
 
 def within_clip(camera: Camera, t: Floats) -> Bools:
@@ -163,7 +163,7 @@ def within_clip(camera: Camera, t: Floats) -> Bools:
         return (t >= camera.clip_start) & (t <= camera.clip_end)
 
 
-def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
+def keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
     """Enter hits where they are nearer than those before; a pixel may occur more than once."""
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))

@@ -62,7 +62,7 @@ class Cover:
 
     def _enter(self, face: Index, edge: Index) -> Index:
         """Note edges that reach into faces; return f m + g of what continues them there."""
-        low, high = self._box(edge)
+        low, high = self._faces.box(edge)
         near = ((low <= self._high[:, face]) & (high >= self._low[:, face])).all(axis=0)
         face, edge = face[near], edge[near]
         side, ends = crossed(self._faces, edge, face)
@@ -71,19 +71,8 @@ class Cover:
         self._edge = np.concatenate((self._edge, edge[rows]))
         self._within = np.concatenate((self._within, ends[..., rows]), axis=2)
         self._covered = np.concatenate((self._covered, np.zeros(len(rows), bool)))
-        mate = self._beyond(face[rows], edge[rows])
-        return mate[mate >= 0]
-
-    def _beyond(self, face: Index, edge: Index) -> Index:
-        """Return f m + g of the face g on the other side of edges; -1 if there is none."""
-        faces = self._faces
-        mate = faces.mate[edge]
-        goes_on = (mate != edge) & (faces.side(edge) == -faces.side(mate))
-        return np.where(goes_on, face * faces.count + mate % faces.count, -1)
-
-    def _box(self, edge: Index) -> tuple[Floats, Floats]:
-        low, high = self._faces.at[:, :, self._faces.ends(edge)]
-        return low.min(axis=1), high.max(axis=1)
+        mate = self._faces.beyond(edge[rows])
+        return (face[rows] * self._faces.count + mate)[mate >= 0]
 
     def gaps(self, some: Bools, tries: Index) -> tuple[Index, Floats]:
         """Find where faces that are `some` (m,) may be seen past an edge of what is before them.
@@ -92,7 +81,7 @@ class Cover:
         without any is wholly covered, or not at all.
         """
         rows = np.flatnonzero(some[self._face] & ~self._covered)
-        paired = _among(self._before, self._beyond(self._face[rows], self._edge[rows]))
+        paired = self.holds(self._face[rows], self._faces.beyond(self._edge[rows]))
         self._covered[rows[paired]] = True
         rows = rows[~paired]
         found = [self._gaps(rows[part]) for part in parts(len(rows), _TOGETHER)]
@@ -107,7 +96,7 @@ class Cover:
         first, last = np.searchsorted(self._before, (face, face + 1) * np.array(faces.count))
         which, number = spread(np.arange(len(rows)), last - first)
         own = self._before[first[which] + number] % faces.count
-        low, high = self._box(edge)
+        low, high = self._faces.box(edge)
         near = ((low[:, which] <= faces.high[:, own]) & (high[:, which] >= faces.low[:, own])).all(
             0
         )

@@ -34,6 +34,15 @@ class Signs(NamedTuple):
     error: Floats
 
 
+class Within(NamedTuple):
+    """What is known of n faces in boxes of the film."""
+
+    beside: Bools  # (n,) none of the box's rays meets the face
+    inside: Bools  # (3, n) the box surely is on the inner side of each edge
+    least: Floats  # (n,) the nearness of what is met; -inf where the side that is seen is not known
+    most: Floats
+
+
 class Faces:
     """The m faces of a scene.
 
@@ -139,6 +148,17 @@ class Faces:
         """Return on which side of edges their faces are, (n,), as `turn`: 1 is to the right."""
         return self.forward[edge] * self.turn[edge % self.count]
 
+    def beyond(self, edge: Index) -> Index:
+        """Return the faces that continue those of edges on their other sides, (n,); -1 for none."""
+        mate = self.mate[edge]
+        goes_on = (mate != edge) & (self.side(edge) == -self.side(mate))
+        return np.where(goes_on, mate % self.count, -1)
+
+    def box(self, edge: Index) -> tuple[Floats, Floats]:
+        """Return boxes of the film around edges, from low to high, (2, n) each."""
+        low, high = self.at[:, :, self.ends(edge)]
+        return low.min(axis=1), high.max(axis=1)
+
     def inside(self, edge: Index, point: Index) -> Signs:
         """Return on which side of edges of faces points are: positive within."""
         first, last = self.ends(edge)
@@ -177,16 +197,8 @@ class Faces:
             sign.astype(np.int8).reshape(shape), value.reshape(shape), error.reshape(shape)
         )
 
-    def within(self, faces: Index, low: Floats, high: Floats) -> tuple[Bools, Floats, Floats]:
-        """Evaluate n faces in boxes of the film, (2, n) each.
-
-        Returns
-        -------
-        missed : (n,) bool
-            None of the box's rays meets the face, in the clip range.
-        least, most : (n,) float64
-            Bound the nearness of what is met.
-        """
+    def within(self, faces: Index, low: Floats, high: Floats) -> Within:
+        """Evaluate n faces in boxes of the film, (2, n) each."""
         origin = np.floor(low)
         reach = np.maximum(*(high - origin)) + _ROOM
         found = set_up(
@@ -198,13 +210,13 @@ class Faces:
         right, left = of_x * x1, of_x * x0
         least = of_1 + np.minimum(up, down) + np.minimum(right, left)
         most = of_1 + np.maximum(up, down) + np.maximum(right, left)
-        missed = (most[:3] < -found.edge_error).any(axis=0)
+        inside = least[:3] > found.edge_error
+        beside = (most[:3] < -found.edge_error).any(axis=0)
         # One that is not sure may have the other orientation.
-        missed &= found.sure | (least[:3] > found.edge_error).any(axis=0)
-        missed |= (self.low[:, faces] > high).any(axis=0) | (self.high[:, faces] < low).any(axis=0)
-        bounds = least[3] - found.nearness_error, most[3] + found.nearness_error
-        nearest = np.fmin(bounds[1], self.nearest[faces])
-        return missed | self.clip.outside(bounds[0], nearest), bounds[0], nearest
+        beside &= found.sure | inside.any(axis=0)
+        beside |= (self.low[:, faces] > high).any(axis=0) | (self.high[:, faces] < low).any(axis=0)
+        nearest = np.fmin(most[3] + found.nearness_error, self.nearest[faces])
+        return Within(beside, inside, least[3] - found.nearness_error, nearest)
 
 
 def _exact_signs(corners: list[Floats], v: Floats, parallel: bool) -> list[int]:

@@ -18,7 +18,41 @@ from ..arrays import Bools, Floats, Index
 from .faces import EDGES, Faces
 
 THROUGH = 2  # an edge crosses a face
+_STEPS = 8  # from face to face, that a patch may need
 _FIRST, _LAST = np.array(EDGES).T
+
+
+def patches(faces: Faces, base: Index, at: Floats, low: Floats, high: Floats) -> Floats:
+    """Return how near at least what covers n boxes is, -inf if they may not be covered.
+
+    By `base` (n,), which a ray in the box sees, at film positions (2, n), and by what continues it
+    over the edges that reach into the box. How often those faces cover a ray changes nowhere there:
+    where one ends, another one begins.
+    """
+    out = np.where(faces.within(base, at, at).inside.all(axis=0), np.inf, -np.inf)
+    box = np.flatnonzero(out > 0)
+    own = base[box]
+    known = box * faces.count + own
+    for _ in range(_STEPS):
+        found = faces.within(own, low[:, box], high[:, box])
+        good = faces.clip.inside(found.least, found.most)
+        least = np.where(good, found.least, -np.inf)
+        np.minimum.at(out, box, np.where(found.beside, np.inf, least))
+        k, row = np.nonzero(~found.inside & ~found.beside)
+        edge, box = k * faces.count + own[row], box[row]
+        first, last = faces.box(edge)
+        met = ((first <= high[:, box]) & (last >= low[:, box])).all(axis=0)
+        other = faces.beyond(edge[met])
+        box = box[met]
+        out[box[other < 0]] = -np.inf
+        new = np.unique((box * faces.count + other)[out[box] > -np.inf])
+        new = np.setdiff1d(new, known, assume_unique=True)
+        if not len(new):
+            return out
+        known = np.concatenate((known, new))
+        box, own = np.divmod(new, faces.count)
+    out[box] = -np.inf
+    return out
 
 
 def crossed(faces: Faces, edge: Index, face: Index) -> tuple[Index, Floats]:
@@ -68,8 +102,8 @@ def nearer(faces: Faces, own: Index, other: Index, low: Floats, high: Floats) ->
     """
     out = (faces.turn[own] != 0) & (own != other)
     rows = np.flatnonzero(out & ~faces.in_clip[own])
-    _, least, most = faces.within(own[rows], low[:, rows], high[:, rows])
-    out[rows] = faces.clip.inside(least, most)
+    found = faces.within(own[rows], low[:, rows], high[:, rows])
+    out[rows] = faces.clip.inside(found.least, found.most)
     rows = np.flatnonzero(out & ~(faces.far[own] < faces.near[other]))
     out[rows] = _before(faces, own[rows], other[rows])
     return out

@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import Bools, Bytes, Floats, Index
+from ..arrays import Bools, Bytes, Floats, Index, parts
 from ..certified.any_rays import decide
 from ..certified.arithmetic import sound_steps
 from ..methods import Method
 from ..rendering import hits as trace_hits
-from ..scene import Scene, SceneError
+from ..scene import Region, Scene, SceneError
 from ..tracer.hits import NOTHING, Statistics
-from ..tracer.progress import Progress, Work, result_of
+from ..tracer.progress import Progress, Work, result_of, scaled
 from ..tracer.settings import Settings
+from .cells import TOGETHER, TOP, Cells, behind_planes
 from .cover import Cover
 from .faces import Faces
 from .points import points_of
-from .sights import TOP, Centres, Sights, behind_planes
+from .sights import Sights
 
 HIDDEN, SEEN, UNDECIDED = 0, 1, 2
 LIMIT = 1e-6  # square pixels
 WORK = 1 << 24  # pairs of faces that are compared, and of edges and faces
+_RAYS = 1 << 21  # through centres of pixels, which are divided into so many
+_RAYS_OF_FACE = 64
 _ROOM = 2.0**-8  # pixels around what may be seen, so that more than a corner is there
 _ROUNDS = 32  # of rays
 _TRIES = 6  # of them without anything new, for a face
@@ -81,25 +84,46 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
             f"Camera '{camera.name}' is {camera.projection.name}: which faces are seen is decided "
             "for perspective and orthographic cameras"
         )
+    scale = _scale(scene)
+    scene = _finer(scene, scale)
     yield Progress(None, "tracing the pixels' centres")
     hits = yield from trace_hits(scene, Settings(method=Method.CERTIFIED), Statistics())
     yield Progress(None, "looking behind what is seen")
     faces = Faces(scene)
     yield None
-    search = _Search(scene, faces, limit, work)
-    search.bound(Centres(scene, faces, hits))
-    yield None
-    yield from search.steps()
+    cells = Cells(scene, faces, hits)
+    yield from cells.join(faces)
+    search = _Search(scene, faces, limit * scale**2, work)
+    yield from search.bound(cells)
+    yield from scaled(search.steps(), 0.0, None, "looking behind what is seen")
     seen = np.flatnonzero(search.seen == SEEN)
     behind = np.zeros(faces.count, bool)
     behind[seen] = faces.turn[seen] > 0
     return Visible(
         search.seen,
-        search.witness.T.copy(),
-        search.area,
+        search.witness.T / scale,
+        search.area / scale**2,
         behind,
         faces.start,
     )
+
+
+def _scale(scene: Scene) -> int:
+    """Return into how many pixels each is divided along its sides: a power of two."""
+    region = scene.camera.region
+    most = min(_RAYS, _RAYS_OF_FACE * scene.triangle_count)
+    scale = 1
+    while region.width * region.height * (2 * scale) ** 2 <= most:
+        scale *= 2
+    return scale
+
+
+def _finer(scene: Scene, scale: int) -> Scene:
+    """Return a scene with more pixels. The rays through the film stay the same, to the bit."""
+    camera = scene.camera
+    region = Region(*(scale * v for v in vars(camera.region).values()))
+    size = scale * camera.width, scale * camera.height
+    return replace(scene, camera=replace(camera, width=size[0], height=size[1], region=region))
 
 
 class _Search:
@@ -119,14 +143,14 @@ class _Search:
         self.seen[face] = SEEN
         self.witness[:, face] = at
 
-    def bound(self, centres: Centres) -> None:
+    def bound(self, cells: Cells) -> Work[None]:
         """Find the part of the film in which each face may be seen: a box, and its area."""
         faces = self._faces
-        self._enter(centres.face, centres.at)
+        self._enter(cells.face, cells.at)
         self._low, self._high = np.full((2, 2, faces.count), np.inf)
         self._high = -self._high
         some = np.flatnonzero(self.seen == UNDECIDED)
-        start, which, new = centres.cells_of(faces, some)
+        start, which, new = cells.cells_of(faces, some)
         face, cell = some[:0], new[:, :0]
         for level in range(TOP, -1, -1):
             own = start[which] == level
@@ -134,21 +158,32 @@ class _Search:
             x, y = 2 * cell
             four = np.stack([(x + i, y + j) for j in (0, 1) for i in (0, 1)], axis=2)
             cell = np.concatenate((four.reshape(2, -1), new[:, own]), axis=1)
-            farthest = centres.hidden[level][cell[1], cell[0]]
-            near = np.flatnonzero(~(faces.nearest[face] < farthest))
-            face, cell, farthest = face[near], cell[:, near], farthest[near]
-            low, high = centres.film(level, cell)
-            if level == 0:
-                farthest = np.maximum(farthest, behind_planes(self._scene, faces, low, high))
-            missed, _, nearest = faces.within(face, low, high)
-            left = np.flatnonzero(~(missed | (nearest < farthest)))
-            face, cell = face[left], cell[:, left]
-        low = np.maximum(low[:, left] - _ROOM, faces.low[:, face])
-        high = np.minimum(high[:, left] + _ROOM, faces.high[:, face])
+            near = np.flatnonzero(~(faces.nearest[face] < cells.hidden[level][cell[1], cell[0]]))
+            left = [near[:0]]
+            for part in parts(len(near), TOGETHER):
+                rows = near[part]
+                left.append(rows[self._open(cells, level, face[rows], cell[:, rows])])
+                yield None
+            rows = np.concatenate(left)
+            face, cell = face[rows], cell[:, rows]
+        low, high = cells.film(0, cell)
+        low = np.maximum(low - _ROOM, faces.low[:, face])
+        high = np.minimum(high + _ROOM, faces.high[:, face])
         np.add.at(self.area, face, np.prod(high - low, axis=0))
         for k in (0, 1):
             np.minimum.at(self._low[k], face, low[k])
             np.maximum.at(self._high[k], face, high[k])
+
+    def _open(self, cells: Cells, level: int, face: Index, cell: Index) -> Bools:
+        """Return in which cells faces may be seen, (n,)."""
+        faces = self._faces
+        low, high = cells.film(level, cell)
+        farthest = cells.hidden[level][cell[1], cell[0]]
+        if level == 0:
+            farthest = np.maximum(farthest, behind_planes(self._scene, faces, low, high))
+        found = faces.within(face, low, high)
+        missed = found.beside | faces.clip.outside(found.least, found.most)
+        return ~(missed | (found.most < farthest))
 
     def steps(self) -> Work[None]:
         """Look for each face, and for what is before it, until nothing new is found."""
@@ -163,19 +198,19 @@ class _Search:
         rays: tuple[Index, Floats] = np.zeros(0, np.intp), np.zeros((2, 0))
         for _ in range(_ROUNDS):
             yield None
-            rays = self._round(*rays)
+            rays = yield from self._round(*rays)
             if not self._left.any() or self._before.work <= 0:
                 break
         self.area[self.seen != UNDECIDED] = 0
 
-    def _round(self, face: Index, at: Floats) -> tuple[Index, Floats]:
+    def _round(self, face: Index, at: Floats) -> Work[tuple[Index, Floats]]:
         """Trace rays past edges, and others; decide what they tell, and return the next ones."""
         faces, cover, covered, tries = self._faces, self._before, self._covered, self._tries
         some = np.flatnonzero(self._left & (~covered | (tries > 0)))
         box = self._low[:, some], self._high[:, some]
         new = points_of(faces, some, self._cut[some], *box, tries[some] // 2)
         face, at = np.concatenate((face, some)), np.concatenate((at, new), axis=1)
-        before, rays = self._sights.look(at)
+        before, rays = yield from self._sights.look(at)
         # A ray along the picture's border may see what is wholly beyond it.
         inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
         own = (before == face) & inside
@@ -188,7 +223,7 @@ class _Search:
         # What is before the face, but not all of it: another one may be, right before it.
         rows = np.flatnonzero(~cover.holds(face, before))
         self._cut[face[rows]] = np.where(before[rows] == NOTHING, face[rows], before[rows])
-        before[rows] = self._sights.before(face[rows], rays.take(rows))
+        before[rows] = yield from self._sights.before(face[rows], rays.take(rows))
         tries[cover.add(face[rows], before[rows])] = 0
         rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
         for met in (face, before):

@@ -15,6 +15,8 @@ from typing import Any
 
 from .peers import MissingPeerError
 
+LONGEST = 15.0  # seconds for an unproven method's picture: 100,000 slivers would take minutes
+
 
 class Child:
     """A process of its own that calls functions: it may crash, and nobody else notices.
@@ -79,6 +81,25 @@ def _serve(theirs: Connection, printed: str) -> None:
                 found = MissingPeerError(f"{type(error).__name__}: {error}")
             sys.stdout.flush()
             theirs.send(found)
+
+
+def takes_too_long(work: Callable[[], object]) -> bool:
+    """Return whether some work takes longer than LONGEST, in a fork of this process."""
+    if not hasattr(os, "fork"):
+        return False
+    child = get_context("fork").Process(target=_silent, args=(work,))
+    child.start()
+    try:
+        child.join(LONGEST)
+        return child.is_alive()
+    finally:
+        child.kill()
+        child.join()
+
+
+def _silent(work: Callable[[], object]) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends it without a word
+    work()
 
 
 @contextmanager

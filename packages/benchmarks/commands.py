@@ -17,12 +17,11 @@ from reference_tracer.tracer.progress import Work
 
 from .children import one_core
 from .peers import MissingPeerError, missing
-from .plan import COMMANDS, SPREAD, Plan
+from .plan import COMMANDS, Plan
 from .results import Bench
 from .rounds import Runner, in_rounds
-from .window import WINDOW, in_the_window
 
-RULER, COMMAND, WAITED = "import bpy", "command", "waited"
+RULER, COMMAND = "import bpy", "command"
 MAIN = "import sys; from reference_tracer.cli.main import main; sys.exit(main())"
 _CHILD = [sys.executable, "-m", "reference_tracer_benchmarks.commands_child"]
 _SCENES = Path(__file__).resolve().parents[2] / "sample_scenes"
@@ -41,7 +40,7 @@ def measure_commands(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
     cache : Path
         The folder for what commands read and write.
     """
-    wanted = [c for c in COMMANDS if c in plan.commands and c not in (*WINDOW, SPREAD)]
+    wanted = [c for c in COMMANDS if c in plan.commands]
     if not wanted:
         return
     with one_core():
@@ -56,21 +55,6 @@ def measure_commands(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
         yield from in_rounds([ruler, *runners.values()], plan.repeats, budget)
         for name, runner in runners.items():
             bench.keep_rounds(name, {RULER: ruler, COMMAND: runner})
-        if set(WINDOW) & set(plan.commands):
-            _enter_window(bench, ruler)
-
-
-def _enter_window(bench: Bench, ruler: Runner) -> None:
-    try:
-        found = in_the_window()
-    except MissingPeerError as error:
-        bench.note(f"in the window: {error}")
-        return
-    for name, rounds in found.items():
-        cpu, waited = zip(*rounds, strict=True)
-        bench.keep_rounds(name, {RULER: ruler})
-        bench.keep(name, COMMAND, cpu)
-        bench.keep(name, WAITED, waited)
 
 
 def _files(folder: Path) -> dict[str, Path]:

@@ -20,8 +20,7 @@ from reference_tracer.scene import Mesh, Scene
 from reference_tracer.tracer.progress import Progress, Work, scaled
 from reference_tracer.tracer.settings import Settings
 
-from . import memory
-from .children import one_core
+from .children import LONGEST, one_core, takes_too_long
 from .field import Field
 from .meshes import MissingMeshError
 from .plan import Case, Plan
@@ -32,7 +31,6 @@ from .scenes import build, mesh_of
 CERTIFIED, PLAIN = Settings(Method.CERTIFIED), Settings(Method.MOLLER_TRUMBORE)
 METHODS = PLAIN, CERTIFIED
 TRACE, RENDER, PICTURE = "trace", "render", "picture"
-_MEMORY = 0.2  # the share of a scene's time that its memory takes, about
 # What is asked of a method; of a frame, what is not asked for is not found.
 WORKS: dict[str, Callable[[Scene, Settings], Any]] = {
     TRACE: lambda scene, settings: _with(trace(scene, settings), "t", "s"),
@@ -74,7 +72,7 @@ def measure(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
             else:
                 # So that slow ones do not make the whole late.
                 share = max(0.0, end - time.perf_counter()) / (total - done)
-                work = _measure_scene(plan, share, bench, cache, field, mesh, cases)
+                work = _measure_scene(plan, share, bench, field, mesh, cases)
                 yield from scaled(work, done / total, size / total)
             done += size
     yield Progress(1.0)
@@ -89,24 +87,17 @@ def _warm_up(cache: Path) -> None:
 
 
 def _measure_scene(
-    plan: Plan,
-    share: float,
-    bench: Bench,
-    cache: Path,
-    field: Field,
-    mesh: Mesh,
-    cases: list[Case],
+    plan: Plan, share: float, bench: Bench, field: Field, mesh: Mesh, cases: list[Case]
 ) -> Work[None]:
     """Measure the cases of a scene; `share` is the seconds for each unit of their cost."""
-    late = yield from scaled(_measure_memory(bench, cases, cache, plan.quick), 0.0, _MEMORY)
-    size = (1 - _MEMORY) / sum(case.cost for case in cases)
-    start = _MEMORY
+    size, start = 1 / sum(case.cost for case in cases), 0.0
     for case in cases:
         results: dict[str, Any] = {}
         ours = _ours(mesh, case, results)
-        for name, runner in ours.items():
-            if (case, name) in late:
-                runner.failed = f"it takes more than {memory.LONGEST:g} s: not timed"
+        for what in (TRACE,) if plan.quick else (TRACE, RENDER):
+            runner = ours[f"{PLAIN.method.value}, {what}"]
+            if takes_too_long(runner.run):
+                runner.failed = f"it takes more than {LONGEST:g} s: not timed"
         peers = field.runners(build(mesh, case.width, case.height, case.camera), case)
         budget = min(plan.budget, share * case.cost)
         work = in_rounds([*ours.values(), *peers.values()], plan.repeats, budget)
@@ -132,28 +123,3 @@ def _ours(mesh: Mesh, case: Case, results: dict[str, Any]) -> dict[str, Runner]:
         for what in WORKS
         for s in (METHODS if what in (TRACE, RENDER) else (CERTIFIED,))
     }
-
-
-def _measure_memory(
-    bench: Bench, cases: list[Case], cache: Path, quick: bool
-) -> Work[set[tuple[Case, str]]]:
-    """Measure all of a scene's pictures in one go; return what of an unproven method is too slow.
-
-    Its mesh is made once.
-    """
-    wanted = (TRACE,) if quick else (TRACE, RENDER)
-    jobs = [(case, s, what) for case in cases for s in METHODS for what in wanted]
-    late = set()
-    with closing(memory.peaks(cases[0].scene, cache, [_job(*job) for job in jobs])) as peaks:
-        for done, ((case, s, what), peak) in enumerate(zip(jobs, peaks, strict=True), start=1):
-            name = f"{s.method.value}, {what}"
-            if peak == memory.LATE:
-                late.add((case, name))
-            elif peak:
-                bench.keep(case.title, f"{name}, memory", [peak], "byte")
-            yield Progress(done / len(jobs))
-    return late
-
-
-def _job(case: Case, s: Settings, what: str) -> memory.Job:
-    return memory.Job(case.width, case.height, case.camera, s.method.value, what == RENDER)

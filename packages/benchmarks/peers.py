@@ -77,19 +77,18 @@ class Embreex:
 
     def trace(self, rays: Rays) -> tuple[float, dict[str, NDArray]]:
         """Trace rays; returns seconds, and `primID` (-1 for nothing), `tfar`, `u`, `v`, (n,)."""
-        if self._scene is None:
-            self.build()
-        began = time.process_time()
-        found = self._scene.run(rays.origins, rays.directions, dists=rays.length, output=1)
-        return time.process_time() - began, found
+        return self._timed(rays, output=1)
 
     def ids(self, rays: Rays) -> float:
         """Trace rays, asking for triangles alone; returns seconds."""
+        return self._timed(rays)[0]
+
+    def _timed(self, rays: Rays, **asked: int) -> tuple[float, Any]:
         if self._scene is None:
             self.build()
         began = time.process_time()
-        self._scene.run(rays.origins, rays.directions, dists=rays.length)
-        return time.process_time() - began
+        found = self._scene.run(rays.origins, rays.directions, dists=rays.length, **asked)
+        return time.process_time() - began, found
 
 
 class Rtree:

@@ -13,7 +13,6 @@ from reference_tracer.scene import SceneError
 
 from . import scenes
 from .scenes import SUBJECTS
-from .window import WINDOW
 
 SMALL, LARGE = (480, 270), (1920, 1080)  # pixels
 QUICK_ADVERSARIAL = "slivers_20k", "inside_soup"
@@ -29,14 +28,11 @@ QUICK_COMMANDS = (
     "F12, 1920 x 1080",
     "F12, 1920 x 1080, the picture alone",
 )
-SPREAD = "trace 327,680 triangles, 26 rays a pixel"  # see `spread.py`
 COMMANDS = (
     *QUICK_COMMANDS,
     "compare suzanne, 960 x 540",
     "compare 12 triangles, 1920 x 1080",
     "compare 385,000 pixels that one cause excuses",
-    *WINDOW,
-    SPREAD,
 )
 
 
@@ -93,8 +89,6 @@ def plan(names: list[str] | None = None, quick: bool = False, repeats: int | Non
     """
     if repeats is not None and repeats < 1:
         raise SceneError(f"--repeats is {repeats}; it must be at least 1")
-    if names == ["spread"]:  # alone
-        return Plan((), quick, repeats or REPEATS, 0.0, 0.0, commands=(SPREAD,))
     chosen = [scenes.subject(name).name for name in dict.fromkeys(names or _default(quick))]
     cases = [case for name in chosen for case in (_quick if quick else _whole)(name)]
     commands = () if names else QUICK_COMMANDS if quick else COMMANDS

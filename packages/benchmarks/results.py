@@ -40,12 +40,11 @@ class Bench:
         what: str,
         who: str,
         values: Iterable[float],
-        unit: str = "second",
         facts: Mapping[str, str | float] = MappingProxyType({}),
     ) -> None:
         """Keep values, one a round, and what else is known of them; a clock may see no time."""
         if seen := [value for value in values if value > 0]:
-            metadata = {"name": f"{what}: {who}", "unit": unit, **machine(), **facts}
+            metadata = {"name": f"{what}: {who}", **machine(), **facts}
             self.found[what, who] = Benchmark(
                 [Run(seen, metadata=metadata, collect_metadata=False)]
             )

@@ -16,7 +16,6 @@ from .commands import measure_commands
 from .measure import measure
 from .plan import Plan
 from .results import TIMES, UNFINISHED, Bench
-from .spread import measure_spread
 
 SCENES = 0.8  # their share of the time, about
 
@@ -53,5 +52,4 @@ def run(wanted: Plan, out: Path, progress: Callable[[Event], None]) -> Bench:
 def _all(wanted: Plan, bench: Bench, directory: Path) -> Work[None]:
     share = SCENES if wanted.commands else 1.0
     yield from scaled(measure(wanted, bench, directory), 0.0, share)
-    yield from scaled(measure_commands(wanted, bench, directory), share, (1 - share) / 2)
-    yield from scaled(measure_spread(wanted, bench, directory), (1 + share) / 2, (1 - share) / 2)
+    yield from scaled(measure_commands(wanted, bench, directory), share, 1 - share)

@@ -10,6 +10,7 @@ from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
+from reference_tracer.camera_files.frame import rotation_vector
 from reference_tracer.diagnosis.faults.camera import CAMERA_FAULTS
 from reference_tracer.diagnosis.faults.fault import AnyFault, Numbers, Values, Ways
 from reference_tracer.diagnosis.faults.film import FOCAL, FOCALS, OFFSET
@@ -53,19 +54,20 @@ def looks_as(camera: Camera, other: Camera) -> bool:
     return bool(np.abs(axes).max() < _SAME_AXES)
 
 
-def last_resort(own: Camera, other: Camera) -> Steps:
-    """Return the turn, the move, the focal lengths and the offset between two cameras."""
+def last_resort(own: Camera, other: Camera) -> Iterator[Steps]:
+    """Yield the turn, the move, the focal lengths and the offset between two cameras, together."""
     out: list[Step] = []
     camera = own
     for name in _LAST_RESORT:
         read = {step.fault.name: step for step in fitted(camera, other)}
         if name not in read:  # of a panorama, or of mirrored axes
-            return ()
+            return
         step = _simplest(read, name)
         if any(abs(v) > _NEGLIGIBLE for v in step.guess.values):
             out.append(step)
             camera = step.camera
-    return tuple(out)
+    if out:
+        yield tuple(out)
 
 
 def _simplest(fitted: Mapping[str, Step], name: str) -> Step:
@@ -152,22 +154,9 @@ def _move(camera: Camera, other: Camera) -> Values:
 
 
 def _turn(camera: Camera, other: Camera) -> Values:
-    """Return the rotation from one camera's axes to the other's in the angles of `TURNED`.
-
-    Its axis is that of the skew part of the rotation's matrix; near half a turn, where that
-    vanishes, it is the largest column of the symmetric part.
-    """
+    """Return the rotation from one camera's axes to the other's in the angles of `TURNED`."""
     own, its = (c.world_from_camera[:3, :3] for c in (camera, other))
-    r = np.linalg.solve(own, its)
-    skew = np.array((r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])) / 2
-    sine, cosine = float(np.linalg.norm(skew)), float(np.trace(r) - 1) / 2
-    if sine > 1e-4 or cosine > 0:
-        about = skew / sine if sine else skew
-    else:
-        outer = (r + r.T) / 2 + np.eye(3)
-        about = outer[:, int(np.argmax(np.diag(outer)))]
-        about = about / np.linalg.norm(about)
-    up, left, roll = np.degrees(np.arctan2(sine, cosine)) * about
+    up, left, roll = np.degrees(rotation_vector(np.linalg.solve(own, its)))
     return float(-left), float(up), float(roll)
 
 

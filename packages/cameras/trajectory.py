@@ -12,6 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 from reference_tracer.arrays import Floats
+from reference_tracer.camera_files.frame import rotation_vector
 from reference_tracer.scene import Camera
 from reference_tracer.tracer.camera import film_of
 
@@ -61,12 +62,10 @@ class Similarity:
     def words(self) -> str:
         """Return the turn, the scale and the move, as far as they change anything."""
         out = []
-        skew = self.rotation - self.rotation.T
-        axis = np.array((skew[2, 1], skew[0, 2], skew[1, 0])) / 2
-        angle = float(np.arctan2(np.linalg.norm(axis), (np.trace(self.rotation) - 1) / 2))
+        turn = rotation_vector(self.rotation)
+        angle = float(np.linalg.norm(turn))
         if angle > _NEGLIGIBLE:
-            about = axis / (np.linalg.norm(axis) or 1.0)
-            out.append(f"turned by {np.degrees(angle):.4g} degrees about {_vector(about)}")
+            out.append(f"turned by {np.degrees(angle):.4g} degrees about {_vector(turn / angle)}")
         if abs(self.scale - 1) > _NEGLIGIBLE:
             out.append(f"scaled by {self.scale:.6g}")
         if np.abs(self.move).max() > _NEGLIGIBLE:

@@ -11,15 +11,11 @@ import sys
 from pathlib import Path
 
 import bpy
-import numpy as np
 from mathutils import Matrix
-from reference_tracer.projections import PERSPECTIVE
-from reference_tracer.scene import Camera
+from reference_tracer.blender.drawing.camera_object import add_camera
 
 from .scenes import PALETTE, Item, KitScene, Sheared, kit_scenes
 from .shapes import Shape
-
-_SENSOR = 36.0  # mm
 
 
 def write(kit: KitScene, path: Path) -> None:
@@ -31,8 +27,8 @@ def write(kit: KitScene, path: Path) -> None:
         if key not in meshes:
             meshes[key] = _mesh(item.shape, item.colors)
         _placed(item, meshes[key])
-    _camera(kit.camera)
     scene = bpy.context.scene
+    add_camera(scene, kit.camera)
     scene.view_settings.view_transform = "Standard"
     scene.render.film_transparent = True
     scene.display.shading.light = "FLAT"
@@ -92,27 +88,6 @@ def _empty(name: str) -> bpy.types.Object:
     made = bpy.data.objects.new(name, None)
     bpy.context.scene.collection.objects.link(made)
     return made
-
-
-def _camera(camera: Camera) -> None:
-    data = bpy.data.cameras.new("Camera")
-    (x, y), (width, height) = camera.window.centre, camera.window.size
-    data.sensor_fit, data.sensor_width = "HORIZONTAL", _SENSOR
-    if camera.projection == PERSPECTIVE:
-        data.lens = _SENSOR / width
-    else:
-        data.type, data.ortho_scale = "ORTHO", width
-    data.shift_x, data.shift_y = x / width, y / width
-    data.clip_start, data.clip_end = camera.clip_start, camera.clip_end
-    made = bpy.data.objects.new("Camera", data)
-    made.matrix_world = Matrix(np.asarray(camera.world_from_camera).tolist())
-    scene = bpy.context.scene
-    scene.collection.objects.link(made)
-    scene.camera = made
-    render = scene.render
-    render.resolution_x, render.resolution_y = camera.width, camera.height
-    render.resolution_percentage = 100
-    render.pixel_aspect_y = height * camera.width / (camera.height * width)
 
 
 def main() -> None:

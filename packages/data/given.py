@@ -44,7 +44,7 @@ class GivenData:
     Raises
     ------
     ValueError
-        If there is no such kind, space or range, the scale is no length, or the kind has none.
+        If there is no such kind, the scale is no length, or the kind has none.
     """
 
     kind: str  # of KINDS
@@ -57,13 +57,8 @@ class GivenData:
     names: Path | None = None  # a table of ids, which says whose is whose
 
     def __post_init__(self) -> None:
-        for name, value, known in (
-            ("kind", self.kind, tuple(KINDS)),
-            ("space", self.space or "world", vectors.SPACES),
-            ("range", self.range or "unit", vectors.RANGES),
-        ):
-            if value not in known:
-                raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(known)}")
+        if self.kind not in KINDS:
+            raise ValueError(f"kind is {self.kind!r}; it must be one of {', '.join(KINDS)}")
         if self.scale is not None:
             if not KINDS[self.kind]("world", "unit").unit:
                 raise ValueError(f"scale is {self.scale!r}; {self.kind} are no lengths")

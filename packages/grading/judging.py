@@ -1,4 +1,4 @@
-"""Judges a student's file: on the checks, on scenes, and at the extremes.
+"""Judges a student's file: on the checks, and on scenes.
 
 Whatever the file does wrong is in the `Judgement`: it is never an error of ours.
 """
@@ -20,7 +20,6 @@ from reference_tracer_processes.running import Limits
 from .cases import TableCases
 from .examples import find_examples
 from .external import Program, Run
-from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults, raising
 from .form import Form
 from .judged_scene import JudgedScene
@@ -59,7 +58,6 @@ class Judgement:
     looks: list[Look] = field(default_factory=list)  # of those that were finished
     examples: dict[str, list[WrongCase]] = field(default_factory=dict)  # by the scene's name
     errors: list[tuple[str, StudentError]] = field(default_factory=list)  # where, and what
-    extremes: list[ExtremeRow] = field(default_factory=list)
     seconds: float = 0.0  # that the function itself has taken
     printed: int = 0  # bytes
     said: str = ""  # the first of them
@@ -110,7 +108,6 @@ def judge(
     submission: Path | Run,
     cases: TableCases,
     scenes: Sequence[JudgedScene] = (),
-    extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
     name: str = "",
     started: list[Submission] | None = None,
@@ -124,9 +121,7 @@ def judge(
     cases : TableCases
         What it is asked, of any subject.
     scenes : sequence of JudgedScene
-    extremes : sequence of ExtremeScene
-        What is lost there is reported, and does not count in the score. Scenes and extremes are of
-        ray/triangle tests alone.
+        Of ray/triangle tests alone.
     limits : Limits, optional
         The time is that of each scene, and of the cases.
     name : str, optional
@@ -143,16 +138,13 @@ def judge(
             _on_cases(out, student, cases)
         except StudentError as error:
             out.errors.append((CHECKS, error))  # it would fail again: the scenes are not tried
-            scenes, extremes = (), ()
-        size = 0.5 if extremes else 1.0
+            scenes = ()
         for k, scene in enumerate(scenes):
-            share = size / len(scenes)
+            share = 1 / len(scenes)
             yield from scaled(_on_scene(out, student, scene), k * share, share)
         out.faults = [*out.faults, *raising(student)]
         if not (out.faults or out.errors or all(t and t.all_right for t in out.tallies)):
             out.faults.append(in_scenes(out.looks))
-        if extremes:
-            yield from scaled(_on_extremes(out, student, extremes), size, 1 - size)
         out.seconds = student.seconds
     out.printed, out.said = student.printed, student.said  # all of it, now that it has ended
     return out
@@ -218,18 +210,10 @@ def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[N
         out.mended.append(None)
 
 
-def _on_extremes(out: Judgement, student: Submission, scenes: Sequence[ExtremeScene]) -> Work[None]:
-    try:
-        out.extremes = yield from try_extremes(scenes, student.ask, student.new_scene)
-    except StudentError as error:
-        out.errors.append(("the extremes", error))
-
-
 def judge_all(
     submissions: Mapping[str, Path | Run],
     cases: TableCases,
     scenes: Sequence[JudgedScene] = (),
-    extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
     *,
     told: Callable[[Judgement], T],
@@ -243,7 +227,7 @@ def judge_all(
     started: list[Submission] = []
 
     def judged(name: str) -> T:
-        work = judge(submissions[name], cases, scenes, extremes, limits, name, started)
+        work = judge(submissions[name], cases, scenes, limits, name, started)
         found = result_of(work, meters[name].read)
         if any(each.stopped for each in started):
             raise CancelledError

@@ -28,7 +28,6 @@ from .tables import (
     dashed,
     explain,
     head,
-    held_rows,
     named,
     put_right,
     row,
@@ -130,12 +129,6 @@ def _student(j: Judgement) -> str:
         parts += [f"<p>{NO_BOUNDARY}.</p>"] * dashed(counts)
     parts += [_wrong_case(j.subject, case) for case in j.wrong]
     parts += [_scene(j.subject, found, j.examples[found.judged.name]) for found in j.looks]
-    if j.extremes:
-        names = "student", "not by rounding", "textbook", "Möller–Trumbore"
-        scales = "the first scale at which a ray is lost", *names
-        why = "Does not count: every formula in float64 gives way somewhere. A dot: it never does."
-        parts.append(f"<h3>At the extremes</h3><p>{why}</p>")
-        parts.append(_table(scales, [tuple(map(escape, cells)) for cells in held_rows(j)]))
     return "\n".join(parts)
 
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from .extremes import held
 from .judging import Judgement
 from .picture import Look
 from .student_error import StudentError
@@ -29,7 +28,6 @@ _UNITS = {
     "stride": "every so many pixels were judged, in both directions",
     "pixel": "[x, y] of the picture, or of its border, from the lower left",
     "given": "of a scene in metres, world space",
-    "lost": "rays that see another surface than the certified one",
     "seconds": "that the student's function itself has taken",
 }
 
@@ -62,12 +60,6 @@ def student(j: Judgement) -> Student:
         "checks": _tally(j.checks),
         "wrong_cases": [asdict(case) for case in j.wrong],
         "scenes": [_scene(j, found) for found in j.looks],
-        "extremes": {
-            "rows": [asdict(row) for row in j.extremes],
-            "held": [asdict(h) for h in held(j.extremes)],
-        }
-        if j.extremes
-        else None,
     }
 
 

@@ -11,10 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from reference_tracer.report.tables import columns, percent
-from reference_tracer.study.extremes import written
 from reference_tracer.wording import count_of
 
-from .extremes import held
 from .judged_scene import JudgedScene
 from .judging import CHECKS, Judgement
 from .picture import EXCUSED, Mark
@@ -75,12 +73,7 @@ def lines(j: Judgement) -> list[str]:
         out += ["", *columns([head(j.subject), *(row(*named) for named in found)])]
         out += [NO_BOUNDARY] * dashed(found)
     out += _wrong_pixels(j)
-    if j.extremes:
-        out += ["", *columns([("first scale that loses a ray", *_YARDS), *held_rows(j)])]
     return out
-
-
-_YARDS = "student", "not by rounding", "textbook", "Möller–T."
 
 
 def wrapped(text: str) -> list[str]:
@@ -93,15 +86,6 @@ def put_right(j: Judgement) -> str:
     mistakes = count_of(len(j.alike.wrong) if j.alike else 0, "mistake")
     rest = "all is right" if j.put_right == 100 else f"it has {j.put_right:.1f}"
     return f"{j.as_is:.1f} as it is: with {mistakes} put right {rest}, less {COST:g} for each"
-
-
-def held_rows(j: Judgement) -> list[tuple[str, ...]]:
-    """Return cells of how far each sweep holds; a dot where it holds to its end."""
-    rows = []
-    for h in held(j.extremes):
-        scales = h.student, h.wrong, *h.yardsticks.values()
-        rows.append((h.scenario, *("." if v is None else written(v) for v in scales)))
-    return rows
 
 
 def tallies(j: Judgement) -> list[tuple[str, Tally]]:

@@ -2,10 +2,10 @@
 
 A right program is computed in float64, each number with a bound on how far any sound order of its
 operations may take it (`bounded.py`). Nobody chose a tolerance: an answer may be off by ROUNDINGS
-times that, which also stands for formulas that are somewhat worse, as `known.py` argues. What a
-condition compares is certain where it is farther from its limit than that. All else is computed
-anew in fractions, where nothing is rounded; it is *in doubt*, as sound float64 may have it either
-way, but for cases in which float64 rounds nothing.
+times that, which also stands for formulas that are somewhat worse. What a condition compares is
+certain where it is farther from its limit than that. All else is computed anew in fractions, where
+nothing is rounded; it is *in doubt*, as sound float64 may have it either way, but for cases in
+which float64 rounds nothing.
 """
 
 from __future__ import annotations
@@ -20,8 +20,9 @@ from reference_tracer.certified.bounds import U
 from reference_tracer.derivation.expressions import evaluate
 
 from .bounded import Bounded
-from .known import ROUNDINGS
 from .programs import COMPARISONS, CONSTANTS, Letters, Mask, Program, chosen, columns, unit
+
+ROUNDINGS = 16  # how far a sound formula may be off, for each of those of a right program
 
 
 class Truth(NamedTuple):
@@ -35,7 +36,7 @@ class Truth(NamedTuple):
 @np.errstate(all="ignore")
 def truth(program: Program, letters: Letters, whole: Mask) -> Truth:
     """Return what is true by a right program; float64 rounds nothing in `whole` cases (n,)."""
-    names = _bounded(program, letters)
+    names = bounded(program, letters)
     if program.conditions:
         hit, doubt = _hits(program, letters, names, whole)
         if program.choice:
@@ -65,7 +66,8 @@ def _rows(value: Any) -> list[Bounded]:
     return [value] if isinstance(value, Bounded) else list(value)
 
 
-def _bounded(program: Program, letters: Letters) -> dict[str, Any]:
+def bounded(program: Program, letters: Letters) -> dict[str, Any]:
+    """Return all of a program's numbers as `Bounded`, vectors as arrays of three."""
     names: dict[str, Any] = {name: Bounded.of(value) for name, value in CONSTANTS.items()}
     for name, value in letters.values.items():
         if value.ndim == len(letters.shape):

@@ -8,6 +8,7 @@ from itertools import permutations, product
 
 import numpy as np
 from reference_tracer.arrays import Floats
+from reference_tracer.camera_files.frame import rotation_vector
 
 from .matching import matched
 
@@ -61,13 +62,11 @@ class Move:
 
 def _turn(unit: Floats) -> Iterator[str]:
     """Yield what a rotation (3, 3) does, if anything."""
-    angle = np.degrees(np.arccos(np.clip((np.trace(unit) - 1) / 2, -1, 1)))
+    turn = rotation_vector(unit)
+    angle = np.degrees(np.linalg.norm(turn))
     if angle <= np.degrees(_UNIT):
         return
-    axis = np.array([unit[2, 1] - unit[1, 2], unit[0, 2] - unit[2, 0], unit[1, 0] - unit[0, 1]])
-    if not np.abs(axis).max() > _UNIT:  # half a turn: a column of the symmetric part
-        axis = (unit + np.eye(3))[:, np.argmax(np.diag(unit))]
-    axis = axis / np.sqrt((axis * axis).sum())
+    axis = turn / np.linalg.norm(turn)
     named = np.flatnonzero(np.abs(axis) > 1 - _UNIT)
     if len(named):
         sign = "" if axis[named[0]] > 0 else "-"

@@ -10,14 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.tracer.progress import result_of
-from reference_tracer_benchmarks import commands, field, measure, memory, peers, scenes
+from reference_tracer_benchmarks import children, commands, field, measure, peers, scenes
 from reference_tracer_benchmarks.blender_peer import BlenderPeer
 from reference_tracer_benchmarks.peers import Embreex, MissingPeerError, Rtree, Timed
 from reference_tracer_benchmarks.plan import Case, Plan
 from reference_tracer_benchmarks.rays import rays_of
 from reference_tracer_benchmarks.results import Bench
 from reference_tracer_benchmarks.rounds import Runner, in_rounds
-from reference_tracer_benchmarks.window import WINDOW
 
 from ..cases import rising
 
@@ -191,31 +190,17 @@ def test_who_fails_has_no_time():
 
 
 def test_commands_are_beside_the_ruler_and_what_fails_is_named(monkeypatch, tmp_path):
-    def window():
-        raise MissingPeerError("no whole Blender here")
-
     monkeypatch.setattr(commands, "RULER", "sum(range(3_000_000))")
     monkeypatch.setattr(commands, "_files", lambda folder: dict.fromkeys(FILES, tmp_path / "none"))
-    monkeypatch.setattr(commands, "in_the_window", window)
-    names = "reftrace --help", "compare suzanne, 960 x 540", WINDOW[0]
+    names = "reftrace --help", "compare suzanne, 960 x 540"
     bench, wanted = Bench(), Plan((), True, 1, 9.0, 1.0, commands=names)
     result_of(commands.measure_commands(wanted, bench, tmp_path))
-    ruled = {(name, commands.RULER) for name in names[:2]}
+    ruled = {(name, commands.RULER) for name in names}
     assert set(bench.found) == {*ruled, (names[0], "command")}
     [seconds] = bench.found[names[0], "command"].get_values()
     assert 0.01 < seconds < 5
-    assert bench.notes[0].startswith(f"{names[1]}: command: it failed (")
-    assert "none" in bench.notes[0]
-    assert bench.notes[1:] == ["in the window: no whole Blender here"]
-
-
-def test_what_is_measured_in_the_window_has_what_a_user_waits_for(monkeypatch):
-    rounds = {WINDOW[1]: [(1.0, 3.0), (4.0, 2.0), (2.0, 9.0)]}
-    monkeypatch.setattr(commands, "in_the_window", lambda: rounds)
-    bench = Bench()
-    commands._enter_window(bench, Runner(None, seconds=[2.0]))
-    seconds = {who: found.get_values() for (_, who), found in bench.found.items()}
-    assert seconds == {"import bpy": (2,), "command": (1, 4, 2), "waited": (3, 2, 9)}
+    [note] = bench.notes
+    assert note.startswith(f"{names[1]}: command: it failed (") and "none" in note
 
 
 # ---- the whole
@@ -252,27 +237,12 @@ def test_each_picture_is_timed_beside_its_peers(bench):
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
-def test_memory_is_that_of_the_picture():
-    sizes = (64, 36), (640, 360)
-    jobs = [memory.Job(*s, "perspective", "certified", True) for s in sizes]
-    small, large = memory.peaks("cube", None, jobs)
-    # A frame is 16 + 8 + 24 + 2 * 4 + 1 bytes a pixel.
-    assert large > 57 * 640 * 360 and large - small > 50 * (640 * 360 - 64 * 36)
-    assert small < 32 << 20
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
 def test_a_plain_method_that_takes_too_long_is_not_timed(tmp_path, monkeypatch):
-    monkeypatch.setattr(memory, "LONGEST", 1e-6)
+    monkeypatch.setattr(children, "LONGEST", 1e-6)
     case = Case("cube", 64, 36, "perspective")
     found = Bench()
     result_of(measure.measure(Plan((case,), False, 1, 1.0, 0.1), found, tmp_path))
     who = {who for _, who in found.found}
     assert not any(name.startswith("moller_trumbore") for name in who)
-    assert {"certified, trace", "certified, trace, memory"} <= who
+    assert {"certified, trace", "certified, render"} <= who
     assert sum("takes more than" in note for note in found.notes) == 2
-
-
-def test_no_memory_is_known_where_a_child_fails(tmp_path):
-    jobs = [memory.Job(8, 8, "perspective", "certified", False)] * 2
-    assert list(memory.peaks("suzanne", tmp_path, jobs)) == [None, None]

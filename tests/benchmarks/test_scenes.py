@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.rendering import render
-from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import camera_rays as our_rays
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_benchmarks import meshes, scenes
@@ -95,10 +94,3 @@ def test_the_plan():
     assert all(c.title and c.cost > 0 for c in whole.cases)
     assert {c.scene for c in plan(["cube", "soup_10k", "cube"]).cases} == {"cube", "soup_10k"}
     assert plan(["cube"], repeats=9).repeats == 9
-
-
-def test_what_cannot_be_planned():
-    with pytest.raises(SceneError, match=r"'sphere'.*cube.*inside_soup"):
-        plan(["sphere"])
-    with pytest.raises(SceneError, match="--repeats is 0"):
-        plan(["cube"], repeats=0)

@@ -36,7 +36,7 @@ def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch)
     real = drawings._owners
 
     def lacking(drawing, tmp, names):
-        leave_out(tmp, drawing.layer, [tmp.objects["Green"]])
+        leave_out(tmp, [tmp.objects["Green"]])
         return real(drawing, tmp, names)
 
     monkeypatch.setattr(drawings, "_owners", lacking)

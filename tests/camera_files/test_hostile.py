@@ -46,12 +46,6 @@ def test_each_is_read_or_refused(name, tmp_path):
     assert 0 < changed_at_random(name, tmp_path / "files", CASES) < 2 * CASES
 
 
-@pytest.mark.torture
-@pytest.mark.parametrize("name", CONVENTIONS)
-def test_many_are_read_or_refused(name, tmp_path):
-    assert 0 < changed_at_random(name, tmp_path / "files", 100 * CASES)
-
-
 def test_a_convention_that_is_named_is_held_to(tmp_path):
     view = View(camera(np.random.default_rng(1)), "0001.png", 1)
     path = on_disk(texts([view], CONVENTIONS["nerf"]), tmp_path / "files")

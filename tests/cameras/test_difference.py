@@ -75,12 +75,7 @@ def other_side(camera):
     by = HEIGHT / WIDTH
     return with_k(
         camera,
-        lambda fx, fy, cx, cy: (
-            by * fx,
-            by * fy,
-            WIDTH / 2 + cx - WIDTH / 2,
-            HEIGHT / 2 + cy - HEIGHT / 2,
-        ),
+        lambda fx, fy, cx, cy: (by * fx, by * fy, cx, cy),
     )
 
 
@@ -200,13 +195,9 @@ MISTAKES = {
     sides_exchanged: ["sides_exchanged"],
     divided: ["k_divided"],
     lambda c: longer(inverse_of_opencv(c)): ["matrix_inverted", "focal_length"],
-    lambda c: longer(transposed_in_opencv(c)): ["matrix_transposed", "focal_length"],
-    lambda c: longer(place_for_t(c)): ["place_for_translation", "focal_length"],
-    lambda c: longer(opencv_for_opengl(c)): ["forward", "focal_length"],
     lambda c: opencv_for_opengl(inverse_of_opencv(c)): ["forward", "matrix_inverted"],
     lambda c: shift_left_out(half_pixel(c)): ["shift_left_out"],
     lambda c: half_pixel(shift_left_out(c)): ["shift_left_out", "pixel_offset"],
-    lambda c: longer(y_up(c)): ["y_up", "focal_length"],
     lambda c: shift_left_out(y_up(c)): ["y_up", "shift_left_out"],
     lambda c: beside(longer(c)): ["focal_length", "pixel_offset"],
     lambda c: moved(rolled(oblong(half_pixel(c)))): [
@@ -272,15 +263,11 @@ def test_the_numbers_are_those_of_the_mistake(own):
     assert difference(own, half_pixel(own)).largest == pytest.approx(np.hypot(0.5, 0.5))
 
 
-def test_two_mistakes_have_the_numbers_of_both(own):
-    lines = difference(own, beside(longer(own))).lines()
-    assert lines[1].startswith("the focal length is +2 % off:")
-    assert lines[-1] == "  its principal point is off by (+30.000, -12.000) px, rows down"
-
-
 def test_no_distance_is_said_of_points_behind_the_camera(own):
-    line = difference(own, opencv_for_opengl(own)).lines()[0]
+    found = difference(own, opencv_for_opengl(own))
+    line = found.lines()[0]
     assert "points lie behind the camera" in line and line.endswith(", half of them there")
+    assert found.largest == np.inf
 
 
 def test_another_unit_of_length_is_asked_for(own):
@@ -294,12 +281,6 @@ def test_another_unit_of_length_is_asked_for(own):
     assert found.lines()[-1].endswith("the scene's times 1000: another unit of length?")
     assert difference(own, moved(own)).unit is None
     assert difference(own, longer(own)).unit is None
-
-
-def test_the_same_camera_agrees(own):
-    found = difference(own, with_world(own, lambda cv: cv))
-    assert found.agrees and found.largest < 1e-9 and not found.steps
-    assert found.lines()[0].startswith("agree")
 
 
 def test_what_rounding_moves_agrees_and_ten_times_that_does_not(own):
@@ -332,11 +313,6 @@ def test_a_camera_that_no_known_mistake_makes_gets_no_name(own):
     found = difference(own, other)
     assert not found.agrees and found.steps == ()
     assert "no known fault" in found.lines()[-1]
-
-
-def test_a_camera_that_looks_away_is_told_without_a_distance(own):
-    found = difference(own, with_world(own, lambda cv: cv @ np.diag((-1, 1, -1, 1))))
-    assert found.largest == np.inf and "behind the camera" in found.lines()[0]
 
 
 def cameras_of_all_kinds():

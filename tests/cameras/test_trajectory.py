@@ -59,8 +59,6 @@ def turntable(count=8):
     ("mistake", "name"),
     [
         (half_pixel, "pixel_offset"),
-        (transposed_in_opencv, "matrix_transposed"),
-        (inverse_of_opencv, "matrix_inverted"),
         (place_for_t, "place_for_translation"),
     ],
 )

@@ -55,6 +55,7 @@ def in_degrees():
 # What is written, the exit code, and what is said.
 FILES = {
     "kubric": (opencv(K @ FLIP, FLIP @ R, FLIP @ T), 0, "agree"),
+    "scaled": (opencv(-2 * np.array(K), R, T), 0, "agree"),
     "inverse": (opencv(K, R.T, (4, -5, 3)), 2, "camera-to-world in place of world-to-camera"),
     "not_transposed": (pytorch3d(R, T), 2, "rotation is transposed"),
     "shift": (opencv([K[0], [0, F, H / 2], K[2]], R, T), 2, "the camera's shift up is left out"),

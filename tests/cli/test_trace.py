@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import trimesh
 from PIL import Image
 from reference_tracer.certified import arithmetic
 from reference_tracer.cli.main import main
@@ -23,13 +22,6 @@ def test_mesh_to_png(ball, tmp_path, capsys):
     assert "24 x 16 pixels, 320 triangles" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("suffix", ["obj", "off", "stl", "glb"])
-def test_other_meshes(suffix, tmp_path):
-    trimesh.creation.box().export(tmp_path / f"box.{suffix}")
-    assert trace(tmp_path / f"box.{suffix}", tmp_path / "box.png") == AGREE
-    assert np.asarray(Image.open(tmp_path / "box.png"))[8, 12, 3] == 255
-
-
 def test_target_and_up(ball, tmp_path):
     """Looking past the ball to its right and above, one sees it at the left and below."""
     assert trace(ball, tmp_path / "b.exr", "--set", "eye=0,-5,0", "target=1,0,0.7") == AGREE
@@ -43,12 +35,6 @@ def test_ortho_scale(ball, tmp_path):
     seen = np.isfinite(found["Z"])
     assert seen.any(axis=0).sum() == seen.any(axis=1).sum() == 8  # the height, 4 m, is 16 pixels
     assert found["P.Z"][seen] == pytest.approx(5 - found["Z"][seen], abs=1e-5)
-
-
-def test_plain_methods_require_nothing(ball, tmp_path, capsys):
-    assert trace(ball, tmp_path / "b.exr", "--method", "watertight") == AGREE
-    said = capsys.readouterr().out.splitlines()
-    assert len(said) == 1 and "(watertight, float64)" in said[0]
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import json
 
 import pytest
 from reference_tracer.cli.main import main
-from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.cli.parser import AGREE
 from reference_tracer.files.scenes import save_scene
 
 pytestmark = pytest.mark.slow
@@ -25,23 +25,6 @@ def test_trade(small_ball, tmp_path, capsys):
     held = json.loads((tmp_path / "new" / "out" / "tradeoff.json").read_text(encoding="utf-8"))
     assert held["scene"] == "small.ply" and max(r["samples"] for r in held["rows"]) == 2
     assert held["advice"] in said
-
-
-@pytest.mark.parametrize(
-    "options, word",
-    [
-        (["--samples", "0"], "samples is 0"),
-        (["--samples", "65"], "samples is 65"),
-        (["--set", "width=0"], "--set width: 0 is not an integer of at least 1"),
-        (["--out", "small.ply"], "cannot write to the folder 'small.ply': it is a file"),
-    ],
-)
-def test_trade_of_bad_input(options, word, small_ball, tmp_path, capsys, monkeypatch, exit_code):
-    monkeypatch.chdir(tmp_path)
-    argv = ["trade", small_ball, *TRADE, *options]
-    assert exit_code(argv) == INPUT_ERROR
-    said = capsys.readouterr().err
-    assert word in said and "Traceback" not in said
 
 
 def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):

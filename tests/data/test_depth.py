@@ -133,13 +133,6 @@ def test_a_fault_has_its_name_alone(told, solids, traced, lengths, kind, fault, 
     assert told(kind, made, faults=SOME) == [fault]
 
 
-@pytest.mark.torture
-@pytest.mark.parametrize("fault, of", [(name, of) for name in WRONG for of in WRONG[name]])
-def test_among_all_faults_too(told, solids, traced, lengths, fault, of):
-    made = of(traced.t, solids.camera.clip_start, solids.camera.clip_end, lengths)
-    assert told("depth", np.where(np.isfinite(traced.t), made, np.nan)) == [fault]
-
-
 @pytest.mark.parametrize("levels", [255, 65535])
 def test_a_range_is_found_from_integers(judged, traced, levels):
     """Two numbers, to a small part of a step."""

@@ -9,7 +9,6 @@ import trimesh
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 from reference_tracer.derivation import reproducer, writers
-from reference_tracer.files.scenes import save_scene
 
 SMALL = ["--set", "width=24", "height=16"]
 
@@ -23,13 +22,6 @@ def ball(tmp_path):
 
 def explain(*arguments):
     return main(["explain", *map(str, arguments)])
-
-
-def test_markdown_is_printed_and_nothing_else(ball, capsys):
-    assert explain(ball, "--pixel", 12, 8, *SMALL) == AGREE
-    text = capsys.readouterr().out
-    assert text.startswith("# The ray through pixel (12, 8) of ball.ply\n")
-    assert "ball, triangle" in text and text.rstrip().endswith("change it.**")
 
 
 def test_files_by_their_endings(ball, tmp_path, capsys):
@@ -47,16 +39,12 @@ def test_reproducer_reruns_without_the_scene(ball, tmp_path, capsys):
     pixel = tmp_path / "pixel.json"
     assert explain(ball, "--pixel", 12, 8, "--reproducer", pixel, "--limit", 3, *SMALL) == AGREE
     first = capsys.readouterr().out
+    assert first.startswith("# The ray through pixel (12, 8) of ball.ply\n")
+    assert "ball, triangle" in first and first.rstrip().endswith("change it.**")
     assert json.loads(pixel.read_text())["schema"] == reproducer.SCHEMA
     (tmp_path / "ball.ply").unlink()
     assert explain(pixel) == AGREE
     assert capsys.readouterr().out == first
-
-
-def test_a_scene_file(ball_scene, tmp_path, capsys):
-    save_scene(tmp_path / "scene.npz", ball_scene)
-    assert explain(tmp_path / "scene.npz", "--pixel", 12, 9) == AGREE
-    assert "of scene.npz" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -36,18 +36,6 @@ def test_the_same_derivation_again(ball_scene, tmp_path, pixel, limit):
     assert reproducer.text(again.pixel) == path.read_text(encoding="utf-8")
 
 
-def test_homework(saved):
-    """A corner moved by hand makes another answer."""
-    path, content = saved
-    for candidate in content["candidates"]:
-        if candidate["triangle"] >= 0:
-            candidate["points"] = [[x, y, z - 1e9] for x, y, z in candidate["points"]]
-    path.write_text(json.dumps(content))
-    before, after = derive_pixel(reproducer.read(path)), json.loads(path.read_text())
-    assert before.seen is None or before.seen.is_plane
-    assert after["schema"] == reproducer.SCHEMA
-
-
 def drop(*keys):
     def change(content):
         *path, last = keys
@@ -75,29 +63,19 @@ def put(value, *keys):
         (drop("camera"), "camera is missing"),
         (drop("x"), "x is missing"),
         (put(1.5, "x"), "x must be an integer"),
-        (put(True, "y"), "y must be an integer"),
         (put(-1, "y"), "y is -1; it must be between 0"),
         (put(24, "x"), "no pixel \\(24, 9\\)"),
         (put([], "camera"), "camera must be an object"),
-        (drop("camera", "window", "left"), "camera.window.left is missing"),
         (put("wide", "camera", "window", "left"), "camera.window.left must be a finite number"),
-        (put(0, "camera", "width"), "has 0 x 18 pixels"),
-        (put(float("nan"), "camera", "clip_end"), "camera.clip_end must be a finite number"),
         (put([[1]], "camera", "world_from_camera"), "camera.world_from_camera must be 4 x 4"),
-        (put("no", "camera", "projection"), "camera.projection must be one of: perspective, "),
         (put([0, 0, 1], "ray", "direction"), "ray.direction is not that of the camera"),
         (put({}, "candidates"), "candidates must be a list"),
         (put(7, "candidates", 0), "candidates\\[0\\] must be an object"),
         (drop("candidates", 1, "points"), "candidates\\[1\\].points is missing"),
         (put([[0, 0, 1e999]] * 3, "candidates", 0, "points"), "points must be 3 x 3 finite"),
-        (put([[0, 0]], "candidates", 0, "points"), "points must be 3 x 3 finite"),
-        (put([1, 2], "candidates", 0, "colors"), "colors must be one RGBA"),
         (put(-2, "candidates", 0, "triangle"), "triangle is -2"),
-        (put(2**31, "candidates", 0, "triangle"), "triangle is 2147483648"),
         (put([[1e39, 0, 0, 1]], "candidates", 0, "colors"), "beyond what a float32 holds"),
-        (put([0, 0, -1e39, 1], "background"), "background is beyond what a float32 holds"),
         (put([[0, 0, 0, 1]] * 3, "candidates", -1, "colors"), "one for each corner of a triangle"),
-        (put("50", "camera", "clip_end"), "clip_end must be a finite number"),
         (put(True, "camera", "clip_end"), "clip_end must be a finite number"),
         (put(10**30, "candidates", 0, "slot"), "slot is 1000"),
         (put([[0, 0, 0], [0, 0, 0]], "candidates", -1, "points"), "normal, is zero"),

@@ -29,11 +29,6 @@ def decoded(bytes_):
     return np.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
 
 
-def test_known_greys():
-    shown = to_display(opaque([0, 1, 0.5, 0.2140, 0.0031308, 0.001]))[0, :, 0]
-    assert shown.tolist() == [0, 255, 188, 127, 10, 3]
-
-
 def test_display_is_the_nearest_byte():
     linear = np.linspace(0, 1, 4001)
     shown = to_display(opaque(linear))[0, :, 0].astype(int)
@@ -122,15 +117,6 @@ def test_missing_library_says_how_to_get_it(use, tmp_path, monkeypatch):
     assert len(list(tmp_path.iterdir())) == 1
 
 
-@pytest.mark.parametrize("of", ["gradient", "noise"])
-def test_a_picture_that_another_program_filtered(of, tmp_path, rng):
-    y, x = np.mgrid[:61, :83]
-    smooth = np.stack((x * 3, y * 4, x + y, 255 - x), axis=-1) % 256
-    values = (smooth if of == "gradient" else rng.integers(0, 256, smooth.shape)).astype(np.uint8)
-    Image.fromarray(values).save(tmp_path / "p.png", optimize=True)
-    assert np.array_equal(png.decode((tmp_path / "p.png").read_bytes()).values, values)
-
-
 def test_a_pictures_size_is_known_before_its_pixels(tmp_path):
     """Which may be many, or damaged."""
     png_file(tmp_path / "p.png", (100_000, 100_000), 1, 0, [])
@@ -159,14 +145,6 @@ def test_a_picture_that_is_said_to_be_larger_than_any_memory(side):
         png.decode(png.SIGNATURE + b"".join(parts))
 
 
-@pytest.mark.torture
-def test_a_picture_of_more_than_179_megapixels(tmp_path):
-    rows = [bytes(1600)] * 14_000  # 1 bit each
-    png_file(tmp_path / "p.png", (12_800, 14_000), 1, 0, rows)
-    read = read_picture(tmp_path / "p.png")
-    assert read.color.shape == (14_000, 12_800, 4)
-
-
 @pytest.mark.parametrize("name", ["p.png", "p.exr"])
 @pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
 def test_a_truncated_picture_is_named_in_one_line(name, share, tmp_path, rng, capfd):
@@ -190,22 +168,3 @@ def test_a_damaged_name_of_a_channel_is_no_error_of_its_own(tmp_path):
     )
     with pytest.raises(OSError, match=r"p\.exr' cannot be read"):
         read_picture(tmp_path / "p.exr")
-
-
-@pytest.mark.parametrize("name", ["p.png", "p.exr"])
-def test_the_picture_of_another_format(name, tmp_path, picture):
-    save_png(tmp_path / "other.png", picture)
-    content = (tmp_path / "other.png").read_bytes()
-    if name == "p.png":
-        content = b"P6 1 1 255\n\0\0\0"  # a PPM
-    (tmp_path / name).write_bytes(content)
-    with pytest.raises(OSError, match=rf"{name}' is (no .png|a PNG picture)"):
-        read_picture(tmp_path / name)
-
-
-def test_a_png_is_written_without_a_library(picture, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "PIL", None)
-    save_png(tmp_path / "p.png", picture)
-    assert (tmp_path / "p.png").read_bytes() == png.encode(picture)
-    with pytest.raises(OSError, match="nowhere"):
-        save_png(tmp_path / "nowhere" / "p.png", picture)

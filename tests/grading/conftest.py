@@ -5,7 +5,11 @@ from __future__ import annotations
 from contextlib import suppress
 from pathlib import Path
 
+import numpy as np
 import pytest
+from reference_tracer.methods import Method
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.triangle import TESTS
 from reference_tracer_grading.subjects.triangle import TRIANGLE
 
 TEXTBOOK = """
@@ -156,6 +160,17 @@ def wrong(name: str) -> str:
 def right() -> dict[str, str]:
     """Texts of right files, by name."""
     return RIGHT
+
+
+def plain(method: Method):
+    """One of the tracer's own unproven methods, as a student would have written it."""
+
+    def intersect(origins, directions, triangles):
+        hit, t, s = TESTS[method](Rays(origins.T, directions.T), *triangles.transpose(1, 2, 0))
+        with np.errstate(invalid="ignore"):
+            return np.where(hit & (t > 0), t, np.inf), s.T
+
+    return intersect
 
 
 def running(word: str) -> bool:

@@ -9,14 +9,11 @@ import signal
 import subprocess
 import sys
 import time
-from functools import partial
 
 import pytest
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
 from reference_tracer.files.scenes import save_scene
-from reference_tracer_grading import extremes
-from reference_tracer_grading.command import built_in
 from reference_tracer_processes.sandbox import sandbox
 
 from .conftest import running
@@ -78,16 +75,6 @@ def test_filled_in_as_it_says(solution, tmp_path, capsys):
         "exercise_triangle",
     ]
     assert (out / "judge.html").is_file()
-
-
-def test_a_class(template, solution, capsys):
-    assert main(["judge", str(template), str(solution), *SMALL]) == DIFFERENCES
-    table = capsys.readouterr().out.splitlines()[-3:]
-    assert [line.split()[:3] for line in table] == [
-        ["file", "score", "verdict"],
-        ["mine.py", "0.0", "wrong"],
-        ["solution.py", "100.0", "all"],
-    ]
 
 
 def test_it_goes_on_where_it_was(template, solution, tmp_path, capsys):
@@ -154,15 +141,6 @@ def test_the_command_for_a_pixel_can_be_typed(template, tmp_path, capsys):
     assert "sees mesh, triangle 0" in capsys.readouterr().out
 
 
-def test_extremes(solution, capsys, monkeypatch):
-    """Of the scenarios, one: docs/grading.md has all, and is run by its own test."""
-    some = [s for s in extremes.SCENARIOS if s.name == "far_from_origin"]
-    monkeypatch.setattr(extremes, "extreme_scenes", partial(extremes.extreme_scenes, some))
-    assert main(["judge", str(solution), *SMALL, "--extremes"]) == AGREE
-    text = capsys.readouterr().out
-    assert "first scale that loses a ray" in text and "far_from_origin" in text
-
-
 @pytest.mark.parametrize(
     ("options", "words"),
     [
@@ -196,12 +174,6 @@ def test_help_says_that_it_runs_code(capsys):
     text = capsys.readouterr().out
     assert "RUNS their code" in text and "no sandbox" in text
     assert "one is wrong, or fails" in text
-
-
-def test_built_in_scenes_need_no_blender():
-    assert [name for name, _, path in built_in() if path.is_file()] == [
-        f"exercise_{kind}" for kind in ("orthographic", "perspective", "plane", "triangle")
-    ]
 
 
 def test_ctrl_c_ends_the_student_too(tmp_path):

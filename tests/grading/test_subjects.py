@@ -22,7 +22,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.cases import TableCases
 from reference_tracer_grading.child import checked
-from reference_tracer_grading.faults import dependence, find_faults
+from reference_tracer_grading.faults import find_faults
 from reference_tracer_grading.judging import judge
 from reference_tracer_grading.matching import alike
 from reference_tracer_grading.mutations import mutations
@@ -273,20 +273,6 @@ def test_the_length_of_a_direction_does_not_count():
     assert names_of(cases.answers(cases.subject.rows(-table[:, :3], table[:, 3:]))) != []
 
 
-def test_what_is_in_the_call_must_not_count():
-    cases = asked("nearest")
-    [program] = cases.subject.programs
-    answers = answered("nearest", program)
-
-    def ask(*given):
-        t, owner = program.answers(cases.subject.letters(*given)).T
-        return t * (1 + 1e-3 * (len(t) < 9)), owner
-
-    assert [f.name for f in dependence(answers, ask)] == ["depends_on_the_call"]
-    right = dependence(answers, lambda *g: program.answers(cases.subject.letters(*g)).T)
-    assert right == []
-
-
 PLANE = """
 import numpy as np
 
@@ -339,7 +325,7 @@ def test_the_command_and_all_that_it_writes(name, tmp_path, capsys):
 
 @pytest.mark.parametrize(
     ("words", "text"),
-    [(["--extremes"], "--extremes is for"), (["scene.npz"], "scenes are for --subject triangle")],
+    [(["--pixels", "9"], "--pixels is for"), (["scene.npz"], "scenes are for --subject triangle")],
 )
 def test_what_is_for_triangles_is_refused(words, text, written, capsys):
     assert main(["judge", "--subject", "plane", str(written(PLANE)), *words]) == INPUT_ERROR

@@ -1,16 +1,12 @@
-"""A result belongs to the session, as a render does: what comes after the first picture."""
+"""A scene with what draws itself, in a light theme and a quad view; and Ctrl+Q after a result."""
 
 import json
-import subprocess
 
 import bpy
-import numpy as np
-from hands import close, found, windows
-from seen_stories import at_rest, editor, front
+from hands import close, windows
+from seen_stories import at_rest, front
 from story import (
-    MODULE,
     OUT,
-    module,
     noted,
     press,
     press_compare,
@@ -21,178 +17,8 @@ from story import (
 )
 
 
-def image_names():
-    """Of all images, but what Blender itself draws into."""
-    return sorted(i.name for i in bpy.data.images if i.source != "VIEWER")
-
-
-def second_day():
-    """Compare, save, open, compare, save as, undo, another engine, close, open again."""
-    view = bpy.context.preferences.view
-    bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield
-    view.render_display_type = "WINDOW"
-    window().scene.render.resolution_percentage = 30
-    noted["steps"] = {}
-    first, second = OUT / "first.blend", OUT / "second.blend"
-    saved_as(first)
-    yield from seen("new", first)
-    yield from compare("compared", first)
-    press("ctrl+s")
-    yield from seen("saved", first)
-    yield from opened_by_key(first)
-    yield from seen("opened", first)
-    for number in range(3):
-        yield from compare(f"compared_{number}", first)
-    saved_as(second)
-    yield from seen("saved_as", second)
-    for x in (1.0, 2.0, 3.0):
-        moved(x)
-    yield from compare("moved", second)
-    for _ in range(3):
-        press("ctrl+z")
-        yield
-    yield from seen("undone", second)
-    with bpy.context.temp_override(window=window()):
-        bpy.ops.ed.redo()
-    yield
-    yield from seen("redone", second)
-    for engine in ("WORKBENCH", "CYCLES"):
-        window().scene.reference_tracer.judge = engine
-        yield from compare(engine.lower(), second)
-    press("ctrl+s")
-    yield from seen("saved_again", second)
-    yield from opened_by_key(second)
-    yield from seen("opened_again", second)
-    view.render_display_type = "NONE"
-
-
-def saved_as(path):
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
-
-
-def moved(x):
-    """Move the cube, as a step of the user's."""
-    bpy.data.objects["Cube"].location.x = x
-    with bpy.context.temp_override(window=window()):
-        bpy.ops.ed.undo_push(message="Move")
-
-
-def compare(name, path):
-    """Press the button, and note what is seen then."""
-    before = result() and result().content
-    press_compare()
-    yield from until(lambda: at_rest() and result().content is not before, 60)
-    yield from seen(name, path)
-
-
-def opened_by_key(path):
-    """Open a new file by keys, which asks first where something is to be saved; then one."""
-    press("ctrl+n")
-    yield
-    screenshot(f"session_new_{path.stem}")
-    press("g")
-    yield
-    noted["steps"][f"new after {path.stem}"] = bpy.data.filepath
-    bpy.ops.wm.open_mainfile(filepath=str(path))
-    yield
-
-
-def seen(name, path):
-    """Note what there is of a result, and what a file has of it."""
-    yield 0.3
-    _, area = editor()
-    image = area and area.spaces.active.image
-    noted["steps"][name] = {
-        "size": path.stat().st_size,
-        "images": image_names(),
-        "dirty": [i.name for i in bpy.data.images if i.is_dirty],
-        "shown": image and image.name,
-        "fresh": bool(image and shows_latest()),
-        "verdict": result() and result().content.verdict,
-        "at": bpy.data.objects["Cube"].location.x,
-    }
-    screenshot(f"session_{name}")
-
-
-def shows_latest():
-    """Whether our traced picture is that of the latest comparison."""
-    color = result().content.frame.color.astype(np.float32)
-    image = bpy.data.images["Reference Tracer Traced"]
-    found = np.empty_like(color)
-    image.pixels.foreach_get(found.ravel())
-    return np.array_equal(color, found)
-
-
-def elsewhere():
-    """A second window with a second scene; a lens that is not modelled; a saved image; it goes."""
-    first = window().scene
-    first.render.resolution_percentage = 20
-    with bpy.context.temp_override(window=window()):
-        bpy.ops.wm.window_new_main()
-        bpy.ops.scene.new(type="LINK_COPY")
-    yield
-    of_first, of_second = sorted(bpy.context.window_manager.windows, key=lambda w: w.scene != first)
-    area = next(a for a in of_second.screen.areas if a.type == "VIEW_3D")
-    area.type = "IMAGE_EDITOR"
-    yield
-    noted["scenes"] = []
-    for where in (of_first, of_second, of_first):
-        yield from compared_in(where)
-        noted["scenes"].append([shown_in(area), [verdict(w) for w in (of_first, of_second)]])
-    screenshot("session_two_windows")
-    kept = OUT / "kept.png"
-    kept.unlink(missing_ok=True)
-    with bpy.context.temp_override(window=of_second, area=area):
-        bpy.ops.image.save_as(filepath=str(kept))
-    yield
-    before = kept.read_bytes()
-    yield from compared_in(of_first)
-    noted["saved"] = [kept.read_bytes() == before, image_names(), shown_in(area)]
-    first.camera.data.type = "PANO"
-    with bpy.context.temp_override(window=of_first):
-        bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
-    yield from until(ended, 20)
-    noted["refused"] = [image_names(), shown_in(area), verdict(of_first)]
-    yield
-    screenshot("session_refused")
-    first.camera.data.type = "PERSP"
-    yield from compared_in(of_first)
-    bpy.ops.reference_tracer.explain(x=3, y=4)
-    noted["before"] = [image_names(), [t.name for t in bpy.data.texts]]
-    bpy.ops.preferences.addon_disable(module=MODULE)
-    yield
-    noted["disabled"] = [image_names(), [t.name for t in bpy.data.texts], shown_in(area)]
-    screenshot("session_disabled")
-    bpy.ops.preferences.addon_enable(module=MODULE)
-
-
-def compared_in(where):
-    """Press the button in a window, and wait for its result."""
-    with bpy.context.temp_override(window=where):
-        bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
-    yield from until(ended, 60)
-    yield 0.3
-
-
-def verdict(where):
-    """The verdict that the panel of a window shows."""
-    found = module("blender.ui.results")
-    comparison = found.content(found.Kind.COMPARISON, where.scene)
-    return comparison and comparison.verdict
-
-
-def shown_in(area):
-    image = area.spaces.active.image
-    return image and image.name
-
-
-def ended():
-    return not module("blender.ui.long_work").LongWork.running
-
-
 def tried():
-    """Hair, a volume, a grease pencil; a light theme, a quad view, a narrow window; tooltips."""
+    """Hair, a volume, a grease pencil; a light theme, a quad view, a narrow window."""
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     yield
     bpy.context.preferences.view.render_display_type = "WINDOW"
@@ -228,27 +54,10 @@ def tried():
     sidebar.tag_redraw()
     yield 0.5
     screenshot("session_tried_redrawn")
-    yield from without_result()
-    for command in ("compare", "open_page"):
-        yield from found(view, f"reference_tracer.{command}", kind="UI")
-        yield 1.5  # Blender shows what the button is for
-        screenshot(f"session_tooltip_{command}")
-    press("F3")
-    yield 0.5
-    subprocess.run(["xdotool", "type", "trace and compare"], check=True)
-    yield 0.5
-    subprocess.run(["xdotool", "key", "Up", "Down"], check=True)
-    yield 1.5
-    screenshot("session_tooltip_by_key")
-    press("Escape")
-    bpy.ops.preferences.reset_default_theme()
-
-
-def without_result():
-    """Close the window of the result."""
-    if len(windows()) > 1:
+    if len(windows()) > 1:  # that of the result
         close(windows()[-1])
     yield 0.3
+    bpy.ops.preferences.reset_default_theme()
 
 
 def quitted():
@@ -264,5 +73,5 @@ def quitted():
     yield from until(lambda: False, 60)
 
 
-STORIES = (second_day, elsewhere, tried, quitted)
+STORIES = (tried, quitted)
 SCENE = "exercise_perspective"

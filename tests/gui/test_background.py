@@ -13,7 +13,6 @@ from .conftest import PROJECT
 pytestmark = pytest.mark.gui
 
 SCENE = "/project/sample_scenes/exercise_perspective.blend"
-TRIANGLE = "/project/sample_scenes/exercise_triangle.blend"  # few pixels and surfaces
 
 # Each makes the scene one that cannot be traced, and what the error names: one that is refused, and
 # one that is our own. tests/blender/test_engine_faults.py has them all in one process.
@@ -70,34 +69,6 @@ def test_command(camera, blender, folder):
     assert "verdict: agree" in done.stdout
     assert not any(word in done.stdout for word in ("Saved", "Read blend", "Fra:", "Blender quit"))
     check_files(path)
-
-
-def test_command_for_frames(blender, folder):
-    """Those that are whole are not done again."""
-    outside, inside = folder
-    argv = [TRIANGLE, "--command", "reference_tracer", "compare", "--out", inside, "--frames"]
-    for frames, told in (("2", ["frame 2:"]), ("1-2", ["frame 1:"])):
-        done = blender.run(*argv, frames, "--set", "eye=all", "width=160")
-        assert done.returncode == 0, done.stdout + done.stderr
-        assert re.findall(r"^frame \d+:", done.stderr, re.M) == told
-    assert len(json.loads((outside / "animation.json").read_text())["frames"]) == 2
-
-
-def test_sample_scenes_are_made_by_blender_itself(blender, folder):
-    path, inside = folder
-    done = blender.run(
-        "-b",
-        "--python-exit-code",
-        "9",
-        "-P",
-        "/project/sample_scenes/make_scenes.py",
-        "--",
-        "exercise_triangle",
-        "--out",
-        inside,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert [p.name for p in path.iterdir()] == ["exercise_triangle.blend"]
 
 
 def check_files(path):

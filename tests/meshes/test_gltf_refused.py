@@ -148,6 +148,7 @@ WRONG = {
     "four indices": indices(0, 1, 2, 3),
 }
 SAID = {
+    "a type": "its positions are no vectors",
     "four indices": r"4 corners, .* threes",
     "a view too long": "number 0 of its bufferViews has the byteLength",
     "a view longer than its file": "number 0 of its bufferViews has the byteLength",

@@ -61,12 +61,6 @@ def test_ways_to_write_the_same(text, read):
     assert found.notes == found.missing == ()
 
 
-def test_a_mark_of_utf_8_hides_no_vertex(read):
-    found = read(f"\ufeff{POINTS}f 1 2 3\n")
-    assert corners(found).tolist() == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
-    assert found.notes == ()
-
-
 @pytest.mark.parametrize("name", ["stem", "other"])
 def test_an_object_is_one_whatever_the_file_is_called(name, read):
     found = read(f"{POINTS}o {name}\ng a\nf 1 2 3\ng b\nf 1 3 4\n")

@@ -69,15 +69,6 @@ def test_strips_are_read_also_beside_faces(form, faces, tmp_path):
     assert [turned(t) for t in found] == [turned(t) for t in [*faces, *TRIANGLES, (0, 1, 2)]]
 
 
-def test_strips_are_found_behind_a_long_head(tmp_path):
-    comments = "comment nothing to see here\n" * 4000
-    head = f"ply\nformat ascii 1.0\n{comments}element vertex 3\nproperty float x\n"
-    head += "property float y\nproperty float z\nelement tristrips 1\n"
-    head += "property list int int vertex_index\nend_header\n"
-    (tmp_path / "a.ply").write_text(head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
-    assert corners(read_ply(tmp_path / "a.ply")).tolist() == [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]
-
-
 HEAD = "ply\nformat ascii 1.0\nelement vertex 3\n"
 XYZ = "property float x\nproperty float y\nproperty float z\n"
 FACE = "element face 1\nproperty list uchar int vertex_indices\nend_header\n"

@@ -36,14 +36,14 @@ def scene(make):
 
 
 @pytest.fixture
-def files(scene, tmp_path):
+def files(scene, tmp_path, exit_code):
     """Return what compares the scene, in a file, with a picture of a scene."""
     save_scene(tmp_path / "scene.npz", scene)
 
     def compared(shown, *options):
         images.save_png(tmp_path / "picture.png", images.to_display(render(shown).color))
         paths = ["compare", tmp_path / "scene.npz", "--against", tmp_path / "picture.png"]
-        return main([*map(str, paths), "--out", str(tmp_path / "out"), *map(str, options)])
+        return exit_code([*map(str, paths), "--out", str(tmp_path / "out"), *map(str, options)])
 
     return compared
 
@@ -76,18 +76,18 @@ def changed(content, change):
     [
         (lambda c: c["objects"].pop(0), "no colour for 'Left'"),
         (lambda c: c["objects"][0].update(name="Lft"), "a colour for 'Lft', and the scene has no"),
-        (lambda c: c["objects"].append(c["objects"][0]), "objects[3]: 'Left' is there twice"),
+        (
+            lambda c: c["objects"].append(c["objects"][0]),
+            "name is 'Left', which is there twice",
+        ),
         (lambda c: c["objects"][0].update(slots=[]), "slots of 'Left' is empty"),
         (lambda c: c["objects"][0].pop("slots"), "objects[0].slots is missing"),
-        (lambda c: c["objects"][0].update(name=3), "objects[0].name must be text"),
         (lambda c: c["objects"].insert(0, 1), "objects[0] must be an object in braces"),
         (lambda c: c["objects"][0]["slots"].insert(0, 1), "slots[0] of 'Left' must be an object"),
         (lambda c: slot(c).update(linear=[0, 2, 0]), "each must be from 0 to 1"),
         (lambda c: slot(c).update(linear=[0, 2]), "linear must be 3 finite numbers"),
-        (lambda c: slot(c).update(linear=[1, None, 0]), "linear must be 3 finite numbers"),
         (lambda c: slot(c).update(srgb=[1, 2, 3]), "leave out srgb, or make both the same"),
         (lambda c: c.update(schema="another"), "--colors-out writes such files"),
-        (lambda c: c.update(objects={}), "objects must be a list"),
         (lambda c: c.update(slots_past_the_end="black"), "must be 'show the last colour'"),
     ],
 )
@@ -127,25 +127,12 @@ def test_what_no_palette_can_name(scene):
     ("options", "said"),
     [
         (("--colors", "material"), "is for a .blend"),
-        (("--colors", "none.json"), "none.json"),
         (("--as-is",), "--as-is is for Blender's picture"),
+        (("--colors", "red"), "'red' is none of automatic, viewport, object, material"),
     ],
 )
 def test_options_that_cannot_be(scene, files, capsys, options, said):
     assert files(scene, *options) == INPUT_ERROR
-    assert said in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (("--colors", "red"), "'red' is none of automatic, viewport, object, material"),
-        (("--colors-out", "c.txt"), "must end in .json"),
-    ],
-)
-def test_options_that_are_none(scene, files, capsys, options, said):
-    with pytest.raises(SystemExit, match="4"):
-        files(scene, *options)
     assert said in capsys.readouterr().err
 
 

@@ -11,7 +11,6 @@ from reference_tracer.pictures.palette import (
     APART,
     MOST,
     By,
-    Palette,
     clear_palette,
     eight_bits,
     not_told_apart,
@@ -38,11 +37,6 @@ def test_each_has_its_own_in_8_bits(count):
     few = found[:30]
     distances = [apart(a, b) for n, a in enumerate(few) for b in few[:n]]
     assert not distances or min(distances) > 60
-
-
-def test_the_first_ones_stay_whatever_comes_after():
-    few, many = (codes(clear_palette([str(n) for n in range(k)])) for k in (5, 300))
-    np.testing.assert_array_equal(few, many[:5])
 
 
 def test_no_two_are_one_another_with_channels_swapped():
@@ -104,8 +98,3 @@ def test_each_slot_in_use_counts_and_a_plane_and_corners(make):
     corners = np.tile(first.colors[0], (len(mesh.triangles), 3, 1))
     meshes = [m if m is not mesh else replace(m, corner_colors=corners) for m in scene.meshes]
     assert not_told_apart(replace(scene, meshes=tuple(meshes)), names) == names
-
-
-def test_colors_of_no_file_lack_nothing(make):
-    scene, names = scene_in(make, (1, 2, 3))
-    Palette(By.OBJECT).check(scene, names)

@@ -114,4 +114,12 @@ def test_the_numbers_at_the_axes_are_legible(chromium, tmp_path, width):
     assert len(sizes) > 15 and min(sizes) >= 11
     assert tab.evaluate("() => document.documentElement.scrollWidth") <= width
     assert tab.locator(".scrolls").first.is_visible() == (width < 1000)
+    links = tab.locator("table a").evaluate_all("all => all.map((a) => a.getAttribute('href'))")
+    held = shown(tmp_path)["frames"]
+    assert links == [row["link"] for row in held if row["link"]] and len(links) == 29
+    marks = tab.locator("svg circle:has(title)").evaluate_all(
+        "all => all.map((e) => [e.textContent, e.getBoundingClientRect().top])"
+    )
+    tops = {f: min(top for t, top in marks if t.startswith(f"frame {f}: ")) for f in (1, 9)}
+    assert tops[1] - tops[9] > 50  # higher up in the window, as more pixels differ
     tab.close()

@@ -9,7 +9,6 @@ import pytest
 from PIL import Image
 from reference_tracer.causes.case import Case
 from reference_tracer.comparison.comparing import compare
-from reference_tracer.comparison.comparison import SCHEMA
 from reference_tracer.files.images import to_display
 from reference_tracer.manifest import Manifest
 from reference_tracer.pictures.picture import Picture
@@ -120,17 +119,6 @@ def test_writing_again_replaces(folder, compared):
     assert strict(folder)["verdict"] == "agree"
     assert np.array_equal(png(folder, "blender.png"), png(folder, "traced.png"))
     assert sorted(p.name for p in folder.iterdir()) == NAMES
-
-
-def test_a_failure_is_json_too(tmp_path):
-    with pytest.raises(SceneError), failure_written(tmp_path / "out"):
-        raise SceneError("Camera 'Käm' is \"panoramic\"\nsecond line")
-    held = strict(tmp_path / "out")
-    assert held == {
-        "schema": SCHEMA,
-        "verdict": "failed",
-        "error": {"type": "SceneError", "message": "Camera 'Käm' is \"panoramic\"\nsecond line"},
-    }
 
 
 def test_a_failure_leaves_the_results_that_are_there(folder):

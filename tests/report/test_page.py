@@ -242,15 +242,6 @@ def test_a_cancelled_picture_has_a_page(room, compared):
     validator().validate(json.loads(page.json_text(held)))
 
 
-def test_pages_need_no_library_but_numpy(differing, tmp_path, monkeypatch):
-    """As inside Blender: no Pillow."""
-    import sys
-
-    monkeypatch.setitem(sys.modules, "PIL", None)
-    page.write(tmp_path / "page.html", differing)
-    assert (tmp_path / "page.html").stat().st_size > 50_000
-
-
 def test_the_pages_files_are_short():
     files = [p for p in FOLDER.iterdir() if p.suffix in (".py", ".js", ".css", ".html")]
     assert len(files) > 15

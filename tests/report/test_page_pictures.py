@@ -6,10 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from reference_tracer.comparison.animation import FrameRow
-from reference_tracer.comparison.verdict import Verdict
-from reference_tracer.files.images import save_png, to_display
-from reference_tracer.report import animation
+from reference_tracer.files.images import to_display
 from reference_tracer.report.page.content import content
 
 from .browser import both, choose, color_at, place_of, settled, shown, state, unmarked
@@ -216,35 +213,3 @@ def test_a_visited_pixel_shows_both_pictures_free_of_slider_and_mark(show, diffe
     choose(tab, "swap")
     tab.keyboard.press("n")
     assert state(tab, "mode") == "swap"  # what shows both is left as it is
-
-
-def test_an_animations_curves_are_seen_and_its_table_opens_the_frames(chromium, tmp_path):
-    """Pixels that no cause explains are of another colour, and higher up where there are more."""
-    rows = [FrameRow(f, Verdict.AGREE, 1000 - f, f, 40 * (f == 9)) for f in range(1, 31) if f != 4]
-    folder = animation.folder_of(tmp_path, 9)
-    folder.mkdir()
-    for name in ("blender.png", "difference.png"):
-        save_png(folder / name, np.full((4, 6, 4), 255, np.uint8))
-    animation.write(tmp_path, "shot.blend", range(1, 31), rows)
-    tab, wrong = chromium.new_page(), []
-    tab.on("console", lambda message: wrong.append(message.text))
-    tab.goto((tmp_path / animation.PAGE).as_uri())
-    assert not wrong
-    marks = tab.locator("svg circle:has(title)").evaluate_all(
-        """all => all.map(e => [e.querySelector("title").textContent, getComputedStyle(e).stroke,
-          e.getBoundingClientRect().top])"""
-    )
-    assert len(marks) == 2 * len(rows) and len({color for _, color, _ in marks}) == 2
-    tops = {f: [top for t, _, top in marks if t.startswith(f"frame {f}: ")] for f in (8, 9)}
-    assert len(tops[8]) == len(tops[9]) == 2
-    assert min(tops[8]) - min(tops[9]) > 50  # higher up in the window
-    assert any(title.startswith("frame 9: agree 991") for title, _, _ in marks)
-    links = tab.locator("table a")
-    assert links.count() == len(rows)
-    assert all(link.get_attribute("href").endswith("page.html") for link in links.all())
-    assert tab.locator("h1").inner_text() == "shot.blend"
-    assert "29 of 30 frames are done" in tab.locator("#summary").inner_text()
-    figure = tab.locator(".worst figure").first
-    widths = figure.locator("a img").evaluate_all("all => all.map((e) => e.naturalWidth)")
-    assert widths == [6, 6] and figure.inner_text() == "frame 9: 40 unexplained, 9 explained"
-    tab.close()

@@ -8,18 +8,9 @@ import warnings
 import numpy as np
 import pytest
 from reference_tracer.scene import Scene
-from reference_tracer.study.scenarios import scenes
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.study.truth import pixel_rays
 from reference_tracer.tracer.settings import Precision
-from reference_tracer.tracer.vector import transform_points
-
-from ..scenarios import quick
-
-
-def world(scene, instance=0):
-    found = scene.instances[instance]
-    return transform_points(found.world_from_object, scene.meshes[found.mesh].vertices.T)
 
 
 def directions(scene):
@@ -63,21 +54,3 @@ def test_the_same_each_time():
         for a, b in zip(one.meshes, two.meshes, strict=True):
             assert np.array_equal(a.vertices, b.vertices)
             assert np.array_equal(a.triangles, b.triangles)
-
-
-def test_quick_has_all_scenarios_and_their_ends():
-    some = quick()
-    assert [s.name for s in some] == [s.name for s in SCENARIOS]
-    for whole, few in zip(SCENARIOS, some, strict=True):
-        assert len(few.scales) == 3 and few.width * few.height < 200
-        assert (few.scales[0], few.scales[-1]) == (whole.scales[0], whole.scales[-1])
-
-
-def test_what_is_not_finite_is_so_in_the_world():
-    for share, some in ((0.0, 0), (0.1, None), (1.0, None)):
-        scene = scenes.non_finite(share, 32, 24)
-        with np.errstate(over="ignore"):
-            finite = np.isfinite(world(scene)).all(axis=0)
-        count = len(finite) - finite.sum()
-        assert count == (round(share * len(finite)) if some is None else some)
-        assert np.isfinite(world(scene, 1)).all()

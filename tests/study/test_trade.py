@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.study.advice import advice, gain, mark
-from reference_tracer.study.trade import COLUMNS, TIMED, Column, TradeRow
+from reference_tracer.study.trade import COLUMNS, TIMED, TradeRow
 from reference_tracer.tracer.settings import Precision
 
 
@@ -61,16 +61,6 @@ def test_every_field_that_is_measured_has_a_column():
     marks = {c.best for c in COLUMNS if c.best}
     assert {f.name for f in fields(TradeRow)} == chosen | {c.name for c in COLUMNS} | marks
     assert {"seconds", "rounds"} <= TIMED and not TIMED & {"wrong_pixels", "coverage_error"}
-
-
-@pytest.mark.parametrize("options", [{"name": "watts"}, {"name": "seconds", "best": "best_watts"}])
-def test_a_column_of_nothing_is_refused(options):
-    with pytest.raises(ValueError, match="watts"):
-        Column(head="W", timed=True, show=str, **options)
-
-
-def test_equals_are_both_marked():
-    assert [m.best for m in mark([row(), row(), row(seconds=2.0)])] == [True, True, False]
 
 
 def test_gain_is_that_of_the_rounds():

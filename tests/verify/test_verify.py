@@ -14,18 +14,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import reference_tracer_verify.verify as checker
-from reference_tracer import rendering
-from reference_tracer.certified import ties
 from reference_tracer.certified.definition import definition
-from reference_tracer.certified.plain import plain
 from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR
-from reference_tracer.files.certificates import save_certificate
-from reference_tracer.files.scenes import load_scene
 from reference_tracer.projections import EQUIRECTANGULAR, ORTHOGRAPHIC, PROJECTIONS
-from reference_tracer.rendering import certified_tracer, render
-from reference_tracer.scene import Camera, Mesh, Region, ViewWindow
-from reference_tracer.tracer.hits import no_measures
-from reference_tracer.tracer.settings import Settings
+from reference_tracer.scene import Camera, Mesh, ViewWindow
 
 from ..certified.test_definition import small
 from ..tracer.hostile_scenes import scene_of_integers
@@ -149,61 +141,6 @@ def test_the_definitions_pictures_are_true(make, tmp_path):
         assert not refusal(path), seed
         ambiguous += len(set(arrays["ties"][:, 0].tolist()))
     assert ambiguous > 40
-
-
-@pytest.mark.parametrize(
-    "settings", [Settings("watertight"), Settings("moller_trumbore", "float32")]
-)
-def test_an_unproven_picture_is_refused(settings, tmp_path):
-    scene = load_scene(STORED / "exercise_triangle.npz")
-    scene = scene.seen_by(replace(scene.camera, region=Region(0, 150, 640, 180)))
-    save_certificate(tmp_path / "c.npz", render(scene, settings))
-    assert refusal(tmp_path / "c.npz").startswith("pixel (")
-
-
-def lying(kind: str):
-    """Return a tracer that says something wrong of one pixel in some thousand."""
-
-    def tracer(scene, settings, reach, statistics):
-        honest = yield from certified_tracer(scene, settings, reach, statistics)
-
-        def trace_band(band, dx, dy):
-            hits = yield from honest(band, dx, dy)
-            values = hits.values.copy()
-            pixel = np.flatnonzero(hits.instance >= 0)[::1001]
-            if kind == "another owner":
-                hits.triangle[pixel] = 0
-            elif kind == "nothing":
-                hits.instance[pixel] = hits.triangle[pixel] = -1
-                values[:, pixel] = no_measures(len(pixel))
-            elif kind == "t":
-                values[0, pixel] = np.nextafter(values[0, pixel], 0)
-            return replace(hits, measures=values)
-
-        return trace_band
-
-    return tracer
-
-
-@pytest.mark.parametrize("kind", ["honest", "another owner", "nothing", "t"])
-def test_workers_that_lie_are_found(kind, tmp_path):
-    scene = load_scene(STORED / "exercise_perspective.npz")
-    scene = scene.seen_by(replace(scene.camera, region=Region(0, 200, 640, 230)))
-    save_certificate(tmp_path / "c.npz", render(scene, tracer=lying(kind)))
-    assert bool(refusal(tmp_path / "c.npz")) == (kind != "honest")
-
-
-@pytest.mark.parametrize("wrong", [False, True])
-def test_without_the_sweep(wrong, monkeypatch, make, tmp_path):
-    """`plain` alone is checked the same; with another rule for ties, it is refused."""
-    monkeypatch.setattr(rendering, "sweep", plain)
-    if wrong:
-        monkeypatch.setattr(ties, "PERTURBATION", ((-1, 0, 0), (0, -1, 0), (0, 0, 1)))
-    refused = 0
-    for seed in (3, 9, 15, 21):
-        save_certificate(tmp_path / "c.npz", render(scene_of(make, seed)))
-        refused += refusal(tmp_path / "c.npz").startswith("pixel (")
-    assert refused == 0 if not wrong else refused > 1
 
 
 def test_it_runs_alone(stored, tmp_path):

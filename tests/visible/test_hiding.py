@@ -22,7 +22,7 @@ def test_a_face_nearly_edge_on_is_beside_no_cell_that_it_covers():
     faces = Faces(scene)
     some = np.flatnonzero(faces.may_show)
     at = random.uniform(0, 16, (2, len(some)))
-    missed, _, _ = faces.within(some, at, at + 2.0**-6)
+    missed = faces.within(some, at, at + 2.0**-6).beside
     rays = camera_rays(scene.camera, *(at + 2.0**-7))
     met = decide(rays, faces.points[:, faces.corners[:, some]].swapaxes(0, 1)).crossed
     assert met.sum() > 9 and missed.any() and not missed[met].any()

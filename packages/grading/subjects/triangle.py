@@ -108,6 +108,27 @@ MOLLER_TRUMBORE = Program.of(
     ),
 )
 
+# A third way, whose rounding is the largest far from the origin: see `known.py`.
+SIGNED_VOLUMES = Program.of(
+    {
+        "a": "p₁ − o",
+        "b": "p₂ − o",
+        "c": "p₃ − o",
+        "v₁": "d · (c × b)",
+        "v₂": "d · (a × c)",
+        "v₃": "d · (b × a)",
+        "v": "v₁ + v₂ + v₃",
+        "s₁": "v₁ / v",
+        "s₂": "v₂ / v",
+        "s₃": "v₃ / v",
+        # As the weights' sum is 1, their errors move the point by edges, not by arms.
+        "t": "(d · (a + s₂ (p₂ − p₁) + s₃ (p₃ − p₁))) / (d · d)",
+    },
+    ("s₁ ≥ 0", "s₂ ≥ 0", "s₃ ≥ 0", "t > 0"),
+    (),
+    PARTS,
+)
+
 
 FORM = Form(
     "intersect",
