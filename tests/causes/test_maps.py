@@ -10,6 +10,7 @@ from reference_tracer.causes.maps import (
     LEAST,
     MOST_RINGS,
     RING,
+    WRONG,
     cause_map,
     certainty_map,
     difference_map,
@@ -52,6 +53,32 @@ def test_what_few_pixels_have_is_shown_in_the_colour_of_the_record():
     own = [list(bytes.fromhex(c.color[1:])) for c in Certainty]
     assert shown[2:].tolist() == own[2:]
     assert (shown[:2] < own[:2]).all()
+
+
+RED = (*WRONG, 1)
+LUMINANCE = np.array((0.2126, 0.7152, 0.0722))
+
+
+def test_a_ring_is_around_each_of_few_pixels_and_seen_on_any_colour():
+    orange = np.float32((1.0, 0.352, 0.021, 1.0))  # as Blender outlines the active object
+    color, where = np.full((40, 50, 4), orange), np.zeros((40, 50), bool)
+    where[20, 30] = True
+    color[20, 30] = RED
+    shown = ringed(color, where)
+    found = (shown == RED).all(axis=-1)
+    assert found.sum() == (2 * RING + 1) ** 2 - (2 * RING - 3) ** 2 + 1
+    assert found[20, 30] and found[20 + RING, 30] and not found[20 + RING - 2, 30]
+    assert (color == RED).all(axis=-1).sum() == 1  # the picture itself stays as it is
+    within, without = shown[20 + RING - 2, 30, :3], shown[20 + RING + 1, 30, :3]
+    around = contrast(within, orange[:3]), contrast(without, orange[:3])
+    assert max(around) > 4.5 > 2 > contrast(RED[:3], orange[:3])  # WCAG 2: red alone is not seen
+    assert (shown[20 + RING + 2, 30] == orange).all() and (shown[20, 31] == orange).all()
+
+
+def contrast(one, other):
+    """The contrast of two linear colours (WCAG 2)."""
+    low, high = sorted(float(np.dot(c, LUMINANCE)) for c in (one, other))
+    return (high + 0.05) / (low + 0.05)
 
 
 def test_rings_end_at_the_rim_and_never_hide_what_they_are_around():

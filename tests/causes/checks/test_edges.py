@@ -83,6 +83,15 @@ def test_a_sliver_that_no_sample_meets(make, behind):
         assert np.allclose(found.figure[:, 4], 0.0017, rtol=0, atol=2e-4)
 
 
+def test_a_long_sliver_keeps_within_what_is_allowed(make):
+    camera = make.camera(8, 6, half=3, orthographic=True, eye=(4, 3, 0))
+    thin = Mesh([(4.50365, -3e4, -2), (4.50365, 9e4, -2), (4.50375, 3e4, -2)], [[0, 1, 2]])
+    scene = make.scene(camera, thin, make.quad(-9, 9, -9, 9, -3))
+    picture = render(scene).color.copy()
+    picture[:, 4] = scene.instances[0].colors[0]
+    assert (explained(scene, picture).cause[:, 4] == EDGE).all()
+
+
 @pytest.mark.parametrize("radius", [0.0, 0.2])
 def test_a_fine_mesh_hides_no_fault(make, radius):
     """Every centre is near some triangle's edge; that the mesh is missing stays a fault."""
