@@ -52,12 +52,9 @@ def random_rays(count, seed=1):
     [
         ({"origins": None}, "has no array 'origins'"),
         ({"directions": np.zeros((5, 3))}, "row 0 of directions is zero"),
-        ({"directions": np.ones((5, 2))}, "directions holds (5, 2) of float64"),
         ({"directions": np.ones((4, 3))}, "5 origins and 4 directions"),
-        ({"origins": np.array([["a", "b", "c"]])}, "origins holds (1, 3) of <U1"),
         ({"origins": np.full((5, 3), [[1], [2], [np.nan], [0], [0]])}, "row 2 of origins"),
         ({"origins": np.full((5, 3), 2**53 + 1)}, "numbers that float64 does not"),
-        ({"origins": np.array([object()])}, "origins holds objects of Python"),
     ],
 )
 def test_rays_that_are_wrong_are_refused_by_name(change, said, scene, run):
@@ -102,8 +99,6 @@ def test_every_hit_and_parity(make, run):
     for name in ("t", "triangle", "object", "instance"):
         assert (found[name][start[met]] == first[name][met]).all(), name
     assert found["barycentrics"].shape == (start[-1], 3) and found["objects"] == ["Ball"]
-    _, near, _ = run(ball, "--every", "--end", "0.6", **given)
-    assert len(near["t"]) == (found["t"] <= 0.6).sum()
     points = np.array([(0, 0, 0), (0, 2, 0), ball.meshes[0].vertices[5]])
     code, places, printed = run(ball, "--parity", points=points)
     assert code == 0 and places["place"].tolist() == [1, 0, 2]

@@ -37,6 +37,12 @@ def test_ortho_scale(ball, tmp_path):
     assert found["P.Z"][seen] == pytest.approx(5 - found["Z"][seen], abs=1e-5)
 
 
+def test_plain_methods_require_nothing(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.exr", "--method", "watertight") == AGREE
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 1 and "(watertight, float64)" in said[0]
+
+
 @pytest.fixture
 def broken_arithmetic(monkeypatch):
     monkeypatch.setattr(arithmetic, "broken_assumptions", lambda: ["subnormal results"])

@@ -34,12 +34,3 @@ def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
     assert "10 × 6 " in capsys.readouterr().out
     assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1", "--set", "width=20"]) == AGREE
     assert "20 × 12 " in capsys.readouterr().out
-
-
-def test_trade_of_nothing(make, tmp_path, capsys):
-    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
-    out = ["--samples", "1", "--out", str(tmp_path / "out")]
-    assert main(["trade", str(tmp_path / "s.npz"), *out]) == AGREE
-    assert "Nothing is seen" in capsys.readouterr().out
-    held = json.loads((tmp_path / "out" / "tradeoff.json").read_text(encoding="utf-8"))
-    assert {r["largest_t_error"] for r in held["rows"]} == {None}

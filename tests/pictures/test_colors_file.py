@@ -142,7 +142,6 @@ def test_options_that_cannot_be(scene, files, capsys, options, said):
         (("--as-is", "--colors", "object"), "--colors is for a picture like for like"),
         (("--judge", "all", "--colors-out", "c.json"), "--colors-out is for one judge"),
         (("--frames", "1", "--colors-out", "c.json"), "--colors-out is for one frame"),
-        (("--frames", "1", "--colors", "c.json"), "c.json is for one frame"),
     ],
 )
 def test_options_that_contradict_one_another(tmp_path, capsys, options, said):
