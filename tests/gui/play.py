@@ -29,7 +29,6 @@ import picture_stories
 import render_stories
 import seen_stories
 import select_stories
-import session_stories
 import stories
 import viewport_stories
 import work_stories
@@ -50,7 +49,6 @@ STORIES = {
         render_stories,
         seen_stories,
         select_stories,
-        session_stories,
         viewport_stories,
         work_stories,
     )

@@ -32,10 +32,6 @@ def test_clicks_in_the_camera_view(noted):
     assert noted["selection_kept"]
     assert noted["not_through_the_camera"]
     assert noted["after_escape"] == []
-    first, none, again = noted["after_undo"]  # a step each
-    assert first > 0 and none == 0 and again == first
-    assert noted["removed"] == ["FINISHED"]
-    assert noted["left"] == {}
 
 
 @pytest.mark.story("other_file")

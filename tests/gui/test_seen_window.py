@@ -2,7 +2,9 @@
 
 import re
 
+import numpy as np
 import pytest
+from PIL import Image
 
 pytestmark = pytest.mark.gui
 
@@ -114,3 +116,18 @@ def test_what_takes_long_is_said_before_and_done_once(noted):
     assert noted["said"] == [words, words]
     assert noted["evaluations"] == [1]
     assert set(noted["verdicts"].values()) == {"agree"} and "beside a plane" in noted["verdicts"]
+
+
+@pytest.mark.story("tried")
+def test_what_draws_itself_is_named_in_any_view_and_theme(noted):
+    verdict, features = noted["tried"]
+    assert verdict == "warnings" and features == ["grease pencil", "hair", "volume"]
+
+
+@pytest.mark.story("tried")
+def test_a_panel_that_grows_lies_over_no_other(played, noted):
+    """As if it were drawn anew."""
+    names = "session_tried", "session_tried_redrawn"
+    shots = [Image.open(played.out / f"{name}.png").convert("RGB") for name in names]
+    first, again = (np.asarray(shot.crop(noted["sidebar"])) for shot in shots)
+    assert (first == again).all()
