@@ -51,12 +51,12 @@ class Blender:
         return subprocess.run(command, capture_output=True, text=True, timeout=timeout)
 
     def play(self, stories):
-        """Play stories in the window, one after another; the one that ends Blender is the last.
+        """Play stories in the window, one after another; those that end Blender are the last.
 
-        Where another ended it, those left are played by another Blender; `noted` finds what lacks.
+        The others are then played by another Blender. What is missing is found by `noted`.
         """
         self.ended = {}  # how Blender ended after each
-        waiting = sorted(stories, key=lambda name: name == "closed")
+        waiting = sorted(stories, key=lambda name: name in ("closed", "quitted"))
         for name in waiting:
             (OUT / f"{name}.json").unlink(missing_ok=True)
         while waiting:

@@ -29,6 +29,7 @@ import picture_stories
 import render_stories
 import seen_stories
 import select_stories
+import session_stories
 import stories
 import viewport_stories
 import work_stories
@@ -49,6 +50,7 @@ STORIES = {
         render_stories,
         seen_stories,
         select_stories,
+        session_stories,
         viewport_stories,
         work_stories,
     )
@@ -64,6 +66,7 @@ SMALL_LARGE = 800, 450, 0.5
 SMALL = 640, 360, 0.5
 SIZES = {  # of other stories
     "panel": LARGE,
+    "second_day": LARGE,
     "tried": (1280, 720, 1.0),
     **dict.fromkeys(("first_result", "heavy", "selected"), (1000, 600, 1.0)),
     **dict.fromkeys(("compared_images", "in_images"), SMALL_LARGE),
