@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Floats, Index, parts
+from ..arrays import Array, Floats, Index, parts
 from ..certified.bounds import Fractions, plane_fractions
 from ..certified.rounding import rounding
 from ..certified.sweep.depth_buffer import ROUNDING, nearness
@@ -116,7 +116,7 @@ class Cells:
         return level, which, np.stack((x, y)) + first[:, which]
 
 
-def _of_corners(values: Floats | Index) -> Floats | Index:
+def _of_corners(values: Array) -> Array:
     """Return what is known of the corners of cells, (4, h, w), from (h + 1, w + 1)."""
     return np.stack((values[:-1, :-1], values[:-1, 1:], values[1:, :-1], values[1:, 1:]))
 

@@ -34,7 +34,8 @@ class Sights:
         camera = self._scene.camera
         rays = camera_rays(camera, *at)
         # Few of the triangles are near: each is prepared with its rays, not all for any.
-        rays = Rays(*np.broadcast_arrays(rays.origins, rays.directions))
+        origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
+        rays = Rays(origins, directions)
         clip = camera.clip_start, camera.clip_end
         return (yield from self._trace(rays, Surfaces.planes_of(self._scene), clip)), rays
 
