@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from argparse import Namespace
 
 from reference_tracer.cli.parser import POSITIVE, Parser, number
@@ -10,7 +9,8 @@ from reference_tracer.cli.parser import POSITIVE, Parser, number
 from .running import SECONDS, Limits
 
 _LEAST = 0.09  # GiB: Python and numpy by themselves take nearly as much
-_GIB = number(float, lambda v: _LEAST < v < math.inf, f"a finite number above {_LEAST}")
+_MOST = 2**20  # GiB: the system counts bytes, in 64 bits
+_GIB = number(float, lambda v: _LEAST < v < _MOST, f"a number above {_LEAST} and below {_MOST}")
 
 
 def add_limits(parser: Parser, memory: float) -> None:

@@ -156,6 +156,7 @@ def test_the_command_for_a_pixel_can_be_typed(template, tmp_path, capsys):
         (["FILE", "--memory-limit", "nan"], "--memory-limit: nan is not"),
         (["FILE", "--memory-limit", "inf"], "--memory-limit: inf is not"),
         (["FILE", "--memory-limit", "1e-6"], "--memory-limit: 1e-6 is not"),
+        (["FILE", "--memory-limit", "1e12"], "--memory-limit: 1e12 is not"),
         (["FILE", "--time-limit", "inf"], "--time-limit: inf is not"),
     ],
 )
