@@ -228,3 +228,13 @@ def test_instances_look_the_same_once_a_script_has_looked_at_their_object(build,
     for evaluated in bpy.context.evaluated_depsgraph_get().ids:
         assert evaluated.name
     assert seen() == before
+
+
+def test_no_reference_to_blenders_data_is_kept(build, export):
+    build.far_camera()
+    cube = build.cube()
+    scene, _ = export.viewport()
+    before = scene.meshes[0].vertices.copy()
+    bpy.data.meshes.remove(cube.data)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    np.testing.assert_array_equal(scene.meshes[0].vertices, before)

@@ -44,6 +44,10 @@ BAD = {
     "target alone": (["none.blend", "--set", "target=0,0,5"], "--set target is for a camera that"),
     "angle alone": (["none.blend", "--set", "angle=30"], "--set angle is for a new camera"),
     "axis up of a .blend": (["none.blend", "--set", "up=y"], "--set up is for meshes"),
+    "frame of a mesh": (
+        ["ball.ply", "--set", "frame=0"],
+        "--set frame is for a .blend: 'ball.ply'",
+    ),
     "scene of a mesh": (
         ["ball.ply", "--set", "scene=A"],
         "--set scene is for a .blend: 'ball.ply'",
@@ -69,6 +73,8 @@ BAD = {
         "--precision is float32; certified is proven for float64 only",
     ),
     "unknown method": (["ball.ply", "--method", "magic"], "--method"),
+    "not a number": (["ball.ply", "--set", "width=many"], "--set width: many is not an integer"),
+    "a name with a space": (["ball.ply", "two.ply"], "'two.ply' is one word too many: put a name"),
     "a fraction": (["ball.ply", "--samples", "1.5"], "--samples: 1.5 is not an integer"),
     "a comma": (
         ["ball.ply", "--set", "angle=0,5"],

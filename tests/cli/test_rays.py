@@ -111,3 +111,17 @@ def test_parity_refuses_what_it_can_not_say(scene, run):
     assert "no array 'points'" in run(scene, "--parity", origins=points)[2]
     assert "leave out --start and --end" in run(scene, "--parity", "--end", "3", points=points)[2]
     assert "not allowed with" in run(scene, "--parity", "--every", points=points)[2]
+
+
+def test_a_row_alone_and_none(scene, run):
+    """Alone a ray shares nothing, as among others: not even how it is decided is another."""
+    given = random_rays(4, seed=3)
+    _, many, _ = run(scene, **given)
+    assert (many["triangle"] >= 0).sum() > 1
+    for k in range(4):
+        _, one, _ = run(scene, **{name: rows[k : k + 1] for name, rows in given.items()})
+        for name in ("t", "instance", "triangle", "certainty", "barycentrics"):
+            assert one[name].tobytes() == many[name][k].tobytes(), (k, name)
+    for origins in (given["origins"][0], given["origins"][:0]):
+        code, none, _ = run(scene, origins=origins, directions=given["directions"][:0])
+        assert code == 0 and len(none["t"]) == 0

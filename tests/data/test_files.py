@@ -137,3 +137,17 @@ def test_a_script_compares_arrays(solids, traced):
             compare(solids, traced.t, kind="depth", scale=scale)
     with pytest.raises(ValueError, match="normals are no lengths"):
         compare(solids, traced.normal, kind="normals", scale=2.0)
+
+
+@pytest.mark.parametrize(
+    "offset, value, words", [(8, 1, "encrypted"), (10, 99, "compression method")]
+)
+def test_an_npz_that_cannot_be_unpacked_is_refused(judged, traced, offset, value, words):
+    def save(path, values):
+        np.savez(path, depth=values)
+        content = bytearray(path.read_bytes())
+        content[content.find(b"PK\x01\x02") + offset] = value
+        path.write_bytes(content)
+
+    with pytest.raises(SceneError, match=rf"d\.npz' is cut off or damaged: .*{words}"):
+        judged("depth", traced.t, name="d.npz", save=save)

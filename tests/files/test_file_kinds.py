@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from reference_tracer.files.file_kinds import check_is_file, mistaken
 from reference_tracer.files.images import open_picture
+from reference_tracer.files.scenes import load_scene, save_scene
 from reference_tracer.scene import SceneError
 from reference_tracer_meshes import FORMATS as READERS
 
@@ -58,3 +60,16 @@ def test_a_picture_that_is_none_is_named_so(tmp_path):
     (tmp_path / "a.png").write_bytes(POINTER)
     with pytest.raises(OSError, match=r"a\.png' is a pointer of Git LFS"):
         open_picture(tmp_path / "a.png")
+
+
+def test_a_scene_that_is_cut_off_or_lacks_an_array_is_told_so(make, tmp_path):
+    path = tmp_path / "a.npz"
+    save_scene(path, make.scene(make.camera()))
+    content = path.read_bytes()
+    for end in (40, len(content) // 2, len(content) - 1):
+        path.write_bytes(content[:end])
+        with pytest.raises(SceneError, match=r"a\.npz' is cut off or damaged: copy it again"):
+            load_scene(path)
+    np.savez(path, other=np.zeros(3))
+    with pytest.raises(SceneError, match=r"it has no array 'scene': `reftrace export` writes"):
+        load_scene(path)

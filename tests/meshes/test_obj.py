@@ -138,3 +138,9 @@ def test_objects_of_one_name_are_taken_as_one_with_a_note(tmp_path):
     assert found.notes == ("objects that have the same name are taken as one: 'Box'",)
     path.write_text(f"g Box\n{triangle}g Ball\n{triangle}g Box\n{triangle}")  # a group goes on
     assert not read_obj(path).notes
+
+
+def test_a_mark_of_utf_8_hides_no_vertex(read):
+    found = read(f"\ufeff{POINTS}f 1 2 3\n")
+    assert corners(found).tolist() == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
+    assert found.notes == ()

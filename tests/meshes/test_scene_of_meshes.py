@@ -52,3 +52,10 @@ def test_a_part_of_a_pixel(size, word):
     with pytest.raises(SceneError, match=rf"{word}; it must be an integer"):
         scene_of_meshes(alone(box), None, *size)
     assert scene_of_meshes(alone(box), None, np.int64(6), 4).camera.width == 6
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_cannot_be_framed_is_refused_without_a_warning():
+    huge = Mesh(1.7e308 * np.eye(3) - 1e308, [[0, 1, 2]], name="huge.ply")
+    with pytest.raises(SceneError, match=r"^it is too large to be framed: scale it down$"):
+        scene_of_meshes(alone(huge), None, 8, 8)

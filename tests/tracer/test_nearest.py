@@ -65,6 +65,17 @@ def traced(scene, settings=None):
     return render(scene, settings)
 
 
+@for_all(PLAIN)
+def test_brute_force(mess, settings):
+    frame = traced(mess, settings)
+    t, instance, triangle = brute_force(mess, settings)
+    assert np.array_equal(frame.t.ravel(), t)
+    assert np.array_equal(frame.instance_index.ravel(), instance)
+    assert np.array_equal(frame.triangle_index.ravel(), triangle)
+    seen = set(instance.tolist())
+    assert len(seen) > 4 and len(mess.instances) in seen  # a plane
+
+
 @pytest.mark.slow
 @for_all(PLAIN)
 @pytest.mark.parametrize(
