@@ -12,11 +12,8 @@ from reference_tracer.wording import LONGEST, count_of, say, show
 from reference_tracer_verify.verify import shown as shown_by_the_checker
 
 PROJECT = Path(__file__).parent.parent
-ADDON = PROJECT / "addon"
 # What is meant for other programs, or a text for students: children of benchmarks, examples.
-OTHERS = re.compile(
-    r"_child\.py|benchmarks/memory\.py|/examples/|/templates/|wording\.py|verify\.py"
-)
+OTHERS = re.compile(r"_child\.py|/examples/|/templates/|wording\.py|verify\.py")
 
 
 @pytest.mark.parametrize(

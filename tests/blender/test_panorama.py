@@ -13,7 +13,6 @@ from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.versions import lens
 from reference_tracer.projections import EQUIRECTANGULAR
 
-RADIUS = JUDGES["cycles"].sample_radius
 TURNED = {"rotation": (1.1, 0.3, 2.2), "location": (0.5, 0.5, -0.3)}
 LEVEL = {"rotation": (math.pi / 2, 0, 0)}
 

@@ -44,7 +44,6 @@ def reasons_of(make, rng, points, triangles, turn=True, **options):
 
 DIAGONAL = [(-9, -9, -2), (9, -9, -2), (9, 9, -2), (-9, 9, -2)], [[0, 1, 2], [0, 2, 3]]
 SLANTED = [(-9, -8.3, -2), (9.1, -9, -2), (8.7, 9, -2)], [[0, 1, 2]]
-PARALLEL = [(-9, -9, -2), (9, -9, -2), (0, 9, -2)], [[0, 1, 2]]
 
 
 def test_nothing_unusual(make, rng):

@@ -28,15 +28,6 @@ from reference_tracer.tracer.settings import Settings
 
 from ..cases import MANIFEST, case_of
 
-BLENDER = {
-    "version": "5.2.3",
-    "source": "workbench",
-    "sample_radius": 0.0,
-    "renderer": "raster",
-    "snapping": 1 / 256,
-    "filter_radius": 0.0,
-    "settings": {},
-}
 BOX = np.array([[-2.0, -2, -2.1], [0.1, 0.1, -2]])
 
 

@@ -19,7 +19,6 @@ from reference_tracer_processes.running import KEPT, Limits
 from reference_tracer_processes.sandbox import sandbox
 
 RAYS = np.zeros((5, 3)), np.ones((5, 3)), np.arange(45.0).reshape(5, 3, 3)
-EXAMPLES = Path(__file__).parents[2] / "docs" / "students" / "languages"
 PYTHON = shlex.quote(sys.executable)
 
 
