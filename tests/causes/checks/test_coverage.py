@@ -20,6 +20,23 @@ def test_a_corner_behind_the_eye_is_unknown():
     assert np.isnan(point).all() and np.isnan(rim).all()
 
 
+def test_nearest_points_are_those_of_dense_samples_of_the_edges(rng):
+    corners = rng.normal(size=(3, 2, 400)) + rng.normal(size=(1, 2, 400))
+    corners[2, :, :20] = corners[1, :, :20]  # segments
+    corners[:, :, 20:25] = corners[:1, :, 20:25]  # points
+    point, rim = nearest_to_origin(*corners)
+    along = np.linspace(0, 1, 2001)[:, None, None]
+    edges = [corners[i] + along * (corners[i - 1] - corners[i]) for i in range(3)]
+    edge = np.min([np.linalg.norm(e, axis=1).min(axis=0) for e in edges], axis=0)
+    assert np.allclose(np.abs(rim), edge, rtol=0, atol=0.01)
+    x, y = corners[:, 0], corners[:, 1]
+    cross = [x[i - 1] * y[i] - y[i - 1] * x[i] for i in range(3)]
+    inside = (np.min(cross, axis=0) > 0) | (np.max(cross, axis=0) < 0)
+    assert 20 < inside.sum() < 380 and ((rim > 0) == inside).all()
+    assert not point[:, inside].any()
+    assert np.allclose(np.linalg.norm(point, axis=0)[~inside], -rim[~inside])
+
+
 def asked(scene, band=BAND, settings=None):
     """Return the coverage of all pixels of a picture."""
     settings = settings or Settings("moller_trumbore")
