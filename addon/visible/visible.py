@@ -24,7 +24,8 @@ from .sights import Sights
 HIDDEN, SEEN, UNDECIDED = 0, 1, 2
 LIMIT = 1e-6  # square pixels
 WORK = 1 << 24  # pairs of faces that are compared, and of edges and faces
-_RAYS = 1 << 21  # through centres of pixels, which are divided into so many
+# The most rays through centres, in all and for each face: up to them, pixels are divided.
+_RAYS = 1 << 21
 _RAYS_OF_FACE = 64
 _ROOM = 2.0**-8  # pixels around what may be seen, so that more than a corner is there
 _ROUNDS = 32  # of rays

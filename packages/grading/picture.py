@@ -150,7 +150,7 @@ def _wrong_surface(judged: JudgedScene, hits: Hits) -> NDArray[np.bool_]:
 
 
 class _Held(NamedTuple):
-    """What a picture's hits are, held against the truth about the same pairs, (n,) each."""
+    """A picture's hits, held against the truth about the same pairs, (n,) each."""
 
     beside: NDArray[np.bool_]  # the ray does not meet the triangle that is shown
     t: NDArray[np.bool_]  # it is right within rounding

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import struct
 from pathlib import Path
 
 import bpy
 import pytest
 from reference_tracer.blender.reading import opened
+
+from .scenes import save
 
 KNOWN, UNKNOWN = 113, 300  # channels of a sequencer, which has 128
 
@@ -60,6 +63,21 @@ def test_a_report_is_kept_where_the_next_file_cannot_be_opened(reported, tmp_pat
     with pytest.raises(RuntimeError):
         opened.open_file(tmp_path / "no.blend")
     assert Path(bpy.data.filepath) == reported and opened.notes() == before
+
+
+def test_a_report_is_of_its_own_file(reported, build, tmp_path):
+    """The next file has none, also where it takes the first one's place."""
+    other = tmp_path / "other.blend"
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    build.room(32, 18)
+    save(other)
+    opened.open_file(reported)
+    assert len(opened.notes()) == 1
+    opened.open_file(other)
+    assert opened.notes() == ()
+    shutil.copy(other, reported)
+    opened.open_file(reported)
+    assert opened.notes() == ()
 
 
 def damaged(path: Path) -> None:

@@ -72,7 +72,7 @@ class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
 
     @classmethod
     def blocked(cls, context: Context) -> str:
-        """Allow it in Object Mode."""
+        """Return what is in the way: it needs Object Mode."""
         return "" if context.mode == "OBJECT" else rpt_(OBJECT_MODE)
 
     def execute(self, context: Context) -> Answer:

@@ -43,7 +43,7 @@ class _OfFinding:
 
     @classmethod
     def blocked(cls, context: Context) -> str:
-        """Allow it where something was found, in Object Mode if it needs that."""
+        """Return what is in the way: it needs a finding, and may need Object Mode."""
         comparison = results.comparison(context)
         if not (comparison and comparison.diagnosis and comparison.diagnosis.told):
             return rpt_("No diagnosis has found something yet")
@@ -100,7 +100,7 @@ class REFERENCE_TRACER_OT_activate_copy(bpy.types.Operator):
 
     @classmethod
     def blocked(cls, context: Context) -> str:
-        """Allow it for a copy that was added for the latest comparison."""
+        """Return what is in the way: it needs a copy that was added for the latest comparison."""
         why = rpt_("The active object is no copy that 'Apply to a Copy' added for this result")
         return why if _copied_for(context) is None else ""
 

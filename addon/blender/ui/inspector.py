@@ -31,7 +31,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
 
     @classmethod
     def blocked(cls, context: Context) -> str:
-        """Allow one at a time, where there is a camera, and none beside long work."""
+        """Return what is in the way: it runs alone, and needs a camera."""
         if cls.running:
             return rpt_("The inspector is on: click a pixel, or end it with Esc")
         return why_blocked(context, needs_camera=True)

@@ -102,7 +102,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
 
     @classmethod
     def blocked(cls, context: Any) -> str:
-        """Allow it where every frame has a picture of its own."""
+        """Return what is in the way: every frame needs a picture of its own."""
         is_still = context.scene.reference_tracer.judge in STILLS
         return rpt_(OF_ONE_FRAME) if is_still else super().blocked(context)
 
@@ -149,7 +149,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
 
     @classmethod
     def blocked(cls, context: Context) -> str:
-        """Allow it where there is a comparison, and nothing else at work."""
+        """Return what is in the way: it needs a comparison, and runs alone."""
         found = results.of_comparison(context)
         return super().blocked(context) if found else rpt_("Trace and Compare comes first")
 

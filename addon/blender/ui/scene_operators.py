@@ -45,7 +45,7 @@ class REFERENCE_TRACER_OT_write_colors(bpy.types.Operator):
 
     @classmethod
     def blocked(cls, context: Context) -> str:
-        """Allow it where there is a camera, and nothing else at work."""
+        """Return what is in the way: it needs a camera, and runs alone."""
         return why_blocked(context, needs_camera=True)
 
     def execute(self, context: Any) -> Answer:
@@ -140,7 +140,7 @@ class REFERENCE_TRACER_OT_export_camera(ExportHelper, bpy.types.Operator):
 
     @classmethod
     def blocked(cls, context: Context) -> str:
-        """Allow it where there is a camera, and nothing else at work."""
+        """Return what is in the way: it needs a camera, and runs alone."""
         return why_blocked(context, needs_camera=True)
 
     def check(self, context: Context) -> bool:  # type: ignore[override]  # the stub returns nothing

@@ -46,7 +46,7 @@ class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
 
     @classmethod
     def blocked(cls, context: Any) -> str:
-        """Allow it in Object Mode, and where meshes are edited."""
+        """Return what is in the way: it needs Object Mode, or Edit Mode of meshes."""
         if context.mode not in ("OBJECT", "EDIT_MESH"):
             return rpt_("Only in Object Mode and in Edit Mode of meshes")
         return super().blocked(context)
