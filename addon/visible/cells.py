@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Floats, Index, parts
+from ..arrays import Array, Floats, Index, parts
 from ..certified.bounds import Fractions, plane_fractions
 from ..certified.rounding import rounding
 from ..certified.sweep.depth_buffer import ROUNDING, nearness
@@ -39,10 +39,11 @@ class Cells:
         self.corner = region.x0 - 0.5, region.y0 - 0.5
         self.size = region.width, region.height
         name = numbers(faces, hits)
-        every, pixel = np.unique(name, return_index=True)
-        some = every != NOTHING
-        self.face = every[some]
-        self.at = np.stack(film_positions(region, pixel=pixel[some]))
+        pixel = np.full(faces.count, NOTHING)
+        own = np.flatnonzero(name != NOTHING)
+        pixel[name[own]] = own
+        self.face = np.flatnonzero(pixel != NOTHING)
+        self.at = np.stack(film_positions(region, pixel=pixel[self.face]))
         # Planes have numbers of their own here: they hide, too.
         plane = np.where(hits.instance >= len(scene.instances), -2 - hits.instance, NOTHING)
         name = np.where(name >= 0, name, plane).reshape(shape)
@@ -116,7 +117,7 @@ class Cells:
         return level, which, np.stack((x, y)) + first[:, which]
 
 
-def _of_corners(values: Floats | Index) -> Floats | Index:
+def _of_corners(values: Array) -> Array:
     """Return what is known of the corners of cells, (4, h, w), from (h + 1, w + 1)."""
     return np.stack((values[:-1, :-1], values[:-1, 1:], values[1:, :-1], values[1:, 1:]))
 
