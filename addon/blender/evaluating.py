@@ -23,7 +23,7 @@ from ..scene import Scene, SceneError
 from ..tracer.signals import held
 from .reading.camera import certify_camera
 from .reading.export import export
-from .temporary import ENGINE, remove
+from .temporary import ENGINE, go_to, remove
 from .turns import InTurns, T, Turns
 from .values import values_restored
 from .versions import ENGINES
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 Certified: TypeAlias = tuple[Scene, Manifest, CameraCertificate | None]
 
 
-def evaluated(scene: bpy.types.Scene, layer: str, judge: Judge | None, work: Turns[T]) -> T:
+def evaluated(scene: bpy.types.Scene, judge: Judge | None, work: Turns[T]) -> T:
     """Have Blender evaluate a temporary scene, and draw it, in turns with the work.
 
     A 'Render Result' that did not exist before is removed.
@@ -43,8 +43,6 @@ def evaluated(scene: bpy.types.Scene, layer: str, judge: Judge | None, work: Tur
     ----------
     scene : bpy.types.Scene
         Its `render.filepath` is then in a folder that goes with what is in it.
-    layer : str
-        Its view layer.
     judge : Judge, optional
         What draws; None for work that has a render's evaluation, and no picture.
     work : generator
@@ -61,7 +59,7 @@ def evaluated(scene: bpy.types.Scene, layer: str, judge: Judge | None, work: Tur
         scene.render.filepath = str(Path(folder) / "picture")  # also one of work that has ended
         try:
             if judge and judge.needs_window:
-                _draw_in_window(turns, scene, layer)
+                _draw_in_window(turns, scene)
             else:
                 _render(turns, scene, judge)
         except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
@@ -78,9 +76,19 @@ def _render_results() -> list[Any]:
     return [image for image in bpy.data.images if image.type == "RENDER_RESULT"]
 
 
-def _draw_in_window(turns: InTurns[Any], scene: bpy.types.Scene, layer: str) -> None:
+def export_at(tmp: Any, frame: float, judge: Judge | None = None) -> Scene:
+    """Return what a temporary scene has at another frame, or between two; it goes back."""
+    now = tmp.frame_current + tmp.frame_subframe
+    with values_restored():
+        go_to(tmp, frame)
+        scene, _, _ = export_for_render(tmp, judge)
+        go_to(tmp, now)
+    return scene
+
+
+def _draw_in_window(turns: InTurns[Any], scene: bpy.types.Scene) -> None:
     # Adding a window, area or region to the override crashes Blender (4.3, 5.2).
-    with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer]):
+    with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
         while not turns.go_on(bpy.context.evaluated_depsgraph_get()):
             bpy.ops.render.opengl(view_context=False, write_still=True)
             if turns.go_on():
@@ -189,26 +197,21 @@ def export_certified(depsgraph: Depsgraph, known: dict[Any, Any] | None = None) 
     scene, manifest = export(depsgraph, known)
     if not scene.camera.projection.is_linear:  # Blender has no matrix for it
         return scene, manifest, None
-    return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
+    return scene, manifest, certify_camera(depsgraph, scene.camera)
 
 
-def export_for_render(scene: bpy.types.Scene) -> Certified:
-    """Return the *render* evaluation of a temporary scene, and set its engine to this one.
+def export_for_render(scene: bpy.types.Scene, judge: Judge | None = None) -> Certified:
+    """Return the *render* evaluation of a temporary scene, or what a judge's picture shows.
 
-    Such an evaluation exists only while an engine renders.
+    Its engine is then this one: such an evaluation exists only while an engine renders.
 
     Raises
     ------
     SceneError
         If the scene cannot be traced.
     """
-    return evaluated(scene, scene.view_layers[0].name, None, _exported())
 
+    def exported() -> Turns[Certified]:
+        return export_certified((yield False))
 
-def export_for_judge(tmp: bpy.types.Scene, layer: str, judge: Judge) -> Certified:
-    """Return what a judge's picture is to be compared with, as :func:`export_certified` does."""
-    return evaluated(tmp, layer, judge if judge.needs_window else None, _exported())
-
-
-def _exported() -> Turns[Certified]:
-    return export_certified((yield False))
+    return evaluated(scene, judge if judge and judge.needs_window else None, exported())

@@ -154,8 +154,9 @@ def _isolate(scene: Scene, layer: str) -> None:
     # Rendering another layer than the first by its name crashes Blender (5.2).
     for other in [v for v in scene.view_layers if v.name != layer]:
         scene.view_layers.remove(other)
-    scene.view_layers[layer].use = True
-    _leave_out_drawings(scene.view_layers[layer].layer_collection)
+    [only] = scene.view_layers
+    only.use = True
+    _leave_out_drawings(only.layer_collection)
 
 
 @contextmanager
@@ -197,9 +198,9 @@ def _leave_out_drawings(parent: Any) -> None:
             _leave_out_drawings(child)
 
 
-def leave_out(tmp: Any, layer: str, objects: Collection[Any]) -> None:
+def leave_out(tmp: Any, objects: Collection[Any]) -> None:
     """Take objects out of a temporary scene."""
-    _leave_out(tmp.collection, tmp.view_layers[layer].layer_collection, objects, tmp.name_full)
+    _leave_out(tmp.collection, tmp.view_layers[0].layer_collection, objects, tmp.name_full)
 
 
 def _leave_out(
@@ -234,6 +235,6 @@ def _copy_flags(source: Any, target: Any) -> None:
         _copy_flags(old, new)
 
 
-def drawn(tmp: Scene, layer: str) -> list[Any]:
-    """Return the objects of a view layer that may be drawn, or that instance what is drawn."""
-    return [o for o in tmp.view_layers[layer].objects if o.type not in NOT_DRAWN]
+def drawn(tmp: Scene) -> list[Any]:
+    """Return a temporary scene's objects that may be drawn, or that instance what is drawn."""
+    return [o for o in tmp.view_layers[0].objects if o.type not in NOT_DRAWN]

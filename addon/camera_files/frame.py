@@ -92,7 +92,7 @@ def quaternion(r: Floats) -> Floats:
 def rotation_vector(r: Floats) -> Floats:
     """Return the axis of a rotation (3, 3), as long as its angle in radians, (3,).
 
-    Of half a turn, which is the same about both ends of its axis, the largest component is positive.
+    Half a turn is the same about both ends of its axis: its largest component is positive.
     """
     w, x, y, z = quaternion(r)
     along = np.array((x, y, z))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Floats
-from ..files.checked_json import Content, numbers, part
+from ..files.checked_json import Content, numbers, objects
 from ..scene import Camera, SceneError
 from .convention import CENTERS, FIRST, HALF, Files, Source, View
 
@@ -35,7 +35,7 @@ _DISTORTIONS = (  # by the names of OpenCV, and of those who use its lenses
 )
 
 
-def first_center(content: Mapping[str, Any], default: str = HALF) -> float:
+def first_center(content: Mapping[str, Any]) -> float:
     """Return where a JSON file has the first pixel's centre, 0.5 or 0.
 
     Raises
@@ -43,7 +43,7 @@ def first_center(content: Mapping[str, Any], default: str = HALF) -> float:
     SceneError
         If it names neither.
     """
-    named = content.get(CENTERS_KEY, default)
+    named = content.get(CENTERS_KEY, HALF)
     if named not in CENTERS:
         raise SceneError(f"{CENTERS_KEY} is {named!r}; it must be {' or '.join(CENTERS)}")
     return FIRST[named]
@@ -66,15 +66,6 @@ def clip_of(content: Content, where: str, names: Sequence[str]) -> tuple[float, 
 def clip_end(camera: Camera) -> float | str:
     """Return a clip end as JSON can hold it."""
     return "inf" if camera.clip_end == float("inf") else camera.clip_end
-
-
-def objects(content: Content, key: str) -> list[tuple[Content, str]]:
-    """Return the objects of a list, each with its place as messages have it."""
-    items: list[Any] = part(content, key, "", list)
-    for number, item in enumerate(items):
-        if not isinstance(item, dict):
-            raise SceneError(f"{key}[{number}] must be an object in braces")
-    return [(item, f"{key}[{number}].") for number, item in enumerate(items)]
 
 
 def has(source: Source, *keys: str) -> bool:

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..files.checked_json import Content, numbers
+from ..files.checked_json import Content, numbers, objects
 from ..projections import PERSPECTIVE, PROJECTIONS
 from ..scene import SceneError
 from . import frame
@@ -29,7 +29,6 @@ from .json_files import (
     dumped,
     first_center,
     has,
-    objects,
     offset_of,
     radians_of,
     refuse_lens,

@@ -7,13 +7,14 @@ nothing that runs, and is checked when it is read, as it may come from anywhere.
 from __future__ import annotations
 
 import json
+from itertools import starmap
 from pathlib import Path
 
 import numpy as np
 
 from ..arrays import Colors, Floats
-from ..files.checked_json import ENDLESS, Content, camera_of, numbers, part, whole
-from ..files.file_kinds import check_is_file
+from ..files import checked_json
+from ..files.checked_json import ENDLESS, Content, camera_of, numbers, objects, part, whole
 from ..scene import SceneError
 from ..tracer.hits import NOTHING
 from .pixel import Candidate, Pixel
@@ -53,27 +54,12 @@ def read(path: str | Path) -> Pixel:
     SceneError
         If there is no such file, it is no pixel's, or something in it is wrong, which is named.
     """
-    path = Path(path)
-    check_is_file(path)
-    try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except (ValueError, RecursionError) as error:
-        raise SceneError(f"'{path}' is not JSON: {error}") from error
-    try:
-        return _pixel(content)
-    except SceneError as error:
-        raise SceneError(f"'{path}': {error}") from error
+    return checked_json.read(Path(path), SCHEMA, "no pixel to explain", _pixel)
 
 
 def _pixel(content: Content) -> Pixel:
-    schema = content.get("schema") if isinstance(content, dict) else None
-    if schema != SCHEMA:
-        raise SceneError(f"its schema is {schema!r}, not {SCHEMA!r}: no pixel to explain")
     first_plane = whole(content, "first_plane", "")
-    candidates = tuple(
-        _candidate(c, f"candidates[{k}]")
-        for k, c in enumerate(part(content, "candidates", "", list))
-    )
+    candidates = tuple(starmap(_candidate, objects(content, "candidates")))
     planes = [c.instance for c in candidates if c.is_plane]
     if planes != list(range(first_plane, first_plane + len(planes))):
         raise SceneError("its planes are not numbered one by one from first_plane")
@@ -105,9 +91,6 @@ def _check_ray(pixel: Pixel, ray: Content) -> None:
 
 
 def _candidate(c: Content, where: str) -> Candidate:
-    if not isinstance(c, dict):
-        raise SceneError(f"{where} must be an object in braces")
-    where += "."
     is_plane = c.get("triangle") == NOTHING
     triangle = NOTHING if is_plane else whole(c, "triangle", where)
     colors = numbers(c, "colors", where, None)

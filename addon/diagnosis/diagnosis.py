@@ -23,7 +23,7 @@ from .faults.fault import AnyFault, Guess
 from .faults.fitting import ENCLOSED
 from .guessing import ROUGHLY, STEPS, Guessing, accounting
 from .regions import Region, regions, sides
-from .trial import Trial, counted
+from .trial import Trial, counted, in_full
 from .variants import carried, in_its_colors, with_variants
 
 ROUNDS = 3  # faults one after the other, at most
@@ -198,6 +198,7 @@ def diagnose(
         if not chain:
             break
         for trials in chain:
+            trials[0] = yield from in_full(trials[0])
             told += _all_told(evidence, trials)
             evidence = carried(evidence, trials[0])
         remain = int((evidence.unexplained & at_first).sum())

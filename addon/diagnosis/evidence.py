@@ -23,7 +23,7 @@ from ..pictures.metrics import beside_edges, boundary
 from ..pictures.picture import Picture
 from ..projections import ORTHOGRAPHIC
 from ..scene import Camera, Scene
-from ..tracer.camera import camera_rays, film_of
+from ..tracer.camera import camera_rays
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.nearest import plan
@@ -81,8 +81,10 @@ class Evidence:
 
     @cached_property
     def unexplained(self) -> Bools:
-        """The unexplained pixels, (h, w)."""
-        return self.causes.cause == UNEXPLAINED
+        """The pixels (h, w) that are unexplained, or passed over as there were too many."""
+        out = self.causes.cause == UNEXPLAINED
+        out.flat[self.causes.passed_over] = True
+        return out
 
     @cached_property
     def judged(self) -> Bools:
@@ -109,16 +111,16 @@ class Evidence:
     def _weights(self) -> Floats:
         """The weight of each sampled pixel, in pixels; 0 for all others, (h, w)."""
         out = np.zeros(self.unexplained.shape)
-        if self.fine:
-            out.flat[spread(self.unexplained & self.beside_edges, self.size)] = 1
-            out.flat[spread(self.judged & self.beside_edges, self.size)] = 1
-            return out
         edge = self.judged & boundary(self.frame)
-        for some, most in (
+        kinds = [
             (self.unexplained, self.size),
             (edge, 3 * self.size // 4),
             (self.judged & ~edge, self.size // 4),
-        ):
+        ]
+        if self.fine:
+            both = self.unexplained, self.judged
+            kinds = [(some & self.beside_edges, self.size) for some in both]
+        for some, most in kinds:
             chosen = spread(some, most)
             out.flat[chosen] = int(some.sum()) / max(len(chosen), 1)
         return out
@@ -156,10 +158,8 @@ class Evidence:
 
     def trace(self, scene: Scene, at: tuple[Places, Places] | None = None) -> Work[Hits]:
         """Trace a scene in n pixels, by row and column, or in the sampled ones."""
-        rows, columns = self.sample if at is None else at
-        r = scene.camera.region
-        rays = camera_rays(scene.camera, columns + r.x0 + 0.5, rows + r.y0 + 0.5)
-        return (yield from self.trees.trace(scene, rays))
+        film = film_at(scene.camera, *(self.sample if at is None else at))
+        return (yield from self.trees.trace(scene, camera_rays(scene.camera, *film)))
 
     def score(self, case: Case) -> Work[Score]:
         """Score a case, with another scene or picture, on the sample."""
@@ -197,9 +197,7 @@ class Evidence:
     @cached_property
     def film(self) -> Floats:
         """The film positions of the n sampled pixels' centres, (2, n) pixels of the picture."""
-        rows, columns = self.sample
-        r = self.case.scene.camera.region
-        return np.stack((columns + r.x0 + 0.5, rows + r.y0 + 0.5))
+        return film_at(self.case.scene.camera, *self.sample)
 
     @cached_property
     def points(self) -> Floats:
@@ -223,11 +221,11 @@ class Evidence:
         """
         scene = self.case.scene
         rows, columns = (v[self.unexplained_sampled] for v in self.sample)
-        seen = scene.instance_objects[self.frame.instance_index[rows, columns]]
+        everywhere = self.frame.object_index
+        seen = everywhere[rows, columns]
         shown = self._shown_objects()
         both = np.concatenate((seen, shown[shown != seen]))
         count = np.bincount(both[both >= 0], minlength=len(scene.objects))
-        everywhere = scene.instance_objects[self.frame.instance_index]
         area = np.bincount(everywhere[everywhere >= 0], minlength=len(scene.objects))
         order = np.lexsort((area, -count))
         least = max(LEAST_SEEN, INVOLVED * int(np.max(count, initial=0)))
@@ -243,9 +241,7 @@ class Evidence:
             of_owner = reversed(list(enumerate(shown.owners.instances[:-1])))
             first = {int(owner): n for n, owner in of_owner}
             return objects[[first.get(int(owner), nothing) for owner in shown.owners.pixels]]
-        table = scene.color_table[:-1]
-        first_rows = np.sort(np.unique(table, axis=0, return_index=True)[1])  # of each colour
-        table = table[first_rows]
+        table, first_rows = np.unique(scene.color_table[:-1], axis=0, return_index=True)
         if not 0 < len(table) <= MOST_COLORS:
             return np.full(len(shown.color), NOTHING, np.int32)
         made = shown.made_of(table)
@@ -255,12 +251,9 @@ class Evidence:
         return objects[np.minimum(np.searchsorted(scene.color_rows[1][:-1], row), nothing)]
 
 
-def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) -> Floats:
-    """Map film positions of another camera in the same place to a camera's own film, (2, n)."""
-    rays = camera_rays(other, px, py)
-    # A panorama's or perspective's rays pass one point: any point of them will do.
-    x, y, _ = film_of(camera, rays.at(np.ones(rays.count)))
-    return np.stack((x, y))
+def film_at(camera: Camera, rows: Places, columns: Places) -> Floats:
+    """Return the film positions of n pixels' centres, (2, n) pixels of the whole picture."""
+    return np.stack((columns + camera.region.x0 + 0.5, rows + camera.region.y0 + 0.5))
 
 
 def least_with(numbers: int) -> float:
@@ -278,9 +271,10 @@ def spread(where: Bools, most: int) -> Places:
 
 
 def shows_colors(picture: Picture, colors: Array) -> Bools:
-    """Return which pixels (h, w) of a picture have nearly one of m traced colours, (m, 4)."""
-    out = np.zeros(picture.color.shape[:2], bool)
+    """Return which pixels (...) of a picture have nearly one of m traced colours, (m, 4)."""
+    out = np.zeros(picture.color.shape[:-1], bool)
     for made in picture.made_of(np.unique(colors, axis=0)):  # a thousand trees have one
-        for rows in blocks(out.shape):
-            out[rows] |= (np.abs(picture.color[rows, :, : len(made)] - made) <= NEAR).all(axis=-1)
+        for rows in blocks(picture.color.shape):
+            own = picture.color[rows][..., : len(made)]
+            out[rows] |= (np.abs(own - made) <= NEAR).all(axis=-1)
     return out

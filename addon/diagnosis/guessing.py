@@ -37,7 +37,7 @@ from .faults.fault import TRIED, AnyFault, Effort, Guess
 from .faults.fitting import ENCLOSED
 from .faults.given import given
 from .faults.matching import is_everywhere
-from .trial import Trial, traced_anew, trial_of
+from .trial import Trial, in_full, traced_anew, trial_of
 from .variants import carried
 
 T = TypeVar("T")
@@ -106,8 +106,8 @@ class Guessing:
         """Return guesses tried on the whole picture, the best first.
 
         Faults without numbers to fit are tried before the others: where one of them does it
-        all, a fit that does as well says no more. What may be anything, and cannot be sampled,
-        comes last: it takes most work, and is not told where something exact does as well. Where a
+        all, a fit that does as well says no more. What is vague comes last: it takes most work,
+        and is not told where something exact does as well. Where a
         fault of the view accounts for most, no object's is looked for until that is put right.
         """
         unexplained = float(evidence.unexplained.sum())
@@ -129,8 +129,8 @@ class Guessing:
                 break
             yield Progress(None, f"{number}/{len(order)}: trying {TRIED[effort]}")
             scored = yield from self._scored(evidence, some)
-            unknown += [one for one in scored if one[1].vague and not one[1].sampled]
-            known = [one for one in scored if one[1].sampled or not one[1].vague]
+            unknown += [one for one in scored if one[1].vague]
+            known = [one for one in scored if not one[1].vague]
             pool += [one for one in known if one[0] < NEARLY * unexplained]
             sure = [one for one in known if one[0] >= NEARLY * unexplained]
             out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
@@ -175,10 +175,7 @@ class Guessing:
         scored: list[tuple[float, AnyFault, Guess]],
         most: int,
     ) -> Work[list[Trial]]:
-        """Try the guesses with the most gain, refining fitted ones.
-
-        Vague ones come last: their trials take long, and exact ones are reported in their place.
-        """
+        """Try the guesses with the most gain, refining fitted ones."""
         promising = PROMISING * max((gain for gain, _, _ in scored), default=0.0)
         scored = sorted((one for one in scored if one[0] >= promising), key=lambda one: -one[0])
         # Among equally good guesses try one of each fault first: a fault may have dozens.
@@ -187,12 +184,9 @@ class Guessing:
         best = scored[0][0] if scored else 0.0
         cost = [len(g.low) if gain >= AS_GOOD * best else np.inf for gain, _, g in scored]
         order = sorted(range(len(scored)), key=lambda n: (cost[n], -scored[n][0], ranks[n]))
-        scored = [scored[n] for n in order]
-        exact = [one for one in scored if not one[1].vague]
-        vague = [one for one in scored if one[1].vague]
         out: list[Trial] = []
         done: dict[str, int] = {}  # faults with a guess that does it all, in so many numbers
-        for gain, fault, guess in (*exact[:most], *vague[:most]):
+        for gain, fault, guess in (scored[n] for n in order[:most]):
             worse = gain < AS_GOOD * best
             longer = not guess.object and len(guess.low) > min(done.values(), default=0)
             if fault.name in done or (done and (worse or longer)):
@@ -248,7 +242,8 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
         if best := _best(evidence, seconds):
             return [[first], best]
-    for first in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
+    for trial in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
+        first = yield from in_full(trial)
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
         own = first.guess.object  # two changes of one object are one that is not known
         others = [t for t in seconds if not own or t.guess.object != own]
@@ -286,8 +281,8 @@ def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
             if other := fault.assume(case, guess):
                 traced = yield from traced_anew(other, case, frame)
                 if (yield from find_transform(traced, other.picture, ~boundary(traced))):
-                    trial = yield from trial_of(evidence, fault, guess, promising=True)
-                    out += [trial] if trial else []
+                    if trial := (yield from trial_of(evidence, fault, guess, promising=True)):
+                        out.append((yield from in_full(trial)))
     return out
 
 

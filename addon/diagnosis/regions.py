@@ -56,7 +56,7 @@ class Region:
 
 def sides(scene: Scene, frame: Frame, identity: Identity | None) -> list[Side]:
     """Return the object in each pixel of the traced side, and of the other side if known."""
-    found: list[Side] = [(scene.objects, scene.instance_objects[frame.instance_index])]
+    found: list[Side] = [(scene.objects, frame.object_index)]
     if identity is not None:
         found.append((identity.names, identity.shown))
     return found

@@ -160,8 +160,8 @@ def _object_from_world(matrices: Floats) -> tuple[Floats, Bools]:
     """Return the inverses of matrices (3, 4, k), and which have one, (k,)."""
     m = np.moveaxis(matrices, -1, 0)
     with np.errstate(all="ignore"):
-        regular = np.isfinite(m).all(axis=(1, 2))
-        regular[regular] = np.abs(np.linalg.det(m[regular, :, :3])) > 0
+        size = np.abs(np.linalg.det(m[:, :, :3]))
+        regular = np.isfinite(size) & (size > 0)
         axes = np.where(regular[:, None, None], m[:, :, :3], np.eye(3))
         inverse = np.linalg.inv(axes)
         at = -(inverse * m[:, None, :, 3]).sum(axis=-1)

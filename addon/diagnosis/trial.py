@@ -59,7 +59,7 @@ class Trial:
     @property
     def perfect(self) -> bool:
         """Whether it settles all that is unexplained, and breaks nothing."""
-        return not self.broken and not left_unexplained(self.evidence).any()
+        return not self.broken and not self.evidence.unexplained.any()
 
     @property
     def recall(self) -> float:
@@ -107,6 +107,15 @@ def trial_of(
     return Trial(fault, guess, after, *counted(before, after), own)
 
 
+def in_full(trial: Trial) -> Work[Trial]:
+    """Return a trial with no pixel passed over: what is told of it is of the whole picture."""
+    after = trial.evidence
+    if not len(after.causes.passed_over):
+        return trial
+    explained = yield from explain(after.case, after.frame)
+    return replace(trial, evidence=replace(after, causes=explained.causes, known={}))
+
+
 def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
     """Trace another case; if it has the same scene, return the frame there is.
 
@@ -151,10 +160,9 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
 
 def counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
     """Count the pixels that are settled, broken, stubborn and touched: see :class:`Trial`."""
-    unexplained = left_unexplained(after)
-    settled = before.unexplained & ~unexplained & ~after.causes.unjudged
-    stubborn = before.unexplained & unexplained & _changed(before, after)
-    broken = unexplained & before.judged
+    settled = before.unexplained & ~after.unexplained & ~after.causes.unjudged
+    stubborn = before.unexplained & after.unexplained & _changed(before, after)
+    broken = after.unexplained & before.judged
     touched = _connected(settled, before.unexplained)
     return int(settled.sum()), int(broken.sum()), int(stubborn.sum()), int(touched.sum())
 
@@ -163,24 +171,16 @@ def _of_object(name: str, before: Evidence, after: Evidence) -> float:
     """Return the settled share of an object's unexplained pixels; 1 without an object."""
     own = np.zeros(before.unexplained.shape, bool)
     for one in (before, after):
-        scene = one.case.scene
-        numbers = [n for n, o in enumerate(scene.objects) if o == name]
-        own |= np.isin(scene.instance_objects[one.frame.instance_index], numbers)
+        numbers = [n for n, o in enumerate(one.case.scene.objects) if o == name]
+        own |= np.isin(one.frame.object_index, numbers)
     own &= before.unexplained
-    return float((~left_unexplained(after))[own].mean()) if own.any() else 1.0
+    return float((~after.unexplained)[own].mean()) if own.any() else 1.0
 
 
 def _connected(seed: Bools, within: Bools) -> Bools:
     """Return the 8-connected components of a mask (h, w) that contain a seed."""
     label = labels(within)
     return within & np.isin(label, label[seed & within])
-
-
-def left_unexplained(evidence: Evidence) -> Bools:
-    """Return which pixels (h, w) are unexplained, or passed over as there were too many."""
-    out = evidence.unexplained.copy()
-    out.flat[evidence.causes.passed_over] = True
-    return out
 
 
 def _changed(before: Evidence, after: Evidence) -> Bools:

@@ -1,10 +1,10 @@
-"""Reads numbers, texts and cameras from a JSON file's content, and names what is wrong there.
-
-The caller adds the file's name to the SceneError.
-"""
+"""Reads JSON files, and numbers, texts and cameras of them, and names what is wrong there."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -12,11 +12,44 @@ import numpy as np
 from ..arrays import Floats
 from ..projections import PROJECTIONS, Projection
 from ..scene import Camera, Region, SceneError, ViewWindow
+from .file_kinds import check_is_file
 
 Content = dict[str, Any]  # an object of JSON
 T = TypeVar("T")
 
 ENDLESS = "inf"  # JSON has no number for it
+
+
+def read(path: Path, schema: str, no_such: str, of: Callable[[Content], T]) -> T:
+    """Return what a function makes of a file's content; `no_such` says what it is not.
+
+    Raises
+    ------
+    SceneError
+        If there is no such file, its schema is another, or something in it is wrong, which is
+        named.
+    """
+    check_is_file(path)
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as error:
+        raise SceneError(f"'{path}' is not JSON: {error}") from error
+    try:
+        said = content.get("schema") if isinstance(content, dict) else None
+        if said != schema:
+            raise SceneError(f"its schema is {said!r}, not {schema!r}: {no_such}")
+        return of(content)
+    except SceneError as error:
+        raise SceneError(f"'{path}': {error}") from error
+
+
+def objects(content: Content, key: str) -> list[tuple[Content, str]]:
+    """Return the objects of a list, each with its place as messages have it."""
+    items: list[Any] = part(content, key, "", list)
+    for number, item in enumerate(items):
+        if not isinstance(item, dict):
+            raise SceneError(f"{key}[{number}] must be an object in braces")
+    return [(item, f"{key}[{number}].") for number, item in enumerate(items)]
 
 
 def camera_of(c: Content) -> Camera:

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Colors, Floats
-from ..files.checked_json import Content, numbers, part
-from ..files.file_kinds import check_is_file
+from ..files import checked_json
+from ..files.checked_json import Content, numbers, objects, part
 from ..scene import Scene, SceneError
 from .palette import By, GivenColors, Key, automatic_note, clear_palette, eight_bits, not_told_apart
 
@@ -73,38 +73,23 @@ def read(path: Path) -> GivenColors:
     SceneError
         If there is no such file, it holds no colours, or something in it is wrong, which is named.
     """
-    check_is_file(path)
-    try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except (ValueError, RecursionError) as error:
-        raise SceneError(f"'{path}' is not JSON: {error}") from error
-    try:
-        return GivenColors(str(path), _slots(content))
-    except SceneError as error:
-        raise SceneError(f"'{path}': {error}") from error
+    slots = checked_json.read(path, SCHEMA, "--colors-out writes such files", _slots)
+    return GivenColors(str(path), slots)
 
 
 def _slots(content: Content) -> dict[Key, Colors]:
-    schema = content.get("schema") if isinstance(content, dict) else None
-    if schema != SCHEMA:
-        raise SceneError(
-            f"its schema is {schema!r}, not {SCHEMA!r}: --colors-out writes such files"
-        )
     if content.get("slots_past_the_end", _LAST) != _LAST:
         raise SceneError(f"slots_past_the_end must be {_LAST!r}, as Blender has it")
     found: dict[Key, Colors] = {}
-    for number, entry in enumerate(part(content, "objects", "", list)):
-        where = f"objects[{number}]"
-        if not isinstance(entry, dict):
-            raise SceneError(f"{where} must be an object in braces")
-        name = part(entry, "name", f"{where}.", str)
-        owner = part(entry, "instanced_by", f"{where}.", str) if "instanced_by" in entry else name
-        slots = part(entry, "slots", f"{where}.", list)
+    for entry, where in objects(content, "objects"):
+        name = part(entry, "name", where, str)
+        owner = part({"instanced_by": name} | entry, "instanced_by", where, str)
+        slots = part(entry, "slots", where, list)
         if not slots:
-            raise SceneError(f"{where}.slots of '{name}' is empty: it needs a colour")
+            raise SceneError(f"{where}slots of '{name}' is empty: it needs a colour")
         if (name, owner) in found:
-            raise SceneError(f"{where}: '{name}' is there twice")
-        rows = [_read(slot, f"{where}.slots[{k}] of '{name}'") for k, slot in enumerate(slots)]
+            raise SceneError(f"{where}name is '{name}', which is there twice")
+        rows = [_read(slot, f"{where}slots[{k}] of '{name}'") for k, slot in enumerate(slots)]
         found[name, owner] = np.array(rows, np.float32)
     return found
 

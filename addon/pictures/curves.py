@@ -160,6 +160,8 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
         coded = _fitted_power(curve(a[fits]), curve(b[fits]))
         if abs(coded - 1) > LEAST_CHANGE:
             yield _coded_power(coded, levels, FITTED_SHARE)
+            linear = _fitted_power(a[fits], curve(b[fits]))
+            yield _coded_power(linear, levels, FITTED_SHARE, of_linear=True)
 
 
 def several(values: Array) -> bool:
@@ -179,15 +181,21 @@ def _fitted_power(a: Array, b: Array) -> float:
     return float(np.sum(weight * x * y) / np.sum(weight * x * x))
 
 
-def _coded_power(power: float, levels: int, share: float) -> Curve:
-    """Return a power of sRGB's coded values, which were rounded to `levels` before."""
+def _coded_power(power: float, levels: int, share: float, of_linear: bool = False) -> Curve:
+    """Return a power of sRGB's coded values, rounded to `levels`, or of what they are decoded to.
+
+    The latter is then taken for coded.
+    """
 
     def transform(color: Array) -> Array:
         stored = curve(np.clip(color, 0, 1))
         if levels:
             stored = np.rint(levels * stored) / levels
-        return curve_undone(stored**power)
+        return curve_undone((curve_undone(stored) if of_linear else stored) ** power)
 
+    if of_linear:
+        name = f"a power of 1/{1 / power:.3g} in place of sRGB's curve"
+        return Curve(name, transform, share, "power_for_srgb")
     name = f"a gamma of {1 / power:.3g} applied to coded (sRGB) values"
     return Curve(name, transform, share, "coded_gamma")
 

@@ -49,6 +49,7 @@ class Metrics:
 
 
 _ROWS, _COLUMNS = 32, 64  # compared together, so that a step is short
+_WINDOW = 7  # pixels
 
 
 def rmse(first: Array, second: Array) -> float:
@@ -63,17 +64,17 @@ def rmse(first: Array, second: Array) -> float:
     return float(np.sqrt(np.mean((first.astype(np.float64) - second) ** 2)))
 
 
-def psnr(error: float, data_range: float = 1.0) -> float:
+def psnr(error: float) -> float:
     """Return the peak signal-to-noise ratio in decibels of an RMSE; infinite for equal pictures."""
-    return float("inf") if error == 0 else float(20 * np.log10(data_range / error))
+    return float("inf") if error == 0 else float(20 * np.log10(1 / error))
 
 
-def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) -> Work[float]:
+def ssim(first: Array, second: Array) -> Work[float]:
     """Return the mean structural similarity of two pictures (h, w, c), 1 for equal ones.
 
-    The window is uniform, `size` x `size` pixels, or in smaller pictures the largest odd one that
-    fits. Covariances are of samples, K1 = 0.01 and K2 = 0.03. The mean is over the windows that lie
-    inside the picture, and over the channels.
+    The window is uniform, _WINDOW pixels wide and high, or in smaller pictures the largest odd one
+    that fits. Covariances are of samples, K1 = 0.01 and K2 = 0.03, and values are from 0 to 1. The
+    mean is over the windows that lie inside the picture, and over the channels.
 
     References
     ----------
@@ -82,14 +83,14 @@ def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) ->
     """
     _same_shape(first, second)
     shortest = min(first.shape[:2])
-    size = min(size, shortest - (1 - shortest % 2))
+    size = min(_WINDOW, shortest - (1 - shortest % 2))
     height = first.shape[0] - size + 1
     width = first.shape[1] - size + 1
     total = 0.0
     alike: dict[bytes, float] = {}
 
     def mean(one: Array, other: Array) -> float:
-        return float(_similarity(one, other, data_range, size).mean(axis=(0, 1)).sum())
+        return float(_similarity(one, other, size).mean(axis=(0, 1)).sum())
 
     for y in range(0, height, _ROWS):
         for x in range(0, width, _COLUMNS):
@@ -110,7 +111,7 @@ def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) ->
     return float(total / (height * width * first.shape[2]))
 
 
-def _similarity(first: Array, second: Array, data_range: float, size: int) -> Floats:
+def _similarity(first: Array, second: Array, size: int) -> Floats:
     """Return the similarity of every window and channel."""
     x = first.astype(np.float64)
     y = second.astype(np.float64)
@@ -120,8 +121,8 @@ def _similarity(first: Array, second: Array, data_range: float, size: int) -> Fl
     vx = unbiased * (xx - ux * ux)
     vy = unbiased * (yy - uy * uy)
     vxy = unbiased * (xy - ux * uy)
-    c1 = (0.01 * data_range) ** 2
-    c2 = (0.03 * data_range) ** 2
+    c1 = 0.01**2
+    c2 = 0.03**2
     return ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
 
 

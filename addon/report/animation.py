@@ -13,7 +13,7 @@ from ..comparison.animation import FrameRow, worst_first
 from ..comparison.verdict import Verdict
 from ..wording import count_of
 from . import comparison, page
-from .folders import replacing, write_json, write_text
+from .folders import write_all, write_text
 from .plots import Entry, Panel, Plot, Scale, Series
 from .shown import data
 from .tables import columns
@@ -73,9 +73,7 @@ def write(directory: Path, title: str, frames: range, rows: Sequence[FrameRow]) 
         "frames": [row._asdict() for row in worst_first(rows)],
         "verdict": verdict(rows),
     }
-    with replacing(directory, (PAGE, JSON)) as new:
-        (new / PAGE).write_text(_page(title, frames, rows, directory), encoding="utf-8")
-        write_json(new / JSON, held)
+    write_all(directory, {PAGE: _page(title, frames, rows, directory), JSON: held})
 
 
 def verdict(rows: Sequence[FrameRow]) -> Verdict:

@@ -8,7 +8,7 @@ from pathlib import Path
 from ..comparison.engines import EngineRow, to_dict
 from ..diagnosis.fault_rows import table
 from ..pictures.identity import NOTHING
-from .folders import replacing, write_json
+from .folders import write_all
 from .tables import columns
 
 JSON = "engines.json"
@@ -25,8 +25,7 @@ def write(directory: str | Path, rows: Sequence[EngineRow]) -> None:
     OSError
         If the folder cannot be written.
     """
-    with replacing(Path(directory), (JSON,)) as new:
-        write_json(new / JSON, to_dict(rows))
+    write_all(Path(directory), {JSON: to_dict(rows)})
 
 
 def lines(rows: Sequence[EngineRow]) -> list[str]:

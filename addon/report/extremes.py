@@ -10,7 +10,7 @@ from ..methods import Method
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
 from ..study.scenarios.sweeps import BY_NAME, SCENARIOS
 from .extreme_plots import plot
-from .folders import finite, replacing, write_json
+from .folders import finite, write_all
 from .tables import columns
 from .templates import alone
 
@@ -91,7 +91,5 @@ def write(directory: str | Path, rows: Sequence[ExtremesRow]) -> None:
     OSError
         If the folder cannot be written.
     """
-    with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
-        (new / TABLE).write_text(breaking_table(rows) + "\n", encoding="utf-8")
-        write_json(new / JSON, to_dict(rows))
-        (new / PLOT).write_text(page(rows), encoding="utf-8")
+    texts = {TABLE: f"{breaking_table(rows)}\n", PLOT: page(rows)}
+    write_all(Path(directory), {**texts, JSON: to_dict(rows)})

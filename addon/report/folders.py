@@ -154,6 +154,22 @@ def write_text(path: Path, text: str) -> None:
         new.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
+def write_all(directory: Path, contents: Mapping[str, str | Mapping[str, object]]) -> None:
+    """Write texts and strict JSON by their files' names, all or none: see :func:`replacing`.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    with replacing(directory, [*contents]) as new:
+        for name, content in contents.items():
+            if isinstance(content, str):
+                (new / name).write_text(content, encoding="utf-8", errors="backslashreplace")
+            else:
+                write_json(new / name, content)
+
+
 def write_json(path: Path, content: Mapping[str, object]) -> None:
     """Write strict JSON, which every reader accepts.
 

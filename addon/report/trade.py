@@ -10,7 +10,7 @@ from typing import Any
 from ..methods import MEASURED, Method
 from ..study.trade import COLUMNS, Column, Trade, TradeRow
 from ..tracer.settings import Precision
-from .folders import finite, replacing, write_json
+from .folders import finite, write_all
 from .plots import GREY, INK, Entry, Panel, Plot, Scale, Series
 from .tables import columns
 from .templates import alone
@@ -72,10 +72,8 @@ def write(directory: str | Path, trade: Trade) -> None:
     OSError
         If the folder cannot be written.
     """
-    with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
-        (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
-        write_json(new / JSON, to_dict(trade))
-        (new / PLOT).write_text(page(trade), encoding="utf-8")
+    texts = {TABLE: f"{table(trade)}\n", PLOT: page(trade)}
+    write_all(Path(directory), {**texts, JSON: to_dict(trade)})
 
 
 def page(trade: Trade) -> str:

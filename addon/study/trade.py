@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
@@ -57,11 +57,6 @@ class Column:
 
     The tables, the page, the panel, the plot, the JSON and the cluster's check read it from here;
     `tradeoff.py` measures it.
-
-    Raises
-    ------
-    ValueError
-        If a row has no such field.
     """
 
     name: str  # the field of `TradeRow`
@@ -70,11 +65,6 @@ class Column:
     show: Callable[[TradeRow], str]
     unit: str = ""  # what its number is, for the reader of the JSON; empty: the JSON leaves it out
     best: str = ""  # the field that says that no other row beats this one here
-
-    def __post_init__(self) -> None:
-        names = {f.name for f in fields(TradeRow)}
-        if not {self.name, self.best or self.name} <= names:
-            raise ValueError(f"a column is of {self.name} and {self.best}; rows have {names}")
 
     def shown(self, row: TradeRow) -> str:
         """Return its number in a row as text, with a star if no other row beats this one.

@@ -14,9 +14,6 @@ if TYPE_CHECKING:
     from ..scene import Region
 
 
-LARGE = 1 << 13  # pixels of a box: its triangle's pairs are tested apart, with one set of corners
-
-
 def pairs(
     bounds: Integers, tile: Region, limit: int, before: Index | None = None
 ) -> Iterator[tuple[Index, Index]]:
@@ -27,18 +24,6 @@ def pairs(
     """
     x0, x1, y0, y1 = bounds
     some = np.flatnonzero((x0 < x1) & (y0 < y1))
-    alone = np.zeros(len(some), bool)
-    if before is None:
-        alone = (x1 - x0)[some].astype(np.int64) * (y1 - y0)[some] >= LARGE
-    for together in (some[~alone], *some[alone][:, None]):
-        yield from _pairs(together, bounds, tile, limit, before)
-
-
-def _pairs(
-    some: Index, bounds: Integers, tile: Region, limit: int, before: Index | None
-) -> Iterator[tuple[Index, Index]]:
-    """List the pixels of some boxes that are not empty, as :func:`pairs` does."""
-    x0, x1, y0, y1 = bounds
     # A run is one row of one box: first find its triangle and row, then its pixels.
     triangle, row = spread(some, (y1 - y0)[some])
     row += y0[triangle]

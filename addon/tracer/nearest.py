@@ -18,7 +18,6 @@ from .camera import Rays, camera_rays, film_positions
 from .candidates import PAIRS, Plan, candidates, cull
 from .hits import Hits, Statistics
 from .progress import Progress, Work
-from .sampled import Sampled
 from .settings import Settings
 from .triangle import TESTS, sum_is_1
 from .world import Pairs, batches, world_triangles
@@ -52,8 +51,7 @@ def tracer(
     """
     made = yield from plan(scene, settings, reach)
     statistics.refused = made.refused
-    sampled = Sampled(made) if reach else None
-    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics, literally, sampled)
+    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics, literally)
 
 
 def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
@@ -68,14 +66,12 @@ def trace_tile(
     dy: float = 0.0,
     statistics: Statistics | None = None,
     literally: TakeHits | None = None,
-    sampled: Sampled | None = None,
 ) -> Work[Hits]:
     """Find the nearest hits of the rays of a tile, in small steps.
 
     Each ray passes its pixel's centre at (dx, dy), in pixels, at most `plan.reach`. The hits are
     those of the tile's pixels, row by row from the lowest. Pairs are counted in the statistics.
-    `literally` is as :func:`tracer` has it; `sampled` has the plan's candidates, if a tile is
-    asked for several times.
+    `literally` is as :func:`tracer` has it.
     """
     scene = plan.scene
     settings = plan.settings
@@ -86,14 +82,14 @@ def trace_tile(
     statistics.pairs_tested += len(scene.planes) * len(hits)
     test_planes(scene, rays, hits)
     printed = hits.take(np.arange(len(hits) if literally else 0))
-    for share, some in sampled.of(tile) if sampled else candidates(plan, tile):
+    for share, some in candidates(plan, tile):
         if some is not None:
             statistics.pairs_tested += len(some.pixel)
             seen, found = test_pairs(scene, settings, rays, some, hits)
             if literally:
                 began = time.perf_counter()
                 own = np.flatnonzero(sum_is_1(found.s))
-                _keep_nearest(printed, None, some.pixel[seen[own]], found.take(own))
+                keep_nearest(printed, None, some.pixel[seen[own]], found.take(own))
                 statistics.seconds -= time.perf_counter() - began
         yield Progress(share)
     if literally:
@@ -139,10 +135,10 @@ def test_pairs(
     With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
     Returns the places of all pairs that meet within the clip range, near or far, and their hits.
     """
-    hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.shared_corners)
+    hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.corners)
     seen = np.flatnonzero(hit & within_clip(scene.camera, t))
     found = Hits.of(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
-    _keep_nearest(hits, after, some.pixel[seen], found)
+    keep_nearest(hits, after, some.pixel[seen], found)
     return seen, found
 
 
@@ -158,7 +154,7 @@ def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None)
         found = Hits.none(len(seen))
         found.t[:] = t[seen]
         found.instance[:] = len(scene.instances) + index
-        _keep_nearest(hits, after, seen, found)
+        keep_nearest(hits, after, seen, found)
 
 
 def within_clip(camera: Camera, t: Floats) -> Bools:
@@ -167,7 +163,7 @@ def within_clip(camera: Camera, t: Floats) -> Bools:
         return (t >= camera.clip_start) & (t <= camera.clip_end)
 
 
-def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
+def keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
     """Enter hits where they are nearer than those before; a pixel may occur more than once."""
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))

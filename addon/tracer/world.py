@@ -69,12 +69,6 @@ class Pairs:
         return gather(self.triangles.corners, self.row)
 
     @property
-    def shared_corners(self) -> Vectors:
-        """The corners, (3, 3, 1) if all pairs have the same triangle; else (3, 3, p)."""
-        one = self.row[:1]
-        return gather(self.triangles.corners, one) if (self.row == one).all() else self.corners
-
-    @property
     def instance(self) -> Integers:
         """The instance of each triangle, (p,)."""
         return self.triangles.instance[self.row]

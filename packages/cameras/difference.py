@@ -134,22 +134,19 @@ def _explanations(own: Camera, other: Camera, allowed: float) -> list[Steps]:
     """
     sees_as = _same_view(own, other, allowed)
     options = list(mistakes(own))
-    if singles := _all(((step,) for step in options), sees_as):
-        return singles
     halves = ((step,) for step in half_pixels(own))
     beside = ((first, step) for first in options for step in half_pixels(first.camera))
     alone = ((step,) for step in fitted(own, other))
     further = [(first, step) for first in options for step in fitted(first.camera, other)]
     # A turn, a move or an offset can look like two mistakes: these come before.
     focal = (steps for steps in further if steps[1].fault.name.startswith("focal"))
-    if found := _first(chain(halves, beside, alone, focal), sees_as):
-        return found
-    if pairs := _all(((a, b) for a in options for b in second(a, other)), sees_as):
-        return pairs
-    if found := _first(further, sees_as):
-        return found
-    steps = last_resort(own, other)
-    return [steps] if steps and sees_as(steps[-1].camera) else []
+    return (
+        _all(((step,) for step in options), sees_as)
+        or _first(chain(halves, beside, alone, focal), sees_as)
+        or _all(((a, b) for a in options for b in second(a, other)), sees_as)
+        or _first(further, sees_as)
+        or _first(last_resort(own, other), sees_as)
+    )
 
 
 def _all(every: Iterable[Steps], sees_as: SeesAs) -> list[Steps]:

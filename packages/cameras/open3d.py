@@ -22,10 +22,9 @@ from reference_tracer.camera_files.json_files import (
     dumped,
     first_center,
     flat,
-    objects,
     offset_of,
 )
-from reference_tracer.files.checked_json import Content, part
+from reference_tracer.files.checked_json import Content, objects, part
 
 _ONE, _MANY = "PinholeCameraParameters", "PinholeCameraTrajectory"
 _VERSION = {"version_major": 1, "version_minor": 0}

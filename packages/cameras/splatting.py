@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from reference_tracer.camera_files import frame
 from reference_tracer.camera_files.convention import Convention, Files, Source, View
 from reference_tracer.camera_files.features import ASPECT
-from reference_tracer.camera_files.json_files import dumped, flat, objects
-from reference_tracer.files.checked_json import Content, numbers
+from reference_tracer.camera_files.json_files import dumped, flat
+from reference_tracer.files.checked_json import Content, numbers, objects
 
 _LIST = "cameras"  # what messages call the list, which has no name in the file
 

@@ -54,19 +54,20 @@ def looks_as(camera: Camera, other: Camera) -> bool:
     return bool(np.abs(axes).max() < _SAME_AXES)
 
 
-def last_resort(own: Camera, other: Camera) -> Steps:
-    """Return the turn, the move, the focal lengths and the offset between two cameras."""
+def last_resort(own: Camera, other: Camera) -> Iterator[Steps]:
+    """Yield the turn, the move, the focal lengths and the offset between two cameras, together."""
     out: list[Step] = []
     camera = own
     for name in _LAST_RESORT:
         read = {step.fault.name: step for step in fitted(camera, other)}
         if name not in read:  # of a panorama, or of mirrored axes
-            return ()
+            return
         step = _simplest(read, name)
         if any(abs(v) > _NEGLIGIBLE for v in step.guess.values):
             out.append(step)
             camera = step.camera
-    return tuple(out)
+    if out:
+        yield tuple(out)
 
 
 def _simplest(fitted: Mapping[str, Step], name: str) -> Step:

@@ -171,13 +171,10 @@ def difference(own: str, told: object) -> str:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Have Dask say nothing: what goes wrong is said in one line of ours."""
-    names = ["distributed", *(n for n in logging.root.manager.loggerDict if "distributed." in n)]
-    before = {name: logging.getLogger(name).level for name in names}
+    """Have Dask log nothing: what goes wrong is said in one line of ours."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
     try:
-        for name in names:
-            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
         yield
     finally:
-        for name, level in before.items():
-            logging.getLogger(name).setLevel(level)
+        logging.disable(before)

@@ -9,14 +9,15 @@ from pathlib import Path
 
 from reference_tracer.cli.arguments import refuse
 from reference_tracer.cli.excuses import FILTER, RENDERER, add_excuses
-from reference_tracer.cli.parser import AGREE, EXIT_CODES_HELP, POSITIVE, Parser, number
+from reference_tracer.cli.parser import AGREE, EXIT_CODES_HELP, Parser
 from reference_tracer.cli.running import progress_bar
 from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.wording import count_of, say, show
 from reference_tracer_meshes import FORMATS
-from reference_tracer_processes.running import SECONDS, Limits, check_starts, words_of
+from reference_tracer_processes.options import add_limits, limits_of
+from reference_tracer_processes.running import check_starts, words_of
 from reference_tracer_processes.sandbox import check_shown, sandbox
 
 from . import report
@@ -30,6 +31,7 @@ Judge a renderer or an exporter on forty small scenes: cameras, transforms, inst
 It RUNS the command once for each scene, in a sandbox where bubblewrap is installed: then it reaches
 no network and writes to no folder but the scene's. In the command stand for files
 """
+MEMORY = 4.0  # GiB, by default
 _RUN = "out", "only", "ending", "renderer", "filter", "time_limit", "memory_limit", "no_sandbox"
 
 
@@ -59,18 +61,7 @@ def add(parser: Parser) -> None:
         help="of {out}: a picture's (default .png), or of an exporter a mesh file's, which is "
         "traced through the scene's camera",
     )
-    parser.add_argument(
-        "--time-limit",
-        type=POSITIVE,
-        metavar="S",
-        help=f"seconds for each scene (default {SECONDS:g})",
-    )
-    parser.add_argument(
-        "--memory-limit",
-        type=number(float, lambda v: 0.1 <= v < 2**20, "a finite number of at least 0.1"),
-        metavar="GIB",
-        help="memory it may take, where the system can limit it (default 4)",
-    )
+    add_limits(parser, MEMORY)
     parser.add_argument(
         "--no-sandbox",
         action="store_true",
@@ -139,14 +130,13 @@ def _program(given: Namespace) -> Program:
             check_shown(words, ", or add --no-sandbox")
     except ValueError as error:
         raise SceneError(f"the command {given.command!r}: {error}") from error
-    memory = int((given.memory_limit or 4) * 2**30)
     return Program(
         given.command,
         words,
         given.ending or PICTURES[0],
         given.renderer or "",
         given.filter or 0.0,
-        Limits(given.time_limit or SECONDS, memory),
+        limits_of(given, MEMORY),
         not given.no_sandbox,
     )
 

@@ -10,7 +10,7 @@ from string import Template
 from reference_tracer import __version__
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.report import page as comparison_page
-from reference_tracer.report.folders import replacing, write_json
+from reference_tracer.report.folders import write_all
 from reference_tracer.report.junit import junit
 from reference_tracer.report.tables import columns
 from reference_tracer.wording import count_of
@@ -38,15 +38,12 @@ def write(folder: Path, program: Program, results: Sequence[Result]) -> None:
     OSError
         If the folder cannot be written.
     """
-    with replacing(folder, NAMES) as new:
-        texts = {
-            PAGE: _page(program, results),
-            BADGE: badge(results),
-            JUNIT: junit("reftrace conform", {program.command: [r.judged for r in results]}),
-        }
-        for name, text in texts.items():
-            (new / name).write_text(text, encoding="utf-8", errors="backslashreplace")
-        write_json(new / JSON, _content(program, results))
+    texts = {
+        PAGE: _page(program, results),
+        BADGE: badge(results),
+        JUNIT: junit("reftrace conform", {program.command: [r.judged for r in results]}),
+    }
+    write_all(folder, {**texts, JSON: _content(program, results)})
 
 
 def verdict(results: Sequence[Result]) -> Verdict:

@@ -7,17 +7,15 @@ all others; nothing is lit.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 from reference_tracer.arrays import Colors, Floats
-from reference_tracer.framing import axes_of
+from reference_tracer.framing import Choice
 from reference_tracer.pictures.palette import clear_palette
-from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
-from reference_tracer.scene import Camera, Instance, Scene, ViewWindow
+from reference_tracer.scene import Camera, Instance, Scene
 from trimesh import transformations
 
 from .shapes import Shape, ball, box, bracket, in_two, needles, prism, sheet, triangle
@@ -107,8 +105,8 @@ def rgba(colors: Sequence[int]) -> Colors:
 
 
 def view(
-    eye: ArrayLike = (4.4, -4.9, 3.6),
-    target: ArrayLike = (0.9, 0.6, 0.3),
+    eye: Sequence[float] = (4.4, -4.9, 3.6),
+    target: Sequence[float] = (0.9, 0.6, 0.3),
     angle: float = 20.0,
     *,
     size: tuple[int, int] = SIZE,
@@ -136,17 +134,20 @@ def view(
     height : float, optional
         Of the picture, metres: then the camera is orthographic.
     """
-    at = np.asarray(eye, np.float64)
-    axes = axes_of(at - np.asarray(target, np.float64))
+    choice = Choice(eye=eye, target=target, angle=angle, ortho_scale=height)
+    camera = choice.placed(*size, tall)
     c, s = np.cos(np.radians(roll)), np.sin(np.radians(roll))
-    matrix = np.eye(4)
-    matrix[:3, :3] = axes @ np.array([(c, -s, 0), (s, c, 0), (0, 0, 1)])
-    matrix[:3, 3] = at
-    top = np.tan(np.radians(angle) / 2) if height is None else height / 2
-    right = top * size[0] / (size[1] * tall)
-    window = ViewWindow(-right, right, -top, top).moved(2 * right * shift[0], 2 * top * shift[1])
-    projection = PERSPECTIVE if height is None else ORTHOGRAPHIC
-    return Camera(matrix, window, *size, projection, 0.05, 1e5)
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, :3] = matrix[:3, :3] @ np.array([(c, -s, 0), (s, c, 0), (0, 0, 1)])
+    right, up = np.multiply(camera.window.size, shift).tolist()
+    return replace(
+        camera,
+        world_from_camera=matrix,
+        window=camera.window.moved(right, up),
+        clip_start=0.05,
+        clip_end=1e5,
+        name="Camera",
+    )
 
 
 _TILT = turned((0.3, 1.0, 0.5), 40)

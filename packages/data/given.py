@@ -44,7 +44,7 @@ class GivenData:
     Raises
     ------
     ValueError
-        If there is no such kind, space or range, the scale is no length, or the kind has none.
+        If there is no such kind, the scale is no length, or the kind has none.
     """
 
     kind: str  # of KINDS
@@ -57,13 +57,8 @@ class GivenData:
     names: Path | None = None  # a table of ids, which says whose is whose
 
     def __post_init__(self) -> None:
-        for name, value, known in (
-            ("kind", self.kind, tuple(KINDS)),
-            ("space", self.space or "world", vectors.SPACES),
-            ("range", self.range or "unit", vectors.RANGES),
-        ):
-            if value not in known:
-                raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(known)}")
+        if self.kind not in KINDS:
+            raise ValueError(f"kind is {self.kind!r}; it must be one of {', '.join(KINDS)}")
         if self.scale is not None:
             if not KINDS[self.kind]("world", "unit").unit:
                 raise ValueError(f"scale is {self.scale!r}; {self.kind} are no lengths")
@@ -98,35 +93,33 @@ class GivenData:
         MissingLibraryError, OSError
             If the file cannot be read.
         """
-        return picture_of_data(self, scene, making)
-
-
-def picture_of_data(given: GivenData, scene: Scene, making: Making) -> DataPicture:
-    """Read a file of data as the other side, as :meth:`GivenData.picture` does."""
-    if given.kind == "depth" and not scene.camera.projection.is_linear:
-        raise SceneError("a panorama has no view axis: its depths are distances: --holds distance")
-    stored = read(given.path, KINDS[given.kind]("world", "unit"), given.layer, given.top_down)
-    at = traced(scene.camera, stored.values.shape[:2])
-    stored = replace(stored, values=stored.values[at])
-    renderer, known = making.renderer_of("")
-    sampling = Sampling(sample_radius=making.filter_radius, renderer=renderer)
-    hits: Hits | None = None
-    if given.kind == "ids":
-        hits = trace(scene, Settings())
-        found = [_ids(stored, scene, hits, given.names)]
-    else:
-        found = [_data(given, stored, scene, kind) for kind in given.conventions(stored)]
-    data = found[0]
-    remarks = [] if given.kind == "ids" else [f"it holds {data.step.words}"]
-    if len(found) > 1:
-        hits = trace(scene, Settings())
-        right = [int(one.flat.same(scene, hits, sampling, hits.t).sum()) for one in found]
-        data = found[int(np.argmax(right))]
-        remarks.append(f"its {data.kind.words} are taken to be {data.kind.variant}, as most agree")
-    name = given.name
-    said = tuple(f"of '{name}': {remark}" for remark in remarks)
-    source = Source(file=name, known=known, remarks=said, what=data.kind.words)
-    return DataPicture(data.color, source, sampling=sampling, data=data)
+        if self.kind == "depth" and not scene.camera.projection.is_linear:
+            raise SceneError(
+                "a panorama has no view axis: its depths are distances: --holds distance"
+            )
+        stored = read(self.path, KINDS[self.kind]("world", "unit"), self.layer, self.top_down)
+        at = traced(scene.camera, stored.values.shape[:2])
+        stored = replace(stored, values=stored.values[at])
+        renderer, known = making.renderer_of("")
+        sampling = Sampling(sample_radius=making.filter_radius, renderer=renderer)
+        hits: Hits | None = None
+        if self.kind == "ids":
+            hits = trace(scene, Settings())
+            found = [_ids(stored, scene, hits, self.names)]
+        else:
+            found = [_data(self, stored, scene, kind) for kind in self.conventions(stored)]
+        data = found[0]
+        remarks = [] if self.kind == "ids" else [f"it holds {data.step.words}"]
+        if len(found) > 1:
+            hits = trace(scene, Settings())
+            right = [int(one.flat.same(scene, hits, sampling, hits.t).sum()) for one in found]
+            data = found[int(np.argmax(right))]
+            remarks.append(
+                f"its {data.kind.words} are taken to be {data.kind.variant}, as most agree"
+            )
+        said = tuple(f"of '{self.name}': {remark}" for remark in remarks)
+        source = Source(file=self.name, known=known, remarks=said, what=data.kind.words)
+        return DataPicture(data.color, source, sampling=sampling, data=data)
 
 
 def _film(scene: Scene) -> Array:

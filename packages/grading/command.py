@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
@@ -16,10 +15,8 @@ from reference_tracer.cli.parser import (
     COUNT,
     DIFFERENCES,
     INPUT_ERROR,
-    POSITIVE,
     WARNINGS,
     Parser,
-    number,
 )
 from reference_tracer.cli.running import progress_bar
 from reference_tracer.files.scenes import load_scene
@@ -28,12 +25,12 @@ from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.progress import Work, result_of, scaled
 from reference_tracer.wording import count_of, say, show
-from reference_tracer_processes.running import Limits
+from reference_tracer_processes.options import add_limits
 from reference_tracer_processes.sandbox import sandbox, secret
 
 from .exchange import EXCHANGES
 from .external import Run
-from .options import PIXELS, JudgeOptions
+from .options import MEMORY, PIXELS, JudgeOptions
 from .subjects import NAMES, subject
 
 # As `formats.FORMATS`, which needs all of judging.
@@ -44,7 +41,6 @@ if TYPE_CHECKING:
     from .judging import Judgement
     from .report import Student
 
-LEAST_MEMORY = 0.09  # GiB: Python and numpy by themselves take nearly as much
 CODES = {"right": AGREE, "boundary": WARNINGS, "wrong": DIFFERENCES, "failed": DIFFERENCES}
 _DESCRIPTION = """\
 Judge what students wrote: ray/triangle tests, files with a function
@@ -61,11 +57,6 @@ _CODES = f"""exit codes:
   {DIFFERENCES}  one is wrong, or fails
   {INPUT_ERROR}  a file or a scene cannot be read
   130  interrupted by Ctrl-C"""
-
-
-_MEMORY = number(
-    float, lambda v: LEAST_MEMORY < v < math.inf, f"a finite number above {LEAST_MEMORY}"
-)
 
 
 def add(parser: Parser) -> None:
@@ -128,20 +119,7 @@ def add(parser: Parser) -> None:
         metavar="N",
         help=f"judge about this many pixels of a scene (default {PIXELS})",
     )
-    parser.add_argument(
-        "--time-limit",
-        type=POSITIVE,
-        default=60.0,
-        metavar="S",
-        help="seconds for each scene (default %(default)g)",
-    )
-    parser.add_argument(
-        "--memory-limit",
-        type=_MEMORY,
-        default=2.0,
-        metavar="GIB",
-        help="memory it may take, where the system can limit it (default %(default)g)",
-    )
+    add_limits(parser, MEMORY)
     parser.add_argument(
         "--jobs",
         type=COUNT,
@@ -197,7 +175,7 @@ def _folder(options: JudgeOptions, submissions: Mapping[str, Path | Run]) -> Cla
     if options.out is None:
         return None
     scenes = [(path.read_bytes(), choice) for path, choice in options.scenes]
-    depends = scenes, options.pixels, options.time_limit, options.memory_limit
+    depends = scenes, options.pixels, options.limits
     return ClassFolder(options.out, subject(options.subject), tuple(submissions), depends, secret())
 
 
@@ -240,9 +218,8 @@ def _work(
         work = prepare(name, scene, str(path), options.pixels, options.camera_options)
         share = 0.5 / len(scenes)
         judged.append((yield from scaled(work, k * share, share, f"tracing {name}")))
-    limits = Limits(options.time_limit, options.memory_limit)
     cases = subject(options.subject).cases()
-    judging = judge_all(submissions, cases, judged, limits, told=told, jobs=options.jobs)
+    judging = judge_all(submissions, cases, judged, options.limits, told=told, jobs=options.jobs)
     return (yield from scaled(judging, 0.5, 0.5, "judging"))
 
 

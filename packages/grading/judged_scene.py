@@ -48,7 +48,7 @@ class JudgedScene:
     first: int
     shape: tuple[int, int]
     rays: Rays  # (3, n) or (3, 1)
-    pairs: list[tuple[Pairs, Known]]  # `pixel` numbers the n pixels
+    pairs: list[Pairs]  # `pixel` numbers the n pixels
     planes: Hits  # the nearest infinite plane of each ray
     color: NDArray[np.float32]  # (h, w, 4) certified
     t: Floats  # (n,) certified; inf: no hit
@@ -70,10 +70,10 @@ class JudgedScene:
         y, x = divmod(pixel, self.shape[1])
         return self.first + x * self.stride, self.first + y * self.stride
 
-    def questions(self) -> Iterator[tuple[Pairs, Known, NDArray, NDArray, NDArray]]:
+    def questions(self) -> Iterator[tuple[Pairs, NDArray, NDArray, NDArray]]:
         """Yield pairs with origins (p, 3), directions (p, 3) and triangles (p, 3, 3)."""
-        for some, truth in self.pairs:
-            yield some, truth, *arrays(self.rays, some.pixel, some.corners)
+        for some in self.pairs:
+            yield some, *arrays(self.rays, some.pixel, some.corners)
 
 
 def arrays(rays: Rays, pixel: NDArray, corners: NDArray) -> tuple[NDArray, NDArray, NDArray]:
@@ -158,7 +158,7 @@ def _find_pairs(judged: JudgedScene, chosen: NDArray) -> Work[None]:
         if own is not None and len(own.pixel):
             clip = scene.camera.clip_start, scene.camera.clip_end
             truth = known(*arrays(judged.rays, own.pixel, own.corners), *clip)
-            judged.pairs.append((own, truth))
+            judged.pairs.append(own)
             _mark_boundary(judged, own, truth)
         yield Progress(0.5 + 0.5 * share)
 

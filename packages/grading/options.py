@@ -11,10 +11,13 @@ from reference_tracer.cli.arguments import refuse
 from reference_tracer.cli.camera_options import CAMERA_OPTIONS, choice_from
 from reference_tracer.framing import Choice
 from reference_tracer.scene import SceneError
+from reference_tracer_processes.options import limits_of
+from reference_tracer_processes.running import Limits
 from reference_tracer_processes.sandbox import check_shown
 
 from .external import Run
 
+MEMORY = 2.0  # GiB, by default
 PIXELS = 20_000  # of a scene, by default: a function that loops over the rays takes some seconds
 
 
@@ -28,8 +31,7 @@ class JudgeOptions:
     camera_options: tuple[str, ...]  # those that were given, as they are typed
     out: Path | None
     pixels: int
-    time_limit: float  # seconds for each scene
-    memory_limit: int  # bytes
+    limits: Limits
     jobs: int  # how many students are run at a time
     again: bool  # also those who were judged before
     formats: tuple[str, ...]  # what is written besides the pages and the JSON
@@ -72,8 +74,7 @@ class JudgeOptions:
             camera_options=_camera_options(given),
             out=given.out,
             pixels=given.pixels or PIXELS,
-            time_limit=given.time_limit,
-            memory_limit=int(given.memory_limit * 2**30),
+            limits=limits_of(given, MEMORY),
             jobs=given.jobs or os.cpu_count() or 1,
             again=given.again,
             formats=tuple(dict.fromkeys(given.format or ())),

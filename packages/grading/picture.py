@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.tracer import shading
 from reference_tracer.tracer.hits import NOTHING, Hits
-from reference_tracer.tracer.nearest import within_clip
+from reference_tracer.tracer.nearest import keep_nearest, within_clip
 from reference_tracer.tracer.progress import Progress, Work
 from reference_tracer.tracer.world import world_corners
 
@@ -83,19 +84,17 @@ def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> W
     began, count = clock(), len(judged.t)
     reported = np.zeros(count, bool)  # the true triangle is said to be hit
     raised = np.zeros(count, bool)
-    found = []
-    for done, (some, truth, *question) in enumerate(judged.questions()):
+    hits = judged.planes.take(np.arange(count))
+    for done, (some, *question) in enumerate(judged.questions()):
         t, s = ask(*question)
         raised[some.pixel[np.isneginf(t)]] = True
         hit = np.flatnonzero(np.isfinite(t) & within_clip(judged.scene.camera, t))
         pixel, instance, triangle = some.pixel[hit], some.instance[hit], some.triangle[hit]
         true = (instance == judged.instance[pixel]) & (triangle == judged.triangle[pixel])
         reported[pixel[true]] = True
-        found.append((pixel, t[hit], instance, triangle, s[hit], truth.hit[hit]))
+        keep_nearest(hits, None, pixel, Hits.of(t[hit], instance, triangle, s[hit].T))
         yield Progress(done / len(judged.pairs))
-    hits, really = _nearest(judged, found)
-    false = (hits.triangle != NOTHING) & ~really
-    return _judged(judged, hits, false, reported, raised, clock() - began)
+    return _judged(judged, hits, reported, raised, clock() - began)
 
 
 def in_scenes(looks: Sequence[Look]) -> Fault:
@@ -107,27 +106,9 @@ def in_scenes(looks: Sequence[Look]) -> Fault:
     return Fault(f"{UNRECOGNISED}pixels", text, sum(wrong.values()))
 
 
-def _nearest(judged: JudgedScene, found: list[tuple]) -> tuple[Hits, NDArray[np.bool_]]:
-    """Return the nearest of all that is said to be hit, and whether it truly is."""
-    p = judged.planes
-    hits = Hits.of(p.t.copy(), p.instance.copy(), p.triangle.copy(), p.s.copy())
-    really = np.ones(len(hits.t), bool)
-    if not found:
-        return hits, really
-    pixel, t, instance, triangle, s, true = (np.concatenate(c) for c in zip(*found, strict=True))
-    order = np.lexsort((triangle, instance, t, pixel))
-    first = order[np.flatnonzero(np.diff(pixel[order], prepend=-1))]
-    first = first[t[first] <= hits.t[pixel[first]]]
-    at = pixel[first]
-    hits.t[at], hits.instance[at], hits.triangle[at] = t[first], instance[first], triangle[first]
-    hits.s[:, at], really[at] = s[first].T, true[first]
-    return hits, really
-
-
 def _judged(
     judged: JudgedScene,
     hits: Hits,
-    false: NDArray[np.bool_],
     reported: NDArray[np.bool_],
     raised: NDArray[np.bool_],
     seconds: float,
@@ -137,8 +118,9 @@ def _judged(
     mark[wrong] = Mark.WRONG_ORDER
     missed = ~reported & (judged.triangle != NOTHING)
     mark[wrong & missed] = Mark.MISSED
+    held = _held(judged, hits)
     # What hides nothing nearer is no reason: the pixel is wrong for what is missed in front of it.
-    false &= ~(missed & (hits.t > judged.t))
+    false = held.beside & ~(missed & (hits.t > judged.t))
     shows = judged.instance != NOTHING
     mark[wrong & false & shows] = Mark.FALSE_HIT_IN_FRONT
     mark[wrong & false & ~shows] = Mark.FALSE_HIT
@@ -148,12 +130,11 @@ def _judged(
     mark[raised] = Mark.RAISED
     on_triangle = (judged.triangle != NOTHING) | (hits.triangle != NOTHING) | raised
     right = ~wrong & (hits.triangle != NOTHING)
-    t_right, s_right = _values(judged, hits, np.flatnonzero(right))
     inside = right & ~judged.boundary
-    mark[inside & ~s_right] = Mark.WRONG_BARYCENTRICS
-    mark[inside & ~t_right] = Mark.WRONG_T
-    mark[inside & ~t_right & ~s_right] = Mark.WRONG_T_AND_BARYCENTRICS
-    parts = {"surface": ~wrong, "t": right & t_right, "barycentrics": right & s_right}
+    mark[inside & ~held.barycentrics] = Mark.WRONG_BARYCENTRICS
+    mark[inside & ~held.t] = Mark.WRONG_T
+    mark[inside & ~held.t & ~held.barycentrics] = Mark.WRONG_T_AND_BARYCENTRICS
+    parts = {"surface": ~wrong, "t": right & held.t, "barycentrics": right & held.barycentrics}
     tally = Tally.of(on_triangle, judged.boundary & ~raised, parts, TRIANGLE.weights)
     color = shading.colors(judged.scene, hits).reshape(judged.color.shape)
     h, w = judged.shape
@@ -168,16 +149,25 @@ def _wrong_surface(judged: JudgedScene, hits: Hits) -> NDArray[np.bool_]:
     return wrong
 
 
-def _values(
-    judged: JudgedScene, hits: Hits, pixel: NDArray
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return whether t and barycentrics are right within rounding, (n,) each, of some pixels."""
-    t_right, s_right = (np.zeros(len(hits.t), bool) for _ in range(2))
+class _Held(NamedTuple):
+    """What a picture's hits are, held against the truth about the same pairs, (n,) each."""
+
+    beside: NDArray[np.bool_]  # the ray does not meet the triangle that is shown
+    t: NDArray[np.bool_]  # it is right within rounding
+    barycentrics: NDArray[np.bool_]
+
+
+def _held(judged: JudgedScene, hits: Hits) -> _Held:
+    out = _Held(*np.zeros((3, len(hits)), bool))
+    pixel = np.flatnonzero(hits.triangle != NOTHING)
+    camera = judged.scene.camera
     corners = world_corners(judged.scene, hits.instance[pixel], hits.triangle[pixel])
-    truth = known(*arrays(judged.rays, pixel, corners))
+    pairs = arrays(judged.rays, pixel, corners)
+    truth = known(*pairs, camera.clip_start, camera.clip_end)
+    out.beside[pixel] = ~truth.hit
     with np.errstate(invalid="ignore"):  # a student's NaN is wrong
         t_off = np.abs(hits.t[pixel] - truth.t)
         s_off = np.abs(hits.s[:, pixel].T - truth.s).max(axis=1)
-        t_right[pixel] = (t_off <= truth.t_allowed) | ~np.isfinite(truth.t_allowed)
-        s_right[pixel] = (s_off <= truth.s_allowed) | ~np.isfinite(truth.s_allowed)
-    return t_right, s_right
+        out.t[pixel] = (t_off <= truth.t_allowed) | ~np.isfinite(truth.t_allowed)
+        out.barycentrics[pixel] = (s_off <= truth.s_allowed) | ~np.isfinite(truth.s_allowed)
+    return out

@@ -17,7 +17,7 @@ from reference_tracer.pictures.storage import Storage
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Instance, Mesh, Region, Scene, ViewWindow
 from reference_tracer.tracer.settings import Settings
-from reference_tracer_data.given import GivenData, picture_of_data
+from reference_tracer_data.given import GivenData
 
 from .description import Description, Film, Item, Lens, Shape
 from .making import ids_of
@@ -132,5 +132,5 @@ def case_of_data(description: Description, values: np.ndarray, holds: str) -> Ca
         ids = holds == "ids"
         held = np.ascontiguousarray(values[::-1], np.uint16 if ids else np.float32)
         given = GivenData(holds, held, names=names if ids else None)
-        shown = picture_of_data(given, scene, Making())
+        shown = given.picture(scene, Making())
     return Case(scene, manifest_of(description, scene), Settings(), shown)

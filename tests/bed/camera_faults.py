@@ -288,6 +288,7 @@ CAMERA_FAULTS = (
     turned(12.0, 0.0),
     elsewhere((0.06, -0.04, 0.05), (0.6, -0.9, 0.4), 1, 2, 3, 4, 5, 6, 7),
     elsewhere((-0.4, 0.25, 0.5), (2.0, 3.0, -1.5), 1, 2, 3, 4, 5, 6, 7),
+    elsewhere((0.4, 0.22, -0.26), (-4.0, 6.8, 0.8), 1, 3, 4, 5, 7),
     Fault("camera_moved", "in a room", pose(lambda m: placed((0.1, -0.15, 0.05)) @ m), only=(7,)),
     Fault("last_pixel", "", film(_last_pixel)),
     Fault("focal_lengths", "+3, -2 %", film(lambda s: s_focals(s, 1.03, 0.98)), only=(1, 4, 5, 6)),

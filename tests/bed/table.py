@@ -1,7 +1,7 @@
 """The test bed's table: what is said of each fault in each scene, and in how many CPU seconds.
 
-    python -m tests.bed.table [--sample N] [--part K/N] [--out FILE] [--fault KEY]
-                              [--scene N] [--damage N]
+    python -m tests.bed.table [--sample N] [--part K/N] [--beside REVISION] [--out FILE]
+                              [--fault KEY] [--scene N] [--damage N]
 
 Cells are in a random order that is always the same, so that the first N are a sample. Each is
 appended to FILE as it is done, and is not done again: runs go on where one ended, and parts may
@@ -10,16 +10,23 @@ share a file. The table is of all that stands in it.
 `named`: the fault's own name is told, or one that is right for this very picture (`names.py` says
 why). `useful`: no name, but the largest region that is left shows the object that has the fault.
 `silent`: neither. `wrong`: a wrong name is told, alone or beside a right one. Seconds are those of
-the processor: of the comparison alone, and with the diagnosis.
+the processor: of the comparison alone, and with the diagnosis. A revision before is checked out
+into a folder of its own, with this test bed, and does each cell in the same minute.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -39,6 +46,7 @@ from .variants import with_variants
 
 Row: TypeAlias = dict[str, Any]
 
+PROJECT = Path(__file__).resolve().parents[2]
 SEED = 5
 ANSWERS = "named", "useful", "silent", "wrong"
 NAMED = 0.95  # of the cells, as asked for
@@ -69,6 +77,8 @@ def made_of(cell: str) -> tuple[Description, np.ndarray, Made | None, Fault | No
     found = [pair for pair in cells(None, int(number)) if pair[0].name == name]
     [(fault, scene)] = found
     wrong = fault.make(scene, right(scene))
+    if wrong and wrong.holds and not hasattr(bridge, "case_of_data"):
+        return None  # a version before knows no data
     shown = None if wrong is None else wrong.stored()
     if shown is None or says_nothing(shown):
         return None
@@ -136,32 +146,92 @@ def changed(scene: Description, made: Made) -> set[str]:
     return found if len(found) == 1 else set()
 
 
+# ---- processes: of this version, and of one before
+
+
+def answer() -> None:
+    """Measure each cell that is named on standard input, a line of JSON each."""
+    for line in sys.stdin:
+        print(json.dumps(measured(line.rstrip("\n"))), flush=True)
+    own = Path(sys.modules["reference_tracer"].__file__ or "").parent
+    parts = [m for n, m in sys.modules.items() if n.startswith("reference_tracer.")]
+    if not all(Path(m.__file__ or "").is_relative_to(own) for m in parts):
+        raise SystemExit("two versions are mixed: this table needs what that revision has not")
+
+
+@contextmanager
+def measuring(house: Path) -> Iterator[subprocess.Popen[str]]:
+    """Start a process that measures cells with the version of a folder."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "reference_tracer").symlink_to(house / "addon")
+        own = {"PYTHONPATH": folder, "OPENBLAS_NUM_THREADS": "1"}
+        command = [sys.executable, "-m", __spec__.name, "--answer"]
+        pipe = subprocess.PIPE
+        child = subprocess.Popen(
+            command, cwd=house, env=os.environ | own, stdin=pipe, stdout=pipe, text=True
+        )
+        try:
+            yield child
+        finally:
+            child.kill()
+            child.wait()
+
+
+@contextmanager
+def checked_out(revision: str) -> Iterator[Path]:
+    """Check out a revision into a folder of its own, with this test bed, but for its bridge."""
+    with tempfile.TemporaryDirectory() as folder:
+        house, git = Path(folder) / "before", ["git", "-C", str(PROJECT), "worktree"]
+        subprocess.run([*git, "add", "--quiet", "--detach", house, revision], check=True)
+        try:
+            bed = house / "tests" / "bed"
+            bridge_before = (bed / "bridge.py").read_bytes()
+            shutil.copytree(Path(__file__).parent, bed, dirs_exist_ok=True)
+            (bed / "bridge.py").write_bytes(bridge_before)
+            yield house
+        finally:
+            subprocess.run([*git, "remove", "--force", house], check=True)
+
+
+def asked(child: subprocess.Popen[str], cell: str) -> Row:
+    """Return what a process measures of a cell."""
+    assert child.stdin and child.stdout
+    print(cell, file=child.stdin, flush=True)
+    line = child.stdout.readline()
+    if not line:
+        raise SystemExit(f"the process that measures ended at {cell}")
+    row: Row = json.loads(line)
+    return row
+
+
 # ---- the table
 
 
-def kept(path: Path | None) -> dict[str, Row]:
-    """Return the rows of a file, by cell."""
+def kept(path: Path | None) -> dict[str, dict[str, Row]]:
+    """Return the rows of a file, by cell: `now`, and `before`."""
     if path is None or not path.exists():
         return {}
     rows = map(json.loads, path.read_text(encoding="utf-8").splitlines())
     return {row["cell"]: row for row in rows}
 
 
-def line_of(cell: str, row: Row) -> str:
+def line_of(cell: str, row: dict[str, Row]) -> str:
     """Return a cell as a line of the table."""
-    said = row["answer"]
-    if "both" in row:
-        said = f"{said:8} {row['compare']:6.2f} {row['both']:7.2f}"
-    return f"{cell:60} {said:23}  {'; '.join(row.get('told', ()))}"
+    seconds = (
+        f"{r['answer']:8} {r['compare']:6.2f} {r['both']:7.2f}" if "both" in r else r["answer"]
+        for r in (row[side] for side in ("now", "before") if side in row)
+    )
+    told = "; ".join(row["now"].get("told", ()))
+    return f"{cell:60} {' | '.join(f'{s:23}' for s in seconds)}  {told}"
 
 
-def summary(rows: Sequence[Row]) -> Iterator[str]:
+def summary(rows: Sequence[dict[str, Row]], side: str) -> Iterator[str]:
     """Yield how many have which answer, and the CPU seconds of each class."""
-    every = [r for r in rows if "both" in r]
+    every = [r[side] for r in rows if "both" in r.get(side, {})]
     if not every:
         return
     count = Counter(r["answer"] for r in every)
-    yield f"{len(every)} pictures: " + ", ".join(f"{count[a]} {a}" for a in ANSWERS)
+    yield f"{side}: {len(every)} pictures: " + ", ".join(f"{count[a]} {a}" for a in ANSWERS)
     yield f"  {sum(r['ended'] for r in every)} of them reached the limit of work"
     for what in ("all", *ANSWERS):
         some = [r for r in every if what in ("all", r["answer"])]
@@ -175,20 +245,22 @@ def summary(rows: Sequence[Row]) -> Iterator[str]:
             yield f"  {what:7} median and nine of ten: {'; '.join(said)}"
 
 
-def judged(rows: dict[str, Row]) -> int:
+def judged(rows: dict[str, dict[str, Row]]) -> int:
     """Print the summary; return 1 if too few faults are named, or anything wrongly."""
-    faults = {cell: r for cell, r in rows.items() if not cell.startswith("damage")}
-    for some in (faults, {cell: r for cell, r in rows.items() if cell not in faults}):
-        print(*summary([*some.values()]), sep="\n")
+    faults = [r for cell, r in rows.items() if not cell.startswith("damage")]
+    damage = [r for cell, r in rows.items() if cell.startswith("damage")]
+    for some in (faults, damage):
+        for side in ("now", "before"):
+            print(*summary(some, side), sep="\n")
     missed = Counter(
         cell.split(" | ")[0]
-        for cell, row in faults.items()
-        if row["answer"] in ("useful", "silent")
+        for cell, row in rows.items()
+        if row["now"]["answer"] in ("useful", "silent") and row in faults
     )
     print(*(f"  not named: {what} ({times})" for what, times in missed.most_common()), sep="\n")
-    answers = Counter(r["answer"] for r in faults.values())
+    answers = Counter(r["now"]["answer"] for r in faults)
     answers.pop("not seen", None)
-    wrong = any(r["answer"] == "wrong" for r in rows.values())
+    wrong = any(r["now"]["answer"] == "wrong" for r in rows.values())
     return int(wrong or answers["named"] < NAMED * answers.total())
 
 
@@ -200,19 +272,29 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--damage", type=int, default=0, help=f"damaged pictures, up to {COUNT}")
     parser.add_argument("--sample", type=int, metavar="N", help="only the first N cells")
     parser.add_argument("--part", default="1/1", metavar="K/N", help="each N-th cell from the K-th")
+    parser.add_argument("--beside", metavar="REVISION", help="measure this version, too")
     parser.add_argument("--out", type=Path, metavar="FILE", help="where rows are kept")
+    parser.add_argument("--answer", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(argv)
+    if options.answer:
+        answer()
+        return 0
     first, each = map(int, options.part.split("/"))
     names = listed(options.fault, options.scene, options.damage)
     rows = kept(options.out)
-    for cell in names[: options.sample][first - 1 :: each]:
-        if cell in rows:
-            continue
-        rows[cell] = measured(cell)
-        print(line_of(cell, rows[cell]), flush=True)
-        if options.out:
-            with options.out.open("a", encoding="utf-8") as file:
-                file.write(json.dumps({"cell": cell} | rows[cell]) + "\n")
+    with ExitStack() as stack:
+        children = {"now": stack.enter_context(measuring(PROJECT))}
+        if options.beside:
+            house = stack.enter_context(checked_out(options.beside))
+            children["before"] = stack.enter_context(measuring(house))
+        for cell in names[: options.sample][first - 1 :: each]:
+            if cell in rows:
+                continue
+            rows[cell] = {side: asked(child, cell) for side, child in children.items()}
+            print(line_of(cell, rows[cell]), flush=True)
+            if options.out:
+                with options.out.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps({"cell": cell} | rows[cell]) + "\n")
     return judged(kept(options.out) or rows)
 
 

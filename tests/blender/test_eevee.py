@@ -85,13 +85,6 @@ def test_a_sample_scene(name, opened, compare):
     assert found.verdict == ("warnings" if name == "far_away" else "agree")
 
 
-def test_a_colour_attribute_that_not_all_have_is_refused(solids, build, compare):
-    bpy.context.scene.display.shading.color_type = "VERTEX"
-    build.color_attribute(bpy.data.objects["Green"], "POINT")
-    with pytest.raises(SceneError, match=r"shows a mesh black.*Colors to Object"):
-        compare(judge="EEVEE", colors=By.VIEWPORT)
-
-
 @pytest.fixture
 def is_black(build, export):
     """Give what says whether EEVEE is known to show a mesh black; one has a colour attribute."""

@@ -92,24 +92,11 @@ def test_the_scenes_settings_are_used(settings, solids, rendered, export):
     )
 
 
-def test_the_background_is_the_worlds(solids, rendered):
-    solids.render.film_transparent = False
-    solids.world = bpy.data.worlds.new("World")
-    solids.world.color = (0.25, 0.5, 0.75)
-    combined = rendered()["ViewLayer"]["Combined"]
-    np.testing.assert_array_equal(combined[-1, -1], [0.25, 0.5, 0.75, 1])
-
-
-def set_border(scene, crop: bool) -> None:
-    render_settings = scene.render
-    render_settings.use_border, render_settings.use_crop_to_border = True, crop
-    render_settings.border_min_x, render_settings.border_max_x = 0.21, 0.83
-    render_settings.border_min_y, render_settings.border_max_y = 0.13, 0.67
-
-
 def test_border_without_crop(solids, rendered, export):
     whole = render(export.render()[0])
-    set_border(solids, crop=False)
+    solids.render.use_border = True
+    solids.render.border_min_x, solids.render.border_max_x = 0.21, 0.83
+    solids.render.border_min_y, solids.render.border_max_y = 0.13, 0.67
     scene = export.render()[0]
     r = scene.camera.region
     passes = rendered()["ViewLayer"]

@@ -141,14 +141,6 @@ def test_what_is_left_of_a_deleted_collection_goes_too(suzanne):
     assert blocks() == before
 
 
-def test_a_mesh_that_the_user_uses_stays(suzanne):
-    ops.explain(**PIXEL, draw_ray=True)
-    mesh = bpy.data.collections[ray_objects.NAME].objects["Hit"].data
-    mine = bpy.data.objects.new("Mine", mesh)
-    ops.remove_ray()
-    assert mine.data == mesh and len(mesh.vertices) == 6
-
-
 def test_no_picture_has_a_ray_that_was_put_elsewhere(suzanne, compare):
     """Also where the user has put its collection into another one."""
     clean = compare()

@@ -196,27 +196,6 @@ def test_slots_are_those_of_the_loop_triangles(kind, build, export):
     assert len(set(exported.slots)) > 1
 
 
-def test_the_mesh_in_the_editor_is_exported_as_its_modifiers_make_it(build, export):
-    build.camera()
-    cube = build.cube(location=(0.3, 0, 0))
-    cube.modifiers.new("Array", "ARRAY").count = 2
-    before = exported(export.viewport()[0])
-    bpy.context.view_layer.objects.active = cube
-    bpy.ops.object.mode_set(mode="EDIT")
-    scene, _ = export.viewport()
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert exported(scene) == before
-
-
-@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "RANDOM", "VERTEX"])
-def test_color_attributes_are_carried_only_where_they_are_shown(color_type, build, export):
-    build.scene(color_type=color_type)
-    build.camera()
-    build.color_attribute(build.cube(), "CORNER")
-    (mesh,) = export.viewport()[0].meshes
-    assert (mesh.corner_colors is not None) == (color_type == "VERTEX")
-
-
 def test_the_instancer_is_shown_in_the_mode_that_says_so(build, export, entries):
     build.far_camera()
     on_vertices(build)
@@ -226,16 +205,6 @@ def test_the_instancer_is_shown_in_the_mode_that_says_so(build, export, entries)
         for run, is_shown in ((export.viewport, viewport), (export.render, render)):
             own = entries(run()[1])["Parent"]
             assert own.exported == is_shown == (not own.reason)
-
-
-def test_no_reference_to_blenders_data_is_kept(build, export):
-    build.far_camera()
-    cube = build.cube()
-    scene, _ = export.viewport()
-    before = scene.meshes[0].vertices.copy()
-    bpy.data.meshes.remove(cube.data)
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    np.testing.assert_array_equal(scene.meshes[0].vertices, before)
 
 
 def test_instances_look_the_same_once_a_script_has_looked_at_their_object(build, export):

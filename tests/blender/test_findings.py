@@ -61,13 +61,6 @@ def test_an_object_that_was_found_is_selected(seen, drawn_otherwise):
         OPS.select_object(name=name)
 
 
-def test_without_a_finding_there_is_no_button(seen):
-    assert not OPS.copy_camera.poll()
-    OPS.compare()
-    assert found() is None
-    assert not OPS.copy_camera.poll()
-
-
 class Drawn(list):
     """A layout that notes the sentences and the buttons that are drawn in it."""
 

@@ -182,7 +182,7 @@ def own_picture() -> np.ndarray:
     scene = bpy.context.scene
     engine = judge_named("WORKBENCH", True)
     prepare_scene(scene, engine, True)
-    return drawn_once(scene, scene.view_layers[0].name, engine, export_camera(scene), True)
+    return drawn_once(scene, engine, export_camera(scene), True)
 
 
 @pytest.mark.parametrize("make", daily(MAY_BE_UPSET), ids=name_of)

@@ -123,12 +123,6 @@ def test_a_preset_sets_every_setting(path):
     }
 
 
-def test_presets_of_these_names_are_found():
-    assert bpy.utils.preset_paths("reference_tracer") == [str(PRESETS)]
-    shown = {bpy.path.display_name(path.name) for path in PRESETS.iterdir()}
-    assert shown == {"Lecture", "Exporter test", "Fast look"}
-
-
 def test_a_preset_of_the_user_is_kept_with_his(resources):
     stored = bpy.context.scene.reference_tracer
     stored.method, stored.samples, stored.identity = "watertight", 3, False

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from contextlib import nullcontext
 
 import bpy
 import pytest
@@ -24,8 +25,8 @@ from reference_tracer.blender.drawing import judges
 drawn = []
 
 @contextmanager
-def set_up(scene, layer, depsgraph):
-    drawn.append(layer)
+def set_up(scene, depsgraph):
+    drawn.append(scene)
     yield
 
 del judges.JUDGES["eevee"]  # its shaders take seconds to compile
@@ -106,7 +107,8 @@ def test_a_record_that_contradicts_itself_is_refused(own, problem):
 
 def test_one_that_takes_no_other_materials_is_refused():
     """As EEVEE in 4.3: Cycles with no light and the materials that there are."""
-    with_its_own = Judge("draft", "Draft", engine="CYCLES", solid=False)
+    own = {"solid": False, "set_up": lambda *_: nullcontext()}
+    with_its_own = Judge("draft", "Draft", engine="CYCLES", **own)
     with pytest.raises(SceneError, match=r"Draft of Blender .* materials of its own"):
         rasteriser.snapping_of(with_its_own)
 

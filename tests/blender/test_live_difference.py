@@ -23,7 +23,7 @@ def difference(build, monkeypatch):
     build.far_camera()
     drawn = []
 
-    def picture(scene, layer, judge, camera, depsgraph):
+    def picture(scene, judge, camera, depsgraph):
         items = bpy.context.evaluated_depsgraph_get().object_instances
         drawn.extend(i.object.name for i in items if i.object.type == "MESH" and i.show_self)
         yield from ()  # nothing is drawn

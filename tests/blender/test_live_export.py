@@ -4,65 +4,9 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-import pytest
 from reference_tracer.blender.reading.visible import types_left_out
 
 from .live import assert_as_a_whole_export, of_view, space
-
-
-def edits_of(cube):
-    """Edits of the cube, with how many meshes each has read again."""
-
-    def vertices():
-        cube.data.vertices[0].co.x = 3
-        cube.data.update()
-
-    def modifier():
-        cube.modifiers.new("Array", "ARRAY")
-
-    def instance():
-        empty = bpy.data.objects.new("Empty", None)
-        empty.instance_type, empty.instance_collection = "COLLECTION", bpy.data.collections["Kit"]
-        bpy.context.scene.collection.objects.link(empty)
-
-    def set_material():
-        cube.data.materials[0].diffuse_color = (0, 0, 1, 1)
-
-    return {
-        "nothing": (lambda: None, 0),
-        "move": (lambda: setattr(cube, "location", (1, 2, 3)), 0),
-        "parent": (lambda: setattr(cube, "parent", bpy.data.objects["Other"]), 0),
-        "color": (lambda: setattr(cube, "color", (1, 0, 0, 1)), 0),
-        "material": (set_material, 0),
-        "vertices": (vertices, 1),
-        "modifier": (modifier, 1),
-        "hide": (lambda: cube.hide_set(True), 0),
-        "wire": (lambda: setattr(cube, "display_type", "WIRE"), 0),
-        "remove": (lambda: bpy.data.objects.remove(cube), 0),
-        "an instance of it": (instance, 0),
-        "frame": (lambda: bpy.context.scene.frame_set(7), 0),
-    }
-
-
-@pytest.mark.parametrize("edit", edits_of(None))
-def test_only_what_is_edited_is_read_again(edit, build, kept):
-    build.far_camera()
-    cube = build.cube(material=build.material("Red", 1, 0, 0))
-    build.collection("Kit", cube)
-    build.square("Other", location=(3, 0, 0))
-    bpy.context.view_layer.update()
-    before = {m.name: m for m in of_view(kept).meshes}
-    kept.reads = 0
-    do, count = edits_of(cube)[edit]
-    do()
-    assert_as_a_whole_export(kept)
-    assert kept.reads == count
-    after = {m.name: m for m in of_view(kept).meshes}
-    assert after["Other"] is before["Other"]
-    if "Cube" in after:
-        assert (after["Cube"] is before["Cube"]) == (count == 0)
-    else:
-        assert edit in ("hide", "wire", "remove")
 
 
 def test_a_mesh_in_the_editor_is_read_every_time(build, kept):

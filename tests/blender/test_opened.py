@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 import struct
 from pathlib import Path
 
 import bpy
 import pytest
 from reference_tracer.blender.reading import opened
-
-from .scenes import save
 
 KNOWN, UNKNOWN = 113, 300  # channels of a sequencer, which has 128
 
@@ -88,16 +85,3 @@ def test_the_file_that_was_open_before_is_not_taken_for_it(spoil, reported, reft
     assert done.returncode == 4 and not (tmp_path / "a.npz").exists()
     why = "(cannot be opened by Blender|is no .blend|is empty)"
     assert re.search(f"'{reported}' {why}", done.stderr.splitlines()[-1])
-
-
-def test_a_report_is_of_its_own_file(reported, build, tmp_path, reftrace):
-    """The next file has none, also where it takes the first one's place."""
-    other = tmp_path / "other.blend"
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    build.room(32, 18)
-    save(other)
-    export = "export", reported, "--out", tmp_path / "a.npz"
-    assert "note: Blender opened" in reftrace(*export).stdout
-    assert "note:" not in reftrace("export", other, "--out", tmp_path / "b.npz").stdout
-    shutil.copy(other, reported)
-    assert "note:" not in reftrace(*export).stdout

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.reading import export as export_module
@@ -128,12 +127,3 @@ def test_the_picture_is_the_same_without(camera, mode, build, export, keeping_al
     lines = "\n".join(manifest.lines())
     assert not any(f"skipped {e.name} " in lines for e in gone)
     assert f"{sum(e.outside for e in unseen)} instances of {len(unseen)} objects" in lines
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_an_infinite_plane_is_never_outside(mode, build, export):
-    build.camera()
-    plane = build.square("Plane", location=(0, 500, -1))
-    plane.reference_tracer.infinite_plane = True
-    bpy.context.view_layer.update()
-    assert len(export.modes[mode]()[0].planes) == 1

@@ -20,9 +20,6 @@ from reference_tracer.scene import GREY, SceneError
 from reference_tracer.tracer.progress import result_of
 
 from .scenes import save
-from .test_unchanged import differences, state
-
-OTHER_COLORS = (By.AUTOMATIC, By.OBJECT, By.MATERIAL)
 
 
 def principled(build, name, *rgb):
@@ -93,16 +90,6 @@ def test_what_is_drawn_as_it_is_keeps_its_colors(ordinary, compare):
     found = compare(as_is=True)
     assert found.to_dict()["blender"]["settings"]["colors"] == "viewport"
     assert set(colors_of(found).values()) == {tuple(np.float32(GREY[:3]).tolist())}
-
-
-@pytest.mark.parametrize("colors", OTHER_COLORS)
-def test_the_scene_keeps_its_own(ordinary, compare, colors):
-    bpy.data.objects["Left"].color = (0.1, 0.2, 0.3, 0.4)
-    bpy.context.view_layer.update()
-    before = state()
-    compare(colors=colors)
-    found = [d for d in differences(before, state()) if "/names/images" not in d[0]]
-    assert found == []
 
 
 def test_base_colors_of_materials(ordinary, build, compare):

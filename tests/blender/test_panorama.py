@@ -12,7 +12,6 @@ from reference_tracer.blender.drawing.judges import JUDGES, judge_named
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.versions import lens
 from reference_tracer.projections import EQUIRECTANGULAR
-from reference_tracer.rendering import render
 
 RADIUS = JUDGES["cycles"].sample_radius
 TURNED = {"rotation": (1.1, 0.3, 2.2), "location": (0.5, 0.5, -0.3)}
@@ -70,28 +69,6 @@ def test_cycles_sees_the_same(name, build, compare):
     assert comparison.verdict == "agree"
     seen = comparison.frame.instance_index >= 0
     assert len(np.unique(comparison.frame.instance_index)) > 3 and seen.any()
-
-
-def test_cycles_depth_is_t(build, rendered, export):
-    build.scene(128, 64)
-    surroundings(build)
-    panorama(build, **TURNED)
-    scene = export.render()[0]
-    frame, layer = render(scene), bpy.context.view_layer
-    layer.use_pass_z = True
-    cycles = bpy.context.scene.cycles
-    cycles.samples, cycles.pixel_filter_type, cycles.filter_width = 1, "BOX", 2 * RADIUS
-    cycles.use_denoising = cycles.use_adaptive_sampling = False
-    depth = rendered("CYCLES")[layer.name]["Depth"][..., 0]
-    index, flat = frame.instance_index, np.ones(frame.shape, bool)
-    for rows, columns in ((0, 1), (0, -1), (1, 0), (-1, 0)):
-        flat &= np.roll(index, (rows, columns), (0, 1)) == index
-    flat &= index >= 0
-    flat[[0, -1]] = False
-    slope = np.abs(np.gradient(frame.t)).max(axis=0)  # where on the pixel the sample lies
-    assert flat.sum() > 4000
-    off = np.abs(depth - frame.t)[flat]
-    assert (off <= 2 * RADIUS * slope[flat] + 1e-5).all()
 
 
 @pytest.mark.parametrize("name", SETTINGS)

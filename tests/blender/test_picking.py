@@ -84,13 +84,31 @@ def test_a_pixel_of_an_image_is_of_what_that_shows(build, name, source):
     image = bpy.data.images.new("Any", 48, 27)
     if name:
         image[blocks.MARK] = name
+    assert pick(over(image, scene), 22, 41) == (11, 20, source)
+
+
+@pytest.mark.parametrize(
+    ("border", "crop", "x"), [(False, False, 25), (True, True, 12), (True, False, 13)]
+)
+def test_a_pixel_of_a_render_is_one_of_its_border(build, border, crop, x):
+    """Blender does not say how large a render is: with a crop it is the border alone."""
+    scene = build.scene(48, 27)
+    build.corner_camera()
+    render = scene.render
+    render.use_border, render.use_crop_to_border = border, crop
+    render.border_min_x, render.border_max_x = 0.25, 0.75
+    image = SimpleNamespace(type="RENDER_RESULT", name="Render Result")
+    assert pick(over(image, scene), 50, 41) == (x, 20, "RENDER")
+
+
+def over(image, scene):
+    """Return the context of an Image Editor that shows a small image twice as large."""
     view = SimpleNamespace(region_to_view=lambda x, y: (x / 96, y / 54))
     region = SimpleNamespace(type="WINDOW", view2d=view, x=0, y=0, width=96, height=54)
     active = SimpleNamespace(active=SimpleNamespace(image=image))
     area = SimpleNamespace(type="IMAGE_EDITOR", regions=[region], spaces=active)
     window = SimpleNamespace(screen=SimpleNamespace(areas=[area]))
-    context = SimpleNamespace(window=window, scene=scene)
-    assert pick(context, 22, 41) == (11, 20, source)
+    return SimpleNamespace(window=window, scene=scene)
 
 
 def test_what_is_no_pixel_is_said(click):

@@ -88,20 +88,10 @@ def two_collections(build, ground):
     build.collection("B", ground, link=True)
 
 
-def orthographic(build, ground):
-    camera = bpy.context.scene.camera.data
-    camera.type, camera.ortho_scale = "ORTHO", 4
-
-
 def edge_on(build, ground):
     """The eye lies in the plane."""
     ground.matrix_basis.identity()
     ground.location = bpy.context.scene.camera.location
-
-
-def facing(build, ground):
-    bpy.context.scene.camera.rotation_euler = (0, 0, 0)
-    ground.rotation_euler = (0, 0, 0)
 
 
 def out_of_view(build, ground):
@@ -115,24 +105,6 @@ def parented(build, ground):
 
 def with_children(build, ground):
     build.cube("Child", 0.6, location=(0.5, 0.5, 1)).parent = ground
-
-
-def several(build, ground):
-    for number in range(3):
-        wall = build.empty(
-            f"Wall {number}",
-            location=(0, 3 + number, 0),
-            rotation=(np.pi / 2, 0, number),
-            color=(0.2, 0.3 * number, 0.5, 1),
-        )
-        wall.reference_tracer.infinite_plane = True
-    bpy.context.scene.display.shading.color_type = "OBJECT"
-
-
-def bordered(build, ground):
-    render = bpy.context.scene.render
-    render.use_border = True
-    render.border_min_x, render.border_max_y = 0.3, 0.8
 
 
 def instanced(build, ground):
@@ -151,14 +123,10 @@ def hidden_in_renders(build, ground):
     [
         collected,
         two_collections,
-        orthographic,
         edge_on,
-        facing,
         out_of_view,
         parented,
         with_children,
-        several,
-        bordered,
         instanced,
         hidden_in_renders,
     ],

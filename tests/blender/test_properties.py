@@ -47,7 +47,6 @@ STORED = {
         "DEPTH": 7,
     },
 }
-CASES = [(name, value) for name, values in STORED.items() for value in values]
 
 
 def test_numbers_are_those_that_were_released():
@@ -78,19 +77,6 @@ def test_what_is_offered_is_what_there_is():
     trade = bpy.ops.reference_tracer.trade.get_rna_type().properties
     defaults = trade["width"].default, trade["samples"].default
     assert defaults == (tradeoff.WIDTH, tradeoff.SAMPLES)
-
-
-@pytest.mark.parametrize(("name", "value"), CASES)
-def test_a_saved_choice_is_read_back(name, value, tmp_path):
-    path = str(tmp_path / "saved.blend")
-    setattr(bpy.context.scene.reference_tracer, name, value)
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    stored = bpy.context.scene.reference_tracer
-    assert getattr(stored, name) == value
-    number = stored.bl_rna.properties[name].enum_items[value].value
-    assert number == STORED[name][value]
 
 
 def test_a_scene_that_stores_nothing_is_certified_where_that_is_possible():

@@ -26,20 +26,3 @@ def test_random_colors_of_linked_objects(relative, build, compare, tmp_path):
     assert linked.name == local.name
     assert random_color(linked) != random_color(local)
     assert_same_colors(compare(), distinct=2)
-
-
-def test_random_colors_of_instances_of_a_linked_collection(build, compare, tmp_path):
-    library = tmp_path / "library.blend"
-    bpy.data.libraries.write(
-        str(library), {build.collection("Kit", build.square("Part", 1, link=False))}
-    )
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    build.scene(color_type="RANDOM")
-    with bpy.data.libraries.load(str(library), link=True) as (_, to):
-        to.collections = ["Kit"]
-    for x in (-1, 1):
-        empty = build.empty(f"Empty {x}", location=(x, 0, 0))
-        empty.instance_type, empty.instance_collection = "COLLECTION", to.collections[0]
-    build.square("Part", 1, location=(0, 1.2, 0))
-    build.camera(type="ORTHO", ortho_scale=6)
-    assert_same_colors(compare(), distinct=2)

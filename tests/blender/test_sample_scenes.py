@@ -75,32 +75,6 @@ def test_file_names_no_place_on_a_machine(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_scene_has_a_camera_and_nothing_unused(name):
-    scene = opened(name)
-    assert scene.camera is not None
-    assert scene.render.resolution_x * scene.render.resolution_y <= 960 * 540
-    assert scene.reference_tracer.method == ("textbook" if name.startswith("exercise") else "auto")
-    kinds = (
-        "objects",
-        "meshes",
-        "curves",
-        "metaballs",
-        "cameras",
-        "materials",
-        "collections",
-        "node_groups",
-        "images",
-        "worlds",
-        "texts",
-        "brushes",
-        "linestyles",
-        "palettes",
-    )
-    data = [block for kind in kinds for block in getattr(bpy.data, kind)]
-    assert [block.name for block in data if block.use_fake_user or not block.users] == []
-
-
-@pytest.mark.parametrize("name", NAMES)
 def test_make_scenes_builds_what_is_committed(name, tmp_path):
     opened(name)
     texts = {obj.data.name for obj in bpy.data.objects if obj.type == "FONT"}

@@ -8,7 +8,6 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.values import untold
-from reference_tracer.pictures.palette import By
 
 from .test_unchanged import differences, state
 
@@ -66,25 +65,6 @@ def test_each_object_gets_its_own_colour_and_its_own_back(build, kit):
         for obj in set(before) - set(some):
             assert obj.color[:] == before[obj]
     assert before == {o: o.color[:] for o in bpy.data.objects}
-
-
-def test_a_wrong_instance_of_the_same_colour_is_still_found(build, compare, kit, monkeypatch):
-    """The drawing of the objects lacks the empty's instances; no colour says so."""
-    from reference_tracer.blender.drawing import drawings
-
-    overridden(build, kit, False)
-    real = drawings._owners
-
-    def lacking(*args):
-        empty = bpy.data.objects["Kit"]
-        kept, empty.instance_type = empty.instance_type, "NONE"
-        try:
-            return (yield from real(*args))
-        finally:
-            empty.instance_type = kept
-
-    monkeypatch.setattr(drawings, "_owners", lacking)
-    assert compare(colors=By.VIEWPORT).counts.unexplained > 100
 
 
 @pytest.mark.parametrize("first", [True, False], ids=["override first", "linked first"])

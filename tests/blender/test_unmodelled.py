@@ -41,20 +41,6 @@ def test_is_named_with_object_and_bounds(mode, make, build, export):
     assert found.to_dict() in manifest.to_dict()["unmodelled"]
 
 
-def test_explains_nothing_elsewhere(build, compare, shown_otherwise):
-    """A pixel outside of the bounds stays unexplained."""
-    hard.glass_pane(build)
-
-    def with_a_fault(pixels):
-        pixels[0, 0] = (1, 0, 0, 1)
-        return pixels
-
-    shown_otherwise(with_a_fault)
-    comparison = compare()
-    assert comparison.counts.unexplained == 1
-    assert comparison.verdict == "differences"
-
-
 @pytest.mark.parametrize("make", hard.SWITCHED_OFF, ids=lambda make: make.__name__)
 def test_of_the_scene_is_not_in_the_picture_and_still_named(make, build, compare):
     make(build)
@@ -75,9 +61,3 @@ def test_several_instances_share_one_entry_around_all_of_them(build, export):
     _, manifest = export.viewport()
     (found,) = manifest.unmodelled
     np.testing.assert_allclose(found.bounds, [(-4.5, -0.5, -0.5), (4.5, 0.5, 0.5)])
-
-
-def test_an_ordinary_scene_has_nothing_of_it(build, export):
-    build.room()
-    for run in export.modes.values():
-        assert run()[1].unmodelled == ()

@@ -218,6 +218,22 @@ def test_a_parents_scale_is_left_out(rich, export, build):
     assert_same(of_camera, before.seen_by(expected.camera))
 
 
+def test_an_instance_is_taken_for_its_object_and_no_instance_for_the_object(rich, build):
+    """Where an object is in the scene and instanced, too."""
+    child = bpy.data.objects["Child"]
+    build.instances("Again", build.collection("Shared", child), location=(4, -4, 0))
+    bpy.context.view_layer.update()
+
+    def places(scene):
+        named = [i for i in scene.instances if scene.objects[i.object] == "Child"]
+        return [i.world_from_object for i in named]
+
+    assert np.allclose(places(made(rich, "instance_transform")), child.matrix_world)
+    instanced = Matrix.Translation((4, -4, 0)) @ child.matrix_world
+    own, other = places(made(rich, "parent_left_out", "Child"))
+    assert np.allclose(own, child.matrix_basis) and np.allclose(other, instanced)
+
+
 def test_another_view_layer(rich, export):
     variant = made(rich, "other_layer", "Second")
     bpy.context.window.view_layer = rich.view_layers["Second"]

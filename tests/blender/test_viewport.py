@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.drawing import picture as picture_module
-from reference_tracer.blender.drawing import shading, viewport
+from reference_tracer.blender.drawing import shading
 from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.temporary import temporary_scene
@@ -25,10 +25,9 @@ def scene(build):
 
 def pictured(scene, judge="workbench", like_for_like=True):
     camera = export_camera(scene)
-    layer = bpy.context.view_layer.name
     with temporary_scene(scene) as copy:
         picture_module.prepare_scene(copy, JUDGES[judge], like_for_like)
-        return picture_module.drawn_once(copy, layer, JUDGES[judge], camera, like_for_like)
+        return picture_module.drawn_once(copy, JUDGES[judge], camera, like_for_like)
 
 
 @pytest.mark.parametrize(
@@ -81,9 +80,7 @@ def test_a_picture_of_another_size_is_an_error(scene):
         picture_module.prepare_scene(copy, JUDGES["workbench"], True)
         copy.render.resolution_x = 64
         with pytest.raises(SizeError, match="64 x 54 pixels, the camera's region 96 x 54"):
-            picture_module.drawn_once(
-                copy, bpy.context.view_layer.name, JUDGES["workbench"], camera, True
-            )
+            picture_module.drawn_once(copy, JUDGES["workbench"], camera, True)
 
 
 def test_the_viewport_needs_a_window_and_says_so(scene):
@@ -94,16 +91,6 @@ def test_the_viewport_needs_a_window_and_says_so(scene):
         pictured(scene, "viewport")
     assert (preferences.system.viewport_aa, preferences.is_dirty) == ("16", False)
     assert len(bpy.data.scenes) == 1
-
-
-@pytest.mark.parametrize("dirty", [True, False])
-def test_the_preference_is_set_and_put_back(dirty):
-    preferences = bpy.context.preferences
-    preferences.system.viewport_aa, preferences.is_dirty = "8", dirty
-    with pytest.raises(KeyError), viewport._without_anti_aliasing(None, "", None):
-        assert preferences.system.viewport_aa == "OFF"
-        raise KeyError
-    assert (preferences.system.viewport_aa, preferences.is_dirty) == ("8", dirty)
 
 
 def test_the_shading_of_a_view_is_copied(scene):

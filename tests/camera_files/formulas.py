@@ -19,14 +19,19 @@ def homogeneous(points: np.ndarray) -> np.ndarray:
     return np.vstack((points, np.ones(points.shape[1])))
 
 
+def pinhole(k: np.ndarray, pose: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """What all of OpenCV's axes have in common: s [u v 1] = K [R | t] [X Y Z 1]."""
+    x, y, z = k @ (pose @ homogeneous(points))[:3]
+    return np.stack((x / z, y / z))
+
+
 def opencv(files: Files, points: np.ndarray) -> np.ndarray:
-    """OpenCV, calib3d: s [u v 1] = K [R | t] [X Y Z 1]."""
+    """OpenCV, calib3d."""
     file = json.loads(files[""])
     r, t, k = (np.array(file[name]) for name in ("R", "t", "K"))
     assert np.allclose(r @ r.T, np.eye(3), atol=1e-5) and np.linalg.det(r) > 0
-    x, y, z = k @ (r @ points + t[:, None])
     first = {"half": 0.5, "integer": 0.0}[file["pixel_centers"]]
-    return np.stack((x / z, y / z)) + 0.5 - first
+    return pinhole(k, np.column_stack((r, t)), points) + 0.5 - first
 
 
 def opengl(files: Files, points: np.ndarray) -> np.ndarray:
@@ -130,18 +135,16 @@ def open3d(files: Files, points: np.ndarray) -> np.ndarray:
     assert file["class_name"] == "PinholeCameraParameters" and file["pixel_centers"] == "half"
     k = np.array(file["intrinsic"]["intrinsic_matrix"]).reshape(3, 3, order="F")
     t = np.array(file["extrinsic"]).reshape(4, 4, order="F")
-    x, y, z = k @ (t @ homogeneous(points))[:3]
-    return np.stack((x / z, y / z))
+    return pinhole(k, t, points)
 
 
 def bop(files: Files, points: np.ndarray) -> np.ndarray:
     """bop_toolkit, `misc.project_pts`: K [R | t], in millimetres."""
     (camera,) = json.loads(files["scene_camera.json"]).values()
     k, r = (np.reshape(camera[name], (3, 3)) for name in ("cam_K", "cam_R_w2c"))
-    x, y, z = k @ (r @ (1000 * points) + np.array(camera["cam_t_w2c"])[:, None])
     dataset = json.loads(files["camera.json"])
     assert [dataset[n] for n in ("fx", "fy", "cx", "cy")] == [k[0, 0], k[1, 1], k[0, 2], k[1, 2]]
-    return np.stack((x / z, y / z))
+    return pinhole(k, np.column_stack((r, camera["cam_t_w2c"])), 1000 * points)
 
 
 def splatting(files: Files, points: np.ndarray) -> np.ndarray:
@@ -158,8 +161,7 @@ def mvsnet(files: Files, points: np.ndarray) -> np.ndarray:
     head, rows = text.removeprefix("extrinsic").split("intrinsic")
     t, k = np.array(head.split(), float), np.array(rows.split()[:9], float)
     assert name.endswith("_cam.txt") and text.startswith("extrinsic")
-    x, y, z = k.reshape(3, 3) @ (t.reshape(4, 4) @ homogeneous(points))[:3]
-    return np.stack((x / z, y / z))
+    return pinhole(k.reshape(3, 3), t.reshape(4, 4), points)
 
 
 FORMULAS = {

@@ -283,12 +283,6 @@ def test_another_unit_of_length_is_asked_for(own):
     assert difference(own, longer(own)).unit is None
 
 
-def test_the_same_camera_agrees(own):
-    found = difference(own, with_world(own, lambda cv: cv))
-    assert found.agrees and found.largest < 1e-9 and not found.steps
-    assert found.lines()[0].startswith("agree")
-
-
 def test_what_rounding_moves_agrees_and_ten_times_that_does_not(own):
     def off(by):
         return with_k(own, lambda fx, fy, cx, cy: (fx, fy, cx + by, cy))
@@ -330,24 +324,17 @@ def cameras_of_all_kinds():
     mirrored = replace(plain, world_from_camera=matrix * (-1, 1, 1, 1))
     back = replace(plain, world_from_camera=matrix * (-1, 1, -1, 1))
     behind = replace(parallel, clip_start=-5, clip_end=-1)
-    return plain, parallel, around, mirrored, back, behind
+    endless = replace(plain, clip_end=np.inf)
+    return plain, parallel, around, mirrored, back, behind, endless
 
 
 @sampled(2)
 def test_cameras_of_all_kinds_are_compared(every):
     cameras = cameras_of_all_kinds()
     for first, second in islice(product(cameras, repeat=2), 0, None, every):
-        # The two that are parallel differ in what they clip alone.
-        same = first is second or ORTHOGRAPHIC is first.projection is second.projection
+        # Some differ in what they clip alone.
+        same = all(
+            getattr(first, n) == getattr(second, n) for n in ("projection", "window")
+        ) and np.array_equal(first.world_from_camera, second.world_from_camera)
         found = difference(first, second)
         assert found.agrees == same and found.lines()
-
-
-def test_a_camera_may_see_without_end():
-    plain = cameras_of_all_kinds()[0]
-    endless = replace(plain, clip_end=np.inf)
-    assert difference(endless, endless).agrees and difference(endless, plain).agrees
-    matrix = endless.world_from_camera.copy()
-    matrix[0, 3] += 0.01
-    found = difference(endless, replace(endless, world_from_camera=matrix))
-    assert [step.fault.name for step in found.steps] == ["camera_moved"]

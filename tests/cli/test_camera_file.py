@@ -71,15 +71,6 @@ def test_a_size_is_the_files_or_asked_for(own, ball, tmp_path):
     assert apart(own, seen(ball, "--camera", path, "--set", f"width={640}", f"height={360}")) < 1e-9
 
 
-def test_one_of_several_is_named(own, ball, tmp_path):
-    path = written(own, "colmap", tmp_path / "written", count=3)
-    with pytest.raises(
-        SceneError, match=r"3 cameras: --set camera-view=NAME chooses one of 0001.png, 0002"
-    ):
-        seen(ball, "--camera", path)
-    assert seen(ball, "--camera", path, "--set", "camera-view=2").name == "0002.png"
-
-
 @pytest.fixture
 def glb(own, tmp_path):
     """A .glb with two cameras, one of which says neither a size nor an aspect ratio."""

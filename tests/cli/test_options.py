@@ -85,6 +85,10 @@ BAD = {
     ),
     "options are told before words": (["ball.ply", "two.ply", "--zzz"], "no option --zzz"),
     "out suffix": (["ball.ply", "--out", "x.jpg"], "x.jpg"),
+    "masks of a method without a proof": (
+        ["ball.ply", "--masks", "masks", "--method", "textbook"],
+        "--masks: textbook proves nothing",
+    ),
     "out is a folder, PNG": (["ball.ply", "--out", "folder.png"], "folder.png"),
     "out under a file": (["empty.obj", "--out", "words.txt/x.png"], "to the folder 'words.txt'"),
 }

@@ -123,6 +123,9 @@ def test_a_command_says_which_scene_it_is_at(tmp_path, capsys, monkeypatch):
     )
     monkeypatch.setattr(running, "LINE_EVERY", 0.05)
     assert main(["extremes", "--rays", "20", "--out", str(tmp_path / "out")]) == 0
-    said = capsys.readouterr().err
-    assert "%, Integers, perspective, cells per side" in said
-    assert "%, Needles, " in said
+    printed = capsys.readouterr()
+    assert "%, Integers, perspective, cells per side" in printed.err
+    assert "%, Needles, " in printed.err
+    assert "certified" in printed.out and "First scale" in printed.out
+    written = {p.name for p in (tmp_path / "out").iterdir()}
+    assert {"extremes.json", "extremes.txt", "extremes.html"} <= written

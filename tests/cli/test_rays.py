@@ -47,31 +47,14 @@ def random_rays(count, seed=1):
     return {"origins": origins, "directions": rng.normal(size=(count, 3)) - origins}
 
 
-def test_a_row_alone_and_none(scene, run):
-    """Alone a ray shares nothing, as among others: not even how it is decided is another."""
-    given = random_rays(4, seed=3)
-    _, many, _ = run(scene, **given)
-    assert (many["triangle"] >= 0).sum() > 1
-    for k in range(4):
-        _, one, _ = run(scene, **{name: rows[k : k + 1] for name, rows in given.items()})
-        for name in ("t", "instance", "triangle", "certainty", "barycentrics"):
-            assert one[name].tobytes() == many[name][k].tobytes(), (k, name)
-    for origins in (given["origins"][0], given["origins"][:0]):
-        code, none, _ = run(scene, origins=origins, directions=given["directions"][:0])
-        assert code == 0 and len(none["t"]) == 0
-
-
 @pytest.mark.parametrize(
     ("change", "said"),
     [
         ({"origins": None}, "has no array 'origins'"),
         ({"directions": np.zeros((5, 3))}, "row 0 of directions is zero"),
-        ({"directions": np.ones((5, 2))}, "directions holds (5, 2) of float64"),
         ({"directions": np.ones((4, 3))}, "5 origins and 4 directions"),
-        ({"origins": np.array([["a", "b", "c"]])}, "origins holds (1, 3) of <U1"),
         ({"origins": np.full((5, 3), [[1], [2], [np.nan], [0], [0]])}, "row 2 of origins"),
         ({"origins": np.full((5, 3), 2**53 + 1)}, "numbers that float64 does not"),
-        ({"origins": np.array([object()])}, "origins holds objects of Python"),
     ],
 )
 def test_rays_that_are_wrong_are_refused_by_name(change, said, scene, run):
@@ -116,8 +99,6 @@ def test_every_hit_and_parity(make, run):
     for name in ("t", "triangle", "object", "instance"):
         assert (found[name][start[met]] == first[name][met]).all(), name
     assert found["barycentrics"].shape == (start[-1], 3) and found["objects"] == ["Ball"]
-    _, near, _ = run(ball, "--every", "--end", "0.6", **given)
-    assert len(near["t"]) == (found["t"] <= 0.6).sum()
     points = np.array([(0, 0, 0), (0, 2, 0), ball.meshes[0].vertices[5]])
     code, places, printed = run(ball, "--parity", points=points)
     assert code == 0 and places["place"].tolist() == [1, 0, 2]
@@ -125,15 +106,8 @@ def test_every_hit_and_parity(make, run):
     assert "3 points, 320 triangles: 1 outside, 1 inside, 1 on a surface" in printed
 
 
-def test_parity_refuses_what_it_can_not_say(scene, run, make):
+def test_parity_refuses_what_it_can_not_say(scene, run):
     points = np.zeros((1, 3))
-    assert "'Ball' is an infinite plane" in run(scene, "--parity", points=points)[2]
     assert "no array 'points'" in run(scene, "--parity", origins=points)[2]
     assert "leave out --start and --end" in run(scene, "--parity", "--end", "3", points=points)[2]
     assert "not allowed with" in run(scene, "--parity", "--every", points=points)[2]
-    cube = trimesh.creation.box()
-    cube.faces[0] = cube.faces[0, ::-1]
-    mesh = make.scene(make.camera(4, 4), make.mesh(cube, name="Box"))
-    code, found, printed = run(mesh, "--parity", points=points)
-    assert code == 0 and list(found) == ["place"]
-    assert "no winding numbers, as faces" in printed

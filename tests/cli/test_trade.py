@@ -6,7 +6,7 @@ import json
 
 import pytest
 from reference_tracer.cli.main import main
-from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.cli.parser import AGREE
 from reference_tracer.files.scenes import save_scene
 
 pytestmark = pytest.mark.slow
@@ -27,23 +27,6 @@ def test_trade(small_ball, tmp_path, capsys):
     assert held["advice"] in said
 
 
-@pytest.mark.parametrize(
-    "options, word",
-    [
-        (["--samples", "0"], "samples is 0"),
-        (["--samples", "65"], "samples is 65"),
-        (["--set", "width=0"], "--set width: 0 is not an integer of at least 1"),
-        (["--out", "small.ply"], "cannot write to the folder 'small.ply': it is a file"),
-    ],
-)
-def test_trade_of_bad_input(options, word, small_ball, tmp_path, capsys, monkeypatch, exit_code):
-    monkeypatch.chdir(tmp_path)
-    argv = ["trade", small_ball, *TRADE, *options]
-    assert exit_code(argv) == INPUT_ERROR
-    said = capsys.readouterr().err
-    assert word in said and "Traceback" not in said
-
-
 def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
     """A scene has its own camera, but how wide its picture is can be chosen."""
     save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6), make.quad(-9, 0, -9, 9, -2)))
@@ -51,12 +34,3 @@ def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
     assert "10 × 6 " in capsys.readouterr().out
     assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1", "--set", "width=20"]) == AGREE
     assert "20 × 12 " in capsys.readouterr().out
-
-
-def test_trade_of_nothing(make, tmp_path, capsys):
-    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
-    out = ["--samples", "1", "--out", str(tmp_path / "out")]
-    assert main(["trade", str(tmp_path / "s.npz"), *out]) == AGREE
-    assert "Nothing is seen" in capsys.readouterr().out
-    held = json.loads((tmp_path / "out" / "tradeoff.json").read_text(encoding="utf-8"))
-    assert {r["largest_t_error"] for r in held["rows"]} == {None}

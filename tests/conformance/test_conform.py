@@ -98,6 +98,17 @@ def test_what_is_wrong_is_named(name, conform, out, tmp_path):
     assert "0 of 1" in (out / "badge.svg").read_text(encoding="utf-8")
 
 
+def test_what_a_few_pixels_show_gets_no_wrong_name(conform, tmp_path):
+    """A post that is moved at the picture's rim: it is as if two of its triangles were missing."""
+    path = tmp_path / "moved.py"
+    read = "vertices, triangles, colors = read_obj(obj)"
+    moved = f"{read}\n    vertices[12:20] += 0.15, -0.1, 0.12"
+    path.write_text(RENDERER.read_text(encoding="utf-8").replace(read, moved), encoding="utf-8")
+    code, _, found = conform(rendered(path), "camera-shift-portrait", "camera-plain")
+    assert code == 2 and "lacks" not in found["camera-shift-portrait"]["wrong"]
+    assert "'Post' is moved" in found["camera-plain"]["wrong"]
+
+
 def test_the_time_limit_is_that_of_the_diagnosis_too(conform, out, tmp_path, monkeypatch):
     """It is counted in steps of work, and changes no verdict."""
     monkeypatch.setattr(judging, "STEPS", 5)

@@ -18,7 +18,7 @@ from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_data.faults import DATA_FAULTS, faults_of_data
-from reference_tracer_data.given import GivenData, picture_of_data
+from reference_tracer_data.given import GivenData
 
 MAKING = Making()
 # The faults of data, and of others a few: all of them take a second for each picture.
@@ -55,7 +55,7 @@ def judged(solids, tmp_path):
     def run(kind, values, scene=solids, name="data.npy", save=np.save, making=MAKING, **known):
         path = tmp_path / name
         save(path, values)
-        shown = picture_of_data(GivenData(kind, path, **known), scene, making)
+        shown = GivenData(kind, path, **known).picture(scene, making)
         manifest = file_manifest(path, scene, Account())
         case = Case(scene, manifest, Settings(), shown)
         return result_of(compared(case))

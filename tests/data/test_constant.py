@@ -20,7 +20,6 @@ CONSTANTS = [
     ("depth", 0.0),
     ("depth", 5.0),
     ("distance", 1.0),  # a depth buffer has 1 where nothing is
-    ("normals", (0.5, 0.5, 0.5)),
     ("normals", (0.0, 0.0, 1.0)),
     ("positions", (1.0, 2.0, 3.0)),
 ]

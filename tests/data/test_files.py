@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from zipfile import ZipFile
-
 import numpy as np
 import pytest
 from reference_tracer import compare
@@ -73,15 +71,6 @@ def test_a_file_that_is_cut_off_or_none_is_refused(judged, traced, tmp_path):
         judged("depth", traced.t, name="depth.tiff", save=lambda path, v: path.write_bytes(b"II*"))
     with pytest.raises(SizeError, match="has 31 x 24 pixels, the traced one 32 x 24"):
         judged("depth", traced.t[:, 1:])
-
-
-def test_what_else_is_in_an_npz_is_no_matter(judged, traced):
-    def save(path, values):
-        np.savez(path, depth=values)
-        with ZipFile(path, "a") as held:
-            held.writestr("README.txt", "depths")
-
-    assert judged("depth", traced.t, name="d.npz", save=save).verdict == Verdict.AGREE
 
 
 def test_grey_depths_may_have_nan_where_nothing_is(judged, traced):

@@ -70,16 +70,6 @@ def test_the_methods_answers_are_their_pictures(ball_scene):
             assert said[k].t == frame.t[y, x]
 
 
-def test_a_hit(one_triangle):
-    found = derive(one_triangle(FACING), 1, 1)
-    [test] = found.tests
-    assert found.seen.object == "Thing 0" and found.certified.t == 4
-    assert found.nearest == dict.fromkeys(Arithmetic, 0)
-    assert found.certified.certainty == Certainty.BOUND
-    assert all(j.accepted and j.literal for j in test.judgements.values())
-    assert found.color == pytest.approx((0.1, 0.5, 0.25, 1))
-
-
 @pytest.mark.parametrize(
     ("triangle", "reason"),
     [

@@ -51,13 +51,19 @@ def names(found):
     return [told.fault.name for told in found.diagnosis.told] if found.diagnosis else []
 
 
-def told(scene, color, *names):
-    """Return what is told of a picture, if only some faults are looked for."""
-    found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
+def told(scene, color, *names, **known):
+    """Return what is told of a picture, if only some faults are looked for: of nearly all of it."""
+    said = said_of(scene, color, *names, **known)
+    assert all(t.settled >= 0.97 * t.unexplained for t in [*said.values()][:1])
+    return said
+
+
+def said_of(scene, color, *names, **known):
+    """Return what is told of a picture, if only some faults are looked for: also of a part."""
+    found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=(), **known)))
     assert found.counts.unexplained > 10
     faults = [BY_NAME[name] for name in names] or FAULTS
     said = result_of(diagnose(found.case, found.frame, found.causes, faults, np.inf)).told
-    assert all(t.settled >= 0.97 * t.unexplained for t in said[:1])
     return {t.fault.name: t for t in said}
 
 

@@ -13,7 +13,6 @@ from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
 from reference_tracer.diagnosis.faults.painted import Painted
-from reference_tracer.diagnosis.faults.picture import Rolled
 from reference_tracer.diagnosis.faults.triangles import Triangles
 from reference_tracer.diagnosis.variants import ASKING
 from reference_tracer.pictures.picture import Picture
@@ -56,8 +55,8 @@ MADE = [
     ("object_twice", Numbers((0.9, 0.3, 0.8), object="Ball")),
     ("recolored", Numbers((0.1, 0.8, 0.9), object="Drum")),
     ("rows", Guess()),
-    ("row_off", Rolled(0, 1)),
-    ("row_off", Rolled(-1, 0)),
+    ("row_off", Option(0)),
+    ("row_off", Option(3)),
 ]
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.diagnosis.faults.fault import Numbers
+from reference_tracer.diagnosis.trial import LOOKED_AT
 from reference_tracer.files.images import curve_undone
 from reference_tracer.rendering import render
 
@@ -41,10 +42,18 @@ def test_half_a_pixel_is_found_in_linear_colours(scene):
 
 
 @pytest.mark.slow
-def test_a_moved_object_is_found_behind_a_power_curve(scene):
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda c: c ** (1 / 1.6), "a gamma of 1.6"),
+        (lambda c: curve_undone(c ** (1 / 1.8)), "a power of 1/1.8 in place of sRGB's curve"),
+        (lambda c: 0.8 * c, "an exposure of -0.322 stops"),
+    ],
+)
+def test_a_moved_object_is_found_behind_a_curve(scene, change, told):
     moved = pictured(scene, "object_moved", Numbers((0.3, -0.2, 0.1), object="Ball"))
-    found = diagnosis_of(scene, of_rgb(moved, lambda c: c ** (1 / 1.6)))
-    assert "gamma" in found.causes.transform
+    found = diagnosis_of(scene, of_rgb(moved, change))
+    assert found.causes.transform == told
     assert names(found)[0] == "object_moved"
     assert found.diagnosis.told[0].guess.object == "Ball"
 
@@ -66,6 +75,16 @@ def test_a_turned_picture_in_reversed_channels_is_both(scene, name):
     assert first.fault.name == name and found.diagnosis.left == 0
     # The colours are told as a fault, or excused by their transform once the picture is turned.
     assert "red and blue swapped" in (others[0] if others else first).sentence
+
+
+@pytest.mark.slow
+def test_of_very_many_pixels_all_are_counted(few):
+    """The first trial looks at some of those that differ; what is told is of the whole picture."""
+    scene = few(192, 108)
+    found = diagnosis_of(scene, reversed_channels(render(scene).color[::-1]))
+    told = found.diagnosis.told
+    assert found.counts.unexplained > LOOKED_AT and found.diagnosis.left == 0
+    assert sum(t.settled - t.broken for t in told) == found.counts.unexplained
 
 
 @pytest.mark.slow

@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
+from reference_tracer.causes.case import Variant
 from reference_tracer.comparison.comparing import trace_and_compare
 from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.diagnosis.faults import FAULTS
@@ -20,11 +22,11 @@ from reference_tracer.pictures.picture import Picture
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.rendering import render
 from reference_tracer.scene import ViewWindow
-from reference_tracer.tracer.camera import film_of
+from reference_tracer.tracer.camera import film_of, pixel_size
 from reference_tracer.tracer.progress import result_of
 
 from ..cases import case_of
-from .diagnosing import pictured, told
+from .diagnosing import pictured, said_of, told
 
 
 def test_an_orthographic_camera_that_turns_leaves_what_was_near_its_rays(few):
@@ -85,7 +87,7 @@ def test_an_object_that_moves_by_a_fraction_of_a_pixel(few):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "values", [(0.15, -0.1, 0.2, 1.2, 0.7, -0.8), (-0.3, 0.2, 0.0, 2.0, -1, 0)]
+    "values", [(0.15, -0.1, 0.2, 1.2, 0.7, -0.8), (0.4, 0.22, 0.26, -6.8, -4, 0.8)]
 )
 def test_a_camera_that_stands_elsewhere_and_looks_elsewhere(few, values):
     scene = few(160, 100)
@@ -103,6 +105,50 @@ def test_a_camera_of_three_numbers_is_not_told_in_six(few, name, values):
     scene = few(96, 60)
     color = pictured(scene, name, Numbers(values))
     assert list(told(scene, color, name, "camera_placed", "cropped")) == [name]
+
+
+@pytest.mark.slow
+def test_a_turn_by_many_degrees_is_not_what_looks_like_it(few):
+    """A lens that is shifted by as much, or a scene that is turned about its own middle."""
+    scene = few(96, 60)
+    rivals = "camera_turned", "camera_moved", "camera_placed", "pixel_offset", "cropped"
+    turned = pictured(scene, "camera_turned", Numbers((12.0, 0.0, 0.0)))
+    assert list(told(scene, turned, *rivals)) == ["camera_turned"]
+    angle = np.radians(12)
+    aside = Numbers((np.tan(angle) / pixel_size(scene.camera)[0], 0.0))
+    assert list(told(scene, pictured(scene, "pixel_offset", aside), *rivals)) == ["pixel_offset"]
+    about = trimesh.transformations.rotation_matrix(angle, (0, 0, 1))
+    others = (replace(i, world_from_object=about @ i.world_from_object) for i in scene.instances)
+    shown = render(replace(scene, instances=tuple(others))).color
+    assert "camera_turned" not in told(scene, shown, *rivals)
+
+
+OFFSET = np.array((0.5, -0.3, 0.2))
+OBJECTS = "Box", "Ball"
+
+
+def displaced(scene, by, *names):
+    """Return a scene with some objects moved."""
+    numbers = [scene.objects.index(name) for name in names]
+    place = trimesh.transformations.translation_matrix(by)
+    moved = (
+        replace(i, world_from_object=place @ i.world_from_object) if i.object in numbers else i
+        for i in scene.instances
+    )
+    return replace(scene, instances=tuple(moved))
+
+
+@pytest.mark.slow
+def test_an_offset_that_is_left_out_is_not_what_looks_like_it(few):
+    """A collection that is moved the other way, by less, or of which an object is."""
+    scene = few(96, 60)
+    left_out = displaced(scene, OFFSET, *OBJECTS)
+    rivals = "instance_offset", "object_moved", "object_missing", "instances_missing"
+    known = {"variants": lambda: [Variant("instance_offset", left_out, "that of 'Kit'")]}
+    assert list(told(scene, render(left_out).color, *rivals, **known)) == ["instance_offset"]
+    for by, names in ((-OFFSET, OBJECTS), (0.8 * OFFSET, OBJECTS), (OFFSET, OBJECTS[:1])):
+        shown = render(displaced(scene, by, *names)).color
+        assert "instance_offset" not in said_of(scene, shown, *rivals, **known)
 
 
 @pytest.mark.slow

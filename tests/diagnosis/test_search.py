@@ -66,6 +66,20 @@ def test_what_is_not_seen_is_left_open():
     assert 2.75 < guess.high[1] < 4 and -4 < guess.low[1] < -2.75
 
 
+def test_of_what_is_not_seen_no_far_place_is_told():
+    """It is open to one side: the middle between its ends is as good, and says nothing."""
+
+    def right(values):
+        x, y = values
+        return np.full(100, abs(x - y - 0.3) < 0.02 and x + y > 0.1)
+        yield
+
+    search = Search(right, [[0.5], [-0.5]], unseen=np.array([[0.5], [0.5]]))
+    guess = result_of(search.guess([(0.25, -0.05)], 1 / 8))
+    assert np.abs(guess.values).max() < 1 and guess.high[0] > 10
+    assert guess.low <= guess.values <= guess.high
+
+
 def test_a_plateau_has_an_end():
     """All numbers are as good: none is told that is farther away than is looked at."""
 

@@ -145,14 +145,6 @@ def test_a_picture_that_is_said_to_be_larger_than_any_memory(side):
         png.decode(png.SIGNATURE + b"".join(parts))
 
 
-@pytest.mark.torture
-def test_a_picture_of_more_than_179_megapixels(tmp_path):
-    rows = [bytes(1600)] * 14_000  # 1 bit each
-    png_file(tmp_path / "p.png", (12_800, 14_000), 1, 0, rows)
-    read = read_picture(tmp_path / "p.png")
-    assert read.color.shape == (14_000, 12_800, 4)
-
-
 @pytest.mark.parametrize("name", ["p.png", "p.exr"])
 @pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
 def test_a_truncated_picture_is_named_in_one_line(name, share, tmp_path, rng, capfd):

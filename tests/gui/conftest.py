@@ -51,7 +51,7 @@ class Blender:
         return subprocess.run(command, capture_output=True, text=True, timeout=timeout)
 
     def play(self, stories):
-        """Play stories in the real window, one after another; those that end Blender are the last.
+        """Play stories in the window, one after another; those that end Blender are the last.
 
         The others are then played by another Blender. What is missing is found by `noted`.
         """

@@ -3,7 +3,6 @@
 from contextlib import contextmanager
 
 import bpy
-from seen_stories import listened
 from story import (
     compared,
     data_blocks,
@@ -22,6 +21,7 @@ from story import (
     until,
     window,
 )
+from work_stories import listened
 
 SCENE = "suzanne"
 

@@ -1,10 +1,9 @@
-"""Pictures that no judge of ours drew, judged by clicks: an image, a render."""
+"""An image that no judge of ours drew, judged by clicks."""
 
 from contextlib import contextmanager
 
 import bpy
-from first_use_stories import COMPARE, properties
-from hands import click_on
+from hands import COMPARE, click_on, properties
 from story import (
     OUT,
     ended,
@@ -129,47 +128,5 @@ def given_image():
     yield from judged("given_put_right")
 
 
-@contextmanager
-def view_of_camera():
-    """Have the 3D view the context, as if the pointer were over it, flat and without overlays."""
-    area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
-    area.spaces.active.region_3d.view_perspective = "CAMERA"
-    shading = area.spaces.active.shading
-    shading.light, shading.color_type = "FLAT", "OBJECT"
-    for name in ("show_cavity", "show_shadows", "show_object_outline"):
-        setattr(shading, name, False)
-    region = next(r for r in area.regions if r.type == "WINDOW")
-    with bpy.context.temp_override(window=window(), area=area, region=region):
-        yield
-
-
-def rendered():
-    return "Render Result" in bpy.data.images and not bpy.app.is_job_running("RENDER")
-
-
-def given_render():
-    """F12, by Workbench with flat colours; then an object is moved."""
-    scene = window().scene
-    scene.render.engine = "BLENDER_WORKBENCH"
-    scene.render.resolution_percentage = 25
-    scene.display.render_aa = "OFF"
-    scene.display.shading.light = "FLAT"
-    for name in ("show_cavity", "show_shadows", "show_object_outline", "show_specular_highlight"):
-        setattr(scene.display.shading, name, False)
-    yield
-    press("F12")
-    yield from until(rendered, 60)
-    yield from at_the_panel("RENDER_RESULT")
-    yield from judged("given_rendered")
-    scene.objects["Suzanne"].location.x += 0.2
-    scene.reference_tracer.diagnose = False
-    yield from judged("given_rendered_before")
-    scene.objects["Suzanne"].location.x -= 0.2
-    with view_of_camera():  # View > Render Viewport Preview
-        bpy.ops.render.opengl()
-    yield from judged("given_viewed")
-    noted["notes"] = [n for n in result().content.manifest.notes if "of the picture" in n]
-
-
 SCENE = "suzanne"
-STORIES = (given_image, given_render)
+STORIES = (given_image,)

@@ -35,6 +35,12 @@ def command_under(area, region, x, y):
     return bpy.context.window_manager.clipboard
 
 
+def properties():
+    """Return the Properties editor, in which our panel is."""
+    return next(a for a in window().screen.areas if a.type == "PROPERTIES")
+
+
+COMPARE = "reference_tracer.compare("
 STEP = 16  # less than a button is high, at a scale of 1
 
 

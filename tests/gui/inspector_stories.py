@@ -119,33 +119,8 @@ def in_images():
     noted["text_begins"] = bpy.data.texts[0].as_string().splitlines()[0]
 
 
-def in_render():
-    """In the picture of F12, whole and with a border that crops it or not."""
-    scene = window().scene
-    scene.render.engine = "REFERENCE_TRACER"
-    noted["clicks"] = []
-    area = area_of("IMAGE_EDITOR")
-    for border, crop in ((False, False), (True, True), (True, False)):
-        scene.render.use_border, scene.render.use_crop_to_border = border, crop
-        scene.render.border_min_x, scene.render.border_max_x = 0.25, 0.75
-        scene.render.border_min_y, scene.render.border_max_y = 0.2, 0.9
-        with bpy.context.temp_override(window=window()):
-            bpy.ops.render.render()
-        area.spaces.active.image = bpy.data.images["Render Result"]
-        zoom(area, 2)  # what is clicked is a whole number on the screen
-        yield
-        invoke("inspect")
-        region = region_of(area)
-        middle = 0.5 + 0.5 / 960, 0.5 + 0.5 / 540  # within a pixel, not between two
-        yield from click(region, *region.view2d.view_to_region(*middle, clip=False))
-        noted["clicks"].append([border, crop, pixel()])
-        press("Escape")
-        yield
-    screenshot("inspect_render")
-
-
 def in_view():
-    """In the camera's view, with the ray drawn; undo and one button remove it."""
+    """In the camera's view, with the ray drawn."""
     window().scene.render.resolution_percentage = HALF
     area = area_of("VIEW_3D")
     look_through_camera(area)
@@ -176,35 +151,6 @@ def in_view():
     press("Escape")
     yield
     noted["after_escape"] = running()
-    frame_drawing(area)
-    yield
-    screenshot("inspect_ray")
-    noted["after_undo"] = []
-    for step in ("undo", "undo", "redo"):
-        with bpy.context.temp_override(window=window()):
-            getattr(bpy.ops.ed, step)()
-        yield
-        noted["after_undo"].append(len(set(data_blocks()["objects"]) - set(clean["objects"])))
-    noted["removed"] = list(invoke("remove_ray"))
-    yield
-    noted["left"] = {
-        k: sorted(set(v) - set(clean[k])) for k, v in data_blocks().items() if v != clean[k]
-    }
-
-
-def frame_drawing(area):
-    """Look at the hit aslant, as one who wants to see the three weights would."""
-    from mathutils import Quaternion
-
-    hit = next(o for o in bpy.data.objects if o.name.startswith("Hit"))
-    piece = next(o for o in bpy.data.objects if o.name.startswith("2.1 plane"))
-    normal = piece.data.polygons[0].normal
-    towards = window().scene.camera.location - hit.location
-    view = area.spaces.active.region_3d
-    view.view_location = hit.location
-    view.view_distance = 2.5
-    facing = (normal if normal.dot(towards) > 0 else -normal).to_track_quat("Z", "Y")
-    view.view_rotation = Quaternion((0, 0, 1), 0.6) @ facing @ Quaternion((1, 0, 0), 0.3)
 
 
 def other_file():
@@ -223,4 +169,4 @@ def other_file():
 
 
 SCENE = "suzanne"
-STORIES = (in_images, in_render, in_view, other_file)
+STORIES = (in_images, in_view, other_file)

@@ -23,7 +23,6 @@ from story import (
     window,
 )
 
-TURNS = 20  # of the add-on, off and on; the bpy module is asked for a hundred
 FILE = "/project/out/gui/interrupted.blend"
 UNSTEADY = "screens", "all_ids"  # that of a closed window is kept for a while; all, also images
 
@@ -165,16 +164,6 @@ def switched_off(found):
     found["stopped"] = not still_running()
 
 
-def switched_often(found):
-    """Many times, with no comparison."""
-    before = len(bpy.types.Operator.__subclasses__())
-    for _ in range(TURNS):
-        off_and_on()
-    found["classes"] = len(bpy.types.Operator.__subclasses__()) - before
-    found["stopped"] = not still_running()
-    yield
-
-
 def off_and_on():
     addon_utils.disable(MODULE)
     addon_utils.enable(MODULE)
@@ -245,26 +234,6 @@ def rendered(found):
     found["same_file"] = False
 
 
-def handled(found):
-    """A render handler adds an image and removes another, each time that Blender draws."""
-    for n in range(20):
-        bpy.data.images.new(f"Old {n}", 4, 4)
-
-    def handler(*_):
-        bpy.data.images.new("New", 4, 4)
-        old = [i for i in bpy.data.images if i.name.startswith("Old ")]
-        bpy.data.images.remove(old[0])
-
-    bpy.app.handlers.render_pre.append(handler)
-    window().scene.reference_tracer.judge = "WORKBENCH"
-    yield from started()
-    bpy.app.handlers.render_pre.remove(handler)
-    yield from until(ended, 60)
-    window().scene.reference_tracer.judge = "AUTO"
-    for image in [i for i in bpy.data.images if i.name.startswith(("Old ", "New"))]:
-        bpy.data.images.remove(image)
-
-
 def closed():
     """The last window is closed, which ends Blender: what is to be noted is written before."""
     yield from started_large()
@@ -278,12 +247,10 @@ INTERRUPTIONS = (
     saved,
     loaded,
     switched_off,
-    switched_often,
     closed_area,
     closed_window,
     removed_scene,
     rendered,
-    handled,
 )
 SCENE = "suzanne"
 STORIES = (interruptions, closed)

@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 
 import bpy
-from hands import along, click, click_on, found, last, on_screen
+from hands import COMPARE, along, click, click_on, found, last, on_screen
 from inspector_stories import place_in_view, region_of
 from story import (
     compared,
@@ -27,7 +27,6 @@ from story import (
 )
 
 RECORDED = "LESSON_CLIPS" in os.environ
-COMPARE = "reference_tracer.compare("
 # Pixels from the top of *Trace and Compare* down to what can be unfolded, before any comparison.
 SAMPLES, SETTINGS = 115, 71
 

@@ -19,21 +19,20 @@ sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 sys.path.append(str(Path(__file__).parents[1]))  # for what other tests have, too
 
 import diagnosis_stories
-import first_use_stories
 import given_stories
 import hard_stories
-import house_stories
 import inspector_stories
 import installation_stories
 import interruption_stories
 import lesson_stories
-import page_stories
+import picture_stories
+import render_stories
 import seen_stories
 import select_stories
 import session_stories
 import stories
-import study_stories
 import viewport_stories
+import work_stories
 from story import OUT, by_rounds, noted, resized, screenshot, window
 
 STORIES = {
@@ -41,20 +40,19 @@ STORIES = {
     for module in (
         stories,
         diagnosis_stories,
-        first_use_stories,
         given_stories,
         hard_stories,
-        house_stories,
         inspector_stories,
         installation_stories,
         interruption_stories,
         lesson_stories,
-        page_stories,
+        picture_stories,
+        render_stories,
         seen_stories,
         select_stories,
         session_stories,
-        study_stories,
         viewport_stories,
+        work_stories,
     )
     for story in module.STORIES
 }

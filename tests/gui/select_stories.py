@@ -2,7 +2,6 @@
 
 import subprocess
 
-import bmesh
 import bpy
 from story import ended, invoke, noted, press, reports, running, screenshot, until, window
 
@@ -24,12 +23,8 @@ def objects():
     return sorted(obj.name for obj in window().view_layer.objects if obj.select_get())
 
 
-def faces():
-    return [face.select for face in bmesh.from_edit_mesh(bpy.data.objects["Cube"].data).faces]
-
-
 def selected():
-    """Objects, then faces of a cube with a modifier; each undone; frames, cancelled."""
+    """Objects, undone; frames, cancelled."""
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     yield
     scene, cube = window().scene, bpy.data.objects["Cube"]
@@ -48,21 +43,6 @@ def selected():
     noted["undone"] = objects()
     yield from searched("select what the camera sees")
     noted["seen"] = objects()
-    bpy.data.objects["Cube"].modifiers.new("Subdivision", "SUBSURF").subdivision_type = "SIMPLE"
-    press("Tab")
-    yield
-    noted["mode"] = bpy.data.objects["Cube"].mode
-    noted["all"] = faces()
-    yield from searched("store as face attribute")
-    noted["faces"] = faces()
-    mesh = bpy.data.objects["Cube"].data
-    edited = bmesh.from_edit_mesh(mesh)
-    layer = edited.faces.layers.int["camera_sees"]
-    noted["stored"] = [face[layer] for face in edited.faces]
-    screenshot("select_faces")
-    press("ctrl+z")
-    yield
-    noted["faces_undone"] = [faces(), "camera_sees" in bpy.data.objects["Cube"].data.attributes]
     scene = window().scene
     invoke("select_seen", frames=True, hidden=True)
     yield from until(lambda: scene.frame_current > 2, 60)
@@ -70,7 +50,7 @@ def selected():
     press("Escape")
     yield from until(ended, 20)
     yield
-    noted["cancelled"] = [scene.frame_current, faces(), len(bpy.data.scenes)]
+    noted["cancelled"] = [scene.frame_current, objects(), len(bpy.data.scenes)]
     noted["reports"] = reports()
 
 

@@ -1,6 +1,8 @@
-"""What a user does with renders and comparisons, played in Blender's window: see `play.py`."""
+"""What a user does with comparisons and a study, played in Blender's window: see `play.py`."""
 
 from pathlib import Path
+from urllib.parse import urlparse
+from urllib.request import url2pathname
 
 import bpy
 import numpy as np
@@ -14,7 +16,6 @@ from story import (
     press,
     press_compare,
     render_result,
-    reports,
     result,
     running,
     screenshot,
@@ -23,65 +24,6 @@ from story import (
     until,
     window,
 )
-
-
-def f12():
-    """F12 with the engine: the picture is there, and it is the tracer's."""
-    window().scene.render.engine = "REFERENCE_TRACER"
-    bpy.context.preferences.view.render_display_type = "AREA"
-    done = []
-    bpy.app.handlers.render_complete.append(lambda *a: done.append(True))
-    yield
-    press("F12")
-
-    def rendered():
-        return done
-
-    yield from until(rendered)
-    yield
-    screenshot("f12")
-    noted["result"] = render_result()
-    noted["areas"] = [a.type for w in bpy.context.window_manager.windows for a in w.screen.areas]
-    bpy.context.preferences.view.render_display_type = "NONE"  # as `play.py` sets it
-
-
-def f12_escape():
-    """Esc while a long render runs: it stops, and keeps the rows that are done."""
-    scene = window().scene
-    scene.render.engine = "REFERENCE_TRACER"
-    scene.reference_tracer.samples = 16
-    scene.render.use_lock_interface = False
-    cancelled = []
-    bpy.app.handlers.render_cancel.append(lambda *a: cancelled.append(True))
-    yield
-    press("F12")
-    yield from until(rendering)
-    yield 2
-    screenshot("f12_running")
-    press("Escape")
-    yield from until(lambda: cancelled)
-    noted["cancelled"] = cancelled
-    yield
-    screenshot("f12_cancelled")
-    noted["result"] = render_result()
-
-
-def rendering():
-    return bpy.app.is_job_running("RENDER")
-
-
-def f12_error():
-    """F12 on a scene that cannot be traced: the window says why."""
-    window().scene.render.engine = "REFERENCE_TRACER"
-    window().scene.camera.data.type = "PANO"
-    yield
-    earlier = reports()
-    press("F12")
-    yield
-    yield from until(lambda: not rendering())
-    yield
-    screenshot("f12_error")
-    noted["reports"] = reports().removeprefix(earlier)
 
 
 def compare():
@@ -196,31 +138,50 @@ def compare_as_is():
 
 
 def no_camera():
-    """The buttons say what is missing; one adds it, and the next one compares; undo takes it."""
+    """A button adds the camera that is missing; undo takes it away."""
     bpy.data.objects.remove(window().scene.camera)
     bpy.ops.ed.undo_push(message="Delete")
-    window().scene.render.engine = "REFERENCE_TRACER"
-    window().scene.render.resolution_percentage = 50
-    show_panel()
-    yield from open_tab()
-    buttons = [getattr(bpy.ops.reference_tracer, n) for n in ("compare", "inspect", "trade")]
-    noted["before"] = [button.poll() for button in buttons]
-    screenshot("no_camera")
+    yield
     noted["pressed"] = list(invoke("frame_all"))
     yield
-    noted["after"] = [button.poll() for button in buttons]
-    for area in window().screen.areas:
-        if area.type == "VIEW_3D":
-            area.spaces.active.region_3d.view_perspective = "CAMERA"
-    yield
-    screenshot("frame_all")
-    press_compare()
-    yield from until(compared)
-    noted["comparison"] = result().content.to_dict()
+    noted["added"] = window().scene.camera.name
     with bpy.context.temp_override(window=window()):
         noted["undo"] = list(bpy.ops.ed.undo())
     yield
     noted["cameras"] = [o.name for o in bpy.data.objects if o.type == "CAMERA"]
+
+
+def trade():
+    """A study: it runs while the interface is alive, alone, and its plot is behind its button."""
+    yield
+    bpy.ops.render.render()  # the user's own last render must survive
+    before = settings(), data_blocks(), render_result()
+    noted["pressed"] = list(invoke("trade", width=24, samples=2))
+    yield
+    noted["running"] = running()
+    noted["others"] = [getattr(bpy.ops.reference_tracer, n).poll() for n in ("compare", "trade")]
+
+    def measured():
+        return result("TRADE")
+
+    yield from until(measured, 900)
+    yield
+    noted["same"] = before == (settings(), data_blocks(), render_result())
+    noted["said"] = [result("TRADE").lines[0], result("TRADE").content.advice]
+    page = Path(url2pathname(urlparse(result("TRADE").page).path))
+    noted["plots"] = '"title":' in page.read_text(encoding="utf-8").partition('"plots":')[2]
+
+
+def material_preview():
+    """A mode that Blender refuses where an engine has no use for it."""
+    window().scene.render.engine = "REFERENCE_TRACER"
+    yield
+    for area in window().screen.areas:
+        if area.type == "VIEW_3D":
+            shading = area.spaces.active.shading
+            shading.type = "MATERIAL"
+            noted["shading"] = shading.type
+            shading.type = "SOLID"  # before it is drawn: EEVEE's shaders take a minute in software
 
 
 def scenes():
@@ -240,13 +201,12 @@ def scenes():
 
 SCENE = "suzanne"
 STORIES = (
-    f12,
-    f12_escape,
-    f12_error,
     compare,
     engines,
     animation,
     compare_as_is,
     no_camera,
+    trade,
+    material_preview,
     scenes,
 )

@@ -2,7 +2,9 @@
 
 import re
 
+import numpy as np
 import pytest
+from PIL import Image
 
 pytestmark = pytest.mark.gui
 
@@ -80,7 +82,6 @@ def test_the_line_divides_the_traced_picture_from_the_other(noted):
     both = noted["both"]
     assert both["apart"] > 0.8  # so it is seen whose each pixel is
     assert both["left"] < 0.05 and both["right"] < 0.05  # a screen's pixel may be that of two
-    assert noted["coarse"] < 0.1
     assert noted["dragged"][0] == pytest.approx(noted["dragged"][1], abs=0.005)
 
 
@@ -91,9 +92,8 @@ def test_a_region_is_framed_in_the_picture_and_in_the_view(noted):
     assert noted["framed"] == ["FINISHED"] and all(noted["inside"])
     across, width = noted["across"]
     assert across < 40 * (width + 16)  # enlarged
-    [still, selected], [moved, shown] = noted["moved"]
-    assert still == 0 and selected != shown  # a click on a region moves the picture alone
-    assert moved > 0.1 and shown == noted["regions"][0][1][:1]
+    moved, selected = noted["moved"]
+    assert moved > 0.1 and selected == noted["regions"][0][1][:1]
 
 
 @pytest.mark.story("status_bar")
@@ -114,13 +114,20 @@ def test_the_status_bar_says_what_is_done_and_is_cleared_however_it_ends(noted):
 def test_what_takes_long_is_said_before_and_done_once(noted):
     words = "Trace and Compare, Blender evaluates 'Heavy'  (Esc: cancel)"
     assert noted["said"] == [words, words]
-    assert len(noted["evaluations"]) >= 3
-    assert all(count == [1] for count in noted["evaluations"].values())
+    assert noted["evaluations"] == [1]
     assert set(noted["verdicts"].values()) == {"agree"} and "beside a plane" in noted["verdicts"]
 
 
-@pytest.mark.story("sample")
-def test_a_sample_scene_is_opened_as_a_new_file_and_not_over_unsaved_changes(noted):
-    assert "exercise_triangle.blend" in noted["files"] and len(noted["files"]) >= 10
-    assert noted["dirty"] and noted["kept"] == ["Suzanne", True]
-    assert noted["opened"] == ["Exercise: Triangle", ""]
+@pytest.mark.story("tried")
+def test_what_draws_itself_is_named_in_any_view_and_theme(noted):
+    verdict, features = noted["tried"]
+    assert verdict == "warnings" and features == ["grease pencil", "hair", "volume"]
+
+
+@pytest.mark.story("tried")
+def test_a_panel_that_grows_lies_over_no_other(played, noted):
+    """As if it were drawn anew."""
+    names = "session_tried", "session_tried_redrawn"
+    shots = [Image.open(played.out / f"{name}.png").convert("RGB") for name in names]
+    first, again = (np.asarray(shot.crop(noted["sidebar"])) for shot in shots)
+    assert (first == again).all()

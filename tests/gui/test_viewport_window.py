@@ -37,17 +37,6 @@ def test_whatever_happens_to_a_view_it_shows_the_same_again_and_leaves_nothing(n
     assert noted["loaded"]["none"] == 0
 
 
-@pytest.mark.parametrize(
-    "_",
-    [
-        pytest.param("every day", marks=pytest.mark.story("viewport_often")),
-        pytest.param("more", marks=[pytest.mark.story("viewport_more_often"), pytest.mark.torture]),
-    ],
-)
-def test_switches_and_moves_leave_memory_flat(noted, _):
-    assert noted["switches"] < 30 and noted["moves"] < 30  # MiB; a whole picture takes 4, twice
-
-
 @pytest.mark.story("viewport_shows")
 def test_what_each_method_sees_and_how_it_differs(noted):
     def numbers(name):

@@ -24,8 +24,6 @@ from viewport import (
     space,
 )
 
-SWITCHES, MOVES, FIRST = 6, 20, 2  # every day; until what is allocated once is
-MORE_SWITCHES, MORE_MOVES = 200, 1000  # in the long tests
 FILE = str(OUT / "rendered.blend")
 TURNED = Euler((1.1, 0.1, 0.7)).to_quaternion()
 
@@ -250,46 +248,6 @@ EVENTS = (
 )
 
 
-def viewport_often():
-    """Switch modes and move the view many times."""
-    yield from often(SWITCHES, MOVES)
-
-
-def viewport_more_often():
-    """The same, more often."""
-    yield from often(MORE_SWITCHES, MORE_MOVES)
-
-
-def often(switches, moves):
-    yield from prepared()
-    for name, count, act in (("switches", switches, switched), ("moves", moves, turned)):
-        for number in range(count + FIRST):
-            if number == FIRST:
-                before = memory()
-            yield from act(number)
-        yield from settled()
-        noted[name] = memory() - before
-
-
-def switched(number):
-    space().shading.type = "SOLID"
-    yield 0.02
-    space().shading.type = "RENDERED"
-    yield from until(lambda: live() and live()[0].shown, 60)
-
-
-def turned(number):
-    region_3d().view_perspective = "PERSP"
-    region_3d().view_rotation = Euler((1.1, 0.1, number / 20)).to_quaternion()
-    yield 0.02
-
-
-def memory():
-    """Of this process, in MiB."""
-    gc.collect()
-    return int(Path("/proc/self/statm").read_text("utf-8").split()[1]) * 4096 >> 20
-
-
 def viewport_shows():
     """What each method sees of a view, and how it differs from what Blender draws."""
     yield from prepared()
@@ -365,4 +323,4 @@ SHOWN = (
 
 
 SCENE = "suzanne"
-STORIES = (viewport_shows, viewport_pixels, viewport_events, viewport_often, viewport_more_often)
+STORIES = (viewport_shows, viewport_pixels, viewport_events)

@@ -10,13 +10,7 @@ import pytest
 from reference_tracer_meshes.gltf import read as read_gltf
 from reference_tracer_meshes.load import load_meshes
 
-from .gltf_build import INDICES, SQUARE, UNIT, Build, area, box, corners, moved, read
-
-
-def test_a_square(path):
-    triangles, notes = read(Build().shown().write(path))
-    assert box(triangles) == UNIT and area(triangles) == 1 and not notes
-    assert triangles.tolist() == SQUARE[INDICES].reshape(2, 3, 3).tolist()
+from .gltf_build import INDICES, SQUARE, Build, area, box, corners, moved, read
 
 
 def test_y_is_turned_up(path):
@@ -43,13 +37,6 @@ class TestNodes:
         assert names[:4] == ["A", "A (node 1)", "Mesh", "node 3"]
         assert len(set(names)) == 6 and names[5] == "\ud800\n"
 
-    def test_a_name_that_is_made_is_taken_already(self, path):
-        build = Build()
-        mesh = build.mesh()
-        build.scene(*(build.node(mesh=mesh, name=name) for name in ("A (node 2)", "A", "A")))
-        names = {p.object for p in read_gltf(build.write(path)).placed}
-        assert names == {"A (node 2)", "A", "A (node 2) (node 2)"}
-
     def test_a_node_that_is_hidden_and_those_below_it(self, path):
         build = Build()
         build.extension("KHR_node_visibility", required=True)
@@ -65,38 +52,25 @@ class TestNodes:
         assert "hidden" in note and "2 nodes" in note
 
 
-class TestScenes:
-    def two(self) -> Build:
-        build = Build()
-        mesh = build.mesh()
-        at = [build.node(mesh=mesh, translation=[3 * k, 0, 0]) for k in range(3)]
-        build.scene(at[0], at[1])
-        build.scene(at[2])
-        return build
+SCENES = {
+    "the default one": ({"scene": 1}, moved(6), ["2 nodes"]),
+    "the first of two": ({"scene": None}, [[0, 0, 0], [4, 1, 0]], ["2 scenes", "1 node"]),
+    "all nodes": ({"scene": None, "scenes": None}, [[0, 0, 0], [7, 1, 0]], ["no scene"]),
+}
 
-    def test_the_default_one(self, path):
-        build = self.two()
-        build.json["scene"] = 1
-        triangles, notes = read(build.write(path))
-        assert box(triangles) == moved(6)
-        assert len(notes) == 1 and "2 nodes" in notes[0]
 
-    def test_the_first_of_two_is_named(self, path):
-        build = self.two()
-        del build.json["scene"]
-        triangles, notes = read(build.write(path))
-        assert area(triangles) == 2 and any("2 scenes" in n for n in notes)
-
-    def test_the_only_one_needs_no_word(self, path):
-        build = Build().shown()
-        del build.json["scene"]
-        assert read(build.write(path))[1] == ()
-
-    def test_without_any_all_nodes_are_shown(self, path):
-        build = self.two()
-        del build.json["scene"], build.json["scenes"]
-        triangles, notes = read(build.write(path))
-        assert area(triangles) == 3 and "no scene" in notes[0]
+@pytest.mark.parametrize("name", SCENES)
+def test_which_scene_is_shown(name, path):
+    changes, expected, words = SCENES[name]
+    build = Build()
+    mesh = build.mesh()
+    at = [build.node(mesh=mesh, translation=[3 * k, 0, 0]) for k in range(3)]
+    build.scene(at[0], at[1])
+    build.scene(at[2])
+    build.json = {k: v for k, v in (build.json | changes).items() if v is not None}
+    triangles, notes = read(build.write(path))
+    assert box(triangles) == expected
+    assert all(word in note for word, note in zip(words, notes, strict=True))
 
 
 class TestTopology:

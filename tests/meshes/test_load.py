@@ -5,14 +5,12 @@ from __future__ import annotations
 import subprocess
 import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli import opening
 from reference_tracer.files.exr import MissingLibraryError
-from reference_tracer.files.scenes import load_scene
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer_meshes.load import load_meshes, scene_of_meshes
@@ -52,14 +50,6 @@ def test_a_mesh_too_large_to_be_framed_is_named(tmp_path):
         warnings.simplefilter("error")
         with pytest.raises(SceneError, match=r"a\.obj': it is too large"):
             opening.load(tmp_path / "a.obj")
-
-
-@pytest.mark.parametrize("load", [load_meshes, load_scene])
-@pytest.mark.parametrize("kind", [str, Path])
-def test_there_is_no_such_file(load, kind, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(SceneError, match=r"^there is no file 'none\.ply'$"):
-        load(kind("none.ply"))
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".ply", ".off", ".stl", ".glb"])

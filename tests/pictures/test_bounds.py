@@ -168,33 +168,6 @@ def test_half_floats_agree_and_bytes_do_not():
     assert differing(white, white - np.float32(1 / 255)).all()
 
 
-def test_differing_is_symmetric_and_strict(rng):
-    first = (3 * rng.random((5, 6, 4)) + 0.01).astype(np.float16).astype(np.float64)
-    unit = np.spacing(first.astype(np.float16)).astype(np.float64)
-    allowed = np.maximum(HALF_UNITS * unit, LEAST_STEP)
-    second = first - allowed * rng.choice([0, 0.9, 1.1], first.shape, p=[0.6, 0.3, 0.1])
-    expected = (first - second > allowed).any(axis=-1)
-    assert 0 < expected.sum() < 30
-    assert np.array_equal(differing(first, second), expected)
-    assert np.array_equal(differing(second, first), expected)
-
-
-@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
-def test_what_is_near_agrees_at_once(rng, dtype):
-    """As if each were asked how far it may be: at any scale, at the least step, at no number."""
-    scale = np.exp2(rng.uniform(-30, 15, (4000, 1)))
-    first = (scale * rng.uniform(-1, 1, (4000, 4))).astype(dtype)
-    step = rng.choice([0, 0.5, 1 - 2.0**-12, 1, 1 + 2.0**-12, 2], first.shape) * LEAST_STEP
-    second = (first + step).astype(dtype)
-    for values in (first, second):
-        values[rng.random(values.shape) < 0.01] = rng.choice([np.inf, -np.inf, np.nan])
-    apart, allowed = difference(first, second)
-    with np.errstate(invalid="ignore"):
-        expected = ~((apart <= allowed) & np.isfinite(first) & np.isfinite(second)).all(axis=-1)
-    assert np.array_equal(differing(first, second), expected)
-    assert 100 < expected.sum() < 3900
-
-
 @pytest.mark.parametrize("rows", [1, 3, 1000])
 @pytest.mark.parametrize("shape", [(1, 1), (9, 13), (40, 7)])
 def test_every_error_reaches_as_far_as_it_is_large(rng, monkeypatch, rows, shape):

@@ -41,11 +41,6 @@ def causes(scene, frame, shown, *rest):
     return result_of(find_causes(scene, frame, shown, *rest))
 
 
-def test_the_same_picture_agrees(room, seen):
-    frame, shown = seen
-    assert (causes(room, frame, shown).cause == AGREE).all()
-
-
 @pytest.mark.parametrize("ramp", [False, True])
 def test_an_owner_that_cannot_have_the_colour_is_forgotten(ramp, make):
     """The two drawings contradict one another; a colour between corners may be any."""

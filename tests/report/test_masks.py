@@ -102,15 +102,6 @@ def test_masks_are_what_is_seen_and_the_whole(written, named, tmp_path):
     assert hidden and len(held["annotations"]) == 3
 
 
-def test_masks_without_proof_are_refused(named, tmp_path, capsys, exit_code):
-    save_scene(tmp_path / "scene.npz", named)
-    paths = [str(tmp_path / name) for name in ("scene.npz", "a.png", "masks")]
-    asked = ["trace", paths[0], "--out", paths[1], "--masks", paths[2], "--method", "textbook"]
-    assert exit_code(asked) == 4
-    assert "--masks: textbook proves nothing" in capsys.readouterr().err
-    assert not (tmp_path / "masks").exists()
-
-
 def test_runs_begin_with_zeros_and_go_down_the_columns():
     mask = np.array([[0, 1], [1, 1], [1, 0]], bool)
     assert masks.runs(mask) == {"size": [3, 2], "counts": [1, 4, 1]}

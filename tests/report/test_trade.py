@@ -14,7 +14,6 @@ from reference_tracer.report.trade import (
     page,
     plot,
     table,
-    text_cells,
     write,
 )
 from reference_tracer.study.advice import mark
@@ -93,15 +92,6 @@ def test_table(trade):
     )
     stars = sum(r.best_pixels + r.best_coverage for r in trade.rows)
     assert sum(line.count("*") for line in rows) == stars
-
-
-def test_the_page_has_every_row_and_column(trade):
-    held = text_cells(trade)
-    assert held["head"][3:] == [c.head for c in COLUMNS]
-    for cells, r in zip(held["rows"], trade.rows, strict=True):
-        assert cells[:3] == [Method(r.method).record.words, r.precision, r.size]
-        assert [c.rstrip(" *") for c in cells[3:]] == [c.show(r) for c in COLUMNS]
-        assert sum("*" in c for c in cells) == r.best_pixels + r.best_coverage
 
 
 @pytest.fixture

@@ -69,14 +69,18 @@ def test_certified_is_never_wrong_at_any_scale():
         [
             ("far_from_origin", "textbook", "float32", 1e3, 1e6, 0.01, 0.3),
             ("far_from_origin", "textbook", "float32", 1e3, 1e8, 0.99, 1),
+            ("far_from_origin", "watertight", "float32", 1e3, 1e8, 0.99, 1),
             ("far_from_origin", "textbook", "float64", 1e10, 1e15, 0.03, 0.5),
             ("needles", "textbook", "float32", 1e1, 1e3, 0.8, 1),
+            ("needles", "watertight", "float32", 1e5, 1e9, 0.6, 1),
             ("needles", "textbook", "float64", 1e5, 1e9, 0.9, 1),
             ("needles", "watertight", "float64", 1e12, 1e15, 0.005, 0.5),
             ("grazing", "watertight", "float32", 1e-3, 1e-8, 0.2, 1),
             ("grazing", "textbook", "float64", 1e-10, 1e-15, 0.1, 0.6),
+            ("tiny", "textbook", "float32", 1e-6, 1e-12, 0.99, 1),
             ("tiny", "textbook", "float64", 1e-60, 1e-80, 0.3, 0.9),
             ("tiny", "watertight", "float64", 1e-60, 1e-300, 1, 1),
+            ("huge", "textbook", "float32", 1e6, 1e10, 0.5, 1),
             ("huge", "textbook", "float64", 1e60, 1e80, 1, 1),
             ("far_camera", "watertight", "float32", 1e3, 1e6, 0.1, 0.6),
             ("far_camera", "textbook", "float64", 1e10, 1e14, 0.03, 0.4),
@@ -106,12 +110,9 @@ def test_what_is_not_finite_is_refused_and_counted():
         assert r.refused == (broken.sum() if r.scale else 0)
     found = at("huge", 1e300)
     float32 = found["watertight", "float32", 1e300]
-    assert float32.refused == scene_triangles("huge", 1e300) + float32.rays
+    triangles = BY_NAME["huge"].build(1e300, 32, 24).triangle_count
+    assert float32.refused == triangles + float32.rays
     assert found["certified", "float64", 1e300].refused == 0
-
-
-def scene_triangles(name, scale):
-    return BY_NAME[name].build(scale, 32, 24).triangle_count
 
 
 @pytest.fixture(scope="module")

@@ -63,10 +63,6 @@ def test_every_field_that_is_measured_has_a_column():
     assert {"seconds", "rounds"} <= TIMED and not TIMED & {"wrong_pixels", "coverage_error"}
 
 
-def test_equals_are_both_marked():
-    assert [m.best for m in mark([row(), row(), row(seconds=2.0)])] == [True, True, False]
-
-
 def test_gain_is_that_of_the_rounds():
     """A slow moment falls on both rows of a round: only their ratio counts."""
     fast, slow = row(rounds=(0.9, 1.8, 0.9)), row(rounds=(1.0, 2.0, 1.0))

@@ -19,8 +19,6 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Precision
 
-from ..cases import rising
-
 pytestmark = pytest.mark.slow
 
 LADDER = {(m.value, p.value) for m in Method if not m.is_proven for p in Precision}
@@ -99,11 +97,6 @@ def test_tiny_pictures(ball, width):
     trade = result_of(measure(ball, width, 1))
     assert {(r.method, r.precision) for r in trade.whole} == LADDER
     assert trade.whole[0].width == width and trade.advice
-
-
-def test_progress_never_goes_back(ball):
-    shares, _ = rising(measure(ball, 8, 2))
-    assert shares[0] < 0.1 and shares[-1] == pytest.approx(1)
 
 
 def stopped_after(work, seen):

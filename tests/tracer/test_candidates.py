@@ -5,12 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.scene import Instance, Mesh, Region, Scene
-from reference_tracer.tracer import candidates, sampled
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.candidates import pixel_bounds
 from reference_tracer.tracer.nearest import within_clip
-from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.triangle import TESTS
 
 from ..oracle import OUTSIDE, intersect_pairs
@@ -86,35 +83,3 @@ def test_no_hit_is_culled(part, make):
     hits, proposed, possible = check((hostile(make, seed) for seed in seeds), shifts)
     assert hits > 50_000
     assert proposed < 0.5 * possible  # a box that holds everything would be conservative, too
-
-
-@pytest.fixture
-def forest(make, rng):
-    """Return three meshes (one empty), with instances in a mixed order."""
-    meshes = tuple(
-        Mesh(rng.normal(size=(12, 3)).astype(np.float32), rng.integers(0, 12, (n, 3)), name=str(n))
-        for n in (7, 0, 30)
-    )
-    instances = [
-        Instance(k % 3, 0, np.vstack((rng.normal(size=(3, 4)), (0, 0, 0, 1)))) for k in range(20)
-    ]
-    return Scene(make.camera(), meshes, instances, objects=("Forest",))
-
-
-@pytest.mark.parametrize("kept", [0, 200, sampled.SAMPLED])
-def test_candidates_are_the_same_for_each_sample(kept, forest, monkeypatch):
-    monkeypatch.setattr(sampled, "SAMPLED", kept)
-    monkeypatch.setattr(candidates, "PAIRS", 64)
-    made = result_of(candidates.cull(forest, np.dtype(float), 1 << 28, 0.5))
-    r = forest.camera.region
-    low, high = Region(r.x0, r.y0, r.x1, r.y1 // 2), Region(r.x0, r.y1 // 2, r.x1, r.y1)
-    several, gathered = sampled.Sampled(made), 0
-    for tile in (low, low, high, low, low):
-        pairs = zip(several.of(tile), candidates.candidates(made, tile), strict=True)
-        for (share, some), (own_share, own) in pairs:
-            assert share == own_share and (some is None) == (own is None)
-            if some is not None:
-                assert "corners" not in vars(some)  # nobody keeps them from sample to sample
-                assert (some.pixel == own.pixel).all() and (some.corners == own.corners).all()
-                gathered += len(some.pixel)
-    assert gathered > 1000

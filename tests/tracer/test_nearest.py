@@ -65,17 +65,6 @@ def traced(scene, settings=None):
     return render(scene, settings)
 
 
-@for_all(PLAIN)
-def test_brute_force(mess, settings):
-    frame = traced(mess, settings)
-    t, instance, triangle = brute_force(mess, settings)
-    assert np.array_equal(frame.t.ravel(), t)
-    assert np.array_equal(frame.instance_index.ravel(), instance)
-    assert np.array_equal(frame.triangle_index.ravel(), triangle)
-    seen = set(instance.tolist())
-    assert len(seen) > 4 and len(mess.instances) in seen  # a plane
-
-
 @pytest.mark.slow
 @for_all(PLAIN)
 @pytest.mark.parametrize(
@@ -99,14 +88,6 @@ def test_the_division_of_the_work_does_not_matter(mess, settings, division, monk
     for name, values in divided.passes().items():
         assert values.tobytes() == whole.passes()[name].tobytes(), name
     assert divided.statistics.pairs_tested == whole.statistics.pairs_tested
-
-
-@pytest.mark.slow
-def test_the_memory_does_not_matter(mess):
-    whole = traced(mess, Settings(samples=2)).passes()
-    for memory in (16 << 20, 1 << 34):
-        for name, values in traced(mess, Settings(samples=2, memory=memory)).passes().items():
-            assert values.tobytes() == whole[name].tobytes(), name
 
 
 SEEING = pytest.mark.parametrize("method", [m for m in Method if m != Method.TEXTBOOK_LITERAL])

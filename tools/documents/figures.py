@@ -127,7 +127,7 @@ def of_triangle() -> dict[str, str]:
 def of_grading() -> dict[str, str]:
     """What is asked of a student's function, over the exercise's four scenes; the weights."""
     subjects = (result_of(prepare(name, some)) for name, some, _ in built_in())
-    pairs = sum(len(some.pixel) for s in subjects for some, _ in s.pairs)
+    pairs = sum(len(some.pixel) for s in subjects for some in s.pairs)
     found = {"judged_pairs": _whole(pairs), "judged_pixels": _whole(PIXELS), "cost": f"{COST:g}"}
     return found | {f"weight_{name}": f"{weight:g}" for name, weight in TRIANGLE.weights.items()}
 

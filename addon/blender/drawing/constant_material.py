@@ -31,7 +31,7 @@ _OF_OBJECT = "material_slots[{}].material.diffuse_color"
 
 
 @contextmanager
-def constant_colors(scene: Scene, layer: str, depsgraph: Depsgraph) -> Iterator[None]:
+def constant_colors(scene: Scene, depsgraph: Depsgraph) -> Iterator[None]:
     """Have an engine with materials draw a temporary scene's evaluation in constant colours.
 
     Raises
@@ -49,10 +49,11 @@ def constant_colors(scene: Scene, layer: str, depsgraph: Depsgraph) -> Iterator[
             lamp.visible_camera = False
     scene.camera.evaluated_get(depsgraph).data.dof.use_dof = False
     material = made_for(scene, bpy.data.materials.new("Reference Tracer Constant"))
-    _emission(material, scene, layer, depsgraph)
+    _emission(material, scene, depsgraph)
     scene.world = None
-    scene.view_layers[layer].use_solid = True
-    scene.view_layers[layer].material_override = material
+    [layer] = scene.view_layers
+    layer.use_solid = True
+    layer.material_override = material
     yield
 
 
@@ -81,7 +82,7 @@ def check_slots(scene: Traced, color_type: str) -> None:
             )
 
 
-def _emission(material: Material, scene: Any, layer: str, depsgraph: Depsgraph) -> None:
+def _emission(material: Material, scene: Any, depsgraph: Depsgraph) -> None:
     material.use_nodes = True
     tree = material.node_tree
     shading = scene.display.shading
@@ -93,7 +94,7 @@ def _emission(material: Material, scene: Any, layer: str, depsgraph: Depsgraph) 
     if shading.color_type == "SINGLE":
         color.default_value = (*shading.single_color, 1.0)
     else:
-        of_vertices = partial(_vertex_color, scene.view_layers[layer].objects)
+        of_vertices = partial(_vertex_color, scene.view_layers[0].objects)
         make: dict[str, Callable[..., Any]] = {"OBJECT": _object_color, "VERTEX": of_vertices}
         own: Callable[..., Any] = make.get(shading.color_type, _material_color)
         tree.links.new(own(tree, partial(_slots_of, depsgraph)), color)

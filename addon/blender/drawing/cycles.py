@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .judge import Judge, check_slots, constant_colors
+from .judge import Judge
 
 SAMPLE_RADIUS = 0.005  # pixels: the least that Cycles' filter allows
 # Metres. Embree, which Cycles traces with, takes a triangle for invalid that has a coordinate of
@@ -28,11 +28,8 @@ CYCLES = Judge(
         ("cycles.pixel_filter_type", "BOX"),
         ("cycles.filter_width", 2 * SAMPLE_RADIUS),
     ),
-    set_up=constant_colors,
-    check_colors=check_slots,
     sample_radius=SAMPLE_RADIUS,
     farthest=FARTHEST,
     traces_rays=True,
     solid=False,
-    random_instances=False,
 )

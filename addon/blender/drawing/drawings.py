@@ -50,7 +50,7 @@ class Plan:
         """Give a new temporary scene that is set up to be drawn, and with what settings it is."""
         with (
             temporary_scene(self.scene, self.layer, self.judge.ignores, self.palette) as tmp,
-            left_out(tmp, self.layer, self.left_out),
+            left_out(tmp, self.left_out),
         ):
             if self.view_shading:
                 use_view_shading(tmp, self.view_shading)
@@ -69,13 +69,13 @@ class Plan:
             return self._drawn(export, identity)
         own = self.judge if self.judge.needs_window else None
         with self.prepared() as (tmp, used):
-            drawing = evaluated(tmp, self.layer, own, _exported(tmp, used, export))
+            drawing = evaluated(tmp, own, _exported(tmp, used, export))
         return drawing.again(identity=identity)
 
     def _drawn(self, export: Export, identity: bool) -> Drawn:
         """Export and draw one evaluation."""
         with self.prepared() as (tmp, used):
-            return evaluated(tmp, self.layer, self.judge, _turns(tmp, used, export, identity))
+            return evaluated(tmp, self.judge, _turns(tmp, used, export, identity))
 
 
 def _is_changed(obj: Any) -> bool:
@@ -130,23 +130,23 @@ def _turns(
     drawing = export(tmp, used, depsgraph)
     manifest = drawing.manifest
     of_planes = manifest.owners[len(drawing.exported.instances) :]
-    scene = stand_ins(tmp, drawing.layer, drawing.exported, of_planes)
+    scene = stand_ins(tmp, drawing.exported, of_planes)
     gone = {(u.object, u.feature) for u in drawing.left_out}
     identity &= all((u.object, u.feature) in gone for u in separable(manifest))
-    names = _owner_names(drawing, tmp) if identity else {}
-    by = drawing.layer, drawing.judge, drawing.exported.camera, depsgraph
+    names = _owner_names(tmp) if identity else {}
+    by = drawing.judge, drawing.exported.camera, depsgraph
     pixels = yield from picture(tmp, *by, drawing.like_for_like, not names)
     owners = (yield from _owners(drawing, tmp, names)) if names else None
     return Drawn(drawing, scene, pixels, owners)
 
 
-def _owner_names(drawing: Drawing, tmp: Any) -> dict[str, str]:
+def _owner_names(tmp: Any) -> dict[str, str]:
     """Return the owner that each object of a temporary scene shows, by the objects' names.
 
     There is none if there are more objects than colours can tell apart.
     """
     planes = [o for o in tmp.collection.objects if STANDS_FOR in o]
-    objects = (*drawn(tmp, drawing.layer), *planes)
+    objects = (*drawn(tmp), *planes)
     owners = {o.name_full: o.get(STANDS_FOR) or o.name_full for o in objects}
     return owners if len(set(owners.values())) <= MOST_OBJECTS else {}
 
@@ -158,8 +158,7 @@ def _owners(drawing: Drawing, tmp: bpy.types.Scene, owners: Mapping[str, str]) -
     prepare_scene(tmp, drawing.judge, True)
     depsgraph = yield False
     show_in(tmp, depsgraph, {name: colors[owner] for name, owner in owners.items()})
-    by = drawing.layer, drawing.judge, drawing.exported.camera, depsgraph
-    pixels = yield from picture(tmp, *by)
+    pixels = yield from picture(tmp, drawing.judge, drawing.exported.camera, depsgraph)
     return Owners.of(names, decode(pixels, len(names)), drawing.manifest.owners)
 
 

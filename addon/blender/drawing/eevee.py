@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
-from .judge import Judge, check_slots, constant_colors
+from .judge import Judge
 
 if TYPE_CHECKING:
     from bpy.types import Mesh, Object
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 def _check_colors(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
     """Refuse meshes that EEVEE shows in other colours than the solid viewport."""
-    check_slots(scene, color_type, objects)
     if color_type == "VERTEX":
         _check_attributes(scene, objects)
     elif color_type == "MATERIAL":
@@ -79,8 +78,6 @@ EEVEE = Judge(
     engine="BLENDER_EEVEE",
     ignores=("display type", "transparency", "texture", "in-front drawing"),
     settings=(("eevee.taa_render_samples", 1), ("render.filter_size", 0.0)),
-    set_up=constant_colors,
     check_colors=_check_colors,
     solid=False,
-    random_instances=False,
 )

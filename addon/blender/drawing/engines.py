@@ -12,7 +12,7 @@ from typing import Any
 import bpy
 
 from ..temporary import ENGINE
-from .judge import Judge, constant_colors
+from .judge import Judge
 
 _OWN = ("BLENDER_", "CYCLES", ENGINE)  # how the names of engines begin that are no add-on's
 
@@ -37,9 +37,7 @@ def _judge(engine: str, label: str) -> Judge:
         label=label,
         engine=engine,
         ignores=("display type", "transparency", "texture", "in-front drawing", "hidden faces"),
-        set_up=constant_colors,
         traces_rays=True,
         solid=False,
-        random_instances=False,
         known=False,
     )

@@ -7,41 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    import bpy
-    from bpy.types import Depsgraph
-
     from ...scene import Scene
-
-
-def _as_it_is(
-    scene: bpy.types.Scene, layer: str, depsgraph: Depsgraph
-) -> AbstractContextManager[None]:
-    return nullcontext()
-
-
-def constant_colors(
-    scene: bpy.types.Scene, layer: str, depsgraph: Depsgraph
-) -> AbstractContextManager[None]:
-    """Show the colours of an evaluated scene by a material, as `constant_material.py` does."""
-    from . import constant_material
-
-    return constant_material.constant_colors(scene, layer, depsgraph)
-
-
-def _any(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
-    pass
-
-
-def check_slots(scene: Scene, color_type: str, objects: Collection[Any]) -> None:
-    """Refuse what `constant_colors` would show black."""
-    from . import constant_material
-
-    constant_material.check_slots(scene, color_type)
 
 
 @dataclass(frozen=True)
@@ -65,8 +36,9 @@ class Judge:
     ignores: tuple[str, ...] = ()
     # Of a temporary scene, like for like, by their paths.
     settings: tuple[tuple[str, Any], ...] = ()
-    # Sets such a scene, its view layer and its evaluation up to be drawn in constant colours.
-    set_up: Callable[[Any, str, Any], AbstractContextManager[None]] = _as_it_is
+    # Sets such a scene and its evaluation up to be drawn in constant colours, if more than its
+    # settings is to be set: of those with materials, by default, one material for all of it.
+    set_up: Callable[[Any, Any], AbstractContextManager[None]] | None = None
     # Pixels: how far its samples may lie from a pixel's centre, like for like.
     sample_radius: float = 0.0
     # Pixels from its centre that its anti-aliasing mixes. Workbench's samples lie within a pixel
@@ -77,10 +49,9 @@ class Judge:
     traces_rays: bool = False  # a rasteriser rounds the corners of triangles, a ray tracer does not
     solid: bool = True  # drawn by the scene's solid shading; others have materials and light
     known: bool = True  # how it samples and rounds: else its picture is compared as anybody's
-    random_instances: bool = True  # where colours are random, each instance has its own
-    # Refuses meshes whose colours of a type it cannot draw, given the view layer's objects; raises
-    # SceneError.
-    check_colors: Callable[[Scene, str, Collection[Any]], None] = _any
+    # Refuses meshes whose colours of a type it cannot draw, beside those that no material shows,
+    # given the view layer's objects; raises SceneError.
+    check_colors: Callable[[Scene, str, Collection[Any]], None] | None = None
 
     def __post_init__(self) -> None:
         problem = ""
@@ -101,8 +72,8 @@ class Judge:
     def check_random(self, scene: Scene, owners: Sequence[str]) -> None:
         """Refuse random colours of instances, if this judge cannot draw them.
 
-        The viewport gives an instance the colour of its own object's name. Such a judge would give
-        it that of the object that instances it.
+        The viewport gives an instance the colour of its own object's name. A judge with materials
+        would give it that of the object that instances it.
 
         Parameters
         ----------
@@ -118,7 +89,7 @@ class Judge:
         from ...scene import SceneError
 
         for instance, owner in zip(scene.instances, owners, strict=False):
-            if not self.random_instances and scene.objects[instance.object] != owner:
+            if not self.solid and scene.objects[instance.object] != owner:
                 raise SceneError(
                     f"{self.label} cannot draw the viewport's random colours of instances, as of "
                     f"'{owner}': set the colour of the scene's solid shading to material or "

@@ -19,7 +19,7 @@ _HIDING = ("hide_render", "hide_viewport")
 
 
 @contextmanager
-def left_out(tmp: Scene, layer: str, features: Sequence[Unmodelled]) -> Iterator[None]:
+def left_out(tmp: Scene, features: Sequence[Unmodelled]) -> Iterator[None]:
     """Leave hair, and objects that draw what is no triangle, out of a temporary scene, for a while.
 
     Where an animation would show again what was hidden, the object leaves the scene.
@@ -28,7 +28,7 @@ def left_out(tmp: Scene, layer: str, features: Sequence[Unmodelled]) -> Iterator
     others = {name for u in features if u.feature != HAIR for name in (u.object, *u.by)}
     objects = {o for o in bpy.data.objects if o.name_full in others}
     old: set[Any] = {o for o in objects if str(o.type) == "GPENCIL"}  # 4.2 would not show it again
-    leave_out(tmp, layer, old | {o for o in objects if is_animated(o, *_HIDING)})
+    leave_out(tmp, old | {o for o in objects if is_animated(o, *_HIDING)})
     hidden = dict.fromkeys(objects - old, np.bool_(True))
     with ExitStack() as stack:
         for name in _HIDING:

@@ -6,7 +6,7 @@ Everything is set on a temporary copy of the user's scene, and what cannot be is
 
 from __future__ import annotations
 
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from ..evaluating import evaluated
 from ..temporary import made_for
 from ..turns import Turns
 from ..versions import set_format
+from .constant_material import constant_colors
 from .judge import Judge
 
 # Settings of a picture that can be compared: property of the scene, and value.
@@ -76,7 +77,6 @@ def prepare_scene(scene: Scene, judge: Judge, like_for_like: bool) -> dict[str, 
 
 def picture(
     scene: Scene,
-    layer: str,
     judge: Judge,
     camera: Camera,
     depsgraph: Depsgraph,
@@ -89,8 +89,6 @@ def picture(
     ----------
     scene : bpy.types.Scene
         The temporary scene.
-    layer : str
-        Its view layer.
     judge : Judge
         The engine that draws.
     camera : Camera
@@ -114,7 +112,7 @@ def picture(
     SizeError
         If it made one of another size.
     """
-    with judge.set_up(scene, layer, depsgraph) if like_for_like else nullcontext():
+    with _set_up(judge, scene, depsgraph) if like_for_like else nullcontext():
         yield not is_last
     written = Path(scene.render.filepath)
     found = list(written.parent.glob(f"{written.name}*.exr"))
@@ -133,15 +131,20 @@ def picture(
     return np.ascontiguousarray(pixels)
 
 
-def drawn_once(
-    scene: Scene, layer: str, judge: Judge, camera: Camera, like_for_like: bool
-) -> Colors:
+def _set_up(judge: Judge, scene: Scene, depsgraph: Depsgraph) -> AbstractContextManager[None]:
+    """Have a judge draw an evaluation in constant colours, for a while."""
+    if judge.set_up:
+        return judge.set_up(scene, depsgraph)
+    return nullcontext() if judge.solid else constant_colors(scene, depsgraph)
+
+
+def drawn_once(scene: Scene, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:
     """Have a prepared temporary scene evaluated and drawn; return its :func:`picture`."""
 
     def turns() -> Turns[Colors]:
-        return (yield from picture(scene, layer, judge, camera, (yield False), like_for_like))
+        return (yield from picture(scene, judge, camera, (yield False), like_for_like))
 
-    return evaluated(scene, layer, judge, turns())
+    return evaluated(scene, judge, turns())
 
 
 def read(scene: Scene, path: Path, colorspace: str = "") -> Colors:

@@ -81,7 +81,7 @@ def covered(judge: Judge, moved: Floats, turned: bool = False) -> Bools:
         shading = scene.display.shading
         shading.color_type = "SINGLE"  # whatever else the file holds
         color = np.array(shading.single_color)
-        shown = drawn_once(scene, scene.view_layers[0].name, judge, camera, True)
+        shown = drawn_once(scene, judge, camera, True)
     finally:
         remove(scene)
     drawn = shown[shown[..., 3] > 0.5][:, :3]

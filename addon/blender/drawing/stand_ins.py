@@ -24,15 +24,13 @@ from ..temporary import leave_out, made_for
 STANDS_FOR = "reference_tracer_stands_for"
 
 
-def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Scene:
+def stand_ins(tmp: Any, scene: Scene, owners: Sequence[str]) -> Scene:
     """Show polygons in a temporary Blender scene in place of its infinite planes.
 
     Parameters
     ----------
     tmp : bpy.types.Scene
         The temporary scene.
-    layer : str
-        Its view layer.
     scene : Scene
         What was exported of it.
     owners : sequence of str
@@ -47,7 +45,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Scen
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
     planes: list[Plane] = []
     if marked:
-        leave_out(tmp, layer, marked)
+        leave_out(tmp, marked)
     for plane, owner in zip(scene.planes, owners, strict=True):
         corners = polygon(scene.camera, plane)
         if len(corners):

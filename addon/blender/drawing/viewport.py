@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def _without_anti_aliasing(scene: Scene, layer: str, depsgraph: Depsgraph) -> Iterator[None]:
+def _without_anti_aliasing(scene: Scene, depsgraph: Depsgraph) -> Iterator[None]:
     """Switch off the user preference that alone decides on a window's anti-aliasing, for a while.
 
     The mark that preferences were changed is put back, too: else Blender would save them on exit.

@@ -32,11 +32,10 @@ from ...tracer.settings import Settings
 from ..drawing.drawings import Drawing, Plan, drawn_by_others
 from ..drawing.judges import AUTO, judge_named
 from ..drawing.picture import read
-from ..evaluating import export_for_render
+from ..evaluating import export_at
 from ..reading.export import export
 from ..reading.palettes import automatic, noted, palette_by
-from ..temporary import go_to, temporary_scene
-from ..values import values_restored
+from ..temporary import temporary_scene
 from ..versions import set_format
 from .open_file import export_open_file
 from .variants import variants
@@ -103,7 +102,7 @@ def alternatives(
     layer = context.view_layer.name
     with (
         temporary_scene(context.scene, layer, palette=palette) as tmp,
-        context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]),
+        context.temp_override(scene=tmp, view_layer=tmp.view_layers[0]),
     ):
         other, viewport = export(bpy.context.evaluated_depsgraph_get())
     drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))
@@ -143,13 +142,10 @@ def _frames(context: Context, palette: Palette) -> list[Alternative]:
     out = []
     now = context.scene.frame_current
     layer = context.view_layer.name
-    with values_restored(), temporary_scene(context.scene, layer, palette=palette) as tmp:
+    with temporary_scene(context.scene, layer, palette=palette) as tmp:
         for frame in (now - 1, now + 1):
-            go_to(tmp, frame)
-            scene, _, _ = export_for_render(tmp)
             reason = f"the picture is of frame {frame}, the scene is at {now}"
-            out.append(Alternative("what is animated", reason, scene))
-        go_to(tmp, now)
+            out.append(Alternative("what is animated", reason, export_at(tmp, frame)))
     return out
 
 

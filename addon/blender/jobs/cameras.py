@@ -48,7 +48,7 @@ def _camera(frame: int) -> SceneCamera:
     points = known_points(camera)
     if not camera.projection.is_linear:  # Blender has no matrix for it
         return SceneCamera.of(camera, f"{frame:04d}.png")
-    film = film_of_blender(scene, depsgraph, points) - corner
+    film = film_of_blender(depsgraph, points) - corner
     return SceneCamera(
         View(camera, f"{frame:04d}.png", frame), points, film, "Blender's own matrix"
     )

@@ -29,19 +29,20 @@ from ...scene import Scene
 from ...tracer.memory import ALWAYS, COMPARED, check_memory, give_back
 from ...tracer.progress import Work
 from ..drawing.behind import behind
+from ..drawing.constant_material import check_slots
 from ..drawing.drawings import Drawing, Plan, with_what_draws_itself
 from ..drawing.judge import Judge
 from ..drawing.judges import judge_or_none
 from ..drawing.rasteriser import snapping_of
 from ..drawing.shading import of_shading, solid_shading
-from ..evaluating import export_certified, export_for_judge
+from ..evaluating import export_at, export_certified
 from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..reading.export import export
 from ..reading.palettes import automatic, noted, palette_by
 from ..reading.unmodelled import by_handlers
-from ..temporary import go_to, show_in
-from ..values import is_animated, values_restored
+from ..temporary import show_in
+from ..values import is_animated
 from .given import gather_given
 from .open_file import Choices
 from .variants import variants
@@ -140,12 +141,20 @@ class _Export:
         if plan.like_for_like and used["color_type"] == "RANDOM":
             plan.judge.check_random(scene, manifest.owners)
         if plan.like_for_like:
-            plan.judge.check_colors(scene, used["color_type"], tmp.view_layers[plan.layer].objects)
+            _check_colors(plan.judge, scene, used["color_type"], tmp)
         else:
             of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
             of_scene = (replace(u, object=f"scene '{plan.scene.name}'") for u in of_picture)
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_scene))
         return Drawing.of(plan, scene, manifest)
+
+
+def _check_colors(judge: Judge, scene: Scene, color_type: str, tmp: Any) -> None:
+    """Refuse what a judge would not show in the colours that the tracer has."""
+    if not judge.solid:
+        check_slots(scene, color_type)
+    if judge.check_colors:
+        judge.check_colors(scene, color_type, tmp.view_layers[0].objects)
 
 
 def _names(scene: bpy.types.Scene) -> list[str]:
@@ -170,12 +179,8 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
 
 def _a_frame_later(drawing: Drawing) -> Scene:
     """Return the scene of the next frame."""
-    with drawing.prepared() as (tmp, _), values_restored():
-        now = tmp.frame_current
-        go_to(tmp, now + 1)
-        later, _, _ = export_for_judge(tmp, drawing.layer, drawing.judge)
-        go_to(tmp, now)
-    return later
+    with drawing.prepared() as (tmp, _):
+        return export_at(tmp, tmp.frame_current + 1, drawing.judge)
 
 
 def compare_open_file(

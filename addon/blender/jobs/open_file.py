@@ -16,8 +16,7 @@ from ...tracer.settings import Settings
 from ..drawing.judge import Judge
 from ..drawing.judges import ENGINE
 from ..drawing.picture import prepare_scene
-from ..drawing.workbench import WORKBENCH
-from ..evaluating import export_for_judge
+from ..evaluating import export_for_render
 from ..reading.camera import export_camera
 from ..temporary import everything, temporary_scene
 
@@ -79,5 +78,5 @@ def export_open_file(
         if judge:
             prepare_scene(tmp, judge, stored.shading == "LIKE_FOR_LIKE")
         with everything(tmp) if whole else nullcontext():
-            exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)
+            exported, manifest, _ = export_for_render(tmp, judge)
     return exported, manifest, stored.settings()

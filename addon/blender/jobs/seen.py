@@ -129,7 +129,7 @@ class CameraSees:
                 modifier.show_render = modifier.show_render and modifier.show_in_editmode
             tmp.collection.objects.link(copy)
             names[copy.name_full] = name
-        return evaluated(tmp, tmp.view_layers[0].name, None, _read(names))
+        return evaluated(tmp, None, _read(names))
 
 
 def _codes_of(count: int) -> Integers:

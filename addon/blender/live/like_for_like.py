@@ -23,7 +23,8 @@ from ...pictures.source import Source
 from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
 from ..drawing.camera_object import add_camera
-from ..drawing.picture import picture, prepare_scene
+from ..drawing.drawings import Plan
+from ..drawing.picture import picture
 from ..drawing.rasteriser import snapping_of
 from ..drawing.stand_ins import stand_ins
 from ..drawing.viewport import VIEWPORT
@@ -31,7 +32,7 @@ from ..evaluating import evaluated
 from ..reading.camera import certify_camera
 from ..reading.export import NO_SURFACE, export
 from ..reading.visible import in_view, types_left_out
-from ..temporary import drawn, leave_out, made_for, temporary_scene
+from ..temporary import drawn, leave_out, made_for
 from ..turns import Turns
 
 AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
@@ -55,14 +56,13 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     window, shown = _view_of(space)
     layer = window.view_layer
     snapping = snapping_of(VIEWPORT)  # its drawing is the first, which may differ from the others
-    with temporary_scene(window.scene, layer.name, VIEWPORT.ignores) as tmp:
+    with Plan(window.scene, layer.name, VIEWPORT).prepared() as (tmp, _):
         _leave_out_unseen(tmp, layer, shown)
-        prepare_scene(tmp, VIEWPORT, True)
         tmp.render.use_border = False  # it is of the camera's picture, not of this one
         looking = made_for(tmp, add_camera(tmp, _from_before(scene.camera)))
         made_for(tmp, looking.data)
-        work = _turns(tmp, layer.name, scene)
-        traced, manifest, certificate, pixels = evaluated(tmp, layer.name, VIEWPORT, work)
+        work = _turns(tmp, scene)
+        traced, manifest, certificate, pixels = evaluated(tmp, VIEWPORT, work)
     drawn_picture = Picture(
         pixels,
         Source(VIEWPORT.name, bpy.app.version_string),
@@ -73,15 +73,15 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
 
 
 def _turns(
-    tmp: bpy.types.Scene, layer: str, scene: Scene
+    tmp: bpy.types.Scene, scene: Scene
 ) -> Turns[tuple[Scene, Manifest, CameraCertificate | None, Colors]]:
     """Draw a view's scene, and return it as it is to be compared, with what is known of it."""
     depsgraph = yield False
     exported, manifest = export(depsgraph)
-    certificate = certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
+    certificate = certify_camera(depsgraph, scene.camera)
     planes = [scene.objects[p.object] for p in scene.planes]
-    traced = replace(stand_ins(tmp, layer, scene, planes), background=exported.background)
-    pixels = yield from picture(tmp, layer, VIEWPORT, scene.camera, depsgraph)
+    traced = replace(stand_ins(tmp, scene, planes), background=exported.background)
+    pixels = yield from picture(tmp, VIEWPORT, scene.camera, depsgraph)
     return traced, manifest, certificate, pixels
 
 
@@ -97,8 +97,8 @@ def _leave_out_unseen(tmp: bpy.types.Scene, layer: ViewLayer, space: SpaceView3D
     unshown = types_left_out(space)
     if unshown.difference(NO_SURFACE):  # a camera's picture has them
         raise SceneError("This view leaves out types of objects that have surfaces: show them all.")
-    evaluated = ((o, o.evaluated_get(layer.depsgraph)) for o in drawn(tmp, layer.name))
-    leave_out(tmp, layer.name, [o for o, e in evaluated if not in_view(space, unshown, e, layer)])
+    evaluated = ((o, o.evaluated_get(layer.depsgraph)) for o in drawn(tmp))
+    leave_out(tmp, [o for o, e in evaluated if not in_view(space, unshown, e, layer)])
 
 
 def _from_before(camera: Camera) -> Camera:

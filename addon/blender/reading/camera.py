@@ -158,17 +158,18 @@ def export_camera(scene: Scene) -> Camera:
     )
 
 
-def certify_camera(scene: Scene, depsgraph: Depsgraph, camera: Camera) -> CameraCertificate:
-    """Return how far apart the camera exported of a scene and Blender's own see known points.
+def certify_camera(depsgraph: Depsgraph, camera: Camera) -> CameraCertificate:
+    """Return how far apart the camera exported of a depsgraph and Blender's own see known points.
 
     Not of a panorama: Blender has no matrix of it.
     """
     points = known_points(camera)
-    return certify(camera, points, film_of_blender(scene, depsgraph, points))
+    return certify(camera, points, film_of_blender(depsgraph, points))
 
 
-def film_of_blender(scene: Scene, depsgraph: Depsgraph, points: Floats) -> Floats:
+def film_of_blender(depsgraph: Depsgraph, points: Floats) -> Floats:
     """Return where Blender has world points (3, n), (2, n) pixels of the whole picture."""
+    scene = depsgraph.scene_eval
     obj = scene.camera.evaluated_get(depsgraph)
     render = scene.render
     width, height = resolution(render)

@@ -19,7 +19,7 @@ from bpy.types import Depsgraph, Object, ViewLayer
 from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
-from ..temporary import HIDDEN_FACES, ignored_features, is_whole, user_scene
+from ..temporary import HIDDEN_FACES, NOT_DRAWN, ignored_features, is_whole, user_scene
 from .camera import export_camera
 from .colors import background
 from .meshes import Read, read_mesh
@@ -29,7 +29,7 @@ from .unmodelled import of_scene
 from .view_volume import outside
 from .visible import Seen, Shown, visible
 
-NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
+NO_SURFACE = (*NOT_DRAWN, "EMPTY")
 
 
 @dataclass(frozen=True)

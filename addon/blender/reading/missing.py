@@ -57,12 +57,12 @@ def missing(
     lost = [*_placeholders(users), *named]
     if not (lost or bpy.app.autoexec_fail):
         return
-    reached = _reached(users, _first(drawn, layer, mode, shown))
-    reached = _without_idle_trees(reached, mode)
+    flag = "show_render" if mode == "RENDER" else "show_viewport"
+    reached = _reached(users, _first(drawn, layer, mode, shown), flag)
     lost = [thing for thing in lost if thing.block in reached]
     if drawn.display.shading.color_type not in _OF_MATERIALS:
         lost = [thing for thing in lost if thing.block.id_type != "MATERIAL"]
-    yield from _told(lost, users, reached)
+    yield from _told(lost, users, reached, flag)
     if bpy.app.autoexec_fail:
         yield from _drivers(reached)
 
@@ -145,29 +145,12 @@ def _gone_collections(parent: Any, mode: str) -> Iterator[Any]:
             yield from _gone_collections(child, mode)
 
 
-def _without_idle_trees(reached: set[Any], mode: str) -> set[Any]:
-    """Return the data-blocks without the trees of nodes that no modifier evaluates.
-
-    A property of an object's may name any tree, such as an add-on's.
-    """
-    flag = "show_render" if mode == "RENDER" else "show_viewport"
-    modifiers = (m for b in reached if b.id_type == "OBJECT" for m in b.modifiers)
-    left = [m.node_group for m in modifiers if m.type == "NODES" and getattr(m, flag)]
-    active: set[Any] = set()
-    while left:
-        tree = left.pop()
-        if tree and tree not in active:
-            active.add(tree)
-            left += [getattr(node, "node_tree", None) for node in tree.nodes]
-    return {b for b in reached if b.id_type != "NODETREE" or b in active}
-
-
-def _reached(users: _Users, first: Iterable[Any]) -> set[Any]:
-    """Return the data-blocks that shape the picture."""
+def _reached(users: _Users, first: Iterable[Any], flag: str) -> set[Any]:
+    """Return the data-blocks that shape the picture, by modifiers with a flag."""
     uses: dict[Any, list[Any]] = defaultdict(list)
     for block, of_block in users.items():
         for user in of_block:
-            if _passes(user, block):
+            if _passes(user, block, flag):
                 uses[user].append(block)
     reached: set[Any] = set()
     left = list(first)
@@ -179,29 +162,37 @@ def _reached(users: _Users, first: Iterable[Any]) -> set[Any]:
     return reached
 
 
-def _passes(user: Any, used: Any) -> bool:
-    """Return whether what a data-block uses can be seen in it."""
+def _passes(user: Any, used: Any, flag: str) -> bool:
+    """Return whether what a data-block uses can be seen in it, by modifiers with a flag.
+
+    A property of an object's may name any tree of nodes, such as an add-on's.
+    """
     if user.id_type == "NODETREE":
         return bool(user.type == "GEOMETRY")
     if user.id_type == "OBJECT":
         if user.type == "ARMATURE":  # bones are not drawn, whatever their shape
             return used == user.parent or used not in [b.custom_shape for b in user.pose.bones]
+        if used.id_type == "NODETREE":
+            nodes = (m for m in user.modifiers if m.type == "NODES" and getattr(m, flag))
+            return any(m.node_group == used for m in nodes)
         return user.type != "EMPTY" or used.id_type != "IMAGE"
     return used.id_type in _PASSES.get(user.id_type, (used.id_type,))
 
 
-def _told(lost: Iterable[Lost], users: _Users, reached: set[Any]) -> Iterator[Unmodelled]:
+def _told(
+    lost: Iterable[Lost], users: _Users, reached: set[Any], flag: str
+) -> Iterator[Unmodelled]:
     """Yield an entry for each library, file and folder that is missing."""
     found: dict[tuple[str, str], list[str]] = defaultdict(list)
     for thing in lost:
-        names = sorted(_objects(thing.block, users, reached))
+        names = sorted(_objects(thing.block, users, reached, flag))
         of = "" if thing.block.id_type == "OBJECT" or not names else f" of {_listed(names)}"
         found[thing.kind, thing.name].append(thing.of + of)
     for (kind, name), things in found.items():
         yield Unmodelled(name, f"missing {kind}", _listed(things), None, Effect.MISSING)
 
 
-def _objects(block: ID, users: _Users, reached: set[Any]) -> set[str]:
+def _objects(block: ID, users: _Users, reached: set[Any], flag: str) -> set[str]:
     """Return the names of the objects by which a data-block is seen, in quotes."""
     found: set[str] = set()
     seen: set[Any] = set()
@@ -212,7 +203,7 @@ def _objects(block: ID, users: _Users, reached: set[Any]) -> set[str]:
             found.add(f"'{user.name}'")
         elif user not in seen:
             seen.add(user)
-            left += [u for u in users.get(user, ()) if u in reached and _passes(u, user)]
+            left += [u for u in users.get(user, ()) if u in reached and _passes(u, user, flag)]
     return found
 
 

@@ -15,7 +15,6 @@ from . import results, shown
 from .areas import areas, within
 from .layout import fit, wrapped
 from .long_work import Answer, named
-from .results import Kind
 from .swatches import swatch
 
 if TYPE_CHECKING:
@@ -72,11 +71,9 @@ class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
+    def blocked(cls, context: Context) -> str:
         """Allow it in Object Mode."""
-        if context.mode != "OBJECT":
-            cls.poll_message_set(rpt_(OBJECT_MODE))
-        return context.mode == "OBJECT"
+        return "" if context.mode == "OBJECT" else rpt_(OBJECT_MODE)
 
     def execute(self, context: Context) -> Answer:
         from ...scene import SceneError
@@ -92,10 +89,7 @@ class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
             raise SceneError(
                 f"'{self.name}' is not in view layer '{layer.name}': its collection is excluded."
             )
-        for obj in context.selected_objects:
-            obj.select_set(False)
-        found.select_set(True)
-        layer.objects.active = found
+        select_alone(context, found)
         if not found.select_get():
             said = rpt_(
                 "'{}' is active, but hidden in this view: Blender selects only what is seen"
@@ -106,6 +100,14 @@ class REFERENCE_TRACER_OT_select_object(bpy.types.Operator):
                 with within(window, area):
                     bpy.ops.view3d.view_selected()
         return {"FINISHED"}
+
+
+def select_alone(context: Context, obj: Any) -> None:
+    """Select an object and no other, and make it active."""
+    for other in context.selected_objects:
+        other.select_set(False)
+    obj.select_set(True)
+    context.view_layer.objects.active = obj
 
 
 def _enlarge(window: Window, area: Any, region: Region) -> None:
@@ -123,7 +125,7 @@ def _enlarge(window: Window, area: Any, region: Region) -> None:
 
 
 def _regions(context: Context) -> tuple[Region, ...]:
-    found = results.latest(Kind.COMPARISON, context.scene)
+    found = results.of_comparison(context)
     return found.regions if found else ()
 
 
@@ -131,7 +133,7 @@ def draw_causes(layout: UILayout, context: Context) -> None:
     """Draw each cause in its colour with its pixels, and a button for each of the first regions."""
     from ...causes.explain import BY_NUMBER
 
-    comparison = results.content(Kind.COMPARISON, context.scene)
+    comparison = results.comparison(context)
     if comparison is None:
         return
     for cause, count in comparison.counts.of_causes():

@@ -43,7 +43,7 @@ def derive_here(context: Context, x: int, y: int, source: str) -> Derivation:
     from ..jobs.open_file import Choices, export_open_file
 
     file = bpy.path.basename(bpy.data.filepath) or "the unsaved file"
-    comparison = results.content(Kind.COMPARISON, context.scene)
+    comparison = results.comparison(context)
     if source == "COMPARISON" and comparison:
         scene = comparison.scene
     elif source == "PUT_RIGHT":

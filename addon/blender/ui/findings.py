@@ -15,10 +15,9 @@ from bpy.props import IntProperty
 from bpy.types import Context, UILayout
 
 from . import blocks, results
-from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object
+from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object, select_alone
 from .layout import wrapped
 from .long_work import Answer, named
-from .results import Kind
 from .shown import open_as_render, show_where_shown
 
 if TYPE_CHECKING:
@@ -43,17 +42,13 @@ class _OfFinding:
     )
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
+    def blocked(cls, context: Context) -> str:
         """Allow it where something was found, in Object Mode if it needs that."""
-        own: Any = cls
-        comparison = results.content(Kind.COMPARISON, context.scene)
+        comparison = results.comparison(context)
         if not (comparison and comparison.diagnosis and comparison.diagnosis.told):
-            own.poll_message_set(rpt_("No diagnosis has found something yet"))
-            return False
-        if cls.in_object_mode and context.mode != "OBJECT":
-            own.poll_message_set(rpt_(OBJECT_MODE))
-            return False
-        return True
+            return rpt_("No diagnosis has found something yet")
+        in_way = cls.in_object_mode and context.mode != "OBJECT"
+        return rpt_(OBJECT_MODE) if in_way else ""
 
     def told(self, context: Context) -> Told:
         """Return the fault.
@@ -65,7 +60,7 @@ class _OfFinding:
         """
         from ...scene import SceneError
 
-        found: tuple[Told, ...] = results.content(Kind.COMPARISON, context.scene).diagnosis.told
+        found: tuple[Told, ...] = results.comparison(context).diagnosis.told
         if self.number >= len(found):
             raise SceneError(f"The diagnosis tells {len(found)} faults, numbered from 0.")
         return found[self.number]
@@ -89,11 +84,8 @@ class REFERENCE_TRACER_OT_copy_camera(_OfFinding, bpy.types.Operator):
         camera = self.told(context).frame.scene.camera
         name = f"{context.scene.camera.name} as in the picture"
         obj = copy_camera(context.scene, camera, name)
-        for other in context.selected_objects:
-            other.select_set(False)
-        obj.select_set(True)
-        context.view_layer.objects.active = obj
-        kept: Any = results.latest(Kind.COMPARISON, context.scene)
+        select_alone(context, obj)
+        kept: Any = results.of_comparison(context)
         kept.copies[obj.session_uid] = self.number
         said = rpt_("'{}' sees what the picture shows; your own camera is still the active one")
         self.report({"INFO"}, said.format(obj.name))
@@ -107,15 +99,10 @@ class REFERENCE_TRACER_OT_activate_copy(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
+    def blocked(cls, context: Context) -> str:
         """Allow it for a copy that was added for the latest comparison."""
-        own: Any = cls
-        if _copied_for(context) is None:
-            own.poll_message_set(
-                rpt_("The active object is no copy that 'Apply to a Copy' added for this result")
-            )
-            return False
-        return True
+        why = rpt_("The active object is no copy that 'Apply to a Copy' added for this result")
+        return why if _copied_for(context) is None else ""
 
     def execute(self, context: Context) -> Answer:
         context.scene.camera = context.view_layer.objects.active
@@ -141,14 +128,14 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
             raise SceneError(f"No picture shows it put right: {said}.")
         show = show_where_shown if bpy.app.background else open_as_render
         show(context, blocks.show(blocks.PUT_RIGHT, color))
-        kept: Any = results.latest(Kind.COMPARISON, context.scene)
+        kept: Any = results.of_comparison(context)
         kept.shown[:] = [self.number]
         return {"FINISHED"}
 
 
 def _put_right(context: Context) -> Mapping[int, Colors]:
     """Return the pictures that are put right, by the number of their fault."""
-    found = results.latest(Kind.COMPARISON, context.scene)
+    found = results.of_comparison(context)
     return found.put_right if found else {}
 
 
@@ -183,7 +170,7 @@ def _copied_for(context: Context) -> int | None:
     None if it is the scene's camera already.
     """
     active = context.view_layer.objects.active  # `context.object` is None in the Render properties
-    found = results.latest(Kind.COMPARISON, context.scene)
+    found = results.of_comparison(context)
     if not (found and active) or active == context.scene.camera:
         return None
     return found.copies.get(active.session_uid)

@@ -12,7 +12,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.types import Context, Event
 
-from .long_work import Answer, is_blocked, named
+from .long_work import Answer, named, why_blocked
 
 _HINT = (
     "Pixel Inspector: click a pixel in the render, in an image of the comparison, or in the "
@@ -30,11 +30,11 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
     running: ClassVar[bool] = False
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
+    def blocked(cls, context: Context) -> str:
         """Allow one at a time, where there is a camera, and none beside long work."""
         if cls.running:
-            cls.poll_message_set(rpt_("The inspector is on: click a pixel, or end it with Esc"))
-        return not (cls.running or is_blocked(cls, context, needs_camera=True))
+            return rpt_("The inspector is on: click a pixel, or end it with Esc")
+        return why_blocked(context, needs_camera=True)
 
     def execute(self, context: Context) -> Answer:
         """Refuse a script's call: it has no mouse."""

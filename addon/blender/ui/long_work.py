@@ -44,7 +44,10 @@ OPERATORS: list[type] = []  # to be registered
 
 
 def named(operator: T) -> T:
-    """Give an operator its identifier, have it report errors, and have it registered."""
+    """Give an operator its identifier, have it report errors, and have it registered.
+
+    Where it says by `blocked` why it cannot be pressed, its tooltip does, too.
+    """
     own: Any = operator
     execute = own.execute
 
@@ -56,8 +59,17 @@ def named(operator: T) -> T:
 
     own.bl_idname = f"reference_tracer.{operator.__name__.rpartition('_OT_')[2]}"
     own.execute = guarded
+    if hasattr(own, "blocked"):
+        own.poll = classmethod(_poll)
     OPERATORS.append(operator)
     return operator
+
+
+def _poll(operator: Any, context: Context) -> bool:
+    why = operator.blocked(context)
+    if why:
+        operator.poll_message_set(why)
+    return not why
 
 
 class LongWork(Mixin):
@@ -109,9 +121,9 @@ class LongWork(Mixin):
         raise NotImplementedError
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
-        """Allow one at a time, with a camera if it needs one."""
-        return not is_blocked(cls, context, cls.needs_camera)
+    def blocked(cls, context: Context) -> str:
+        """Return why it cannot be pressed: one runs at a time, with a camera if it needs one."""
+        return why_blocked(context, cls.needs_camera)
 
     def execute(self, context: Context) -> Answer:
         """Run through, as a script wants it."""
@@ -256,14 +268,11 @@ def with_ending(filepath: str, *endings: str) -> Path:
     return path
 
 
-def is_blocked(operator: Any, context: Context, needs_camera: bool) -> bool:
-    """Return whether long work or a missing camera is in the way; the button's tooltip says so."""
-    why = ""
-    name = context.scene.name
+def why_blocked(context: Context, needs_camera: bool) -> str:
+    """Return what is in the way, in words: long work, or that there is no camera."""
     if LongWork.running:
-        why = rpt_("{} is running: Esc cancels it").format(rpt_(LongWork.running))
-    elif needs_camera and context.scene.camera is None:
-        why = rpt_("Scene '{}' has no camera: add one, or make one active").format(name)
-    if why:
-        operator.poll_message_set(why)
-    return bool(why)
+        return rpt_("{} is running: Esc cancels it").format(rpt_(LongWork.running))
+    if needs_camera and context.scene.camera is None:
+        said = rpt_("Scene '{}' has no camera: add one, or make one active")
+        return said.format(context.scene.name)
+    return ""

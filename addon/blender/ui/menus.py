@@ -5,6 +5,7 @@ Presets are XML, which Blender reads into the scene's properties; one in Python 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import quoteattr
@@ -14,7 +15,6 @@ from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 from bpy.types import Context, Header, Menu
 
-from .export_camera import REFERENCE_TRACER_OT_export_camera
 from .long_work import named
 from .outcome import draw_in_header
 from .properties import ReferenceTracerScene
@@ -54,32 +54,25 @@ class REFERENCE_TRACER_OT_preset_add(AddPresetBase, bpy.types.Operator):
         Path(filepath).write_text(f"<bpy><{_GROUP} {' '.join(said)} /></bpy>\n", encoding="utf-8")
 
 
-def _add(menu: Menu, operator: str, text: str | None = None) -> None:
-    menu.layout.operator(f"reference_tracer.{operator}", text=text)
+def _with(**operators: str | None) -> Callable[[Menu, Context], None]:
+    """Return what draws entries for operators of ours, with other texts than theirs if given."""
+
+    def draw(menu: Menu, context: Context) -> None:
+        menu.layout.separator()
+        for name, text in operators.items():
+            menu.layout.operator(f"reference_tracer.{name}", text=text)
+
+    return draw
 
 
-def _draw_in_render(menu: Menu, context: Context) -> None:
-    menu.layout.separator()
-    _add(menu, "compare")
-    _add(menu, "compare_all")
-    _add(menu, "compare_animation")
-    _add(menu, "write_colors")
-    _add(menu, "inspect")
-    _add(menu, "open_page")
+def _with_menu(kind: type[Menu]) -> Callable[[Menu, Context], None]:
+    """Return what draws a menu of ours below another."""
 
+    def draw(menu: Menu, context: Context) -> None:
+        menu.layout.separator()
+        menu.layout.menu(kind.__name__)
 
-def _draw_in_image(menu: Menu, context: Context) -> None:
-    menu.layout.separator()
-    _add(menu, "inspect")
-    _add(menu, "save_pixel", "Save Pixel...")
-    _add(menu, "open_page")
-
-
-def _draw_in_export(menu: Menu, context: Context) -> None:
-    menu.layout.separator()
-    _add(menu, "export", "Reference Tracer (.npz)")
-    text = "Camera for Other Programs (.json, .txt, .gltf, .xml)"
-    menu.layout.operator(REFERENCE_TRACER_OT_export_camera.bl_idname, text=text)
+    return draw
 
 
 def _draw_in_header(header: Header, context: Any) -> None:
@@ -88,23 +81,23 @@ def _draw_in_header(header: Header, context: Any) -> None:
     draw_switch(header.layout.row(align=True), context.space_data)
 
 
-def _draw_in_new(menu: Menu, context: Context) -> None:
-    menu.layout.separator()
-    menu.layout.menu(REFERENCE_TRACER_MT_samples.__name__)
-
-
-def _draw_in_select(menu: Any, context: Any) -> None:
-    menu.layout.separator()
-    menu.layout.menu(REFERENCE_TRACER_MT_select_seen.__name__)
-
-
 MENUS = {
-    "TOPBAR_MT_render": _draw_in_render,
-    "IMAGE_MT_image": _draw_in_image,
-    "TOPBAR_MT_file_export": _draw_in_export,
-    "TOPBAR_MT_file_new": _draw_in_new,
-    "VIEW3D_MT_select_object": _draw_in_select,
-    "VIEW3D_MT_select_edit_mesh": _draw_in_select,
+    "TOPBAR_MT_render": _with(
+        compare=None,
+        compare_all=None,
+        compare_animation=None,
+        write_colors=None,
+        inspect=None,
+        open_page=None,
+    ),
+    "IMAGE_MT_image": _with(inspect=None, save_pixel="Save Pixel...", open_page=None),
+    "TOPBAR_MT_file_export": _with(
+        export="Reference Tracer (.npz)",
+        export_camera="Camera for Other Programs (.json, .txt, .gltf, .xml)",
+    ),
+    "TOPBAR_MT_file_new": _with_menu(REFERENCE_TRACER_MT_samples),
+    "VIEW3D_MT_select_object": _with_menu(REFERENCE_TRACER_MT_select_seen),
+    "VIEW3D_MT_select_edit_mesh": _with_menu(REFERENCE_TRACER_MT_select_seen),
 }
 
 

@@ -101,12 +101,10 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
     alone = True
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def blocked(cls, context: Any) -> str:
         """Allow it where every frame has a picture of its own."""
         is_still = context.scene.reference_tracer.judge in STILLS
-        if is_still:
-            cls.poll_message_set(rpt_(OF_ONE_FRAME))
-        return not is_still and super().poll(context)
+        return rpt_(OF_ONE_FRAME) if is_still else super().blocked(context)
 
     def begin(self, context: Context) -> Work[Any]:
         from ..jobs import animation
@@ -150,18 +148,16 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
+    def blocked(cls, context: Context) -> str:
         """Allow it where there is a comparison, and nothing else at work."""
-        found = results.latest(Kind.COMPARISON, context.scene)
-        if not found:
-            cls.poll_message_set(rpt_("Trace and Compare comes first"))
-        return super().poll(context) and bool(found)
+        found = results.of_comparison(context)
+        return super().blocked(context) if found else rpt_("Trace and Compare comes first")
 
     def begin(self, context: Context) -> Work[Any]:
         from ...comparison.extras import extras
 
         self._folder = self.folder() or results.session_folder()
-        self._comparison = results.content(Kind.COMPARISON, context.scene)
+        self._comparison = results.comparison(context)
         self._trade = results.content(Kind.TRADE, context.scene)
         return extras(self._comparison)
 

@@ -14,7 +14,6 @@ from .differing import draw_causes
 from .findings import draw_findings
 from .layout import draw_facts, short_name, wrapped
 from .long_work import LongWork
-from .results import Kind
 
 if TYPE_CHECKING:
     from ...comparison.comparison import Comparison
@@ -35,7 +34,7 @@ def draw_outcome(layout: UILayout, context: Context, comparison: Comparison) -> 
 
 def draw_in_header(layout: UILayout, context: Context) -> None:
     """Draw the verdict beside the picture of a comparison, or how far the work on it is."""
-    comparison = results.content(Kind.COMPARISON, context.scene)
+    comparison = results.comparison(context)
     if LongWork.running:
         layout.progress(factor=LongWork.meter.share)
         layout.label(text=LongWork.said, translate=False)

@@ -58,7 +58,7 @@ class _Main(Part):
             row = layout.row()
             row.scale_y = 1.4
             button(row, context, operators.REFERENCE_TRACER_OT_compare, "RENDER_STILL")
-        comparison = results.content(Kind.COMPARISON, context.scene)
+        comparison = results.comparison(context)
         if comparison:
             draw_outcome(layout, context, comparison)
         else:
@@ -141,11 +141,11 @@ class _Export(Part):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return results.latest(Kind.COMPARISON, context.scene) is not None
+        return results.of_comparison(context) is not None
 
     def draw(self, context: Context) -> None:
         """Draw the manifest: what was exported, skipped, not modelled."""
-        manifest = results.content(Kind.COMPARISON, context.scene).manifest
+        manifest = results.comparison(context).manifest
         for line, warns in manifest.facts():
             wrapped(self.layout, context, line.strip(), "ERROR" if warns else "NONE")
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
-from bpy.types import Scene
+from bpy.types import Context, Scene
 
 from ...tracer.progress import Work, by_rows
 from . import blocks
@@ -105,6 +105,16 @@ def content(kind: Kind, scene: Scene) -> Any:
     """Return what :func:`latest` has of a kind; None if there is none."""
     found = latest(kind, scene)
     return found and found.content
+
+
+def of_comparison(context: Context) -> Result | None:
+    """Return the latest result of a comparison of the context's scene."""
+    return latest(Kind.COMPARISON, context.scene)
+
+
+def comparison(context: Context) -> Any:
+    """Return the latest comparison of the context's scene; None if there is none."""
+    return content(Kind.COMPARISON, context.scene)
 
 
 def drop(kind: Kind) -> None:

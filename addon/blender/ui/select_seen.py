@@ -45,12 +45,11 @@ class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def blocked(cls, context: Any) -> str:
         """Allow it in Object Mode, and where meshes are edited."""
-        fits = context.mode in ("OBJECT", "EDIT_MESH")
-        if not fits:
-            cls.poll_message_set(rpt_("Only in Object Mode and in Edit Mode of meshes"))
-        return fits and super().poll(context)
+        if context.mode not in ("OBJECT", "EDIT_MESH"):
+            return rpt_("Only in Object Mode and in Edit Mode of meshes")
+        return super().blocked(context)
 
     def begin(self, context: Any) -> Work[Any]:
         from ..jobs.animation import frames_of

@@ -19,7 +19,6 @@ from gpu.types import GPUShader
 from ..drawing.judges import label_of
 from . import blocks, results
 from .long_work import Answer
-from .results import Kind
 from .shown import chosen
 
 NEAR = 6  # pixels from the line in which it is caught, at a scale of 1
@@ -106,7 +105,7 @@ def _draw_marks(context: Context, at: Place, scale: float) -> None:
     from ...causes.explain import BY_NUMBER
     from ...files.images import curve
 
-    found = results.latest(Kind.COMPARISON, context.scene)
+    found = results.of_comparison(context)
     if found is None:
         return
     height, width = found.content.causes.cause.shape
@@ -129,7 +128,7 @@ def _draw_names(context: Context, at: Place, scale: float) -> None:
 
     from ..live.layers import draw_outlined
 
-    comparison = results.content(Kind.COMPARISON, context.scene)
+    comparison = results.comparison(context)
     other = label_of(comparison.case.picture.source) if comparison else "Other"
     size = _LETTERS * scale
     y = min(at.top, context.region.height - 3 * size) - 2 * size

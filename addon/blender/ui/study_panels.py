@@ -5,7 +5,7 @@ The pixel inspector is in the sidebar of images, too.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
@@ -62,7 +62,7 @@ def _draw(layout: UILayout, context: Context, derivation: Any, said: str) -> Non
     wrapped(box, context, said)
     certainty = iface_(CERTAINTY_SENTENCES[derivation.certified.certainty])
     wrapped(box, context, iface_("This is {}.").format(certainty))
-    if comparison := results.content(Kind.COMPARISON, context.scene):
+    if comparison := results.comparison(context):
         _draw_compared(layout, context, comparison, pixel.x, pixel.y)
     if derivation.seen_test:
         _numbers(layout.box(), context, derivation.seen_test)
@@ -150,36 +150,37 @@ class IMAGE_PT_reference_tracer_inspector(_Inspector, bpy.types.Panel):
     bl_category = "Reference Tracer"
 
 
-class _Trade(Part):
+class _Study(Part):
+    """Mixed into the panel of a study."""
+
+    bl_options = {"DEFAULT_CLOSED"}
+    measure: ClassVar[Any]  # its operator
+    icon: ClassVar[Any]
+    what: ClassVar[str]  # it measures
+
+    def draw(self, context: Context) -> None:
+        """Draw the button, and the result, a sentence with its plot; else what is measured."""
+        layout = self.layout
+        layout.operator(self.measure.bl_idname, text="Measure", icon=self.icon)
+        found = results.latest(self.measure.kind, context.scene)
+        line = found.lines[0] if found else self.what
+        wrapped(layout, context, line, "INFO" if found else "NONE")
+        if found:
+            layout.operator("wm.url_open", text="Open Plot").url = found.page
+
+
+class _Trade(_Study):
     bl_label = "Time and Accuracy"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: Context) -> None:
-        measure = studies.REFERENCE_TRACER_OT_trade.bl_idname
-        self.layout.operator(measure, text="Measure", icon="TIME")
-        _draw_measured(
-            self.layout, context, Kind.TRADE, "How long each method takes, and what it gets wrong"
-        )
+    measure = studies.REFERENCE_TRACER_OT_trade
+    icon = "TIME"
+    what = "How long each method takes, and what it gets wrong"
 
 
-class _Extremes(Part):
+class _Extremes(_Study):
     bl_label = "Where Methods Break"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: Context) -> None:
-        measure = studies.REFERENCE_TRACER_OT_extremes.bl_idname
-        self.layout.operator(measure, text="Measure", icon="MOD_NOISE")
-        _draw_measured(
-            self.layout, context, Kind.EXTREMES, "How far, tiny or thin is too much for each method"
-        )
-
-
-def _draw_measured(layout: UILayout, context: Context, kind: Kind, what: str) -> None:
-    """Draw a study's result, a sentence, and a button for its plot; else what it measures."""
-    found = results.latest(kind, context.scene)
-    wrapped(layout, context, found.lines[0] if found else what, "INFO" if found else "NONE")
-    if found:
-        layout.operator("wm.url_open", text="Open Plot").url = found.page
+    measure = studies.REFERENCE_TRACER_OT_extremes
+    icon = "MOD_NOISE"
+    what = "How far, tiny or thin is too much for each method"
 
 
 CLASSES = (

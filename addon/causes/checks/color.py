@@ -45,6 +45,7 @@ COLOR = Cause(
 )
 
 ENOUGH = 4096  # pixels on which a transform is tried
+FEW = 512  # pixels of an object of which it is asked whose colours they show
 REFUTING = 0.01  # the largest share of surfaces' pixels that agree only without a transform
 SHADES = 16  # the most objects that are named
 
@@ -160,14 +161,19 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
 
 
 def _is_its_own(frame: Frame, picture: Picture, where: Bools) -> bool:
-    """Return whether most of an object's pixels (h, w) show none of its neighbours' colours."""
+    """Return whether most of an object's pixels (h, w) show no other surface's colour."""
     if picture.at(where).known(frame.instance_index[where]).all():
         return True
-    own = np.pad(frame.object_index == frame.object_index[where][0], 1)
-    rim = own[2:, 1:-1] | own[:-2, 1:-1] | own[1:-1, 2:] | own[1:-1, :-2]
-    shown = picture.color[where]
+    own = frame.object_index == frame.object_index[where][0]
+    near = own.copy()  # with its neighbours, however small they are
+    for axis in (0, 1):
+        for by in (-1, 1):
+            near |= np.roll(own, by, axis)
+    shown, others = picture.color[where], frame.color[~own]
+    shown = shown[:: -(-len(shown) // FEW)]
+    others = np.concatenate((frame.color[near & ~own], others[:: -(-len(others) // ENOUGH) or 1]))
     taken = np.zeros(len(shown), bool)
-    for color in np.unique(frame.color[rim & ~own[1:-1, 1:-1]], axis=0)[:ENOUGH]:
+    for color in np.unique(others, axis=0)[:ENOUGH]:
         taken |= (np.abs(shown - color) < FIT).all(axis=1)
     return bool(taken.mean() < MAJORITY)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Bools, Floats, Index, Places, groups, parts, places
+from ...arrays import Bools, Floats, Index, Places, groups, places
 from ...pictures.picture import Picture
 from ...scene import Region, Scene
 from ...tracer.candidates import Plan
@@ -17,7 +17,7 @@ from ...tracer.progress import Progress, Work
 from ...tracer.shading import interpolated
 from ..cause import Cause
 from .plans import shared_plan
-from .probe import BLOCK, FEW, FEW_COLORS, OpenPixels, Probe
+from .probe import FEW, OpenPixels, Probe
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,19 +60,13 @@ class Part:
         return out
 
 
-def by_parts(
-    pixels: OpenPixels,
-    made: Plan,
-    look: Callable[[Part], Work[None]],
-    asked: Bools | bool = True,
-) -> Work[None]:
+def by_parts(pixels: OpenPixels, made: Plan, look: Callable[[Part], Work[None]]) -> Work[None]:
     """Have `look` give causes to the open pixels of a whole picture, a part of it at a time.
 
     The plan `made` has the scene that is asked, perhaps with another clip range than the case's.
-    Only the pixels `asked` (h, w) are tested, if given.
     """
     r = made.scene.camera.region
-    asked = pixels.open & asked
+    asked = pixels.open.copy()
     yield from pixels.band.find(asked)
     height = len(asked)
     for y0, y1 in groups(asked.sum(axis=1), FEW):
@@ -101,8 +95,7 @@ def near_surfaces(
     # The scene may have the case's own clip range, or a wider one.
     made = yield from shared_plan(pixels.case.scene, pixels.picture.sampling.renderer, reach)
     made = replace(made, scene=scene)
-    asked = yield from may_be_seen(pixels, scene)
-    yield from by_parts(pixels, made, look_near, asked)
+    yield from by_parts(pixels, made, look_near)
 
 
 def _near(picture: Picture, probe: Probe) -> Work[Bools]:
@@ -130,27 +123,3 @@ def _surfaces(probe: Probe) -> Iterator[tuple[Index, Index | int, Index | int]]:
         yield every, number, NOTHING
     for some in probe.chunks:
         yield some.pixel, some.instance, some.triangle
-
-
-def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
-    """Return which open pixels, (h, w), show a colour that something in a scene may have.
-
-    No ray sees what the others show. A scene with many colours, or with a surface that may have
-    any colour, is not asked.
-    """
-    picture = pixels.picture
-    colors = np.unique(np.vstack((scene.color_table, np.zeros(4))), axis=0)  # 0: of a hole
-    any_color = interpolated(scene, np.arange(len(scene.instance_objects))).any()
-    any_color |= picture.lit or not picture.has_colors or np.any(picture.colorless)
-    if any_color or len(colors) > FEW_COLORS:
-        return pixels.open
-    out = np.zeros_like(pixels.open)
-    row, column = places(pixels.open)
-    for part in parts(len(row), BLOCK // len(colors)):
-        at = row[part], column[part]
-        shape = len(colors), *pixels.picture.color[at].shape
-        shown = replace(picture, color=np.broadcast_to(picture.color[at], shape))
-        traced = np.broadcast_to(colors[:, None], shape)
-        out[at] = ~shown.other_color(traced).all(axis=0)
-        yield None
-    return out

@@ -32,7 +32,6 @@ from .plans import SOUND
 
 LAYERS = 4  # surfaces behind one another that are tested
 FEW = 1 << 11  # pixels tested together, so that a step is short where whole pictures differ
-FEW_COLORS = 64  # of a scene: a picture's pixels are held against each of them
 BLOCK = 1 << 15  # pixels tested in one step, where that needs no rays
 
 Some = tuple[Places, ...] | slice  # rows and columns of pixels, or rows

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -11,9 +12,9 @@ from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import AnyFault, Effort, Example, Fault, Numbers, of_camera, with_values
+from .fault import AnyFault, Effort, Example, Fault, Numbers, with_values
 from .film import CROPPED, FOCAL, FOCALS, OFFSET
-from .fitting import fitting
+from .fitting import Family, fitting
 from .stand import MOVED, PLACED, ROLL, TURNED
 
 
@@ -27,10 +28,12 @@ def _a_pixel_aside(case: Case, frame: Frame) -> Numbers | None:
     return Numbers((float(width), 0.0, 0.0))
 
 
-_OFFSET, _FOCAL, _FOCALS, _ROLL, _MOVED, _PANNED, _CROPPED, _PLACED = (
-    fitting(family, FOCALS, CROPPED, PLACED)
-    for family in (OFFSET, FOCAL, FOCALS, ROLL, MOVED, TURNED, CROPPED, PLACED)
-)
+def _fitted(family: Family) -> dict[str, Any]:
+    """Return how a family's numbers are fitted: not where more of them explain many more edges."""
+    return fitting(family, FOCALS, CROPPED, PLACED)
+
+
+_OFFSET = _fitted(OFFSET)
 
 
 def _find_offset(evidence: Evidence) -> Work[list[Numbers]]:
@@ -38,7 +41,7 @@ def _find_offset(evidence: Evidence) -> Work[list[Numbers]]:
     camera = evidence.case.scene.camera
     halves = product((0.5, -0.5), repeat=2)
     exact = [Numbers(v, words=OFFSET.words(camera, *v)) for v in halves]
-    return [*exact, *(yield from _OFFSET.find(evidence))]
+    return [*exact, *(yield from _OFFSET["find"](evidence))]
 
 
 CAMERA_FAULTS: tuple[AnyFault, ...] = (
@@ -50,10 +53,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "move the film position of every ray by that: pixel (i, j) has its centre at "
         "(i + 1/2, j + 1/2), and the principal point is at half of the width and the height, plus "
         "the shift",
-        of_camera(OFFSET.camera),
-        _find_offset,
-        ("dx", "dy"),
-        refine=_OFFSET.refine,
+        **_OFFSET | {"find": _find_offset},
+        numbers=("dx", "dy"),
         effort=Effort.FILM,
         examples=(
             Example("half_pixel", "rays through the pixels' corners", with_values(0.5, 0.5)),
@@ -69,10 +70,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "horizontal one, or a lens in millimetres goes with another sensor.",
         "check the lens' unit, the sensor's width, and whether an angle is the whole one or half, "
         "of the width or of the height",
-        of_camera(FOCAL.camera),
-        _FOCAL.find,
-        ("percent",),
-        refine=_FOCAL.refine,
+        **_fitted(FOCAL),
+        numbers=("percent",),
         effort=Effort.FILM,
         words="the focal length, or an orthographic camera's scale, is some per cent off",
         witness="mrdoob/three.js#9328",
@@ -84,10 +83,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "the picture; or only one of them heeds the pixel aspect.",
         "take one focal length for both, in pixels; a pixel is pixel aspect Y / X as high as it is "
         "wide; remove the scale of the camera and its parents",
-        of_camera(FOCALS.camera),
-        _FOCALS.find,
-        ("across", "up"),
-        refine=_FOCALS.refine,
+        **_fitted(FOCALS),
+        numbers=("across", "up"),
         effort=Effort.CAMERA,
         witness="ohayoyogi/blender-exporter-colmap#6",
     ),
@@ -97,10 +94,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "beside: the picture was cropped or enlarged about another point than the camera's axis",
         "A picture that is cropped and scaled has its principal point elsewhere.",
         "compare the whole picture, and scale the principal point with the focal length",
-        of_camera(CROPPED.camera),
-        _CROPPED.find,
-        ("percent", "dx", "dy"),
-        refine=_CROPPED.refine,
+        **_fitted(CROPPED),
+        numbers=("percent", "dx", "dy"),
         effort=Effort.CAMERA,
         witness="google-research-datasets/Objectron#36",
     ),
@@ -111,10 +106,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "In Blender a camera's `location` is without its parents, constraints and delta "
         "transform. Or the picture is that of one eye of a stereo pair.",
         "compare its world matrix with the one that the scene has",
-        of_camera(MOVED.camera),
-        _MOVED.find,
-        ("right", "up", "forward"),
-        refine=_MOVED.refine,
+        **_fitted(MOVED),
+        numbers=("right", "up", "forward"),
         effort=Effort.CAMERA,
         examples=(
             Example("camera_moved", "the camera moved by a pixel to its right", _a_pixel_aside),
@@ -128,10 +121,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "Angles are read in another order than the camera's rotation mode, or without "
         "its parents and constraints.",
         "compare its world matrix with the one that the scene has, and the order of its angles",
-        of_camera(TURNED.camera),
-        _PANNED.find,
-        ("right", "up", "roll"),
-        refine=_PANNED.refine,
+        **_fitted(TURNED),
+        numbers=("right", "up", "roll"),
         effort=Effort.CAMERA,
         examples=(
             Example(
@@ -146,10 +137,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "the camera stands elsewhere and looks elsewhere: {words}",
         "A pose of another frame or another camera, or a camera that was placed by hand.",
         "compare its world matrix with the one that the scene has",
-        of_camera(PLACED.camera),
-        _PLACED.find,
-        ("right", "up", "forward", "rightwards", "upwards", "anticlockwise"),
-        refine=_PLACED.refine,
+        **_fitted(PLACED),
+        numbers=("right", "up", "forward", "rightwards", "upwards", "anticlockwise"),
         effort=Effort.CAMERA,
         words="a vector, and angles",
         witness="gameplay3d/gameplay#1733",
@@ -159,10 +148,8 @@ CAMERA_FAULTS: tuple[AnyFault, ...] = (
         "the camera is rolled by {degrees:+.3f} degrees about its axis",
         "A camera that is made of an eye, a target and an up vector rolls with the up vector.",
         "turn it back; a positive angle turns the picture's content clockwise",
-        of_camera(ROLL.camera),
-        _ROLL.find,
-        ("degrees",),
-        refine=_ROLL.refine,
+        **_fitted(ROLL),
+        numbers=("degrees",),
         effort=Effort.FILM,
         witness="Unity-Technologies/com.unity.formats.alembic#317",
     ),

@@ -244,19 +244,10 @@ def with_instances(scene: Scene, name: str, change: Callable[[Instance], Instanc
     return replace(scene, instances=tuple(i for i in made if i is not None))
 
 
-def of_meshes(change: Callable[..., Mesh]) -> Make[Guess]:
-    """Return a function that changes an object's meshes, as :func:`of_object` its instances."""
+def of_meshes(change: Callable[[Mesh], Mesh]) -> Make[Guess]:
+    """Return a function that changes all meshes."""
 
-    def assume(case: Case, guess: Guess) -> Case:
-        return case.with_scenes(
-            lambda scene: with_meshes(scene, guess.object, lambda mesh: change(mesh, *guess.values))
-        )
+    def changed(scene: Scene) -> Scene:
+        return replace(scene, meshes=tuple(map(change, scene.meshes)))
 
-    return assume
-
-
-def with_meshes(scene: Scene, name: str, change: Callable[[Mesh], Mesh]) -> Scene:
-    """Return a scene with an object's meshes changed."""
-    own = {scene.instances[n].mesh for n in instances_named(scene, name)}
-    meshes = (change(mesh) if n in own else mesh for n, mesh in enumerate(scene.meshes))
-    return replace(scene, meshes=tuple(meshes))
+    return lambda case, guess: case.with_scenes(changed)

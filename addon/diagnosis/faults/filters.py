@@ -15,34 +15,27 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...causes.cause import UNEXPLAINED
 from ...causes.explain import explain
-from ...pictures.metrics import beside_edges
 from ...tracer import shading
 from ...tracer.progress import Work
-from ..evidence import NEAR, NOISE, Evidence
+from ..evidence import NOISE, Evidence, shows_colors
 from .fault import AnyFault, Effort, Fault, Guess, Numbers
 from .matching import touched_parts
 from .sizes import CODINGS, Coding, at_size, sampled_right
 
 RADII = (0.5, 0.75, 1.0, 1.5, 2.0)  # of filters that are tried, in pixels
-EDGES = 0.2  # the least share of edges that must be mixed
-PARTS = 0.8  # the least share of the picture's parts with edges in which some must be
+PARTS = 0.8  # of the picture's parts with edges: in as many must some be mixed
+MOST_COLORS = 64  # of a scene: of more, a mix has one
 MIXED = 0.5  # the least share of unexplained pixels that must show no colour of the scene
 ASKED = 48  # differing pixels: a filter is tried if it explains nearly all of these
 MEANS = (2, 3, 4)  # samples each way
 MOST_SAMPLES = 1 << 24  # of a picture that is traced with several a pixel
 
 
-def _shows_mixes(evidence: Evidence) -> Work[bool]:
-    """Return whether most unexplained pixels show no colour of the scene (cached)."""
-    if "mixes" not in evidence.known:
-        shown = evidence.shown.at(np.flatnonzero(evidence.unexplained_sampled))
-        pure = np.zeros(len(shown.color), bool)
-        colors = np.unique(evidence.case.scene.color_table, axis=0)
-        for color in colors if len(colors) <= 64 else ():
-            pure |= ~shown.other_color(np.broadcast_to(color, shown.color.shape))
-            yield None
-        evidence.known["mixes"] = bool(pure.mean() <= 1 - MIXED)
-    return bool(evidence.known["mixes"])
+def _shows_mixes(evidence: Evidence) -> bool:
+    """Return whether most unexplained pixels show no colour of the scene, or it has very many."""
+    colors = np.unique(evidence.case.scene.color_table, axis=0)
+    pure = shows_colors(evidence.shown, colors[:MOST_COLORS])[evidence.unexplained_sampled]
+    return bool(len(colors) > MOST_COLORS or pure.mean() <= 1 - MIXED)
 
 
 # ---- several samples a pixel
@@ -73,7 +66,7 @@ def _mean_of_samples(colors: Colors, guess: Mean, evidence: Evidence) -> Colors:
 
 def _find_samples(evidence: Evidence) -> Work[list[Mean]]:
     """Guess of how many samples each pixel is the mean, by the sampled pixels."""
-    if not (yield from _shows_mixes(evidence)):
+    if not _shows_mixes(evidence):
         return []
     scene, out = evidence.case.scene, []
     probe = yield from evidence.probe(scene, reach=0.75)
@@ -101,9 +94,11 @@ def _filtered(case: Case, guess: Numbers) -> Case:
 
 def _find_filter(evidence: Evidence) -> Work[list[Numbers]]:
     """Guess the least radius beyond the picture's own that explains some pixels, and the next."""
-    if not ((yield from _shows_mixes(evidence)) and _edges_mix(evidence)):
+    own = evidence.picture.sampling.filter_radius  # by which most are mixed already
+    # A picture that is blurred in a part has crisp edges in the others.
+    if not (_shows_mixes(evidence) and (own or touched_parts(evidence) >= PARTS)):
         return []
-    larger = [r for r in RADII if r > evidence.picture.sampling.filter_radius]
+    larger = [r for r in RADII if r > own]
     fits: list[float] = []
     for r in reversed(larger):
         case = _filtered(evidence.case, Numbers((r,)))
@@ -112,19 +107,6 @@ def _find_filter(evidence: Evidence) -> Work[list[Numbers]]:
             break
         fits = [r, *fits]
     return [Numbers((r,), (r,), (r,)) for r in fits[:2]]
-
-
-def _edges_mix(evidence: Evidence) -> bool:
-    """Return whether enough edges are unexplained for the whole picture to be filtered.
-
-    Of the pixels beside an edge, two wide, the mean of four samples mixes about a quarter, a filter
-    of a pixel nearly all. A picture that is blurred in a part has crisp edges in the others.
-    """
-    if evidence.picture.sampling.filter_radius:
-        return True  # most are mixed already
-    edge = beside_edges(evidence.picture.made_of(evidence.frame.color), 2 * NEAR)
-    mixed = edge.any() and evidence.unexplained[edge].mean() >= EDGES
-    return bool(mixed and touched_parts(evidence) >= PARTS)
 
 
 FILTER_FAULTS: tuple[AnyFault, ...] = (

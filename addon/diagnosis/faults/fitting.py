@@ -10,19 +10,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
-from ...arrays import Array, Bools, Floats
+from ...arrays import Bools, Floats
 from ...causes.checks.probe import Probe
-from ...pictures.picture import Picture
-from ...projections import ORTHOGRAPHIC
+from ...rendering import steps
 from ...scene import Camera
-from ...tracer.camera import film_of
+from ...tracer.camera import camera_rays, film_of
+from ...tracer.frame import Frame
 from ...tracer.progress import Work
-from ..evidence import NEAR, WORTH, Evidence, film_beside_camera
-from .fault import Find, Numbers, Refine, Values
+from ..evidence import WORTH, Evidence
+from .fault import Numbers, Values, of_camera
 from .matching import Fitted, fitted, is_everywhere, matches, seen_by
 from .search import Search, values_of
 
@@ -41,6 +41,7 @@ ENOUGH = 0.95  # of the sample: with as many right, no other start is fitted
 MOVES = 3  # with steps of one length, at most: a right start is off by a pixel or two
 BETTER = 0.03  # the least gain of a start in the share of right pixels
 ENCLOSED = 3  # numbers, at most, that get ranges
+FOLLOWED = 2  # times that edges are traced and found anew, at most
 FITTED = 1024  # sampled pixels of each kind for more numbers
 WIDER = 2.0  # times the reach of a fit of more numbers, which pulls at several
 
@@ -53,32 +54,21 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
     own = evidence.case.scene.camera
     few = _few(evidence)
     with np.errstate(invalid="ignore"):
-        film = film_beside_camera(own, camera, *evidence.film[:, few])
-        inside, where = _inside(camera, film)
+        rays = camera_rays(camera, *evidence.film[:, few])
+        # A panorama's or perspective's rays pass one point: any point of them will do.
+        film = np.stack(film_of(own, rays.at(np.ones(rays.count)))[:2])
+        column, row = np.floor(film - ((own.region.x0,), (own.region.y0,)))
+    height, width = evidence.unexplained.shape
+    inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
     if inside.mean() < VALID:
         return 0.0
-    return _share(evidence, evidence.shown.at(few).at(inside), where)
-
-
-def _share(evidence: Evidence, shown: Picture, traced: tuple[Array, ...]) -> float:
-    """Return the share of n pixels that agree with n traced ones, by row and column."""
-    made = shown.made_of(evidence.frame.color[traced])
-    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
-    if shown.owners:
-        right &= shown.owners.same(evidence.frame.instance_index[traced])
-    return float(right.mean())
+    traced = evidence.frame.hits().take((row * width + column)[inside].astype(int))
+    shown = evidence.shown.at(few).at(inside)
+    return float((~shown.differ(evidence.case.scene, traced)).mean())
 
 
 def _few(evidence: Evidence) -> slice:
     return slice(None, None, max(1, -(-evidence.film.shape[1] // LOOKED_UP)))
-
-
-def _inside(camera: Camera, film: Floats) -> tuple[Bools, tuple[Floats, Floats]]:
-    """Return which film positions (2, n) lie in the picture, and the pixels of these."""
-    r = camera.region
-    column, row = np.floor(film[0] - r.x0), np.floor(film[1] - r.y0)
-    inside = (column >= 0) & (column < r.width) & (row >= 0) & (row < r.height)
-    return inside, (row[inside].astype(int), column[inside].astype(int))
 
 
 @dataclass(frozen=True)
@@ -103,44 +93,60 @@ class Family:
 
     def matched(self, evidence: Evidence) -> Fitted | None:
         """Return the numbers, in units, with which the edges are where the picture has them."""
-        return evidence.once(f"matched {id(self)}", lambda: self._matched(evidence))
+        return evidence.once(f"matched {id(self)}", lambda: self._matched(evidence, evidence))
 
-    def _matched(self, evidence: Evidence) -> Fitted | None:
+    def followed(self, evidence: Evidence) -> Work[Fitted | None]:
+        """Return the same, found again in what is traced there: far away, much looks otherwise.
+
+        Only where it has many numbers, and explains some edges (cached).
+        """
+        key, found = f"followed {id(self)}", self.matched(evidence)
+        axes, scene = self.columns(evidence), evidence.case.scene
+        if key not in evidence.known and found and len(axes) > ENCLOSED:
+            for _ in range(FOLLOWED if found.share >= FOUND / 2 else 0):
+                camera = self.camera(scene.camera, *axes @ found.units)
+                frame = Frame.empty(scene if camera is None else scene.seen_by(camera))
+                yield from steps(frame.scene, evidence.case.settings, frame)
+                case = evidence.case.in_scene(frame.scene)
+                there = replace(evidence, case=case, frame=frame, known={})
+                again = self._matched(evidence, there, found.units)
+                if again is None or again.share <= found.share:
+                    break
+                found = again
+            evidence.known[key] = found
+        return evidence.known.get(key, found)
+
+    def _matched(
+        self, evidence: Evidence, there: Evidence, units: Floats | float = 0.0
+    ) -> Fitted | None:
         axes = self.columns(evidence)
         own = evidence.case.scene.camera
-        found = matches(evidence)
+        found = matches(there)
 
-        def seen(units: Floats) -> Floats | None:
-            return seen_by(self.camera(own, *axes @ units), found.points)
+        def seen(more: Floats) -> Floats:
+            return seen_by(self.camera(own, *axes @ (units + more)), found.points)
 
-        return fitted(found, seen, axes.shape[1])
-
-
-class Fit(NamedTuple):
-    """How the numbers of a fault are fitted to a picture."""
-
-    find: Find[Numbers]
-    refine: Refine[Numbers]  # finely
+        more = fitted(found, seen, axes.shape[1])
+        return more and more._replace(units=units + more.units)
 
 
-def fitting(family: Family, *rivals: Family) -> Fit:
-    """Return how the numbers of a family are fitted.
+def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
+    """Return how a fault of the camera is made, found and refined, as fields of it.
 
     Where a rival, with more numbers, explains many more edges, no ray is traced for it.
     """
 
     def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         fine = bool(guess.low)
-        reach = FINE_REACH if fine else REACH
-        if len(guess.values) > ENCLOSED:
-            evidence = replace(evidence, size=min(evidence.size, FITTED))
-            reach *= WIDER
-        traced = Traced(evidence, family.camera, reach)
         axes, known = family.columns(evidence), len(guess.values) <= ENCLOSED
-        if not known and (found := family.matched(evidence)):
-            axes = axes @ found.axes
+        reach = FINE_REACH if fine else REACH
+        if not known:
+            evidence = replace(evidence, size=min(evidence.size, FITTED))
+            found = family.matched(evidence)
+            axes = axes @ found.axes if found else axes
+            reach *= WIDER
         search = Search(
-            traced.right,
+            Traced(evidence, family.camera, reach).right,
             axes,
             least=evidence.least_right(family.worth),
             unseen=family.unseen(evidence),
@@ -156,9 +162,9 @@ def fitting(family: Family, *rivals: Family) -> Fit:
         out: list[Numbers] = []
         found, own = family.matched(evidence), evidence.case.scene.camera
         for start in (yield from _likely(evidence, family, rivals)):
-            few = evidence.few if len(start) > 1 else evidence
-            guess = yield from refine(few, Numbers(start))
-            if not guess and found and found.share >= CLEAR:
+            few, many = evidence.few if len(start) > 1 else evidence, len(start) > ENCLOSED
+            guess = None if many else (yield from refine(few, Numbers(start)))
+            if not guess and found and (many or found.share >= CLEAR):
                 out.append(Numbers(start, start, start, words=family.words(own, *start)))
             elif guess:
                 out.append(guess)
@@ -167,7 +173,7 @@ def fitting(family: Family, *rivals: Family) -> Fit:
                     break
         return out
 
-    return Fit(find, refine)
+    return {"assume": of_camera(family.camera), "find": find, "refine": refine}
 
 
 def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Work[list[Values]]:
@@ -180,7 +186,8 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
     if family.camera(own, *none) is None:
         return []
     film = seen_by(own, matches(evidence).points)
-    found, still = family.matched(evidence), fitted(matches(evidence), lambda units: film, 0)
+    found = yield from family.followed(evidence)
+    still = fitted(matches(evidence), lambda units: film, 0)
     others = [other.share for r in rivals if (other := r.matched(evidence))]
     if found and still and (most := max(found.share, still.share, *others)) >= FOUND:
         moves = found.share >= still.share + MORE or is_everywhere(evidence)
@@ -228,9 +235,8 @@ class Traced:
         self.evidence = evidence
         self.camera = camera
         self.reach = reach
-        few = _few(evidence)
-        # Film positions, and what is seen there: how far it moves says whether triangles stay near.
-        self.guide = evidence.film[:, few], evidence.points[:, few]
+        # What is seen: how far it moves says whether triangles stay near.
+        self.guide = evidence.points[:, _few(evidence)]
         self.probes: list[Probe] = []  # the last one first
 
     def right(self, values: Values) -> Work[Bools | None]:
@@ -239,26 +245,17 @@ class Traced:
         camera = self.camera(evidence.case.scene.camera, *values)
         if camera is None:
             return None
+        scene = evidence.case.scene.seen_by(camera)
         probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
         if probe is None:
-            scene = evidence.case.scene.seen_by(camera)
             probe = yield from evidence.probe(scene, self.reach)
             self.probes = [probe, *self.probes[: PREPARED - 1]]
-        probe = replace(probe, scene=probe.scene.seen_by(camera))
-        hits = yield from probe.trace()
-        return evidence.agrees(probe.scene, hits)
+        return evidence.agrees(scene, (yield from replace(probe, scene=scene).trace()))
 
     def _near(self, prepared: Camera, camera: Camera) -> bool:
         """Return whether a camera sees everything near where the prepared one does."""
-        film, points = self.guide
         with np.errstate(all="ignore"):
-            before, now = (np.stack(film_of(c, points)[:2]) for c in (prepared, camera))
-            beside = film_beside_camera(prepared, camera, *film) - film
-            moved = now - before
-        # Parallel rays that are turned move what is far away by more than what is near.
-        same_place = np.array_equal(prepared.origin, camera.origin)
-        same_place &= camera.projection is not ORTHOGRAPHIC
-        if same_place:
-            return bool(np.abs(beside).max() <= self.reach)
+            before, now = (np.stack(film_of(c, self.guide)[:2]) for c in (prepared, camera))
+            moved = np.abs(now - before)
         known = np.isfinite(moved)
-        return bool(known.any() and np.abs(moved[known]).max() <= self.reach)
+        return bool(known.any() and moved[known].max() <= self.reach)

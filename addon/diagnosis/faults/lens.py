@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from functools import partial
+from itertools import product
 
 from .fault import Example, Fault, Option, options, ways, with_option
 from .film import SENSOR
 from .lens_changes import (
     aspect,
     fits,
-    in_length,
     lengths,
     of_lens,
     of_lenses,
     orthographic,
     other_border,
     part,
-    shifts,
+    powers,
     spanned,
     square,
+    times,
     whole_view,
 )
 
@@ -37,34 +37,21 @@ _DIVIDED = options(
 PARTS = (0.25, 0.5, 0.75, 2.0, 4.0)  # sizes for which a percentage of the resolution is tried
 
 _FIT = options(*(fits(power, shifted) for power in (1, -1) for shifted in (True, False)))
-_LEFT_OUT = ways(
-    ("", shifts(lambda camera, x, y: (0.0, 0.0))),
-    (" across", shifts(lambda camera, x, y: (0.0, y))),
-    (" up", shifts(lambda camera, x, y: (x, 0.0))),
-)
-_SIGN = options(
-    shifts(lambda camera, x, y: (-x, -y)),
-    shifts(lambda camera, x, y: (-x, y)),
-    shifts(lambda camera, x, y: (x, -y)),
-)
+_LEFT_OUT = ways(("", times(0, 0)), (" across", times(0, 1)), (" up", times(1, 0)))
+_SIGN = options(times(-1, -1), times(-1, 1), times(1, -1))
 _UNIT = options(
-    shifts(lambda camera, x, y: (x, y / aspect(camera))),
-    shifts(lambda camera, x, y: (x * aspect(camera), y)),
-    shifts(lambda camera, x, y: (x / aspect(camera), y)),
-    shifts(lambda camera, x, y: (x, y * aspect(camera))),
-    shifts(lambda camera, x, y: (x / aspect(camera), y / aspect(camera))),
-    shifts(lambda camera, x, y: (x * aspect(camera), y * aspect(camera))),
-    shifts(lambda camera, x, y: (x / 2, y / 2)),
-    shifts(lambda camera, x, y: (2 * x, 2 * y)),
+    *(powers(aspect, x, y) for x, y in product((-1, 0, 1), repeat=2) if x + y),
+    times(0.5, 0.5),
+    times(2, 2),
 )
 _LENGTH = options(
     *(
-        in_length(partial(factor, power=power))
+        powers(length, power, power)
         for power in (-1, 1)
-        for factor in (
-            lambda camera, power: SENSOR**power,
-            lambda camera, power: max(lengths(camera)) ** power,
-            lambda camera, power: min(lengths(camera)) ** power,
+        for length in (
+            lambda camera: SENSOR,
+            lambda camera: max(lengths(camera)),
+            lambda camera: min(lengths(camera)),
         )
     )
 )

@@ -45,12 +45,21 @@ def fits(power: float, shifted: bool) -> Change:
     return change
 
 
-def shifts(of: Callable[[Camera, float, float], tuple[float, float]]) -> Change:
-    """Return a function that moves the centre of the view window; None if it stays."""
+def powers(length: Callable[[Camera], float], x: float, y: float) -> Change:
+    """Return a function that multiplies the shifts by powers of a length; None if they stay."""
+
+    def change(camera: Camera) -> Camera | None:
+        return times(length(camera) ** x, length(camera) ** y)(camera)
+
+    return change
+
+
+def times(x: float, y: float) -> Change:
+    """Return a function that multiplies the shifts, across and up; None if they stay."""
 
     def change(camera: Camera) -> Camera | None:
         own = camera.window.centre
-        other = of(camera, *own)
+        other = x * own[0], y * own[1]
         if np.allclose(own, other, rtol=1e-9, atol=0):
             return None
         return replace(camera, window=camera.window.about(other))
@@ -85,11 +94,6 @@ def spanned(across: bool, up: bool) -> Callable[[Camera], Camera | None]:
         return about_centre(camera, x, y)
 
     return change
-
-
-def in_length(factor: Callable[[Camera], float]) -> Change:
-    """Return a function that multiplies both shifts, as with another unit of length."""
-    return shifts(lambda camera, x, y: (factor(camera) * x, factor(camera) * y))
 
 
 def lengths(camera: Camera) -> tuple[float, float]:

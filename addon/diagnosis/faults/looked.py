@@ -71,28 +71,19 @@ class Looked:
         rest = replace(scene, instances=tuple(left))
         depth = float(np.median(frame.t[seen]))
         picture = evidence.picture.at(at)
-        out = cls(evidence, name, at, picture, Hits.none(0), rest, seen, shown, depth, kept)
-        behind = yield from out.traced(rest)
-        out = replace(out, behind=behind)
+        behind = yield from evidence.trace(rest, at)
+        out = cls(evidence, name, at, picture, behind, rest, seen, shown, depth, kept)
         return out if out._may_settle >= WORTH * evidence.unexplained.sum() else None
-
-    def traced(self, scene: Scene) -> Work[Hits]:
-        """Trace a scene in the n pixels."""
-        return (yield from self.evidence.trace(scene, self.at))
 
     @property
     def alone(self) -> Scene:
         """The scene with the object alone."""
         scene = self.evidence.case.scene
-        own = instances_named(scene, self.name)
-        return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())
+        return _alone(scene, instances_named(scene, self.name))
 
     def right(self, changed: Scene) -> Work[Bools]:
         """Return which of the n pixels are right with the object as a scene has it, (n,)."""
-        return self.agrees(changed, (yield from self.traced(changed)))
-
-    def agrees(self, changed: Scene, hits: Hits) -> Bools:
-        """Return which of the n pixels agree with the hits of a scene of the object alone, (n,)."""
+        hits = yield from self.evidence.trace(changed, self.at)
         before = (hits.instance != NOTHING) & (hits.t < self.behind.t)
         return (self._beneath & ~before) | self._agree(changed, hits, before)
 
@@ -173,8 +164,9 @@ def _shown(evidence: Evidence, own: list[int]) -> Bools:
     picture, scene = evidence.picture, evidence.case.scene
     if picture.owners:
         return np.isin(picture.owners.pixels, picture.owners.instances[own])
-    first, last = scene.color_rows[:, own]
-    rows = np.unique(
-        np.concatenate([np.arange(a, b + 1) for a, b in zip(first, last, strict=True)])
-    )
-    return shows_colors(picture, scene.color_table[rows])
+    return shows_colors(picture, _alone(scene, own).color_table[:-1])
+
+
+def _alone(scene: Scene, own: list[int]) -> Scene:
+    """Return the scene with some instances alone."""
+    return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())

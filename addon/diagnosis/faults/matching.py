@@ -18,7 +18,7 @@ from ...pictures.bounds import largest_within
 from ...pictures.metrics import beside_edges
 from ...scene import Camera
 from ...tracer.camera import camera_rays, film_of
-from ..evidence import BEYOND, NEAR, Evidence, spread
+from ..evidence import BEYOND, NEAR, Evidence, film_at, spread
 
 POINTS = 384  # pixels at edges that are searched
 WINDOW = 4  # pixels on each side of one that are compared
@@ -72,12 +72,12 @@ def matches(
     return evidence.once(key, lambda: _matched(evidence, some, about))
 
 
-def seen_by(camera: Camera | None, points: Floats) -> Floats | None:
-    """Return where a camera has points (3, n), (2, n) pixels; None without one."""
-    return None if camera is None else np.stack(film_of(camera, points)[:2])
+def seen_by(camera: Camera | None, points: Floats) -> Floats:
+    """Return where a camera has points (3, n), (2, n) pixels; NaN without one."""
+    return points[:2] * np.nan if camera is None else np.stack(film_of(camera, points)[:2])
 
 
-def fitted(found: Matches, seen: Callable[[Floats], Floats | None], count: int) -> Fitted | None:
+def fitted(found: Matches, seen: Callable[[Floats], Floats], count: int) -> Fitted | None:
     """Fit some units, (k,), with which points are seen where they are shown.
 
     None if too few are known. The function returns their film positions, (2, n), with some units.
@@ -86,21 +86,16 @@ def fitted(found: Matches, seen: Callable[[Floats], Floats | None], count: int) 
     if len(found.points[0]) < LEAST:
         return None
 
-    def off(values: Floats) -> Floats | None:
+    def off(values: Floats) -> Floats:
         with np.errstate(all="ignore"):
-            film = seen(values)
-            return None if film is None else found.shown - film
+            return found.shown - seen(values)
 
     now = off(units)
     for number in range(ROUNDS if count else 0):
-        if now is None:
-            return None
         beside = [off(units + STEP * axis) for axis in np.eye(count)]
-        if any(b is None for b in beside):
-            return None
         slope = (now - np.array(beside)) / STEP  # (k, 2, n)
         known = np.isfinite(now).all(axis=0) & np.isfinite(slope).all(axis=(0, 1))
-        if not known.any():  # all are behind the camera
+        if not known.any():  # all are behind the camera, or there is none
             return None
         apart = _apart(now, found.sure)[known]
         scale = max(HIT, float(np.median(apart)) * 2 / (1 + number / 4))
@@ -114,8 +109,6 @@ def fitted(found: Matches, seen: Callable[[Floats], Floats | None], count: int) 
         now = off(units)
         if np.abs(step).max() < FIXED:
             break
-    if now is None:
-        return None
     apart = _apart(now, found.sure)
     share = float((apart[np.isfinite(apart)] < HIT).sum() / len(apart))
     # LAPACK's last digits are another machine's, and where a search begins is what it tells.
@@ -152,7 +145,7 @@ def _matched(evidence: Evidence, where: Bools, about: tuple[float, float] | None
     each = np.einsum("nij,nj,nkj->nik", axes, sure, axes)
     rows, columns = rows[known], columns[known]
     camera = evidence.case.scene.camera
-    film = np.stack((columns + camera.region.x0 + 0.5, rows + camera.region.y0 + 0.5))
+    film = film_at(camera, rows, columns)
     t = evidence.frame.t
     far = BEYOND * float(np.max(t[np.isfinite(t)], initial=1.0))
     nearest = -largest_within(-np.where(np.isfinite(t), t, far), 1)  # at an edge, what is in front
@@ -208,26 +201,28 @@ def _compared(
 ) -> tuple[Floats, Floats]:
     """Return the share of wrong pixels of n windows at m places, (n, m), and the places, (2, m)."""
     traced, shown = pair
-    height, width = traced.shape
     side = scale * np.arange(-WINDOW, WINDOW + 1)
     y, x = (v.ravel() for v in np.meshgrid(side, side, indexing="ij"))
     rows, columns = at[0][:, None] + y, at[1][:, None] + x
-    inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
-    own = traced[rows.clip(0, height - 1), columns.clip(0, width - 1)]
+    own = _seen_at(traced, rows, columns)
     places = scale * np.arange(-reach, reach + 1)
     steps = np.array(np.meshgrid(places, places)).reshape(2, -1)
     steps = steps[:, np.argsort(np.abs(steps).sum(axis=0), kind="stable")]
     wrong = np.empty((len(rows), steps.shape[1]))
     for number, (dx, dy) in enumerate(steps.T):
-        r, c = rows + moved[1][:, None] + dy, columns + moved[0][:, None] + dx
-        there = inside & (r >= 0) & (r < height) & (c >= 0) & (c < width)
-        other = shown[r.clip(0, height - 1), c.clip(0, width - 1)]
-        differ = (np.abs(own - other) > NEAR) & there
-        count = there.sum(axis=1)
-        wrong[:, number] = np.where(
-            2 * count >= len(y), differ.sum(axis=1) / np.maximum(count, 1), 1.0
-        )
+        there = rows + moved[1][:, None] + dy, columns + moved[0][:, None] + dx
+        apart = np.abs(own - _seen_at(shown, *there))
+        count, differ = np.isfinite(apart).sum(axis=1), (apart > NEAR).sum(axis=1)
+        wrong[:, number] = np.where(2 * count >= len(y), differ / np.maximum(count, 1), 1.0)
     return wrong, steps.astype(np.float64)
+
+
+def _seen_at(picture: Floats, rows: Places, columns: Places) -> Floats:
+    """Return some pixels of a picture (h, w); NaN outside of it."""
+    height, width = picture.shape
+    inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
+    seen = picture[rows.clip(0, height - 1), columns.clip(0, width - 1)]
+    return np.where(inside, seen, np.nan)
 
 
 def is_everywhere(evidence: Evidence) -> bool:
@@ -251,8 +246,6 @@ def _touched(evidence: Evidence) -> float:
 
 def _in_tiles(mask: Bools) -> Integers:
     """Count a mask's pixels (h, w) in each tile of the picture."""
-    rows, columns = (np.linspace(0, n, TILES + 1).astype(int) for n in mask.shape)
-    total = np.pad(mask.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
-    corners = total[np.ix_(rows, columns)]
-    counts: Integers = np.diff(np.diff(corners, axis=0), axis=1)
+    rows, columns = (np.linspace(0, n, TILES, endpoint=False, dtype=int) for n in mask.shape)
+    counts: Integers = np.add.reduceat(np.add.reduceat(mask, rows, dtype=int), columns, axis=1)
     return counts

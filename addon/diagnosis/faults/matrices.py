@@ -86,9 +86,7 @@ def _quarters() -> Iterator[Way]:
     """Yield turns of the world about its axes, but by a quarter about X: that is Y up."""
     for k, axis in enumerate(_AXES):
         for quarters in (1, 2, 3) if k else (2,):
-            turn = np.eye(4)
-            for _ in range(quarters):
-                turn = turn @ _quarter(k)
+            turn = np.linalg.matrix_power(_quarter(k), quarters)
             by = {1: "a quarter", 2: "half a turn", 3: "three quarters"}[quarters]
             yield f"{by} about {axis}", _matrix(partial(_between, turn, np.eye(4)))
 
@@ -105,12 +103,12 @@ def _quarter(axis: int) -> Array:
 def _left_handed() -> Iterator[Way]:
     """Yield the world with an axis mirrored, and a camera that is still a rotation."""
     for k, axis in enumerate(_AXES):
-        mirror = np.eye(4)
-        mirror[k, k] = -1
         for own in range(3):
-            camera = np.eye(4)
-            camera[own, own] = -1
-            yield axis, _matrix(partial(_between, mirror, camera))
+            yield axis, _matrix(partial(_between, _mirror(k), _mirror(own)))
+
+
+def _mirror(axis: int) -> Array:
+    return np.diag(np.where(np.arange(4) == axis, -1.0, 1.0))
 
 
 def flipped(camera: Camera, axis: int) -> Camera:

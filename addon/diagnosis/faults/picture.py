@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ...causes.case import Case
 from ...tracer.progress import at_once
 from ..evidence import Evidence
-from .fault import AnyFault, Effort, Example, Fault, Guess, Make, always
+from .fault import AnyFault, Effort, Example, Fault, Guess, Make, Option, always, with_option
 from .filters import FILTER_FAULTS
 from .processed import PROCESSED
 from .recolor import alpha_divided, alpha_multiplied, recolored
@@ -31,21 +31,14 @@ _ROLLS = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Rolled(Guess):
-    """A picture with its columns x too far right, and its rows y too high."""
-
-    x: int
-    y: int
-
-
-def _rolled(way: int) -> Make[Rolled]:
+def _rolled(way: int) -> Make[Option]:
     """Return a function that rolls the picture's columns and rows, or rolls them back."""
 
-    def make(case: Case, guess: Rolled) -> Case:
+    def make(case: Case, guess: Option) -> Case:
         height, width = case.picture.color.shape[:2]
-        rows = np.roll(np.arange(height), way * guess.y)
-        columns = np.roll(np.arange(width), way * guess.x)
+        x, y, _ = _ROLLS[guess.number]
+        rows = np.roll(np.arange(height), way * y)
+        columns = np.roll(np.arange(width), way * x)
         return replace(case, picture=case.picture.moved(np.ix_(rows, columns)))
 
     return make
@@ -68,12 +61,8 @@ PICTURE_FAULTS: tuple[AnyFault, ...] = (
         "A buffer is read or written from one pixel or row too far, as when counting from 1.",
         "check where the border begins, and from which row or column counting starts",
         _rolled(-1),
-        always(*(Rolled(x, y, words=words) for x, y, words in _ROLLS)),
-        examples=(
-            Example(
-                "border", "the border off by one row", lambda case, frame: Rolled(0, 1), _rolled(1)
-            ),
-        ),
+        always(*(Option(n, words=words) for n, (*_, words) in enumerate(_ROLLS))),
+        examples=(Example("border", "the border off by one row", with_option(0), _rolled(1)),),
         words="rows or columns are one off, and those at the end are at the other end",
         witness="steel1990/tga#1",
     ),

@@ -84,10 +84,9 @@ def _off(made: Colors, shown: Colors) -> Floats:
 PROCESSED: tuple[AnyFault, ...] = (
     Fault(
         "processed",
-        "the picture was processed after rendering: colours are up to {percent:.3g} % of white "
-        "off, and all surfaces are where they should be",
+        "the picture was processed after rendering: colours are up to {percent:.3g} % of white off",
         "A JPEG, dithering, a white balance, a saturation or a look, by Blender's color "
-        "management or another program.",
+        "management or another program, which changed the colour of nearly every surface.",
         "store it as PNG or EXR as it was rendered; switch off color management's look and white "
         "balance, dithering, and what a viewer does to photographs",
         unchanged,

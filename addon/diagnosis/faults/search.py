@@ -26,15 +26,13 @@ NARROW = {1: 2}
 COARSE = 1 / 2  # of a unit: smaller steps have fewer neighbours
 ASKEW = 8  # random directions besides those of three axes and more
 NOISE = 2.0**12  # last places of the largest number
-SMALL = 1 / 8  # of a unit: the first step where a place is nearly the best
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
 ROUGH = 1 / 32  # of a unit: the last step if a refinement follows
 FARTHEST = 256.0  # units: the largest distance of an end
 CLOSE = 1 / 16  # of the distance of an end: its precision
 LEAST_UNITS = 1e-9  # along a number that hardly changes anything, alone
-NEARLY = 0.97  # of the right pixels: from a place with as many it is climbed again
-LIKELY = 0.75  # likewise, where one number alone is climbed
+LIKELY = 0.75  # of the right pixels: where as many are right with one number, it is climbed alone
 DIGITS = range(-1, 6)  # digits of a number beyond those that its range fixes
 
 
@@ -93,15 +91,13 @@ class Search:
         best, _ = yield from self.climbed(best, step / 2, COARSE)
         last = self.finest if enclose else ROUGH
         best, right = yield from self.climbed(best, min(step, COARSE), last)
-        first = best
         if len(best) > 1:
             best, right = yield from self._one_alone(best, right, last)
         if not enclose:
             return Numbers(best, best, best, object=name)
-        if best == first:
-            best, right = yield from self._with_fewer(best, right)
         places = yield from self._region(np.array(best), right)
-        told = yield from self._rounded(best, places, right)
+        # Along what is unseen a range may be very long: its middle says nothing.
+        told = yield from self._rounded(best, places[: 1 + 2 * len(best)], right)
         places = np.array([told, *places])
         beyond = self.finest * np.abs(self.axes).sum(axis=1)
         low, high = places.min(axis=0) - beyond, places.max(axis=0) + beyond
@@ -119,20 +115,6 @@ class Search:
                 there, found = yield from alone.climbed(place, COARSE, last)
                 if found >= right:
                     return there, found
-        return best, right
-
-    def _with_fewer(self, best: Values, right: int) -> Work[tuple[Values, int]]:
-        """Return a place as good with a number near 0, if there is one; else the best place.
-
-        On a ridge, climbing ends somewhere.
-        """
-        numbers = np.array(best)
-        kept = sorted(np.ndindex(*(2,) * len(best)), key=sum)[1:-1]
-        for some in kept:
-            place = values_of(numbers * some)
-            if (yield from self.count(place)) >= NEARLY * right:
-                there, found = yield from self.climbed(place, SMALL, self.finest)
-                return (there, found) if found >= right else (best, right)
         return best, right
 
     def _region(self, best: Floats, right: int) -> Work[Floats]:

@@ -107,8 +107,6 @@ Mix = list[tuple[Places, Floats]]  # for each of n places, which pixels are take
 def _mix(have: int, size: int, way: Way) -> Mix:
     """Return the weights with which a row of `have` pixels is resampled to `size` pixels."""
     place = (np.arange(size) + 0.5) * have / size - 0.5
-    if way is Way.NEAREST:
-        return [(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), np.ones(size))]
     reach, kernel = _KERNELS[way]
     pixels = np.floor(place).astype(int) - reach + 1 + np.arange(2 * reach)[:, None]
     weights = np.where((pixels >= 0) & (pixels < have), kernel(place - pixels), 0)

@@ -14,7 +14,7 @@ from ...rendering import steps
 from ...scene import Camera, Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
-from ..evidence import Evidence
+from ..evidence import Evidence, least_with
 from .fault import AnyFault, Effort, Example, Fault, Guess, instances_named, of_meshes
 from .suspects import seen_instances
 
@@ -107,7 +107,6 @@ LEAST_WRONG = 2  # pixels of a triangle that is missing
 MOST_LAYERS = 6  # of triangles one behind another
 MOST_INSTANCES = 4  # of an object, of which triangles may be missing
 MOST_TRIANGLES = 4096  # of an instance that may be missing
-PIXELS_PER_TRIANGLE = 4  # else any shape is a sum of triangles
 
 
 def _missing_triangles(evidence: Evidence) -> Work[list[Triangles]]:
@@ -145,8 +144,8 @@ def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Tri
         left = np.setdiff1d(left, more)
         gone = np.setdiff1d(every, left)
         guess = Triangles(rank, gone, object=name, values=(float(len(gone)),))
-        most = min(MOST_TRIANGLES, int(evidence.unexplained.sum()) / PIXELS_PER_TRIANGLE)
-        if len(gone) > most:
+        # Each is as a number that is fitted: any shape is a sum of triangles.
+        if len(gone) > MOST_TRIANGLES or least_with(len(gone)) > evidence.unexplained.sum():
             return None
         other = _without_triangles(case, guess)
         if (yield from evidence.score(other)).gain < 0:

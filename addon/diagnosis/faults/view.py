@@ -41,31 +41,28 @@ def _halfway(case: Case, frame: Frame) -> Numbers | None:
 
 def _find_start(evidence: Evidence) -> Work[list[Numbers]]:
     """Guess the clip start with the most right pixels, and none."""
-    camera = evidence.case.scene.camera
-    least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
-    fitted = yield from _fitted(evidence, _start, least, -1.0)
-    return [*fitted, Numbers((least,), words=LEFT_OUT)]
+    own = evidence.case.scene.camera.clip_start
+    return (yield from _found(evidence, _start, own / FAR if own > 0 else own, -1.0))
 
 
 def _find_end(evidence: Evidence) -> Work[list[Numbers]]:
     """Guess the clip end with the most right pixels, and none."""
-    most = evidence.case.scene.camera.clip_end * FAR
-    fitted = yield from _fitted(evidence, _end, most, 1.0)
-    return [*fitted, Numbers((most,), words=LEFT_OUT)]
+    return (yield from _found(evidence, _end, evidence.case.scene.camera.clip_end * FAR, 1.0))
 
 
-def _fitted(
+def _found(
     evidence: Evidence, changed: Callable[[Camera, float], Camera | None], none: float, sign: float
 ) -> Work[list[Numbers]]:
-    """Guess the best depth near those that separate unexplained pixels from the others.
+    """Guess the best depth near those that separate unexplained pixels from the others, and none.
 
     With the depth `none`, nothing is clipped.
     """
+    out = [Numbers((none,), words=LEFT_OUT)]
     camera = evidence.case.scene.camera
     widest = changed(camera, none)
     t = evidence.frame.t[np.isfinite(evidence.frame.t)]
     if widest is None or not len(t) or not np.ptp(t):
-        return []
+        return out
     # The rays are the same with each clip depth: their candidates are found once.
     probe = yield from evidence.probe(evidence.case.scene.seen_by(widest))
 
@@ -83,15 +80,12 @@ def _fitted(
         found = yield from right(depth)
         if found is not None and found.sum() >= evidence.least_right():
             starts.append(depth)
-    if not starts:
-        return []
     search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right())
-    guess = yield from search.guess(starts)
-    if guess is None:
-        return []
-    beyond = "nearer" if sign < 0 else "farther"
-    words = f"at {guess.values[0]:.4g} m: what is {beyond} is not shown"
-    return [replace(guess, words=words)]
+    if starts and (guess := (yield from search.guess(starts))):
+        beyond = "nearer" if sign < 0 else "farther"
+        words = f"at {guess.values[0]:.4g} m: what is {beyond} is not shown"
+        out = [replace(guess, words=words), *out]
+    return out
 
 
 def _parting(evidence: Evidence, sign: float) -> list[Values]:

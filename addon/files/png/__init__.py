@@ -47,9 +47,9 @@ def encode(picture: Bytes, level: int = LEVEL) -> bytes:
     return _encoded(picture, RGBA, level)
 
 
-def encode_grey(picture: Bytes, level: int = LEVEL) -> bytes:
+def encode_grey(picture: Bytes) -> bytes:
     """Return an (h, w) uint8 picture likewise, as one of grey values."""
-    return _encoded(picture, GREY, level)
+    return _encoded(picture, GREY, LEVEL)
 
 
 def _encoded(picture: Bytes, kind: int, level: int) -> bytes:

@@ -18,13 +18,7 @@ from . import scenes
 
 @dataclass(frozen=True)
 class Scenario:
-    """A scene to be swept over a scale: `sweeps.toml` says what its words mean.
-
-    Raises
-    ------
-    ValueError
-        If it has no name, no scales, or a scale that is no number.
-    """
+    """A scene to be swept over a scale: `sweeps.toml` says what its words mean."""
 
     name: str
     title: str
@@ -36,11 +30,6 @@ class Scenario:
     odd: bool | None = None  # None where it is not known beforehand
     width: int = 32  # of the picture, in pixels
     height: int = 24
-
-    def __post_init__(self) -> None:
-        numbers = all(isinstance(x, int | float) for x in self.scales)
-        if not (self.name and self.title and self.scales and numbers):
-            raise ValueError(f"scenario {self.name!r}: a name, a title and scales are needed")
 
     @property
     def scale_and_unit(self) -> str:

@@ -61,7 +61,7 @@ def _clip(seen: Seen) -> tuple[float, float]:
     return float(seen.scene.camera.clip_start), float(seen.scene.camera.clip_end)
 
 
-def _buffer(made: Floats, seen: Seen) -> Floats:
+def _buffer(seen: Seen) -> Floats:
     """Return a depth buffer's values, 0 to 1: f / (f - n) (1 - n / z), or linear if parallel."""
     near, far = _clip(seen)
     z = depth(seen)
@@ -71,20 +71,13 @@ def _buffer(made: Floats, seen: Seen) -> Floats:
         return far / (far - near) * (1 - near / z)
 
 
-def _into(turn: Turn, full: float, reverse: bool) -> Turn:
-    """Return a turn to values from 0 to 1, reversed or not, of the file's whole range."""
-    if reverse:
-        return lambda made, seen: (1 - turn(made, seen)) * full
-    return lambda made, seen: turn(made, seen) * full
-
-
 def _buffers(evidence: Evidence, data: Data) -> Iterator[Turned]:
     words = "0 at the near clip plane, 1 at the far one"
-    yield Turned(words=words, turn=_into(_buffer, data.full, False))
+    yield Turned(words=words, turn=lambda made, seen: _buffer(seen) * data.full)
     words = "reversed, 1 at the near clip plane, 0 at the far one"
-    yield Turned(words=words, turn=_into(_buffer, data.full, True))
+    yield Turned(words=words, turn=lambda made, seen: (1 - _buffer(seen)) * data.full)
     words = "-1 at the near clip plane, 1 at the far one"
-    yield Turned(words=words, turn=lambda made, seen: 2 * _buffer(made, seen) - 1)
+    yield Turned(words=words, turn=lambda made, seen: 2 * _buffer(seen) - 1)
 
 
 def _background(evidence: Evidence, data: Data) -> Iterator[Turned]:

@@ -9,7 +9,7 @@ import numpy as np
 from reference_tracer.arrays import Bools, Integers
 from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
-from reference_tracer.diagnosis.faults.fault import Effort, Fault, Guess
+from reference_tracer.diagnosis.faults.fault import Fault, Guess
 from reference_tracer.tracer.progress import at_once
 
 from ..ids import kind_of, owners_of
@@ -109,8 +109,8 @@ STORING_FAULTS = (
         "keep float32 from the renderer to the file",
         _rounded,
         _steps,
-        effort=Effort.NOTHING,
         vague=True,
+        sampled=False,
         words="half floats, millimetres or centimetres",
         witness="nerfstudio-project/nerfstudio#2317",
     ),

@@ -121,7 +121,8 @@ SIGNED_VOLUMES = Program.of(
         "s₁": "v₁ / v",
         "s₂": "v₂ / v",
         "s₃": "v₃ / v",
-        "t": "(d · (s₁ a + s₂ b + s₃ c)) / (d · d)",
+        # As the weights' sum is 1, their errors move the point by edges, not by arms.
+        "t": "(d · (a + s₂ (p₂ − p₁) + s₃ (p₃ − p₁))) / (d · d)",
     },
     ("s₁ ≥ 0", "s₂ ≥ 0", "s₃ ≥ 0", "t > 0"),
     (),

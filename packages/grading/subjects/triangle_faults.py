@@ -24,15 +24,6 @@ ORDINARY = "front", "back", "whole"  # hits with nothing difficult about them
 RANDOM = 0.1, 0.9  # share of ordinary hits that an equality of floats loses
 
 
-def sign_of_t(a: TableAnswers) -> Found:
-    """See whether what lies behind is hit in front, and what lies in front is not."""
-    behind, front = a.cases.among("behind"), a.cases.among("front")
-    turned = np.isclose(a.table[behind, 0], a.cases.right[front, 0])
-    if turned.mean() > MOST and a.hit[a.cases.among(*ORDINARY)].mean() < FEW:
-        text = "t has the wrong sign: what is behind the ray's origin is hit, what is before it not"
-        yield "t_sign", text, behind | ~a.hit
-
-
 def of_conditions(a: TableAnswers) -> Found:
     """See whether what is hit is what the textbook hits with a condition too many, or too few."""
     right, whole = a.cases.subject.programs[0], a.cases.among("whole")
@@ -192,7 +183,6 @@ TESTS = (
         (
             never,
             always,
-            sign_of_t,
             of_conditions,
             sum_equals_one,
             absolute_epsilon,

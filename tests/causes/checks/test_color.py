@@ -53,6 +53,21 @@ def test_a_transform_is_named(room, frame, change, name):
     assert (causes.figure[own] <= causes.allowed[own]).all()
 
 
+@pytest.mark.parametrize(("other", "named"), [(True, 0), (False, 1)])
+def test_what_shows_another_surface_is_in_no_other_shade(make, other, named):
+    """What has the colour of another surface, also far away, may be that; a new one is its own."""
+    sides = make.quad(-3, -1, -1, 1, -6), make.quad(1, 3, -1, 1, -6)
+    colors = np.array([(0.9, 0.1, 0.1, 1), (0.1, 0.2, 0.9, 1)], np.float32)
+    scene = make.scene(make.camera(48, 27), *sides)
+    every = zip(scene.instances, colors, strict=True)
+    scene = replace(scene, instances=tuple(replace(i, colors=[c]) for i, c in every))
+    frame = render(scene)
+    shown = frame.color.copy()
+    shown[frame.instance_index == 0] = colors[1] if other else (0.5, 0.7, 0.2, 1)
+    assert (frame.instance_index == 0).sum() > 50
+    assert len(found(scene, frame, Picture(shown)).shades) == named
+
+
 def test_none_is_looked_for_where_none_may_be(room, frame):
     causes = found(room, frame, Picture(changed(frame, curve)), curves=None)
     assert causes.transform == "" and (causes.cause == UNEXPLAINED).sum() > 500

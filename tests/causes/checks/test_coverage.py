@@ -14,37 +14,6 @@ from reference_tracer.tracer.settings import Settings
 BAND = 0.004  # pixels
 
 
-def weights(count):
-    """Return barycentrics all over a triangle, edges included, (n, 3)."""
-    i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1))
-    i, j = i[i + j <= count], j[i + j <= count]
-    return np.stack((i, j, count - i - j), axis=1) / count
-
-
-def test_nearest_point_against_dense_sampling(rng):
-    corners = rng.normal(size=(3, 2, 400)) + rng.normal(size=(1, 2, 400))
-    corners[2, :, :20] = corners[1, :, :20]  # segments
-    corners[:, :, 20:25] = corners[:1, :, 20:25]  # points
-    corners[:, :, 25:30] *= 1e-6
-    point, rim = nearest_to_origin(*corners)
-    scale = np.abs(corners).max(axis=(0, 1))
-    dense = np.linalg.norm(np.einsum("sk,kcn->scn", weights(150), corners), axis=1).min(axis=0)
-    found = np.linalg.norm(point, axis=0)
-    assert (found <= dense + 1e-12 * scale).all()
-    assert (found >= dense - 0.05 * scale).all()
-    along = np.linspace(0, 1, 2001)[:, None, None]
-    edges = [corners[i] + along * (corners[i - 1] - corners[i]) for i in range(3)]
-    edge = np.min([np.linalg.norm(e, axis=1).min(axis=0) for e in edges], axis=0)
-    assert np.allclose(np.abs(rim), edge, rtol=0, atol=5e-3 * scale.max())
-    cross = [
-        corners[i - 1, 0] * corners[i, 1] - corners[i - 1, 1] * corners[i, 0] for i in range(3)
-    ]
-    inside = (np.min(cross, axis=0) > 0) | (np.max(cross, axis=0) < 0)
-    assert 20 < inside.sum() < 380
-    assert ((rim > 0) == inside).all()
-    assert (found[inside] == 0).all() and np.allclose(found[~inside], -rim[~inside])
-
-
 def test_a_corner_behind_the_eye_is_unknown():
     a, b, c = np.array([[[0.0], [0]], [[1], [0]], [[np.nan], [1]]])
     point, rim = nearest_to_origin(a, b, c)
@@ -104,17 +73,6 @@ def test_what_is_surely_covered(make, pixels):
 
 def test_planes_are_sure(make, pixels):
     assert np.allclose(asked(make.scene(pixels, planes=[((0, 0, -2), (0, 0, 1))])).sure.t, 2)
-
-
-def test_a_fine_mesh_is_sure(make, pixels):
-    """Triangles of half a band each: every centre is near an edge, and covered nevertheless."""
-    x, y = np.meshgrid(np.linspace(4.4037, 4.5963, 98), np.linspace(2.4041, 2.5959, 98))
-    points = np.stack((x.ravel(), y.ravel(), np.full(x.size, -2.0)), axis=1)
-    corner = (np.arange(97)[:, None] * 98 + np.arange(97)).ravel()
-    faces = np.concatenate((corner[:, None] + (0, 1, 98), corner[:, None] + (1, 99, 98)))
-    sure = asked(make.scene(pixels, Mesh(points, faces))).sure.t.reshape(6, 8)
-    assert sure[2, 4] == pytest.approx(2)
-    assert np.isinf(np.delete(sure.ravel(), 2 * 8 + 4)).all()
 
 
 def test_nothing_there(make, pixels):

@@ -10,22 +10,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.causes.checks import parts as in_parts
-from reference_tracer.causes.checks import probe as probing
-from reference_tracer.causes.checks.parts import may_be_seen
 from reference_tracer.causes.explain import AGREE, DEPTH_TIE, EDGE, UNEXPLAINED
 from reference_tracer.pictures.bounds import SNAPPING
-from reference_tracer.pictures.identity import Owners
-from reference_tracer.pictures.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
-from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
 from ...cases import count, explained, find_causes, shifted
-
-WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
 def test_a_shift_within_the_snapping_is_all_edges(stripes):
@@ -129,91 +121,6 @@ def test_what_the_literal_method_loses_is_no_edge(make, precision):
     lost = (found.cause != AGREE).sum()
     assert lost > 0.05 * found.cause.size
     assert count(found, UNEXPLAINED) > 0.9 * lost
-
-
-@pytest.mark.slow
-def test_the_division_of_the_work_does_not_matter(room, monkeypatch):
-    """Smaller parts give smaller steps, and the same causes."""
-    tested, results, longest = [0], [], []
-
-    def counting(scene, settings, rays, some, hits, after=None):
-        tested[-1] += len(some.pixel)
-        test_pairs(scene, settings, rays, some, hits, after)
-
-    test_pairs = probing.test_pairs
-    monkeypatch.setattr(probing, "test_pairs", counting)
-    frame = render(room)
-    picture = render(replace(room, camera=shifted(room.camera, 0.3, 0.004))).color
-    picture[:, ::2] = frame.color[frame.instance_index == 2][0]  # the wall's, behind the others
-    for few, block in ((1 << 20, 1 << 20), (60, 1 << 20), (60, 100)):
-        monkeypatch.setattr(in_parts, "FEW", few)
-        monkeypatch.setattr(in_parts, "BLOCK", block)
-        monkeypatch.setattr(probing, "BLOCK", block)
-        tested[:] = [0]
-        work = find_causes(room, frame, picture)
-        try:
-            while True:
-                next(work)
-                tested.append(0)
-        except StopIteration as stop:
-            results.append(stop.value)
-        longest.append(max(tested))
-    assert longest[1] < longest[0] / 3 and longest[2] < longest[0] / 3
-    for other in results[1:]:
-        for name in ("cause", "figure", "allowed"):
-            assert np.array_equal(getattr(other, name), getattr(results[0], name), equal_nan=True)
-
-
-def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, rng):
-    """Nobody's colours, and other owners or none that are known: the causes stay the same."""
-    frame = render(stripes)
-    moved = render(replace(stripes, camera=shifted(stripes.camera, 1 / 300, -1 / 300)))
-    color = moved.color.copy()
-    color[rng.random(color.shape[:2]) < 0.3] = (0.3, 0.9, 0.1, 1)
-    color[::3] = np.roll(color[::3], 1, axis=1)
-    owners = np.append(np.arange(len(stripes.instances)), NOTHING).astype(np.int32)
-    owner = owners[moved.instance_index]
-    owner[:, ::4] = len(owners)
-    asked = []
-
-    def counted(pixels, plan):
-        asked.append((pixels.open.sum(), (yield from may_be_seen(pixels, plan)).sum()))
-        return np.ones_like(pixels.open)
-
-    for known in (None, Owners(("a", "b", "c"), owner, owners)):
-        picture, found = Picture(color, owners=known), []
-        for asks in (may_be_seen, counted):
-            monkeypatch.setattr(in_parts, "may_be_seen", asks)
-            found.append(result_of(find_causes(stripes, frame, picture)))
-        for name in ("cause", "figure", "allowed"):
-            first, second = (getattr(causes, name) for causes in found)
-            assert np.array_equal(first, second, equal_nan=True)
-        assert (found[0].cause == EDGE).sum() > 10
-    assert all(0 < few < 0.9 * many for many, few in asked), asked
-
-
-@pytest.mark.parametrize(
-    "first, second", [("textbook", "moller_trumbore"), ("moller_trumbore", "textbook")]
-)
-def test_edges_through_the_centres_are_edges(make, rng, first, second):
-    """Where rounding alone decides, two right methods differ; no fault lies in that."""
-    edges = 0
-    for _ in range(12):
-        turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-        camera = make.camera(16, 12, half=6, orthographic=True, axes=turn)
-        x = np.arange(-7.5, 7, 3)
-        low, high = (
-            np.stack((x, np.full(len(x), y), np.full(len(x), -5.0)), 1) for y in (-9.31, 10.17)
-        )
-        n, right = len(x), np.array([1, 0, 0])
-        points = np.concatenate((low, low + right, high, high + right)) @ turn.T
-        k = np.arange(n)[:, None]
-        faces = np.concatenate([k + np.array(c) * n for c in ((0, 1, 3), (0, 3, 2))])
-        scene = make.scene(camera, Mesh(points, faces))
-        found = explained(scene, render(scene, Settings(second)).color, settings=Settings(first))
-        assert count(found, AGREE) + count(found, EDGE) == found.cause.size
-        edges += count(found, EDGE)
-    assert edges > 20
 
 
 @pytest.mark.slow

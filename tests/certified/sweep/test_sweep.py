@@ -22,15 +22,12 @@ from reference_tracer.scene import Mesh, Region
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
 
-from ...moved import may, touched
-from ...oracle import scene_sights
-from ...sampled import daily, sampled
+from ...sampled import daily
 from ...tracer.hostile_scenes import brute_force, hostile_scene, offsets, scaled
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 SEEDS = 125  # in a part
 PARTS = [0, *(pytest.param(part, marks=pytest.mark.torture) for part in range(1, 32))]
-SAMPLE = 60  # seeds that the oracle decides
 DIVIDED = range(20_005, 20_020, 2), range(20_000, 20_020)  # seeds, of every day and of the long run
 ARRAYS = ("t", "instance", "triangle", "s", "certainty")
 
@@ -91,24 +88,6 @@ def test_as_the_ladder_with_every_ray_and_every_triangle(make, part):
     assert count.pop("NOT_CERTIFIED") == 0
     assert min(count[k] for k in ("orthographic", "borders", "beside", "mirrored")) > 25, count
     assert min(count.values()) > 25 and count["BOUND"] > 0.4 * count["pixels"], count
-
-
-@sampled(3)
-def test_as_the_oracle_has_it(make, every):
-    """In integers, by a rule written apart; every pixel of every scene."""
-    ambiguous, hits = 0, 0
-    for seed in range(10_000, 10_000 + SAMPLE, every):
-        rng = np.random.default_rng(seed)
-        scene = hostile_scene(make, rng, finite=True)
-        found, truth = swept(scene), scene_sights(scene)
-        names = list(zip(found.instance.tolist(), found.triangle.tolist(), strict=True))
-        assert names == [s.seen for s in truth], seed
-        assert np.array_equal(found.t, [s.rounded_t for s in truth]), seed
-        assert sorted(found.ties) == [k for k, s in enumerate(truth) if len(touched(s)) > 1], seed
-        for k, ties in found.ties.items():
-            assert names[k] in ties and may(truth[k]) <= ties <= touched(truth[k]), seed
-        ambiguous, hits = ambiguous + len(found.ties), hits + (found.triangle != NOTHING).sum()
-    assert ambiguous > 300 / every and hits > 900 / every
 
 
 def sizes(fine, coarse):

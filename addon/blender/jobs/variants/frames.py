@@ -7,8 +7,7 @@ from collections.abc import Iterator
 import bpy
 
 from ....causes.case import Variant
-from ...temporary import go_to
-from ...values import values_restored
+from ...evaluating import export_at
 from .origin import Origin
 
 AROUND = (-1.0, 1.0, -0.5, 0.5, -2.0, 2.0)  # frames
@@ -23,8 +22,4 @@ def variants(origin: Origin) -> Iterator[Variant]:
     ends = (float(tmp.frame_start), float(tmp.frame_end), 0.0, 1.0)
     frames = dict.fromkeys(f for f in (*(now + d for d in AROUND), *ends) if f != now)
     for frame in frames:
-        with values_restored():
-            go_to(tmp, frame)
-            scene = origin.again()
-            go_to(tmp, now)
-        yield Variant("other_frame", scene, f"{frame:g} in place of {now:g}")
+        yield Variant("other_frame", export_at(tmp, frame), f"{frame:g} in place of {now:g}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -12,10 +12,9 @@ from mathutils import Matrix
 
 from ....arrays import Floats
 from ....causes.case import Variant
-from ....scene import Instance, Scene
-from .origin import Origin
+from ....scene import Scene
+from .origin import Origin, all_and_each
 
-MOST = 6  # objects that are tried alone
 NEAR = 1e-5
 
 Placed = Callable[[Any], Any]  # of an object, its other world matrix
@@ -23,18 +22,8 @@ Placed = Callable[[Any], Any]  # of an object, its other world matrix
 
 def variants(origin: Origin) -> Iterator[Variant]:
     """Yield the scene with every object in another place by the same mistake, then single ones."""
-    parented = {n: o for n, o in origin.objects.items() if o.parent is not None}
-    yield from _all_and_each(origin, "parent_left_out", parented, lambda o: o.matrix_basis)
-    yield from _all_and_each(
-        origin, "parent_inverse", parented, lambda o: o.parent.matrix_world @ o.matrix_basis
-    )
-    yield from _all_and_each(
-        origin,
-        "parent_scale",
-        parented,
-        lambda o: without_scale(o.parent.matrix_world) @ o.matrix_parent_inverse @ o.matrix_basis,
-    )
-    yield from _all_and_each(origin, "delta_left_out", origin.objects, _without_delta)
+    for fault, placed in WRONG.items():
+        yield from _misplaced(origin, fault, placed)
     yield from _instances(origin)
     yield from _without_offsets(origin)
 
@@ -59,53 +48,64 @@ def without_scale(matrix: Matrix) -> Matrix:
     return Matrix.LocRotScale(place, rotation, None)
 
 
-def _all_and_each(
-    origin: Origin, fault: str, objects: dict[str, Any], placed: Placed
-) -> Iterator[Variant]:
-    matrices = {name: np.array(placed(obj), np.float64) for name, obj in objects.items()}
-    own = {name: np.array(obj.matrix_world, np.float64) for name, obj in objects.items()}
-    wrong = {n: m for n, m in matrices.items() if not np.allclose(m, own[n], atol=NEAR)}
-    if not wrong:
-        return
-    names = ", ".join(f"'{name}'" for name in list(wrong)[:3]) + (" ..." if len(wrong) > 3 else "")
-    yield Variant(fault, _moved(origin.exported, wrong, own), f"that of {names}")
-    if len(wrong) > 1:
-        for name in list(wrong)[:MOST]:
-            one = {name: wrong[name]}
-            yield Variant(fault, _moved(origin.exported, one, own), f"that of '{name}'", name)
+def _of_parent(placed: Placed) -> Placed:
+    """Return another place of what has a parent; all else stays."""
+    return lambda obj: placed(obj) if obj.parent else obj.matrix_world
 
 
-def _moved(scene: Scene, matrices: Mapping[str, Floats], own: Mapping[str, Floats]) -> Scene:
-    """Return the scene with other matrices of objects that are no instances."""
+# By their faults, mistakes about where objects are.
+WRONG: dict[str, Placed] = {
+    "parent_left_out": _of_parent(lambda o: o.matrix_basis),
+    "parent_inverse": _of_parent(lambda o: o.parent.matrix_world @ o.matrix_basis),
+    "parent_scale": _of_parent(
+        lambda o: without_scale(o.parent.matrix_world) @ o.matrix_parent_inverse @ o.matrix_basis
+    ),
+    "delta_left_out": _without_delta,
+}
 
-    def moved(instance: Instance) -> Instance:
-        name = scene.objects[instance.object]
-        if name not in matrices:
-            return instance
-        if not np.allclose(instance.world_from_object, own[name], atol=NEAR):
-            return instance  # something else instances it
-        return replace(instance, world_from_object=matrices[name])
 
-    return replace(scene, instances=tuple(map(moved, scene.instances)))
+def _misplaced(origin: Origin, fault: str, placed: Placed) -> Iterator[Variant]:
+    """Yield the scene with objects in another place, where that is another than their own."""
+    found = {name: _world(placed(obj)) for name, obj in origin.objects.items()}
+    own = {name: _world(obj.matrix_world) for name, obj in origin.objects.items()}
+    wrong = {n: m for n, m in found.items() if not np.allclose(m, own[n], atol=NEAR)}
+
+    def made(names: Collection[str]) -> Scene:
+        return _moved(origin, {name: wrong[name] for name in names}, are_at_home=True)[0]
+
+    yield from all_and_each(fault, wrong, made, "that of {}")
 
 
 def _instances(origin: Origin) -> Iterator[Variant]:
     """Yield the scene with every instance where the object that it shows is."""
-    own = {n: np.array(o.matrix_world, np.float64) for n, o in origin.objects.items()}
-    count = 0
-
-    def moved(instance: Instance) -> Instance:
-        nonlocal count
-        matrix = own.get(origin.exported.objects[instance.object])
-        if matrix is None or np.allclose(instance.world_from_object, matrix, atol=NEAR):
-            return instance
-        count += 1
-        return replace(instance, world_from_object=matrix)
-
-    instances = tuple(map(moved, origin.exported.instances))
+    own = {name: _world(obj.matrix_world) for name, obj in origin.objects.items()}
+    scene, count = _moved(origin, own, are_at_home=False)
     if count:
-        scene = replace(origin.exported, instances=instances)
         yield Variant("instance_transform", scene, f"{count} instances are at their object's place")
+
+
+def _moved(origin: Origin, matrices: Mapping[str, Floats], are_at_home: bool) -> tuple[Scene, int]:
+    """Return the scene with other matrices of some objects' instances, and how many these are.
+
+    Either of those that are where their object is, or of those that something else instances.
+    """
+    scene = origin.exported
+    objects = origin.objects
+    instances = list(scene.instances)
+    count = 0
+    for number, instance in enumerate(instances):
+        name = scene.objects[instance.object]
+        if name in matrices:
+            home = _world(objects[name].matrix_world)
+            is_at_home = np.allclose(instance.world_from_object, home, atol=NEAR)
+            if is_at_home == are_at_home:
+                instances[number] = replace(instance, world_from_object=matrices[name])
+                count += 1
+    return replace(scene, instances=tuple(instances)), count
+
+
+def _world(matrix: Any) -> Floats:
+    return np.array(matrix, np.float64)
 
 
 def _without_offsets(origin: Origin) -> Iterator[Variant]:

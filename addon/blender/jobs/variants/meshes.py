@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 import bpy
@@ -13,9 +14,8 @@ from ....causes.case import Variant
 from ....scene import Mesh, Scene
 from ...reading.export import export
 from ...reading.meshes import read_mesh
-from .origin import Origin
+from .origin import Origin, all_and_each
 
-MOST = 6  # objects that are tried alone
 LEVELS = (-1, 1, -2, 2)  # of subdivision more, or less
 MOST_TRIANGLES = 300_000  # of the scene, where a level is added: each makes four of one
 DEFORMING = {"ARMATURE", "HOOK", "LATTICE", "CURVE", "MESH_DEFORM", "SURFACE_DEFORM"}
@@ -40,32 +40,27 @@ def _without_modifiers(origin: Origin) -> Iterator[Variant]:
             continue
         only_moved = {m.type for m in obj.modifiers} <= DEFORMING
         (rest if only_moved else found)[name] = read[0]
-    yield from _all_and_each(origin.exported, "no_modifiers", found)
-    yield from _all_and_each(origin.exported, "rest_pose", rest)
+    yield from all_and_each("no_modifiers", found, partial(_with, origin.exported, found))
+    yield from all_and_each("rest_pose", rest, partial(_with, origin.exported, rest))
 
 
-def _all_and_each(scene: Scene, fault: str, meshes: dict[str, Mesh]) -> Iterator[Variant]:
-    """Yield the scene with other meshes of all these objects, then of single ones."""
-    named = [(n, scene.objects[i.object]) for n, i in enumerate(scene.instances)]
-    names = list(meshes)
-    alone = [[name] for name in names[:MOST]]
-    for some in (names, *alone) if len(names) > 1 else alone:
-        other = scene.with_meshes({n: meshes[name] for n, name in named if name in some})
-        said = ", ".join(f"'{name}'" for name in some[:3]) + (" ..." if len(some) > 3 else "")
-        yield Variant(fault, other, said, some[0] if len(some) == 1 else "")
+def _with(scene: Scene, meshes: dict[str, Mesh], names: Collection[str]) -> Scene:
+    """Return the scene with other meshes of some of these objects."""
+    named = ((n, scene.objects[i.object]) for n, i in enumerate(scene.instances))
+    return scene.with_meshes({n: meshes[name] for n, name in named if name in names})
 
 
 def _as_in_the_viewport(origin: Origin) -> Iterator[Variant]:
     """Yield the scene with the meshes of the viewport's evaluation, where these are others."""
     with bpy.context.temp_override(scene=origin.tmp, view_layer=origin.tmp.view_layers[0]):
         other, _ = export(bpy.context.evaluated_depsgraph_get())
-    meshes = {other.objects[i.object]: other.meshes[i.mesh] for i in other.instances}
-    own = {
-        origin.exported.objects[i.object]: origin.exported.meshes[i.mesh]
-        for i in origin.exported.instances
-    }
+    meshes, own = (
+        {scene.objects[i.object]: scene.meshes[i.mesh] for i in scene.instances}
+        for scene in (other, origin.exported)
+    )
     changed = {n: m for n, m in meshes.items() if n in own and not _alike(m, own[n])}
-    yield from _all_and_each(origin.exported, "viewport_modifiers", changed)
+    made = partial(_with, origin.exported, changed)
+    yield from all_and_each("viewport_modifiers", changed, made)
 
 
 def _alike(one: Mesh, other: Mesh) -> bool:

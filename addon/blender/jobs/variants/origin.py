@@ -1,15 +1,33 @@
-"""The source of a scene's variants: the export, and the Blender scene that it is of."""
+"""The source of a scene's variants: the export, its Blender scene, and which objects are tried."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import bpy
 
+from ....causes.case import Variant
 from ....pictures.palette import Palette
 from ....scene import Scene
 from ...evaluating import export_for_render
+
+MOST = 6  # objects that are tried alone
+
+
+def all_and_each(
+    fault: str, names: Collection[str], made: Callable[[Collection[str]], Scene], words: str = "{}"
+) -> Iterator[Variant]:
+    """Yield the scene with a fault of all these objects, then of single ones.
+
+    In the words, which objects take the place of braces.
+    """
+    alone = [[name] for name in [*names][:MOST]]
+    for some in ([*names], *alone) if len(names) > 1 else alone:
+        said = ", ".join(f"'{name}'" for name in some[:3]) + (" ..." if len(some) > 3 else "")
+        name = some[0] if len(some) == 1 else ""
+        yield Variant(fault, made(some), words.format(said), name)
 
 
 @dataclass(frozen=True, eq=False)
