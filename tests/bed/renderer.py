@@ -48,7 +48,7 @@ class Camera:
 
     def depths(self, points: np.ndarray) -> np.ndarray:
         """Return how deep world points (n, 3) lie, (n,)."""
-        return points @ self.r[2] + self.t[2]
+        return (points @ self.r.T + self.t)[:, 2]
 
 
 @dataclass(frozen=True, eq=False)

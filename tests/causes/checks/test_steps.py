@@ -49,8 +49,7 @@ def work(monkeypatch):
     for module in (candidates, probe):
         monkeypatch.setattr(module, "PAIRS", BOUNDS["pairs"])
     monkeypatch.setattr(hull, "STEP", BOUNDS["numbers"] // 4)
-    for module in (parts, probe):
-        monkeypatch.setattr(module, "BLOCK", BOUNDS["pixels"])
+    monkeypatch.setattr(probe, "BLOCK", BOUNDS["pixels"])
     monkeypatch.setattr(coloring, "ENOUGH", BOUNDS["pixels"])
     monkeypatch.setattr(rendering, "ROWS", 8)
     monkeypatch.setattr(parts, "FEW", 64)
