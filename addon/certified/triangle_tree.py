@@ -48,7 +48,11 @@ class TriangleTree:
         """Build the tree of a scene."""
         every = [world_triangles(scene, batch, np.dtype(float)) for batch in batches(scene)]
         found = WorldTriangles.joined([WorldTriangles.none(), *every])
-        found = found.take(np.flatnonzero(found.finite))
+        return cls.made_of(found.take(np.flatnonzero(found.finite)))
+
+    @classmethod
+    def made_of(cls, found: WorldTriangles) -> TriangleTree:
+        """Build the tree of triangles that are finite."""
         order = neighbours(_boxes(found))
         found = found.take(order)
         leaves = around(_boxes(found).reshape(6, -1, WIDE))

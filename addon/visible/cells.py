@@ -39,10 +39,11 @@ class Cells:
         self.corner = region.x0 - 0.5, region.y0 - 0.5
         self.size = region.width, region.height
         name = numbers(faces, hits)
-        every, pixel = np.unique(name, return_index=True)
-        some = every != NOTHING
-        self.face = every[some]
-        self.at = np.stack(film_positions(region, pixel=pixel[some]))
+        pixel = np.full(faces.count, NOTHING)
+        own = np.flatnonzero(name != NOTHING)
+        pixel[name[own]] = own
+        self.face = np.flatnonzero(pixel != NOTHING)
+        self.at = np.stack(film_positions(region, pixel=pixel[self.face]))
         # Planes have numbers of their own here: they hide, too.
         plane = np.where(hits.instance >= len(scene.instances), -2 - hits.instance, NOTHING)
         name = np.where(name >= 0, name, plane).reshape(shape)

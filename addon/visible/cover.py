@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Index, parts
 from ..tracer.camera import film_of
+from ..tracer.progress import Work
 from ..tracer.vector import spread
 from .faces import Faces
 from .hiding import THROUGH, crossed, nearer
@@ -74,7 +75,7 @@ class Cover:
         mate = self._faces.beyond(edge[rows])
         return (face[rows] * self._faces.count + mate)[mate >= 0]
 
-    def gaps(self, some: Bools, tries: Index) -> tuple[Index, Floats]:
+    def gaps(self, some: Bools, tries: Index) -> Work[tuple[Index, Floats]]:
         """Find where faces that are `some` (m,) may be seen past an edge of what is before them.
 
         Returns the faces, and film positions (2, n): others after each of the `tries` (m,). A face
@@ -84,9 +85,12 @@ class Cover:
         paired = self.holds(self._face[rows], self._faces.beyond(self._edge[rows]))
         self._covered[rows[paired]] = True
         rows = rows[~paired]
-        found = [self._gaps(rows[part]) for part in parts(len(rows), _TOGETHER)]
-        row = np.concatenate([rows[:0], *(r for r, _ in found)])
-        gap = np.concatenate([np.zeros((2, 0)), *(g for _, g in found)], axis=1)
+        row = rows[:0]
+        gap: Floats = np.zeros((2, 0))
+        for part in parts(len(rows), _TOGETHER):
+            own, longest = self._gaps(rows[part])
+            row, gap = np.append(row, own), np.append(gap, longest, axis=1)
+            yield None
         return self._past(row, gap, tries)
 
     def _gaps(self, rows: Index) -> tuple[Index, Floats]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
-from ..arrays import Floats, Index
+from ..arrays import Bools, Floats, Index
 from ..certified.any_rays import hits_through
 from ..certified.surfaces import Surfaces
 from ..certified.triangle_tree import TriangleTree
@@ -13,18 +15,28 @@ from ..tracer.camera import Rays, camera_rays
 from ..tracer.hits import NOTHING, Hits, Statistics
 from ..tracer.progress import Work
 from ..tracer.vector import cross, dot
+from ..tracer.world import WorldTriangles
 from .faces import Faces
 
 _APART = 2.0**-30  # of t, from a face towards what is before it
 
 
 class Sights:
-    """Traces rays through any film positions."""
+    """Traces rays through any film positions: none sees another face than `some` (m,)."""
 
-    def __init__(self, scene: Scene, faces: Faces) -> None:
+    def __init__(self, scene: Scene, faces: Faces, some: Bools) -> None:
         self._scene = scene
         self._faces = faces
-        self._tree = TriangleTree.of(scene)
+        self._tree = self._tree_of(some)
+
+    @cached_property
+    def _every(self) -> TriangleTree:
+        return self._tree_of(self._faces.may_show)
+
+    def _tree_of(self, some: Bools) -> TriangleTree:
+        face = np.flatnonzero(some).astype(np.int32)  # here, all are of one instance
+        corners = self._faces.points[:, self._faces.corners[:, face]].swapaxes(0, 1)
+        return TriangleTree.made_of(WorldTriangles(corners, np.zeros_like(face), face))
 
     def look(self, at: Floats) -> Work[tuple[Index, Rays]]:
         """Return the faces that rays through film positions (2, n) see, and the rays.
@@ -36,8 +48,9 @@ class Sights:
         # Few of the triangles are near: each is prepared with its rays, not all for any.
         origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
         rays = Rays(origins, directions)
+        planes = Surfaces.planes_of(self._scene)
         clip = camera.clip_start, camera.clip_end
-        return (yield from self._trace(rays, Surfaces.planes_of(self._scene), clip)), rays
+        return (yield from self._trace(self._tree, rays, planes, clip)), rays
 
     def before(self, face: Index, rays: Rays) -> Work[Index]:
         """Return the faces that are met by n rays last before the given ones, (n,), about."""
@@ -47,12 +60,16 @@ class Sights:
         known = np.flatnonzero(np.isfinite(t))
         back = Rays(rays.origins + t * rays.directions, -rays.directions).take(known)
         out = np.full(len(face), NOTHING)
-        out[known] = yield from self._trace(back, Surfaces(), (0.0, np.inf))
+        if not len(known):
+            return out
+        out[known] = yield from self._trace(self._every, back, Surfaces(), (0.0, np.inf))
         return out
 
-    def _trace(self, rays: Rays, planes: Surfaces, clip: tuple[float, float]) -> Work[Index]:
-        work = hits_through(self._tree, rays, planes, clip, Statistics())
-        return numbers(self._faces, (yield from work))
+    def _trace(
+        self, tree: TriangleTree, rays: Rays, planes: Surfaces, clip: tuple[float, float]
+    ) -> Work[Index]:
+        hits = yield from hits_through(tree, rays, planes, clip, Statistics())
+        return hits.triangle.astype(np.intp)
 
 
 def numbers(faces: Faces, hits: Hits) -> Index:

@@ -28,6 +28,7 @@ WORK = 1 << 24  # pairs of faces that are compared, and of edges and faces
 _RAYS = 1 << 21
 _RAYS_OF_FACE = 64
 _ROOM = 2.0**-8  # pixels around what may be seen, so that more than a corner is there
+_TOGETHER = 1 << 12  # pairs of faces that are compared in one step
 _ROUNDS = 32  # of rays
 _TRIES = 6  # of them without anything new, for a face
 
@@ -159,7 +160,10 @@ class _Search:
             x, y = 2 * cell
             four = np.stack([(x + i, y + j) for j in (0, 1) for i in (0, 1)], axis=2)
             cell = np.concatenate((four.reshape(2, -1), new[:, own]), axis=1)
-            near = np.flatnonzero(~(faces.nearest[face] < cells.hidden[level][cell[1], cell[0]]))
+            low, high = cells.film(level, cell)
+            met = ((low <= faces.high[:, face]) & (high >= faces.low[:, face])).all(axis=0)
+            met &= ~(faces.nearest[face] < cells.hidden[level][cell[1], cell[0]])
+            near = np.flatnonzero(met)
             left = [near[:0]]
             for part in parts(len(near), TOGETHER):
                 rows = near[part]
@@ -190,7 +194,7 @@ class _Search:
         """Look for each face, and for what is before it, until nothing new is found."""
         faces = self._faces
         self.seen[(self.seen == UNDECIDED) & (self.area == 0)] = HIDDEN
-        self._sights = Sights(self._scene, faces)
+        self._sights = Sights(self._scene, faces, self.seen != HIDDEN)
         self._before = Cover(faces, self._low, self._high, self._work)
         self._covered = np.zeros(faces.count, bool)  # in one ray
         self._tries = np.zeros(faces.count, np.intp)  # since more was known of what is before it
@@ -203,6 +207,11 @@ class _Search:
             if not self._left.any() or self._before.work <= 0:
                 break
         self.area[self.seen != UNDECIDED] = 0
+
+    def _add(self, face: Index, before: Index) -> Work[None]:
+        for part in parts(len(face), _TOGETHER):
+            self._tries[self._before.add(face[part], before[part])] = 0
+            yield None
 
     def _round(self, face: Index, at: Floats) -> Work[tuple[Index, Floats]]:
         """Trace rays past edges, and others; decide what they tell, and return the next ones."""
@@ -220,19 +229,19 @@ class _Search:
         rows = np.flatnonzero(self._left[face])
         face, before, inside, rays = face[rows], before[rows], inside[rows], rays.take(rows)
         tries[face] += 1
-        tries[cover.add(face, before)] = 0
+        yield from self._add(face, before)
         # What is before the face, but not all of it: another one may be, right before it.
         rows = np.flatnonzero(~cover.holds(face, before))
         self._cut[face[rows]] = np.where(before[rows] == NOTHING, face[rows], before[rows])
         before[rows] = yield from self._sights.before(face[rows], rays.take(rows))
-        tries[cover.add(face[rows], before[rows])] = 0
+        yield from self._add(face[rows], before[rows])
         rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
         for met in (face, before):
             corners = faces.points[:, faces.corners[:, met[rows]]].swapaxes(0, 1)
             rows = rows[decide(rays.take(rows), corners).crossed]
         covered[face[rows]] = True
         whole = self._left & covered
-        face, at = cover.gaps(whole, tries)
+        face, at = yield from cover.gaps(whole, tries)
         whole[face] = False
         self.seen[whole] = HIDDEN
         self._left &= ~whole & (tries < _TRIES) & (self.area > self._limit)

@@ -6,6 +6,7 @@ import numpy as np
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.visible.faces import Faces
+from reference_tracer.visible.hiding import patches
 from reference_tracer.visible.points import points_of
 
 from .test_visible import ORTHOGRAPHIC, camera, scene_of, triangles
@@ -40,3 +41,25 @@ def test_what_is_traced_for_a_cell_is_in_it():
     for number in range(4):
         at = points_of(faces, every, every, low, low + 0.25, every * 0 + number)
         assert (low <= at).all() and (at <= low + 0.25).all()
+
+
+def test_joined_faces_cover_a_box_but_none_with_a_hole():
+    random = np.random.default_rng(0)
+    corners = np.stack(np.meshgrid(np.arange(8), np.arange(8)), axis=-1).reshape(-1, 1, 2)
+    halves = np.array([[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]])
+    film = 4 + np.concatenate([corners + half for half in halves])  # in pixels
+    hole, film = film[30], np.delete(film, 30, axis=0)
+    points = np.concatenate((film / 4 - 2, np.zeros((len(film), 3, 1))), axis=2)
+    faces = Faces(scene_of(triangles(points), camera=camera(ORTHOGRAPHIC)))
+    some = random.integers(0, len(film), 400)
+    low = film[some].mean(axis=1).T
+    size = random.uniform(0, 3, low.shape)
+    found = patches(faces, some, low, low, low + size)
+    at = low + random.random((200, 2, 400)) * size
+    (x, y), (x0, y0) = (at - hole[0][:, None]).swapaxes(0, 1), hole[2] - hole[0]
+    assert (x0, y0) == (1, 1)
+    missed = (at > 12).any(axis=1) | ((y > 0) & (x > y) & (x < 1))
+    covered = found > -np.inf
+    assert not (missed.any(axis=0) & covered).any()
+    assert (covered & (size.min(axis=0) > 1)).any() and (missed.any(axis=0) & ~covered).any()
+    assert (found[covered] <= -4).all() and (found[covered] > -4.001).all()

@@ -119,6 +119,17 @@ def test_closed_meshes(projection, seed):
     assert (found.seen == HIDDEN).any()
 
 
+def test_touching_boxes_before_a_turned_camera():
+    """Edges that are seen as one point have nothing beside them: what they end is not hidden."""
+    random = np.random.default_rng(0)
+    axes = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    boxes = []
+    for _ in range(4):
+        corners, sides = cube(random.choice([0.5, 1, 2]))
+        boxes.append(((corners + random.integers(-4, 3, 3) / 2) @ axes.T, sides))
+    judged(scene_of(*boxes, camera=camera(ORTHOGRAPHIC, axes[:, 2] * 4, axes)))
+
+
 @pytest.mark.parametrize("width", [2.0**-10, 2.0**-16, 2.0**-20])
 @pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
 def test_a_sliver_between_two_walls(projection, width):
