@@ -33,7 +33,7 @@ from ..scene import SceneError
 from ..tracer.progress import Progress, Work
 from .evidence import FEW, LEAST_SETTLED, Evidence, Score, least_with
 from .faults import FAULTS
-from .faults.fault import TRIED, AnyFault, Effort, Guess
+from .faults.fault import TRIED, AnyFault, Effort, Guess, SearchEndedError
 from .faults.fitting import ENCLOSED
 from .faults.given import given
 from .faults.matching import is_everywhere
@@ -72,7 +72,7 @@ IN_PLACES = (  # where most of the picture agrees
 # The limit of work; a search that reaches it is given up. A step is a bounded number of rays, pairs
 # or pixels, the same on each machine.
 STEPS = 16_000
-PART = 3  # of them: in one round, one fault has no more than one part in as many
+PART = 3  # of them: one search, or one trial, has no more than one part in as many
 NONE = Score(0.0, 0.0)
 
 
@@ -85,21 +85,28 @@ class Guessing:
         self.steps = 0
         self.guesses = 0
         self.untried: set[str] = set()  # names of faults whose search was not finished
-        self.spent: Counter[str] = Counter()  # steps of each fault, in this round
 
     def _limited(self, work: Work[T], fault: AnyFault) -> Work[T | None]:
-        """Run work that looks for a fault; None if that fault, or all work, reaches its limit."""
-        while self.steps < self.limit and self.spent[fault.name] < self.limit / PART:
+        """Run work that looks for a fault.
+
+        If it reaches its part of the limit, or all work does, it may return what it has, or None.
+        """
+        end = min(self.limit, self.steps + self.limit / PART)
+        while self.steps < end:
             try:
                 next(work)
             except StopIteration as stop:
                 found: T = stop.value
                 return found
             self.steps += 1
-            self.spent[fault.name] += 1
             yield None
-        work.close()
         self.untried.add(fault.name)
+        try:
+            work.throw(SearchEndedError())
+        except StopIteration as stop:
+            return stop.value
+        except SearchEndedError:
+            pass
         return None
 
     def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
@@ -234,7 +241,6 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
 
     Of two, the first one alone must lose few pixels, and with the second one more must agree.
     """
-    guessing.spent.clear()
     trials = yield from guessing.trials(evidence, evidence)
     if best := _best(evidence, trials):
         return [best]

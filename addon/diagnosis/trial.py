@@ -16,7 +16,7 @@ from ..scene import Scene, SceneError
 from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.progress import Work
-from .evidence import Evidence
+from .evidence import Evidence, shows_colors
 from .faults.fault import AnyFault, Guess
 from .regions import labels
 from .seen import identical
@@ -100,6 +100,11 @@ def trial_of(
     except (SceneError, MemoryError):  # no such camera or scene can be, or be traced here
         return None
     explained = yield from explain(other, traced, LOOKED_AT)
+    if fault.removes and explained.background:
+        own = frame.object_index == case.scene.objects.index(guess.object)
+        behind = np.array([explained.background.picture])
+        if shows_colors(replace(evidence.picture, color=behind), frame.color[own]).any():
+            return None  # what has its colour may be the object itself
     after = replace(
         evidence, case=explained.case, frame=explained.frame, causes=explained.causes, known={}
     )

@@ -57,3 +57,14 @@ def test_what_is_shown_elsewhere_is_not_missing(scattered):
     there = render(scattered).color
     color = np.where((gone != there).any(axis=-1, keepdims=True), gone, color)
     assert "instances_missing" not in told(scattered, color, "instances_missing")
+
+
+def test_what_fills_the_background_is_not_missing(few):
+    """A box a hundred times as large: its colour is no other background, once it is left out."""
+    scene = few()
+    box = scene.instances[1]
+    larger = replace(box, world_from_object=box.world_from_object @ np.diag((1.6, 1.6, 1.6, 1.0)))
+    scene = replace(scene, instances=(scene.instances[0], larger, *scene.instances[2:]))
+    color, nothing = without(scene, (1,)), render(scene).object_index < 0
+    color[nothing] = box.colors[0]
+    assert "object_missing" not in told(scene, color, "object_missing")

@@ -86,6 +86,10 @@ def always(*guesses: G) -> Find[G]:
 ONCE: Find[Any] = always(Guess())  # of a fault that has no numbers and is of no object
 
 
+class SearchEndedError(Exception):
+    """Ends a search; one that catches it returns what it has found so far."""
+
+
 class Effort(IntEnum):
     """The effort of finding a fault: those of less effort are tried first."""
 

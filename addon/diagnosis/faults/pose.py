@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
@@ -14,7 +15,7 @@ from ...scene import Scene
 from ...tracer.progress import Work
 from ..evidence import Evidence, least_with
 from .changes import CHANGES, MOVED, Change
-from .fault import Numbers, Values, instances_named
+from .fault import Numbers, SearchEndedError, Values, instances_named
 from .fitting import FINER, MORE, NEARLY
 from .looked import Looked
 from .search import values_of
@@ -116,8 +117,8 @@ def _found(
     return enough
 
 
-def _changed(evidence: Evidence) -> Work[list[Posed]]:
-    """Guess how the suspects are changed (cached): several faults share what one has work for.
+def _changed(evidence: Evidence) -> Work[None]:
+    """Guess how the suspects are changed, once: several faults share what one has work for.
 
     Each is looked for near where it is, or where edges are found; and only then far away.
     """
@@ -130,8 +131,6 @@ def _changed(evidence: Evidence) -> Work[list[Posed]]:
                 yield from _found(evidence, name, True, (1,), out)
             if enough:
                 break
-    found: list[Posed] = evidence.known["changed"]
-    return found
 
 
 @dataclass(frozen=True)
@@ -173,7 +172,9 @@ class Posing:
             for v in self.exact
         ]
         if not self.kept:
-            found = yield from _changed(evidence)
+            with suppress(SearchEndedError):
+                yield from _changed(evidence)
+            found: list[Posed] = evidence.known["changed"]
             return [*out, *(guess for guess in found if guess.change in self.changes)]
         for name in evidence.suspects[:TRIED]:
             if looked := (yield from Looked.of(evidence, name, kept=True)):
