@@ -21,6 +21,7 @@ from reference_tracer.causes.explain import (
     UNEXPLAINED,
     explain,
 )
+from reference_tracer.pictures.curves import FIT
 from reference_tracer.rendering import render
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
@@ -175,6 +176,13 @@ def test_no_damage_makes_a_pixel_undecidable(turn, subjects):
         assert ((cause == NOT_DECIDABLE) == ~subject.decidable).all(), name
 
 
+def shows_another(made):
+    """Return whether an object is shown in the colour of another one: it may be that one."""
+    shown = np.unique(made.case.picture.color[made.changed], axis=0)
+    others = np.unique(made.frame.color[~made.changed], axis=0)
+    return (np.abs(shown[:, None] - others).max(axis=-1) < FIT).any(axis=1).all()
+
+
 @EVERY
 @pytest.mark.parametrize("shade", SHADES)
 def test_one_object_in_another_shade_is_named_and_is_no_transform(shade, every, subjects):
@@ -186,6 +194,8 @@ def test_one_object_in_another_shade_is_named_and_is_no_transform(shade, every, 
         if made is None or not made.changed.any():
             continue
         attacked += 1
+        if shows_another(made):
+            continue
         causes = result_of(explain(made.case, made.frame)).causes  # of all pixels, as for a user
         shades = getattr(causes, "shades", ())
         if causes.transform or {s.object for s in shades} != {made.object}:

@@ -10,10 +10,10 @@ from reference_tracer.blender.jobs.open_file import export_open_file
 from reference_tracer.methods import Method
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading.command import built_in
-from reference_tracer_grading.extremes import plain
 from reference_tracer_grading.judged_scene import prepare
 from reference_tracer_grading.picture import look
 
+from ..grading.conftest import plain
 from ..sampled import daily
 from .scenes import assert_same_scene
 

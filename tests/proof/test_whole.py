@@ -77,7 +77,7 @@ LEFT_OUT = {
     },
     "triangle_tree.py": {
         BOXES_BY_HAND: "_Sheared.of _triangles TriangleTree.pairs",
-        WHICH: "TriangleTree.of",
+        WHICH: "TriangleTree.of TriangleTree.made_of",
         LEAST: "_boxes",
     },
     "sweep/boxes.py": {
