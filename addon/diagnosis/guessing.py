@@ -114,8 +114,8 @@ class Guessing:
 
         Faults without numbers to fit are tried before the others: where one of them does it
         all, a fit that does as well says no more. What is vague comes last: it takes most work,
-        and is not told where something exact does as well. Where a
-        fault of the view accounts for most, no object's is looked for until that is put right.
+        and is not told where something exact does as well. Where a fault of the view accounts for
+        most, no object's is looked for until that is put right.
         """
         unexplained = float(evidence.unexplained.sum())
         most = of.unexplained.sum()

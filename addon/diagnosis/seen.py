@@ -161,7 +161,7 @@ def _object_from_world(matrices: Floats) -> tuple[Floats, Bools]:
     m = np.moveaxis(matrices, -1, 0)
     with np.errstate(all="ignore"):
         size = np.abs(np.linalg.det(m[:, :, :3]))
-        regular = np.isfinite(size) & (size > 0)
+        regular = np.isfinite(m).all(axis=(1, 2)) & np.isfinite(size) & (size > 0)
         axes = np.where(regular[:, None, None], m[:, :, :3], np.eye(3))
         inverse = np.linalg.inv(axes)
         at = -(inverse * m[:, None, :, 3]).sum(axis=-1)

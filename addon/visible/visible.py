@@ -123,7 +123,8 @@ def _scale(scene: Scene) -> int:
 def _finer(scene: Scene, scale: int) -> Scene:
     """Return a scene with more pixels. The rays through the film stay the same, to the bit."""
     camera = scene.camera
-    region = Region(*(scale * v for v in vars(camera.region).values()))
+    r = camera.region
+    region = Region(scale * r.x0, scale * r.y0, scale * r.x1, scale * r.y1)
     size = scale * camera.width, scale * camera.height
     return replace(scene, camera=replace(camera, width=size[0], height=size[1], region=region))
 
