@@ -75,8 +75,10 @@ def _of_other_colors(found: Comparison) -> Iterator[str]:
         return
     surfaces = (found.frame.object_index != NOTHING).reshape(case.picture.color.shape[:2])
     other = (found.causes.cause == UNEXPLAINED).reshape(surfaces.shape) & surfaces
-    other &= ~shows_colors(case.picture, case.scene.color_table)
-    if 2 * other.sum() > surfaces.sum():
+    if 2 * other.sum() <= surfaces.sum():
+        return
+    own = shows_colors(case.picture.at(other), case.scene.color_table)
+    if 2 * (~own).sum() > surfaces.sum():
         yield "most surfaces are shown in other colours than the scene's"
         yield "           Draw each flat, in those that --colors-out writes"
 
