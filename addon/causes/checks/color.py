@@ -45,7 +45,7 @@ COLOR = Cause(
 )
 
 ENOUGH = 4096  # pixels on which a transform is tried
-FEW = 512  # pixels of an object of which it is asked whose colours they show
+FEW = 512  # pixels of an object that are compared with other surfaces' colours
 REFUTING = 0.01  # the largest share of surfaces' pixels that agree only without a transform
 SHADES = 16  # the most objects that are named
 

@@ -41,7 +41,8 @@ def _find_offset(evidence: Evidence) -> Work[list[Numbers]]:
     camera = evidence.case.scene.camera
     halves = product((0.5, -0.5), repeat=2)
     exact = [Numbers(v, words=OFFSET.words(camera, *v)) for v in halves]
-    return [*exact, *(yield from _OFFSET["find"](evidence))]
+    found = yield from _OFFSET["find"](evidence)
+    return [*exact, *found]
 
 
 CAMERA_FAULTS: tuple[AnyFault, ...] = (
