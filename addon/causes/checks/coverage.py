@@ -48,7 +48,8 @@ def coverage(probe: Probe, band: Floats) -> Work[Coverage]:
     sure = Hits.none(len(band))
     centres = probe.rays()
     test_planes(probe.scene, centres, sure)
-    found = [(np.zeros(0, int), np.zeros(0), np.zeros((2, 0)), Hits.none(0))]
+    none = np.zeros(0, int), np.zeros(0), np.zeros((2, 0)), Hits.none(0)
+    found: list[tuple[Index, Floats, Floats, Hits]] = [none]
     for some in probe.chunks:
         corners = _around_centre(probe, some)
         nearest, rim = nearest_to_origin(*corners)
