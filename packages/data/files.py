@@ -77,10 +77,6 @@ def _stored(
     return StoredData(values, Step(""), top)
 
 
-def _npy(path: Path) -> dict[str, Array]:
-    return {"": npz.load_npy(path)}
-
-
 def _npz(path: Path) -> dict[str, Array]:
     """Return the arrays that may be pictures."""
     with npz.opened(path) as held:
@@ -115,7 +111,7 @@ def _exr(path: Path) -> dict[str, Array]:
     return out
 
 
-_READ = {".npy": _npy, ".npz": _npz, ".exr": _exr, ".png": _png}
+_READ = {".npy": lambda path: {"": npz.load_npy(path)}, ".npz": _npz, ".exr": _exr, ".png": _png}
 
 
 def _chosen(path: object, layers: Mapping[str, Array], kind: Kind, layer: str) -> str:

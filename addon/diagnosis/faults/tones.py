@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ...pictures.curves import ADVICE, FITTED_SHARE, KEYS, ROUNDED, ROUNDED_ONCE
 from ...pictures.picture import Curve
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import Example, Fault, Find, Guess
+from .fault import Example, Fault, Guess
 from .recolor import recolored
 from .surfaces import agree, inside, surfaces
 
@@ -109,13 +110,10 @@ def _through(case: Case, guess: OfCurve) -> Case:
     return replace(case, picture=replace(case.picture, transform=guess.curve.of))
 
 
-def _find_curve(key: str) -> Find[OfCurve]:
-    def find(evidence: Evidence) -> Work[list[OfCurve]]:
-        best = yield from _curve_of(evidence)
-        rounded = evidence.once("rounded", lambda: _rounded(evidence))
-        return [OfCurve(c, words=c.name) for c in (best, *rounded) if c and c.key == key]
-
-    return find
+def _find_curve(key: str, evidence: Evidence) -> Work[list[OfCurve]]:
+    best = yield from _curve_of(evidence)
+    rounded = evidence.once("rounded", lambda: _rounded(evidence))
+    return [OfCurve(c, words=c.name) for c in (best, *rounded) if c and c.key == key]
 
 
 def _colors(key: str) -> Fault[OfCurve]:
@@ -126,7 +124,7 @@ def _colors(key: str) -> Fault[OfCurve]:
         why,
         ADVICE,
         _through,
-        _find_curve(key),
+        partial(_find_curve, key),
         examples=tuple(example for example in _EXAMPLES if example.name == key),
         words=KEYS[key],
         witness=witness,
