@@ -93,19 +93,16 @@ class Guessing:
         If it reaches its part of the limit, or all work does, it may return what it has, or None.
         """
         end = min(self.limit, self.steps + self.limit / PART)
-        while self.steps < end:
-            try:
-                next(work)
-            except StopIteration as stop:
-                found: T = stop.value
-                return found
-            self.steps += 1
-            yield None
-        self.untried.add(fault.name)
         try:
+            while self.steps < end:
+                next(work)
+                self.steps += 1
+                yield None
+            self.untried.add(fault.name)
             work.throw(SearchEndedError())
         except StopIteration as stop:
-            return stop.value
+            found: T = stop.value
+            return found
         except SearchEndedError:
             pass
         return None
