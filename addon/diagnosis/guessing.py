@@ -35,7 +35,6 @@ from .evidence import FEW, LEAST_SETTLED, Evidence, Score, least_with
 from .faults import FAULTS
 from .faults.fault import TRIED, AnyFault, Effort, Guess, SearchEndedError
 from .faults.fitting import ENCLOSED
-from .faults.given import given
 from .faults.matching import is_everywhere
 from .trial import Trial, in_full, traced_anew, trial_of
 from .variants import carried
@@ -152,16 +151,16 @@ class Guessing:
         out = []
         for fault in faults:
             found = yield from self._limited(fault.find(evidence), fault)
-            for made, guess in (*given(evidence, fault), *((fault, g) for g in found or ())):
+            for guess in found or ():
                 self.guesses += 1
-                score = (yield from self._limited(_score(evidence, made, guess), made)) or NONE
+                score = (yield from self._limited(_score(evidence, fault, guess), fault)) or NONE
                 if _may_be_finer(evidence, score):
-                    guess = yield from self._finer(evidence, made, guess)
-                    again = self._limited(_score(evidence, made, guess), made)
+                    guess = yield from self._finer(evidence, fault, guess)
+                    again = self._limited(_score(evidence, fault, guess), fault)
                     score = (yield from again) or NONE
                 likely = bool(guess.low) or score.gain >= LIKELY * score.broken
                 if likely and score.gain >= _least(evidence):
-                    out.append((score.gain, made, guess))
+                    out.append((score.gain, fault, guess))
         return out
 
     def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
