@@ -303,8 +303,10 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
     """Return whether one that may be reported settles nearly all: then no more are tried."""
     count = evidence.unexplained.sum()
-    least = {True: ENOUGH * count, False: (1 - ROUGHLY) * count}
-    return any(t.gain >= least[t.cost <= ENCLOSED] for t in _good(evidence, trials))
+    return any(
+        t.gain >= count * (ENOUGH if t.cost <= ENCLOSED else 1 - ROUGHLY)
+        for t in _good(evidence, trials)
+    )
 
 
 def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
