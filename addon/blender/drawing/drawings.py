@@ -106,10 +106,9 @@ class Drawing(Plan):
 
 
 class Drawn(NamedTuple):
-    """Blender's drawing of one evaluation, with the scene exported from it."""
+    """Blender's drawing of one evaluation."""
 
-    drawing: Drawing
-    scene: Scene  # what was exported, its planes in the colours drawn
+    drawing: Drawing  # what was exported has its planes in the colours drawn
     pixels: Colors
     owners: Owners | None  # of each pixel, if requested and known
 
@@ -130,14 +129,14 @@ def _turns(
     drawing = export(tmp, used, depsgraph)
     manifest = drawing.manifest
     of_planes = manifest.owners[len(drawing.exported.instances) :]
-    scene = stand_ins(tmp, drawing.exported, of_planes)
+    drawing = replace(drawing, exported=stand_ins(tmp, drawing.exported, of_planes))
     gone = {(u.object, u.feature) for u in drawing.left_out}
     identity &= all((u.object, u.feature) in gone for u in separable(manifest))
     names = _owner_names(tmp) if identity else {}
     by = drawing.judge, drawing.exported.camera, depsgraph
     pixels = yield from picture(tmp, *by, drawing.like_for_like, not names)
     owners = (yield from _owners(drawing, tmp, names)) if names else None
-    return Drawn(drawing, scene, pixels, owners)
+    return Drawn(drawing, pixels, owners)
 
 
 def _owner_names(tmp: Any) -> dict[str, str]:
