@@ -16,6 +16,11 @@ def count_of(number: int, one: str, several: str = "") -> str:
     return f"{number:,} {one if number == 1 else several or f'{one}s'}"
 
 
+def capital(text: str) -> str:
+    """Return a text with a capital as its first letter; the others stay."""
+    return text[:1].upper() + text[1:]
+
+
 def printable(text: str, but: str = "\n\t") -> str:
     """Return text that is safe to show: what steers a terminal, or is no letter, is spelt out."""
     return "".join(

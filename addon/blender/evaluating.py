@@ -23,7 +23,7 @@ from ..tracer.signals import held
 from .reading.export import export
 from .reading.rendered import result_image
 from .temporary import ENGINE, go_to, remove
-from .turns import InTurns, T, Turns
+from .turns import InTurns, T, Turns, once
 from .values import values_restored
 from .versions import ENGINES
 
@@ -194,8 +194,4 @@ def export_for_render(scene: bpy.types.Scene, judge: Judge | None = None) -> tup
     SceneError
         If the scene cannot be traced.
     """
-
-    def exported() -> Turns[tuple[Scene, Manifest]]:
-        return export((yield False))
-
-    return evaluated(scene, judge if judge and judge.needs_window else None, exported())
+    return evaluated(scene, judge if judge and judge.needs_window else None, once(export))

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, NamedTuple, TypeAlias
 
 import bpy
@@ -25,7 +26,7 @@ from ...pictures.picture import Picture
 from ...scene import Scene, SceneError
 from ..evaluating import evaluated
 from ..temporary import drawn, show_in, temporary_scene
-from ..turns import Turns
+from ..turns import Turns, once
 from .judge import Judge
 from .left_out import left_out, separable
 from .picture import picture, prepare_scene
@@ -69,7 +70,7 @@ class Plan:
             return self._drawn(export, identity)
         own = self.judge if self.judge.needs_window else None
         with self.prepared() as (tmp, used):
-            drawing = evaluated(tmp, own, _exported(tmp, used, export))
+            drawing = evaluated(tmp, own, once(partial(export, tmp, used)))
         return drawing.again(identity=identity)
 
     def _drawn(self, export: Export, identity: bool) -> Drawn:
@@ -115,10 +116,6 @@ class Drawn(NamedTuple):
 
 # Exports an evaluated depsgraph, given the temporary scene and the settings that it is drawn with.
 Export: TypeAlias = Callable[[Any, dict[str, Any], Any], Drawing]
-
-
-def _exported(tmp: bpy.types.Scene, used: dict[str, Any], export: Export) -> Turns[Drawing]:
-    return export(tmp, used, (yield False))
 
 
 def _turns(
