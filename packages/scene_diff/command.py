@@ -22,7 +22,7 @@ from reference_tracer.scene import Scene, SceneError
 from reference_tracer.wording import count_of, show
 
 from .differences import differences
-from .geometry import Objects
+from .geometry import shapes_of
 
 SCHEMA = "reference_tracer.diff/1"
 
@@ -67,7 +67,7 @@ def diff(scene: Path, other: Path, up: str | None, out: Path | None) -> int:
     show(*first.remarks, *second.remarks)
     for difference in found:
         show(*difference.lines())
-    counts = [count_of(len(Objects.of(s.scene).triangles), "object") for s in (first, second)]
+    counts = [count_of(len(shapes_of(s.scene)), "object") for s in (first, second)]
     how = count_of(len(found), "difference") if found else "the same"
     show(f"{counts[0]} and {counts[1]}: {how}")
     if out:
