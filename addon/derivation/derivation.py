@@ -18,12 +18,11 @@ from typing import Any
 import numpy as np
 
 from ..scene import Scene
-from ..tracer.hits import NOWHERE
 from ..tracer.ties import Name
 from . import textbook
 from .candidates import LIMIT, gather_pixel
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
-from .pixel import Answer, Candidate, Pixel, certified_answer, plain_answers
+from .pixel import Answer, Candidate, Pixel, answer, plain_answers
 from .textbook import Arithmetic, Judgement, Labelled, Number
 
 Columns = dict[Arithmetic, Labelled]
@@ -115,7 +114,7 @@ def derive_pixel(pixel: Pixel) -> Derivation:
         name: Arithmetic.EXACT.vector(ray[Arithmetic.FLOAT64][name]) for name in ("o", "d")
     }
     tests = tuple(_test(pixel, ray, candidate) for candidate in pixel.candidates)
-    certified = certified_answer(pixel)
+    certified = answer(pixel, pixel.world_triangles())
     seen = next((t for t in tests if t.candidate.name == certified.seen), None)
     shading, color = _color(pixel, seen, certified)
     return Derivation(
@@ -170,7 +169,7 @@ def _color(
     pixel: Pixel, seen: Test | None, certified: Answer
 ) -> tuple[tuple[Quantity, ...], tuple[float, ...]]:
     """Return the steps and the value of the colour of what is certainly seen."""
-    if seen is None or certified.seen == NOWHERE:
+    if seen is None:
         return (), tuple(map(float, pixel.background))
     colors = seen.candidate.colors
     if len(colors) == 1:
