@@ -7,7 +7,7 @@ A PNG takes zlib and numpy alone. An EXR takes OpenImageIO, the extra `images`.
 from __future__ import annotations
 
 import base64
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -39,6 +39,11 @@ def to_display(color: Floats) -> Bytes:
     for some in parts(len(flat), _TOGETHER):  # temporaries of whole pictures take longer
         out[some] = by_runs(shown, flat[some])
     return out.reshape(np.shape(color))
+
+
+def hex_color(linear: Sequence[float]) -> str:
+    """Return a linear RGBA with premultiplied alpha as #rrggbb of sRGB."""
+    return f"#{to_display(np.array(linear))[:3].tobytes().hex()}"
 
 
 def encoded(color: Floats) -> Floats:
