@@ -83,21 +83,17 @@ class Derivation:
     @property
     def seen(self) -> Candidate | None:
         """The candidate that is certainly seen; None for the background."""
-        return self.named(self.certified.seen)
+        return self.seen_test.candidate if self.seen_test else None
 
     @property
     def seen_test(self) -> Test | None:
         """The ray against what is certainly seen."""
-        return next((t for t in self.tests if t.candidate is self.seen), None)
-
-    def named(self, name: Name) -> Candidate | None:
-        """Return the candidate of a name; None for NOWHERE."""
-        return next((t.candidate for t in self.tests if t.candidate.name == name), None)
+        return next((t for t in self.tests if t.candidate.name == self.certified.seen), None)
 
     def title_of(self, name: Name) -> str:
-        """Return the words for the candidate of a name."""
-        found = self.named(name)
-        return found.title if found else "nothing"
+        """Return the words for the candidate of a name, or for NOWHERE."""
+        titles = (t.candidate.title for t in self.tests if t.candidate.name == name)
+        return next(titles, "nothing")
 
 
 def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Derivation:

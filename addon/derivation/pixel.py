@@ -97,13 +97,9 @@ class Pixel:
     def world_triangles(self) -> WorldTriangles:
         """Return the candidates that are triangles, as the tracer takes them."""
         found = [c for c in self.candidates if not c.is_plane]
-        if not found:
-            return WorldTriangles.none()
-        return WorldTriangles(
-            np.stack([c.points for c in found], axis=2),
-            np.array([c.instance for c in found], np.int32),
-            np.array([c.triangle for c in found], np.int32),
-        )
+        corners = np.array([c.points for c in found]).reshape(-1, 3, 3)
+        names = np.array([c.name for c in found], np.int32).reshape(-1, 2)
+        return WorldTriangles(corners.transpose(1, 2, 0), *names.T)
 
     @cached_property
     def origin(self) -> Floats:
