@@ -23,6 +23,7 @@ from ..scene import Scene, SceneError
 from ..tracer.signals import held
 from .reading.camera import certify_camera
 from .reading.export import export
+from .reading.rendered import result_image
 from .temporary import ENGINE, go_to, remove
 from .turns import InTurns, T, Turns
 from .values import values_restored
@@ -54,7 +55,7 @@ def evaluated(scene: bpy.types.Scene, judge: Judge | None, work: Turns[T]) -> T:
         If Blender draws nothing.
     """
     turns = InTurns(work)
-    had_result = bool(_render_results())
+    had_result = result_image()
     with held(), TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "picture")  # also one of work that has ended
         try:
@@ -66,14 +67,9 @@ def evaluated(scene: bpy.types.Scene, judge: Judge | None, work: Turns[T]) -> T:
             said = str(error).removeprefix("Error: ").strip()
             turns.fail(SceneError(f"{judge.name} draws no picture: {said}" if judge else said))
         turns.fail(SceneError("Blender ended the render"))
-        if not had_result:
-            bpy.data.batch_remove(_render_results())
+        if not had_result and (image := result_image()):
+            bpy.data.images.remove(image)
     return turns.result()
-
-
-def _render_results() -> list[Any]:
-    """Return the image of the last render, if there was one in this file."""
-    return [image for image in bpy.data.images if image.type == "RENDER_RESULT"]
 
 
 def export_at(tmp: Any, frame: float, judge: Judge | None = None) -> Scene:
@@ -119,7 +115,7 @@ def _render(turns: InTurns[Any], scene: Any, judge: Judge | None) -> None:
         scene.render.engine = ENGINE  # the one that has drawn lets go of what it kept
     if judge and not writes:
         try:
-            _render_results()[0].save_render(f"{scene.render.filepath}.exr", scene=scene)
+            result_image().save_render(f"{scene.render.filepath}.exr", scene=scene)
         except RuntimeError:
             turns.fail(SceneError(f"{judge.label} made no picture: see the console."))
     if judge and not turns.go_on():

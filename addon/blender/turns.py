@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+from concurrent.futures import Future
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from bpy.types import Depsgraph
@@ -24,7 +25,7 @@ class InTurns(Generic[T]):
 
     def __init__(self, work: Turns[T]) -> None:
         self._work = work
-        self._ended: list[Callable[[], T]] = []
+        self._end: Future[T] = Future()
         self.wants_more = False  # than the picture that is to be drawn
         self.go_on()
 
@@ -46,21 +47,15 @@ class InTurns(Generic[T]):
 
     def result(self) -> T:
         """Return what the work returned, or raise what it raised."""
-        return self._ended[0]()
+        return self._end.result(timeout=0)
 
     def _do(self, turn: Callable[[], bool]) -> bool:
-        if not self._ended:
+        if not self._end.done():
             self.wants_more = False
             try:
                 self.wants_more = turn()
             except StopIteration as stop:
-                value: T = stop.value
-                self._ended.append(lambda: value)
-            except BaseException as raised:
-                error = raised
-                self._ended.append(lambda: _raise(error))
-        return bool(self._ended)
-
-
-def _raise(error: BaseException) -> Any:
-    raise error
+                self._end.set_result(stop.value)
+            except BaseException as error:
+                self._end.set_exception(error)
+        return self._end.done()

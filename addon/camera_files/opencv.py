@@ -29,16 +29,15 @@ from .json_files import (
     first_center,
     flat,
     has,
+    of_frame,
     offset_of,
     refuse_lens,
-    view_of,
     written,
 )
 
 _FORMULA = (
     "x = K (R X + t); (x0 / x2, x1 / x2) is in pixels from the picture's upper left, rows downwards"
 )
-_CLIP = "clip_start", "clip_end"
 
 
 def _write(views: Sequence[View], centers: str) -> Files:
@@ -72,10 +71,6 @@ def body_of(camera: Camera, offset: float = 0.0) -> Content:
     }
 
 
-def _is_of(source: Source) -> bool:
-    return has(source, "K", "R", "t")
-
-
 def _read(source: Source) -> list[View]:
     content: Content = source.json
     center = first_center(content)
@@ -89,12 +84,16 @@ def _view(body: Content, where: str, center: float, source: Source) -> View:
     if _named(body, "up", where, ("z", "y")) == "y":
         matrix = matrix @ frame.Y_UP_FROM_Z_UP
     kind = _named(body, "projection", where, (PERSPECTIVE.name, ORTHOGRAPHIC.name))
-    clip = clip_of(body, where, _CLIP)
-    size = source.whole_size(body, ("width", "height"), where)
-    name = str(body.get("name", ""))
-    projection = PROJECTIONS[kind]
-    camera = frame.pinhole(k, matrix, size, clip, name, projection=projection, center=center)
-    return view_of(body, camera, is_clipped=clip is not None)
+    view = frame.pinhole(
+        k,
+        matrix,
+        source.whole_size(body, where),
+        str(body.get("name", "")),
+        projection=PROJECTIONS[kind],
+        center=center,
+        clip=clip_of(body, where),
+    )
+    return of_frame(body, view)
 
 
 def _named(body: Content, key: str, where: str, known: Sequence[str]) -> str:
@@ -112,6 +111,6 @@ OPENCV = Convention(
     frozenset((SHIFT, ASPECT, MIRRORED)),
     True,
     _write,
-    _is_of,
+    lambda source: has(source, "K", "R", "t"),
     _read,
 )

@@ -20,7 +20,7 @@ from ..scene import Camera, SceneError, ViewWindow
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import ASPECT, MIRRORED, PARALLEL, SHEARED, SHIFT
-from .json_files import bodies, has, refuse_lens, view_of, written
+from .json_files import bodies, has, of_frame, refuse_lens, written
 
 _FORMULA = (
     "clip = projection view (X, 1); (clip0 / clip3, clip1 / clip3) is from -1 to 1 in the picture, "
@@ -66,10 +66,6 @@ def projection(camera: Camera) -> Floats:
     return out
 
 
-def _is_of(source: Source) -> bool:
-    return has(source, "projection", "view")
-
-
 def _read(source: Source) -> list[View]:
     return [_view(source.json | body, where, source) for body, where in bodies(source.json)]
 
@@ -91,16 +87,15 @@ def _view(body: Content, where: str, source: Source) -> View:
     low, high = (middle - 1) / a, (middle + 1) / a
     plain = np.diag((*signed, 1.0, 1.0))
     plain[0, 1] = p[0, 1] / a[0]
-    size = source.whole_size(body, ("width", "height"), where)
-    camera = frame.seen_from(
+    view = frame.seen_from(
         world @ np.linalg.inv(plain),
         ViewWindow(low[0], high[0], low[1], high[1]),
-        size,
-        _clip(p, parallel, where),
+        source.whole_size(body, where),
         str(body.get("name", "")),
         ORTHOGRAPHIC if parallel else PERSPECTIVE,
+        _clip(p, parallel, where),
     )
-    return view_of(body, camera)
+    return of_frame(body, view)
 
 
 def _clip(p: Floats, parallel: bool, where: str) -> tuple[float, float]:
@@ -128,6 +123,6 @@ OPENGL = Convention(
     frozenset((SHIFT, ASPECT, PARALLEL, MIRRORED, SHEARED)),
     False,
     _write,
-    _is_of,
+    lambda source: has(source, "projection", "view"),
     _read,
 )

@@ -58,14 +58,14 @@ def camera_of(c: Content) -> Camera:
     sides = "left", "right", "bottom", "top"
     ends = "x0", "y0", "x1", "y1"
     if (clip_end := c.get("clip_end")) not in (ENDLESS, np.inf):
-        clip_end = numbers(c, "clip_end", "camera.", ())
+        clip_end = number(c, "clip_end", "camera.")
     return Camera(
         numbers(c, "world_from_camera", "camera.", (4, 4)),
-        ViewWindow(**{k: float(numbers(window, k, "camera.window.", ())) for k in sides}),
+        ViewWindow(**{k: number(window, k, "camera.window.") for k in sides}),
         whole(c, "width", "camera."),
         whole(c, "height", "camera."),
         _projection(c),
-        float(numbers(c, "clip_start", "camera.", ())),
+        number(c, "clip_start", "camera."),
         float(clip_end),
         Region(**{k: whole(region, k, "camera.region.") for k in ends}),
         part(c, "name", "camera.", str),
@@ -96,6 +96,11 @@ def whole(content: Content, key: str, where: str) -> int:
     if not 0 <= value < 2**31:
         raise SceneError(f"{where}{key} is {value}; it must be between 0 and 2^31 - 1")
     return value
+
+
+def number(content: Content, key: str, where: str) -> float:
+    """Return a finite number."""
+    return float(numbers(content, key, where, ()))
 
 
 def numbers(content: Content, key: str, where: str, shape: tuple[int, ...] | None) -> Floats:

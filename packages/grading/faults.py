@@ -10,7 +10,7 @@ be unrecognised.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from reference_tracer.arrays import Floats
 
 from .cases import TableAnswers, TableCases
 from .known import Ask
-from .matching import Match, differs, with_one, with_two
+from .matching import Match, differs, doubles, matches, singles
 from .programs import Mask
 from .submission import Submission
 
@@ -48,11 +48,11 @@ def find_faults(answers: TableAnswers) -> tuple[list[Fault], Match | None]:
     """Return what is wrong with a function, and a wrong program that answers as it does, if any."""
     if not answers.wrong.any():
         return [], None
-    if ways := with_one(answers.cases, answers.table):
+    if ways := matches(answers.cases, answers.table, singles):
         return _matched(answers, ways)
     faults = _tested(answers, answers.wrong)
     if any(f.name == UNEXPLAINED or f.name.startswith(UNRECOGNISED) for f in faults):
-        ways = with_two(answers.cases, answers.table)
+        ways = matches(answers.cases, answers.table, doubles)
         if 0 < len(ways) <= MOST_WAYS:
             return _matched(answers, ways)
     return faults, None
@@ -98,7 +98,8 @@ def raising(student: Submission) -> list[Fault]:
 
 def _tested(answers: TableAnswers, among: Mask) -> list[Fault]:
     """Return the faults of some wrong answers that pass their tests, and what is unrecognised."""
-    faults: list[Fault] = []
+    faults: dict[str, Fault] = {}
+    groups = list(answers.cases.subject.groups)
     for what, tests, share in answers.cases.subject.tests:
         wrong = answers.wrong_hits if what == "hits" else answers.wrong_numbers(share)
         left = wrong & among
@@ -106,26 +107,15 @@ def _tested(answers: TableAnswers, among: Mask) -> list[Fault]:
             for name, sentence, explained in test(answers):
                 if pairs := int((explained & left).sum()):
                     left &= ~explained
-                    _enter(faults, Fault(name, sentence, pairs))
+                    if name in faults:  # the later sentence says more
+                        pairs += faults[name].pairs
+                    faults[name] = Fault(name, sentence, pairs)
         if left.any():
-            faults.append(_unrecognised(answers, left, what))
-    return faults
-
-
-def _enter(faults: list[Fault], new: Fault) -> None:
-    """Add a fault; of one that is there by this name, the later sentence says more."""
-    for k, old in enumerate(faults):
-        if old.name == new.name:
-            faults[k] = replace(new, pairs=old.pairs + new.pairs)
-            return
-    faults.append(new)
-
-
-def _unrecognised(answers: TableAnswers, left: Mask, what: str) -> Fault:
-    names = list(answers.cases.subject.groups)
-    where = [names[g] for g in np.unique(answers.cases.group[left])]
-    text = f"some {what} are wrong for a reason that is not recognised: {', '.join(where)}"
-    return Fault(f"{UNRECOGNISED}{what.split()[-1]}", text, int(left.sum()))
+            where = [groups[g] for g in np.unique(answers.cases.group[left])]
+            text = f"some {what} are wrong for a reason that is not recognised: {', '.join(where)}"
+            name = f"{UNRECOGNISED}{what.split()[-1]}"
+            faults[name] = Fault(name, text, int(left.sum()))
+    return list(faults.values())
 
 
 def dependence(answers: TableAnswers, ask: Ask) -> list[Fault]:

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property, reduce
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,16 +53,6 @@ class Match:
         other = differs(replies, self.program.answers(asked), self.right.parts, DIGITS)
         kept = np.isneginf(replies[:, 0]) | (other & (other.mean() > FEW))
         return np.where(kept[:, None], replies, self.right.answers(asked))
-
-
-def with_one(cases: TableCases, replies: Floats) -> list[Match]:
-    """Return the wrong programs with one mutation that answer as a function did, (n, m)."""
-    return _found(cases, replies, _single)
-
-
-def with_two(cases: TableCases, replies: Floats) -> list[Match]:
-    """Return the wrong programs with two mutations that answer as a function did, (n, m)."""
-    return _found(cases, replies, _double)
 
 
 def alike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> bool:
@@ -128,23 +117,21 @@ def _told(own: Floats, parts: tuple[Part, ...]) -> Mask:
     return told
 
 
-class _Known(NamedTuple):
-    """Wrong programs, and what each makes of a few cases, (p, few, m)."""
-
-    matches: list[Match]
-    replies: Floats
+# Wrong programs, and what each makes of a few cases, (p, few, m).
+_Known = tuple[list[Match], Floats]
 
 
-def _found(
+def matches(
     cases: TableCases, replies: Floats, programs: Callable[[TableCases], _Known]
 ) -> list[Match]:
+    """Return those of `singles` or `doubles` that answer as a function did, (n, m)."""
     own, parts = replies[cases.tells], cases.subject.parts
     if _told(own, parts).sum() < LEAST:
         return []
-    known = programs(cases)
-    near = _unlike(own[_few(cases)], known.replies, parts) <= NEARLY
+    known, theirs = programs(cases)
+    near = _unlike(own[_few(cases)], theirs, parts) <= NEARLY
     asked = _questions(cases)
-    return [known.matches[k] for k in np.flatnonzero(near) if known.matches[k].agrees(asked, own)]
+    return [known[k] for k in np.flatnonzero(near) if known[k].agrees(asked, own)]
 
 
 @cache
@@ -171,25 +158,25 @@ def _known(cases: TableCases, matches: Iterable[Match]) -> _Known:
         if unlike > FEW * len(of_all) or not match.agrees(asked, of_all):
             found.append(match)
             replies.append(own)
-    return _Known(found, np.stack(replies))
+    return found, np.stack(replies)
 
 
 @cache
-def _single(cases: TableCases) -> _Known:
+def singles(cases: TableCases) -> _Known:
     """Return all wrong programs with one mutation; some mutations make no wrong one."""
     every = (Match(right, (m,)) for right in cases.subject.programs for m in mutations(right))
     return _known(cases, every)
 
 
 @cache
-def _double(cases: TableCases) -> _Known:
+def doubles(cases: TableCases) -> _Known:
     """Return wrong programs with two mutations; of those that few cases tell apart one is taken."""
-    known, parts = _single(cases), cases.subject.parts
+    known, replies = singles(cases)
     different: list[int] = []
-    for k, own in enumerate(known.replies):
-        if not (_unlike(own, known.replies[different], parts) == 0).any():
+    for k, own in enumerate(replies):
+        if (_unlike(own, replies[different], cases.subject.parts) > 0).all():
             different.append(k)
-    pairs = combinations([known.matches[k] for k in different], 2)
+    pairs = combinations([known[k] for k in different], 2)
     return _known(
         cases,
         (

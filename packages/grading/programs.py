@@ -46,6 +46,10 @@ class Condition(NamedTuple):
     def __str__(self) -> str:
         return f"{printed(self.left)} {self.comparison} {self.right}"
 
+    def holds(self, names: Mapping[str, Any]) -> Any:
+        """Return whether it holds of numbers, or arrays of them, by their names."""
+        return COMPARISONS[self.comparison](evaluate(self.left, names), names[self.right])
+
 
 def condition(text: str) -> Condition:
     """Return a condition as it is printed: a formula, a comparison and a constant."""
@@ -83,6 +87,17 @@ class Letters:
 
     values: Mapping[str, Floats]
     shape: tuple[int, ...]
+
+    def each(self, of: Callable[[Floats], Any]) -> dict[str, Any]:
+        """Return what a function makes of each number, and of each component of a vector.
+
+        The constants are among them.
+        """
+        found = {name: of(np.array(value)) for name, value in CONSTANTS.items()}
+        for name, value in self.values.items():
+            is_number = value.ndim == len(self.shape)
+            found[name] = of(value) if is_number else np.array([of(v) for v in value], object)
+        return found
 
     def take(self, rows: Index) -> Letters:
         """Return those of some of the n."""
@@ -125,16 +140,27 @@ class Program:
             choice,
         )
 
+    def computed(self, letters: Mapping[str, Any]) -> dict[str, Any]:
+        """Return all numbers and vectors by their names, those of the letters included.
+
+        Raises
+        ------
+        ZeroDivisionError
+            If a fraction is divided by 0.
+        """
+        names = dict(letters)
+        for label, right in self.formulas.items():
+            names[label] = evaluate(right, names)
+        return names
+
     @np.errstate(all="ignore")
     def answers(self, letters: Letters) -> Floats:
         """Return the numbers of the parts (n, m); the first is not finite where nothing is hit."""
-        names: dict[str, Any] = {**CONSTANTS, **letters.values}
-        for label, right in self.formulas.items():
-            names[label] = evaluate(right, names)
+        names = self.computed(CONSTANTS | dict(letters.values))
         if self.conditions or self.choice:
             hit = np.isfinite(np.broadcast_to(names["t"], letters.shape))
-            for left, comparison, bound in self.conditions:
-                hit = hit & COMPARISONS[comparison](evaluate(left, names), names[bound])
+            for each in self.conditions:
+                hit = hit & each.holds(names)
             names["t"] = np.where(hit, names["t"], np.inf)
             if self.choice:
                 names |= chosen(self.choice, names["t"], hit)

@@ -86,12 +86,9 @@ def _heard() -> Iterator[list[Any]]:
 
 def notes() -> tuple[str, ...]:
     """Return notes on how the open file was opened, a sentence each."""
-    said = [f"Blender opened the file with a report: {line}" for line in _reported()]
+    reported = _reports.get(bpy.data.filepath, ())
+    said = [f"Blender opened the file with a report: {line}" for line in reported]
     if bpy.app.autoexec_fail:
         scripts = [f"'{text.name}'" for text in bpy.data.texts if text.use_module]
         said += [f"script {name} of the file is not run: scripts are off" for name in scripts]
     return tuple(said)
-
-
-def _reported() -> tuple[str, ...]:
-    return _reports.get(bpy.data.filepath, ())

@@ -126,8 +126,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         yield None
 
     def finish(self, context: Context, result: Any) -> tuple[str, str]:
-        found = results.latest(Kind.FRAMES, context.scene)
-        say(*(found.lines if found else ()))
+        say(*results.latest(Kind.FRAMES, context.scene).lines)
         return "INFO" if self.left.endswith(": agree") else "WARNING", self.left.capitalize()
 
 
@@ -150,7 +149,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     @classmethod
     def blocked(cls, context: Context) -> str:
         """Return what is in the way: it needs a comparison, and runs alone."""
-        found = results.of_comparison(context)
+        found = results.comparison(context)
         return super().blocked(context) if found else rpt_("Trace and Compare comes first")
 
     def begin(self, context: Context) -> Work[Any]:

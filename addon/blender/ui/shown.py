@@ -14,6 +14,7 @@ from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty
 from bpy.types import Context, Image, OperatorProperties, SpaceImageEditor, UILayout
 
+from ..reading.rendered import result_image
 from . import blocks
 from .areas import areas, redraw_said, within
 from .long_work import Answer, named
@@ -98,7 +99,7 @@ def _open(window: int, name: str) -> None:
     found = [w for w in context.window_manager.windows if w.as_pointer() == window]
     if not (image and found):  # another file was opened since
         return
-    had = {i.name for i in bpy.data.images}
+    had_result = result_image()
     # In an area, Blender's operator would put away a render that is shown already.
     way = context.preferences.view.render_display_type
     if way == "WINDOW" or (way != "NONE" and _of_render() is None):
@@ -109,9 +110,8 @@ def _open(window: int, name: str) -> None:
     if space := _of_render():
         space.image = image
         _fit(space)
-    for extra in bpy.data.images[:]:  # Blender makes it to be shown, where there is none
-        if extra.type == "RENDER_RESULT" and extra.name not in had:
-            bpy.data.images.remove(extra)
+    if not had_result and (extra := result_image()):  # Blender makes it to be shown
+        bpy.data.images.remove(extra)
 
 
 def _fit(space: SpaceImageEditor) -> None:

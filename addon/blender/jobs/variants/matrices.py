@@ -13,6 +13,7 @@ from mathutils import Matrix
 from ....arrays import Floats
 from ....causes.case import Variant
 from ....scene import Scene
+from ...values import values_restored
 from .origin import Origin, all_and_each
 
 NEAR = 1e-5
@@ -111,14 +112,10 @@ def _world(matrix: Any) -> Floats:
 def _without_offsets(origin: Origin) -> Iterator[Variant]:
     """Yield the scene with the offsets of all instanced collections left out."""
     moved = [c for c in bpy.data.collections if c.instance_offset.length]
-    offsets = [c.instance_offset.copy() for c in moved]
     if not moved:
         return
-    try:
+    with values_restored((c, "instance_offset") for c in moved):
         for collection in moved:
             collection.instance_offset = (0, 0, 0)
         scene = origin.again()
-    finally:
-        for collection, offset in zip(moved, offsets, strict=True):
-            collection.instance_offset = offset
     yield Variant("instance_offset", scene, "that of " + ", ".join(f"'{c.name}'" for c in moved))
