@@ -41,15 +41,15 @@ def behind(
     identity : bool
         Whether to find each pixel's owner, too.
     """
-    if TRANSPARENCY in drawing.judge.ignores:
+    if TRANSPARENCY in drawing.plan.judge.ignores:
         return None
     left = _see_through(drawing.manifest, set(case.scene.objects), color_type)
     if not left:
         return None
-    plan = replace(drawing, left_out=tuple(left))
+    plan = replace(drawing.plan, left_out=tuple(left))
 
     def export_without(_: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
-        return Drawing.of(plan, *export(depsgraph))
+        return Drawing(plan, *export(depsgraph))
 
     try:
         drawn = plan.drawn(export_without, identity)

@@ -94,7 +94,7 @@ def gather_case(context: Context, **choices: Any) -> Case:
         self_check=chosen.self_check,
         next_frame=later,
         tracer=chosen.tracer,
-        variants=partial(variants, user.name_full, layer, judge.ignores, drawing.palette),
+        variants=partial(variants, user.name_full, layer, judge.ignores, drawing.plan.palette),
     )
     if plan.like_for_like:
         color_type = user.display.shading.color_type
@@ -146,7 +146,7 @@ class _Export:
             of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
             of_scene = (replace(u, object=f"scene '{plan.scene.name}'") for u in of_picture)
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_scene))
-        return Drawing.of(plan, scene, manifest)
+        return Drawing(plan, scene, manifest)
 
 
 def _check_colors(
@@ -183,8 +183,8 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
 
 def _a_frame_later(drawing: Drawing) -> Scene:
     """Return the scene of the next frame."""
-    with drawing.prepared() as (tmp, _):
-        return export_at(tmp, tmp.frame_current + 1, drawing.judge)
+    with drawing.plan.prepared() as (tmp, _):
+        return export_at(tmp, tmp.frame_current + 1, drawing.plan.judge)
 
 
 def compare_open_file(
