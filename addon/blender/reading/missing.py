@@ -14,6 +14,7 @@ import bpy
 from bpy.types import ID, Object, Scene, ViewLayer
 
 from ...manifest import Effect, Unmodelled
+from ...wording import listed
 from .missing_files import Lost, exists, lost_files
 
 MOST = 5  # things that one line names
@@ -183,10 +184,10 @@ def _told(
     found: dict[tuple[str, str], list[str]] = defaultdict(list)
     for thing in lost:
         names = sorted(_objects(thing.block, users, reached, flag))
-        of = "" if thing.block.id_type == "OBJECT" or not names else f" of {_listed(names)}"
+        of = "" if thing.block.id_type == "OBJECT" or not names else f" of {listed(names, MOST)}"
         found[thing.kind, thing.name].append(thing.of + of)
     for (kind, name), things in found.items():
-        yield Unmodelled(name, f"missing {kind}", _listed(things), None, Effect.MISSING)
+        yield Unmodelled(name, f"missing {kind}", listed(things, MOST), None, Effect.MISSING)
 
 
 def _objects(block: ID, users: _Users, reached: set[Any], flag: str) -> set[str]:
@@ -204,11 +205,6 @@ def _objects(block: ID, users: _Users, reached: set[Any], flag: str) -> set[str]
     return found
 
 
-def _listed(names: list[str]) -> str:
-    more = len(names) - MOST
-    return ", ".join(names[:MOST]) + (f" and {more} more" if more > 0 else "")
-
-
 def _drivers(blocks: Iterable[Any]) -> Iterator[Unmodelled]:
     """Yield the drivers with Python that Blender has not run, as scripts are off."""
     for block in blocks:
@@ -216,7 +212,7 @@ def _drivers(blocks: Iterable[Any]) -> Iterator[Unmodelled]:
         drivers = animation.drivers if animation else ()
         names = [curve.data_path for curve in drivers if _was_not_run(curve)]
         if names:
-            detail = f"scripts are off: {_listed(list(dict.fromkeys(names)))}"
+            detail = f"scripts are off: {listed(list(dict.fromkeys(names)), MOST)}"
             yield Unmodelled(block.name, "driver that did not run", detail, None, Effect.MISSING)
 
 
