@@ -62,6 +62,11 @@ class Source:
         except (ValueError, RecursionError):
             return None
 
+    @property
+    def object(self) -> Content:
+        """The file's JSON, if that is an object; else an empty one."""
+        return self.json if isinstance(self.json, dict) else {}
+
     def whole_size(
         self,
         own: Mapping[str, Any],

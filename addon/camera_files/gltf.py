@@ -72,9 +72,7 @@ def camera_of(view: View) -> Content:
 def _is_of(source: Source) -> bool:
     if source.path.is_dir():
         return False
-    content = source.json
-    is_text = isinstance(content, dict) and "asset" in content
-    return is_text or source.path.read_bytes()[:4] == b"glTF"
+    return "asset" in source.object or source.path.read_bytes()[:4] == b"glTF"
 
 
 def _read(source: Source) -> list[View]:

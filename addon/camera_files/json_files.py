@@ -76,8 +76,8 @@ def clip_end(camera: Camera) -> float | str:
 
 def has(source: Source, *keys: str) -> bool:
     """Return whether a JSON object, or the first of its list `frames`, has these keys."""
-    content = source.json
-    if isinstance(content, dict) and isinstance(many := content.get("frames"), list):
+    content: Any = source.object
+    if isinstance(many := content.get("frames"), list):
         content = many[0] if many else None
     return isinstance(content, dict) and content.keys() >= {*keys}
 

@@ -75,7 +75,7 @@ def _lens(view: View, offset: float) -> Content:
 
 
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     notes = [
         f"{key} is not undone: the world is the file's own"
         for key in ("applied_transform", "applied_scale")

@@ -73,7 +73,7 @@ def body_of(camera: Camera, offset: float = 0.0) -> Content:
 
 
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     center = first_center(content)
     return [_view(content | body, where, center, source) for body, where in bodies(content)]
 

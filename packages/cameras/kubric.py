@@ -22,13 +22,12 @@ _UNIT = 1.0  # principal points up to here are in widths and heights, beyond in 
 
 
 def _is_of(source: Source) -> bool:
-    content = source.json
-    own = content.get("camera") if isinstance(content, dict) else None
+    own = source.object.get("camera")
     return isinstance(own, dict) and own.keys() >= {"K", "positions", "quaternions"}
 
 
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     own: Content = part(content, "camera", "", dict)
     metadata: Content = part({"metadata": {}, **content}, "metadata", "", dict)
     width, height = _size(metadata, source)

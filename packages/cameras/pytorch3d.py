@@ -47,13 +47,8 @@ def _write(views: Sequence[View], centers: str) -> Files:
     return {"": dumped({"class": kind, "names": names, "arguments": arguments})}
 
 
-def _is_of(source: Source) -> bool:
-    content = source.json
-    return isinstance(content, dict) and content.get("class") in tuple(_CLASSES)
-
-
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     own: Content = part(content, "arguments", "", dict)
     if own.get("K") is not None:
         raise SceneError("arguments.K is not read: write focal_length and principal_point")
@@ -94,6 +89,6 @@ PYTORCH3D = Convention(
     frozenset((SHIFT, ASPECT, PARALLEL)),
     False,
     _write,
-    _is_of,
+    lambda source: source.object.get("class") in tuple(_CLASSES),
     _read,
 )
