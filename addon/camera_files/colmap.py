@@ -165,7 +165,7 @@ COLMAP = Convention(
     "colmap",
     "COLMAP",
     f"{CAMERAS}, {IMAGES} and {POINTS} in a folder",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     False,
     _write,
     _is_of,

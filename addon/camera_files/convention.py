@@ -101,7 +101,7 @@ class Convention:
     name: str  # as it is typed
     title: str
     file: str  # what is written: the usual name of the file, or those in a folder
-    says: frozenset[Feature]  # which of FEATURES its files can say
+    says: tuple[Feature, ...]  # which of FEATURES its files can say
     # Whether a file may have the first pixel's centre at 0; False where its documents say 0.5, or
     # its files know no pixels.
     either_center: bool

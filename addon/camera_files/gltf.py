@@ -154,7 +154,7 @@ GLTF = Convention(
     "gltf",
     "glTF",
     "camera.gltf",
-    frozenset((PARALLEL,)),
+    (PARALLEL,),
     False,
     _write,
     _is_of,

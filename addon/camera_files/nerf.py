@@ -137,7 +137,7 @@ NERF = Convention(
     "nerf",
     "NeRF (instant-ngp, nerfstudio)",
     "transforms.json",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     True,
     _write,
     lambda source: has(source, "transform_matrix"),

@@ -101,7 +101,7 @@ OPENCV = Convention(
     "opencv",
     "OpenCV",
     "camera.json",
-    frozenset((SHIFT, ASPECT, MIRRORED)),
+    (SHIFT, ASPECT, MIRRORED),
     True,
     _write,
     lambda source: has(source, "K", "R", "t"),

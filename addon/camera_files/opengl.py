@@ -107,7 +107,7 @@ OPENGL = Convention(
     "opengl",
     "OpenGL",
     "camera.json",
-    frozenset((SHIFT, ASPECT, PARALLEL, MIRRORED, SHEARED)),
+    (SHIFT, ASPECT, PARALLEL, MIRRORED, SHEARED),
     False,
     lambda views, _: written({"convention": "opengl", "formula": _FORMULA}, views, _body),
     lambda source: has(source, "projection", "view"),

@@ -107,7 +107,7 @@ BOP = Convention(
     "bop",
     "BOP",
     f"{SCENE} and {CAMERA} in a folder",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     True,
     _write,
     _is_of,

@@ -57,7 +57,7 @@ KUBRIC = Convention(
     "kubric",
     "Kubric",
     "metadata.json, which is read alone",
-    frozenset(),
+    (),
     False,
     None,
     _is_of,

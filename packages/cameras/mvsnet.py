@@ -60,7 +60,7 @@ MVSNET = Convention(
     "mvsnet",
     "MVSNet",
     f"a file {ENDING} for each picture in a folder",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     False,
     lambda views, _: {f"{Path(v.name).stem}{ENDING}": _text(v.camera) for v in views},
     _is_of,

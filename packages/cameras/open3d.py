@@ -73,7 +73,7 @@ OPEN3D = Convention(
     "open3d",
     "Open3D",
     "camera.json",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     True,
     _write,
     lambda source: source.object.get("class_name") in (_ONE, _MANY),

@@ -86,7 +86,7 @@ PYTORCH3D = Convention(
     "pytorch3d",
     "PyTorch3D",
     "cameras.json",
-    frozenset((SHIFT, ASPECT, PARALLEL)),
+    (SHIFT, ASPECT, PARALLEL),
     False,
     _write,
     lambda source: source.object.get("class") in tuple(_CLASSES),

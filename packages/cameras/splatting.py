@@ -53,7 +53,7 @@ SPLATTING = Convention(
     "splatting",
     "3D Gaussian splatting",
     "cameras.json",
-    frozenset((ASPECT,)),
+    (ASPECT,),
     False,
     lambda views, _: {"": dumped([_body(view, n) for n, view in enumerate(views)])},
     _is_of,
