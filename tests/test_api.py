@@ -58,7 +58,7 @@ def test_a_file_and_an_array_give_the_same(triangle):
     color[20:24, 60:66] = (0.2, 0.5, 0.1, 1)
     images.save_png("picture.png", images.to_display(color))
     of_file = compare(triangle, "picture.png", diagnose=False)
-    stored = images.read_picture("picture.png").color
+    stored = images.open_picture("picture.png").read().color
     of_array = compare(triangle, stored, diagnose=False)
     assert of_file.verdict == of_array.verdict == "differences"
     assert of_file.counts == of_array.counts and of_file.counts.unexplained == 24

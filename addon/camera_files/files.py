@@ -11,7 +11,7 @@ import numpy as np
 
 from ..files.file_kinds import check_is_file
 from ..scene import SceneError
-from ..wording import count_of
+from ..wording import count_of, listed
 from .colmap import COLMAP
 from .convention import HALF, Convention, Files, Source, View
 from .gltf import GLTF
@@ -180,6 +180,4 @@ def number_of(view: View) -> int | None:
 
 
 def _names(views: Sequence[View]) -> str:
-    names = [view.name or str(number) for number, view in enumerate(views)]
-    more = len(names) - 5
-    return ", ".join(names[:5]) + (f" and {more} more" if more > 0 else "")
+    return listed([view.name or str(number) for number, view in enumerate(views)], 5)

@@ -108,7 +108,7 @@ def _is_any(value: Any) -> bool:
 
 def bodies(content: Content) -> list[tuple[Content, str]]:
     """Return the objects of the list `frames`, or the whole one, each as messages call it."""
-    return objects(content, "frames") if "frames" in content else [(content, "")]
+    return list(objects(content, "frames")) if "frames" in content else [(content, "")]
 
 
 def written(head: Content, views: Sequence[View], body: Callable[[View], Content]) -> Files:

@@ -18,7 +18,7 @@ from reference_tracer.diagnosis.faults.fitting import Family
 from reference_tracer.diagnosis.faults.lens import LENS_FAULTS
 from reference_tracer.diagnosis.faults.matrices import MATRIX_FAULTS
 from reference_tracer.diagnosis.faults.stand import MOVED, ROLL, TURNED
-from reference_tracer.scene import Camera
+from reference_tracer.scene import Camera, alike
 from reference_tracer.tracer.camera import pixel_size, project
 
 _DIGITS = 6  # of an offset in pixels, so that half a pixel is one
@@ -92,7 +92,8 @@ def mistakes(camera: Camera, faults: Sequence[AnyFault] = _MISTAKES) -> Iterator
     for fault in faults:
         assert isinstance(fault.assume, Ways)
         for option, change in fault.assume.options():
-            if changed := change(camera):
+            changed = change(camera)
+            if changed and not alike(changed, camera):
                 yield Step(fault, option, changed, change)
 
 
