@@ -21,6 +21,8 @@ CENTERS = tuple(FIRST)
 _HEAD = 1024  # bytes, in which a file of text begins
 _BEGINNINGS = b"{", b"[", b"<", b"extrinsic"  # of JSON, XML and MVSNet's text
 
+Size = tuple[int, int]  # of a picture: width and height
+Clip = tuple[float, float]  # where a camera begins to see, and where it ends
 Files = dict[str, str]  # what is written, by name; of the single file the name is empty
 
 
@@ -72,7 +74,7 @@ class Source:
         own: Mapping[str, Any],
         where: str = "",
         keys: tuple[str, str] = ("width", "height"),
-    ) -> tuple[int, int]:
+    ) -> Size:
         """Return the width and height of a file's object, or else those requested.
 
         Raises

@@ -24,7 +24,7 @@ from ..framing import SIZE
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Files, Source, View
+from .convention import Convention, Files, Size, Source, View
 from .features import PARALLEL
 from .gltf_file import as_specified, item, open_gltf, read_tree
 from .json_files import dumped, radians_of
@@ -132,7 +132,7 @@ def _number(lens: Content, label: str, key: str) -> float:
     return float(value)
 
 
-def _size(own: Content, label: str, aspect: float | None, source: Source) -> tuple[int, int]:
+def _size(own: Content, label: str, aspect: float | None, source: Source) -> Size:
     """Return the picture's size: of the extras, or the requested one, with the aspect ratio."""
     extras = own.get("extras")
     width, height = source.size

@@ -23,7 +23,7 @@ from ..files.checked_json import Content, number, numbers, objects
 from ..projections import PERSPECTIVE, PROJECTIONS
 from ..scene import SceneError
 from . import frame
-from .convention import HALF, Convention, Files, Source, View
+from .convention import HALF, Convention, Files, Size, Source, View
 from .features import ASPECT, SHIFT
 from .json_files import (
     CENTERS_KEY,
@@ -112,7 +112,7 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     return replace(frame.pinhole(k, matrix, size, name, np.eye(4)), notes=notes)
 
 
-def _focal_lengths(body: Content, where: str, size: tuple[int, int]) -> tuple[float, float]:
+def _focal_lengths(body: Content, where: str, size: Size) -> tuple[float, float]:
     """Return both focal lengths in pixels; a missing one is equal to the other."""
     found = []
     for axis, n in zip("xy", size, strict=True):

@@ -16,7 +16,7 @@ from ..files.checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import Camera, SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Source, View
+from .convention import Clip, Convention, Source, View
 from .features import ASPECT, MIRRORED, PARALLEL, SHEARED, SHIFT
 from .json_files import bodies, has, of_frame, refuse_lens, written
 
@@ -89,7 +89,7 @@ def _view(body: Content, where: str, source: Source) -> View:
     return of_frame(body, view)
 
 
-def _clip(p: Floats, parallel: bool, where: str) -> tuple[float, float]:
+def _clip(p: Floats, parallel: bool, where: str) -> Clip:
     """Return the depths that a projection has at -1 and 1."""
     c, d = p[2, 2:]
     near, far = ((d + 1) / c, (d - 1) / c) if parallel else (d / (c - 1), d / (c + 1))

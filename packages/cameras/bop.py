@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reference_tracer.camera_files import frame
-from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.convention import Convention, Files, Size, Source, View
 from reference_tracer.camera_files.features import ASPECT, SHIFT
 from reference_tracer.camera_files.json_files import (
     CENTERS_KEY,
@@ -90,7 +90,7 @@ def _read(source: Source) -> list[View]:
     return [_view(number, part(every, number, "", dict), center, size) for number in every]
 
 
-def _view(number: str, body: Content, center: float, size: tuple[int, int]) -> View:
+def _view(number: str, body: Content, center: float, size: Size) -> View:
     where = f"image {number}: "
     if "cam_R_w2c" not in body:
         raise SceneError(

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from reference_tracer.camera_files import frame
 from reference_tracer.camera_files.colmap import rotation
-from reference_tracer.camera_files.convention import Convention, Source, View
+from reference_tracer.camera_files.convention import Convention, Size, Source, View
 from reference_tracer.files.checked_json import Content, numbers, part
 from reference_tracer.scene import SceneError
 
@@ -46,7 +46,7 @@ def _read(source: Source) -> list[View]:
     return found
 
 
-def _size(metadata: Content, source: Source) -> tuple[int, int]:
+def _size(metadata: Content, source: Source) -> Size:
     if "resolution" not in metadata:
         return source.whole_size({})
     width, height = numbers(metadata, "resolution", "metadata.", (2,))
