@@ -34,10 +34,9 @@ def _read(source: Source) -> list[View]:
     k = numbers(own, "K", "camera.", (3, 3)) @ _AXES
     if np.abs(k[:2, 2]).max() <= _UNIT:
         k = k * ((width,), (height,), (1,))
-    places = numbers(own, "positions", "camera.", None)
-    turns = numbers(own, "quaternions", "camera.", (len(places), 4))
-    if places.shape != (len(turns), 3):
-        raise SceneError("camera.positions must be N x 3 finite numbers")
+    count = len(part(own, "positions", "camera.", list))
+    places = numbers(own, "positions", "camera.", (count, 3))
+    turns = numbers(own, "quaternions", "camera.", (count, 4))
     found = []
     for number, (place, turn) in enumerate(zip(places, turns, strict=True)):
         pose = frame.inverse(frame.pose(rotation(turn), place))
