@@ -15,7 +15,6 @@ from reference_tracer.camera_files import frame
 from reference_tracer.camera_files.colmap import rotation
 from reference_tracer.camera_files.convention import Convention, Size, Source, View
 from reference_tracer.files.checked_json import Content, numbers, part
-from reference_tracer.scene import SceneError
 
 _AXES = np.diag((1.0, -1.0, -1.0))  # takes K of Blender's camera space to that of OpenCV's
 _UNIT = 1.0  # principal points up to here are in widths and heights, beyond in pixels
