@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from reference_tracer.arrays import Places
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.world import world_corners
 
@@ -16,7 +16,7 @@ from .wrong_case import WrongCase
 EACH = 3  # pixels of a mark
 
 
-def _spread(pixel: NDArray[np.intp]) -> NDArray[np.intp]:
+def _spread(pixel: Places) -> Places:
     """Return EACH of some pixels: the middles of as many equal parts, from the lowest row up."""
     parts = min(EACH, len(pixel))
     return pixel[(2 * np.arange(parts) + 1) * len(pixel) // (2 * max(parts, 1))]
